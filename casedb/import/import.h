@@ -1,0 +1,30 @@
+// Reads DICOM series, NIfTI, NRRD and MetaImage into the library's own volume: int16 HU in LPS and an allow-list of
+// attributes, nothing else of the source. The door of ITK (with GDCM) is this folder and casedb/export.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/case/mesh.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::casedb {
+
+struct Source {
+  volume::Volume volume;
+  std::vector<std::pair<std::string, std::string>> attributes;  // of the allow-list only
+  std::vector<base::Problem> warnings;                          // e.g. single_slice
+  int slices_used = 0;
+};
+
+// `series`: a series instance UID or its number in the list that `several_series` shows (1-based). Padding (also
+// DICOM's Pixel Padding Value) and everything below −1024 HU become −1024. All problems are reported at once.
+// Error texts name no file, path, UID or attribute value (a series is named by number, modality and slice count).
+base::Result<Source> read_source(const std::filesystem::path& source,
+                                 const std::optional<std::string>& series = {});
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,50 @@
+// A library on disk: `seldinger.sqlite`, `identities.sqlite` (names, apart from performance) and `assets/<sha256>`.
+// Any process of this machine may open it. Throws base::Failure ("disk", "database"); refuses by Result what is not
+// a library of ours (`no_library`, `not_a_library`, `newer_schema`, `network_file_system`).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace seldinger::casedb {
+
+class Sqlite;
+
+class Library {
+ public:
+  // Opens an existing library, migrating it (after a backup beside it) when its schema is older.
+  static base::Result<Library> open(const std::filesystem::path& folder);
+  // As open; makes folder and library when there is none. When creation fails nothing is left behind.
+  static base::Result<Library> open_or_create(const std::filesystem::path& folder);
+
+  Library(Library&&) noexcept;
+  Library& operator=(Library&&) noexcept;
+  ~Library();
+
+  Sqlite& database() noexcept;    // cases, attempts, accounts
+  Sqlite& identities() noexcept;  // names only
+  const std::filesystem::path& folder() const noexcept;
+
+  // Stores bytes under their SHA-256 (hex, 64 characters): temporary name, fsync, rename, fsync of the folder.
+  // `created` tells whether the file is new, so that a failed transaction can take it back with remove_asset.
+  struct StoredAsset {
+    std::string sha256;
+    bool created = false;
+  };
+  StoredAsset store_asset(std::span<const std::byte> bytes);
+  void remove_asset(const std::string& sha256) noexcept;
+  // Refused: `asset_missing`, `asset_damaged` (its SHA-256 differs).
+  base::Result<std::vector<std::byte>> load_asset(const std::string& sha256) const;
+
+ private:
+  struct Parts;
+  explicit Library(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace seldinger::casedb

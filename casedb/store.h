@@ -1,0 +1,128 @@
+// What the library is asked: one function per question, its SQL beside it in store/*.sql. Ids are UUIDv7 text,
+// times microseconds since 1970 UTC. Every write is one transaction: it is stored whole and acknowledged, or not at
+// all.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casedb/library.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+#include "sim/case/recording.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::casedb {
+
+enum class Role { trainee, mentor, researcher, director, admin };
+std::string name_of(Role role);
+std::optional<Role> role_from(const std::string& name);
+
+// --- cases ------------------------------------------------------------------------------------------------------
+struct NewCase {
+  std::string title;   // never from the source
+  std::string origin;  // "import" or "phantom:<version>"
+  volume::Volume volume;
+  cases::Mesh skin;
+  std::optional<volume::LabelMap> labels;                       // built-in case only
+  std::vector<std::pair<std::string, std::string>> attributes;  // the allow-list, name → value
+  std::vector<base::Problem> warnings;
+  int slices_used = 0;
+};
+
+struct CaseRow {
+  std::string case_id, title, state /* "draft" */, origin;
+  std::int64_t created_us = 0;
+  glm::ivec3 size_voxels{0};
+  glm::dvec3 spacing_mm{0.0};
+  glm::dmat4 lps_from_voxel{1.0};
+  int hu_min = 0, hu_max = 0, slices_used = 0;
+  std::string volume_sha256, skin_sha256, labels_sha256 /* may be empty */;
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<base::Problem> warnings;
+};
+
+struct LesionRow {
+  std::string lesion_id, case_id;
+  cases::Lesion lesion;
+  std::int64_t created_us = 0;
+};
+
+std::string add_case(Library& library, const NewCase& new_case);
+std::vector<CaseRow> list_cases(Library& library);                              // oldest first
+base::Result<CaseRow> find_case(Library& library, const std::string& case_id);  // `no_case`
+base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row);
+base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row);
+base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row);  // `no_labels`
+
+// `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume).
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion);
+std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id);  // oldest first
+
+// --- attempts ---------------------------------------------------------------------------------------------------
+struct MetricValue {
+  std::string id;
+  int version = 1;
+  std::optional<double> value;  // null is never 0
+  std::string unit;
+  std::string reason;  // why null; empty otherwise
+};
+
+struct NewAttempt {
+  std::string case_id, lesion_id;
+  std::optional<std::string> person_id;  // whose; none for a simulation of nobody
+  std::string operator_name;             // "novice", …, or "person"
+  std::uint64_t seed = 0;                // simulated operators
+  std::string program_version;
+  cases::Instrument instrument;
+  cases::Picture picture;
+  cases::Approach approach = cases::Approach::in_plane;
+  std::int64_t started_us = 0;
+  double duration_s = 0.0;
+  cases::Recording recording;
+  std::vector<MetricValue> metrics;
+  std::vector<std::byte> picture_png;  // the picture at the moment of firing; may be empty
+};
+
+struct AttemptRow {
+  std::string attempt_id, case_id, case_title, lesion_id, operator_name, program_version, picture_sha256;
+  std::optional<std::string> person_id;
+  std::uint64_t seed = 0;
+  cases::Instrument instrument;
+  cases::Picture picture;
+  cases::Approach approach = cases::Approach::in_plane;
+  cases::Lesion lesion;
+  std::int64_t started_us = 0;
+  double duration_s = 0.0;
+  std::uint32_t step_version = 0;
+  std::vector<MetricValue> metrics;  // newest version of each
+};
+
+// `no_case`, `no_lesion`. Durable when it returns.
+base::Result<std::string> add_attempt(Library& library, const NewAttempt& attempt);
+std::vector<AttemptRow> list_attempts(Library& library);                                   // newest first
+std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
+base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);    // `no_attempt`
+base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);
+
+// --- people -----------------------------------------------------------------------------------------------------
+struct Account {
+  std::string person_id, login_name;
+  Role role = Role::trainee;
+  bool enabled = true;
+};
+
+// `bad_name` (1–64 printable characters, no leading or trailing space), `name_taken`, `weak_password` (8–128
+// bytes). Names compare without regard to ASCII case.
+base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
+                                   const std::string& password);
+std::vector<Account> list_users(Library& library);
+base::Result<void> set_password(Library& library, const std::string& name,
+                                const std::string& password);                             // `no_user`
+base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled);  // `no_user`
+// The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
+std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);
+
+}  // namespace seldinger::casedb

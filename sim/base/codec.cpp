@@ -1,0 +1,31 @@
+#include "sim/base/codec.h"
+
+#include <zstd.h>
+
+#include <memory>
+
+namespace seldinger::base {
+
+std::vector<std::byte> compress(std::span<const std::byte> bytes) {
+  const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  CHECK(context != nullptr);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, 3);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
+  std::vector<std::byte> out(ZSTD_compressBound(bytes.size()));
+  const std::size_t size = ZSTD_compress2(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
+  CHECK(ZSTD_isError(size) == 0);
+  out.resize(size);
+  return out;
+}
+
+Result<std::vector<std::byte>> decompress(std::span<const std::byte> bytes, std::size_t max_bytes) {
+  const Error damaged{"damaged", "compressed bytes are damaged"};
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > max_bytes) return damaged;
+  std::vector<std::byte> out(static_cast<std::size_t>(size));
+  const std::size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(got) != 0 || got != out.size()) return damaged;
+  return out;
+}
+
+}  // namespace seldinger::base

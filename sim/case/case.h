@@ -1,0 +1,55 @@
+// Case: everything that is fixed once a scene is loaded. Built once, then only const&.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/case/mesh.h"
+#include "sim/case/mesh_index.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::cases {
+
+// Why the tip or the notch decides (clinical.md, Instruments).
+enum class InstrumentKind { access, core };
+
+struct Instrument {
+  InstrumentKind kind = InstrumentKind::access;
+  double length_mm = 200.0;
+  double radius_mm = 0.36;       // 22 gauge: 0.72 mm outer diameter (ISO 9626)
+  double inner_radius_mm = 0.0;  // 0 = solid
+  double hu = 3000.0;
+  double throw_mm = 22.0;    // core only: the way the tip goes when fired
+  double notch_mm = 18.0;    // core only: length of the sample notch
+  double dead_tip_mm = 4.0;  // core only: from the notch's end to the tip
+};
+
+struct Lesion {
+  glm::dvec3 center_lps_mm{0.0};
+  double radius_mm = 0.0;
+  double hu = 0.0;
+};
+
+enum class Approach { in_plane, out_of_plane };
+enum class Modality { mpr };
+
+// The picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
+struct Picture {
+  Modality modality = Modality::mpr;
+  double depth_mm = 150.0;
+  double width_mm = 150.0;
+  double rate_hz = 30.0;
+};
+
+struct Case {
+  volume::Volume volume;
+  Mesh skin;
+  MeshIndex skin_index;
+  std::vector<Lesion> lesions;  // [0] is the target
+  Instrument instrument;
+  Picture picture;
+  Approach approach = Approach::in_plane;
+};
+
+}  // namespace seldinger::cases

@@ -1,0 +1,67 @@
+// A recording: the Inputs of every tick, the resulting poses at 100 Hz, what each picture showed, and a hash per
+// tick. Metrics read poses and frames only, so a score never depends on a later step; replay of the inputs by the
+// same step version reproduces poses and hashes bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/case/inputs.h"
+
+namespace seldinger::cases {
+
+struct PoseSample {
+  double t_s = 0.0;
+  glm::dvec3 tip_lps_mm{0.0};
+  glm::dvec3 needle_direction{0.0, 0.0, 1.0};  // unit, hub → tip
+  glm::dvec3 probe_origin_lps_mm{0.0};
+  glm::dvec3 probe_axial{0.0, 0.0, 1.0};
+  glm::dvec3 probe_lateral{1.0, 0.0, 0.0};
+};
+
+// What one picture showed (contracts.md, "What a picture shows").
+struct FrameTruth {
+  double t_s = 0.0;
+  bool live = true;  // not frozen
+  bool needle_tip = false;
+  bool target = false;
+  double needle_length_mm = 0.0;
+  bool joint() const noexcept { return needle_tip && target; }
+};
+
+struct Endpoint {
+  double t_s = 0.0;
+  glm::dvec3 tip_lps_mm{0.0};  // when the trigger fell, before any throw
+  glm::dvec3 direction{0.0, 0.0, 1.0};
+};
+
+struct Recording {
+  std::uint32_t step_version = 0;
+  double dt_s = 0.001;
+  std::vector<Inputs> inputs;         // one per tick
+  std::vector<std::uint32_t> hashes;  // low word of the chained state hash after each tick; same length as inputs
+  std::vector<PoseSample> poses;      // 100 Hz
+  std::vector<FrameTruth> frames;     // the picture's rate
+  std::optional<Endpoint> endpoint;
+};
+
+// One compressed piece of a recording, as the library stores it.
+struct RecordingChunk {
+  std::uint32_t sequence = 0;
+  std::uint64_t checksum = 0;  // base::hash_bytes of data
+  std::vector<std::byte> data;
+};
+
+// Chunks hold two seconds each. Sequence numbers run from 0; the first also carries step_version, dt_s and
+// endpoint.
+std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
+
+// Refused: `damaged` (checksum, codec), `incomplete` (a sequence number is missing), `recording_version`.
+base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> chunks);
+
+}  // namespace seldinger::cases
