@@ -175,9 +175,15 @@ Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : file_(file) {
   sqlite3_db_config(connection, SQLITE_DBCONFIG_DQS_DML, 0, nullptr);
   sqlite3_db_config(connection, SQLITE_DBCONFIG_DQS_DDL, 0, nullptr);
   run("PRAGMA trusted_schema = OFF; PRAGMA cell_size_check = ON; PRAGMA foreign_keys = ON;"
-      "PRAGMA recursive_triggers = ON; PRAGMA synchronous = FULL;");
-  // None of these reads or writes the file; the journal mode is changed by migrate(), once the file is known as
-  // ours.
+      "PRAGMA recursive_triggers = ON;");
+  try {
+    run("PRAGMA synchronous = FULL");
+  } catch (const DatabaseFailure& failure) {
+    // This one reads the file. What is no database or damaged is told to whoever asks it next: schema_version()
+    // refuses it.
+    if (failure.kind() != DatabaseFailure::Kind::not_a_database && failure.kind() != DatabaseFailure::Kind::damaged)
+      throw;
+  }
 }
 
 Statement Sqlite::prepare(std::string_view sql) {
