@@ -43,6 +43,7 @@ class MeshIndex {
 
   // Outward unit normal of a triangle.
   glm::dvec3 normal(std::uint32_t triangle) const noexcept;
+  bool cut(std::uint32_t triangle) const noexcept;
 
  private:
   struct Node {

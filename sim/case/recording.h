@@ -57,7 +57,7 @@ struct RecordingChunk {
   std::vector<std::byte> data;
 };
 
-// Chunks hold two seconds each. Sequence numbers run from 0; the first also carries step_version, dt_s and
+// Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint.
 // endpoint.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 

@@ -5,16 +5,14 @@
 #include <glm/vec3.hpp>
 
 #include "sim/case/inputs.h"
+#include "sim/case/skin_passage.h"
 
 namespace seldinger::cases {
 
 struct NeedleState {
-  glm::dvec3 tip_lps_mm{0.0};
+  glm::dvec3 tip_lps_mm{0.0};           // after a core needle's throw: of the thrown tip
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, hub → tip
-  double depth_below_skin_mm = 0.0;     // > 0 inside the body: signed distance of the tip to the skin
-  std::uint32_t skin_triangle = 0;      // nearest, the next query's hint
-  bool in_body = false;                 // tip has passed the skin (never through a cut cap)
-  glm::dvec3 entry_lps_mm{0.0};         // where it last passed; valid while in_body
+  SkinPassage skin;                     // where the tip is relative to the skin
   double inserted_mm = 0.0;             // along the shaft from the entry to the tip; 0 outside
 };
 
@@ -27,21 +25,20 @@ struct ProbeState {
 
 struct FireState {
   bool fired = false;
-  std::uint64_t tick = 0;             // of the first trigger
-  glm::dvec3 tip_before_lps_mm{0.0};  // the endpoint pose
-  glm::dvec3 direction{0.0};
-  glm::dvec3 tip_after_lps_mm{0.0};  // core: advanced by the throw
+  double t_s = 0.0;            // of the first trigger
+  glm::dvec3 tip_lps_mm{0.0};  // the endpoint pose, before any throw
+  glm::dvec3 direction{0.0, 0.0, 1.0};
 };
 
 struct State {
-  std::uint64_t tick = 0;
-  double t_s = 0.0;
+  std::uint64_t tick = 0;  // ticks done
+  double t_s = 0.0;        // tick · dt
   NeedleState needle;
   ProbeState probe;
   FireState fire;
 };
 
-// Hash of every field; the same on every machine.
-std::uint64_t state_hash(const State& state) noexcept;
+// Hash of every field, chained to the hash of the tick before; the same on every machine.
+std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept;
 
 }  // namespace seldinger::cases

@@ -1,0 +1,29 @@
+// Whether a tip is inside the body, followed from pose to pose: only the skin lets it in or out. Caps at the
+// volume's ends cannot be punctured, and lung or gas is body (clinical.md). Used by step() and, on recorded poses,
+// by metrics.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+
+#include "sim/case/mesh_index.h"
+
+namespace seldinger::cases {
+
+struct SkinPassage {
+  glm::dvec3 tip_lps_mm{0.0};     // the last pose
+  double depth_mm = 0.0;          // below the skin; negative outside
+  std::uint32_t triangle = 0;     // nearest, the next query's hint
+  bool geometric_inside = false;  // inside the closed mesh, caps included
+  bool in_body = false;           // came through skin
+  glm::dvec3 entry_lps_mm{0.0};   // where it last came in; valid while in_body
+};
+
+// The first pose: what starts inside the mesh is in the body, with the skin behind the shaft as its entry.
+SkinPassage start_passage(const MeshIndex& skin, const glm::dvec3& tip_lps_mm,
+                          const glm::dvec3& direction) noexcept;
+
+// The next pose. Allocation-free. With an empty mesh nothing is ever inside.
+void advance_passage(const MeshIndex& skin, const glm::dvec3& tip_lps_mm, SkinPassage& passage) noexcept;
+
+}  // namespace seldinger::cases
