@@ -1,0 +1,122 @@
+#include "assessment/metrics/registry.h"
+
+#include <cmath>
+
+#include "assessment/metrics/endpoint.h"
+#include "assessment/metrics/path.h"
+#include "assessment/metrics/punctures.h"
+#include "assessment/metrics/time.h"
+#include "assessment/metrics/visibility.h"
+
+namespace seldinger::assessment {
+namespace {
+
+constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";
+constexpr const char* kJohnson = "Johnson et al., BJR 85 (2012) 555, doi 10.1259/bjr/47436030";
+
+constexpr MetricInfo kRegistry[] = {
+    {"hit", 1, "bool", "Target hit", Direction::higher_is_better,
+     "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target; core needle, at least 5 mm "
+     "of the fired "
+     "notch are. A sweep through the target before is no hit. Null: no_endpoint, no_target.",
+     kVidal, &hit},
+    {"core_in_target", 1, "mm", "Core in target", Direction::higher_is_better,
+     "Length of the fired notch inside the target. Null: not_a_core_needle, no_endpoint, no_target.", kJohnson,
+     &core_in_target},
+    {"tip_target_dist", 1, "mm", "Distance to target centre", Direction::lower_is_better,
+     "At the endpoint, from the tip (core needle: the middle of the fired notch) to the target's centre; never the "
+     "closest approach. Null: no_endpoint, no_target.",
+     kVidal, &tip_target_dist},
+    {"tip_target_surface", 1, "mm", "Distance to target surface", Direction::lower_is_better,
+     "As tip_target_dist, to the target's surface; negative inside. Null: no_endpoint, no_target.", kVidal,
+     &tip_target_surface},
+    {"tip_target_axial", 1, "mm", "Short of target", Direction::none,
+     "The part of tip_target_dist along the needle; positive when the needle stopped short. Null: no_endpoint, "
+     "no_target.",
+     kJohnson, &tip_target_axial},
+    {"tip_target_lateral", 1, "mm", "Beside target", Direction::lower_is_better,
+     "The part of tip_target_dist across the needle. Null: no_endpoint, no_target.", kJohnson, &tip_target_lateral},
+    {"time_total", 1, "s", "Time", Direction::lower_is_better,
+     "From the first pose to the endpoint; without an endpoint to the last pose.", kJohnson, &time_total},
+    {"path_tip", 1, "mm", "Tip path", Direction::lower_is_better,
+     "Length of the tip's way, resampled to 100 Hz, low-passed at 10 Hz (zero-phase 4th-order Butterworth); gaps "
+     "over "
+     "0.25 s are not bridged. One pose: 0.",
+     kJohnson, &path_tip},
+    {"skin_punctures", 1, "count", "Skin punctures", Direction::lower_is_better,
+     "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
+     "outside. "
+     "The ends of the volume are no skin; lung and gas are body.",
+     kJohnson, &skin_punctures},
+    {"withdrawals_partial", 1, "count", "Partial withdrawals", Direction::lower_is_better,
+     "Times the inserted length fell below its running maximum by 20 % of it (at least 2, at most 5 mm) and rose "
+     "by as "
+     "much again without leaving the skin.",
+     kVidal, &withdrawals_partial},
+    {"withdrawals_full", 1, "count", "Full withdrawals", Direction::lower_is_better,
+     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm before the "
+     "endpoint.",
+     kVidal, &withdrawals_full},
+    {"vis_needle", 1, "share", "Needle tip visible", Direction::higher_is_better,
+     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. Null: "
+     "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane.",
+     kVidal, &vis_needle},
+    {"vis_target", 1, "share", "Target visible", Direction::higher_is_better,
+     "As vis_needle, for the target. Null: under_1_s_in_tissue_with_a_live_picture, no_target.", kVidal,
+     &vis_target},
+    {"vis_joint", 1, "share", "Needle and target visible", Direction::higher_is_better,
+     "As vis_needle, for tip and target at once. Null: under_1_s_in_tissue_with_a_live_picture, no_target, "
+     "not_meaningful_out_of_plane.",
+     kVidal, &vis_joint},
+    {"gap_share", 1, "share", "Tracking gaps", Direction::lower_is_better,
+     "Share of the time in gaps of over 0.25 s between poses; gaps belong to no other metric's denominator. Null: "
+     "too_short.",
+     "data quality", &gap_share},
+};
+
+const char* words(Direction direction) {
+  switch (direction) {
+    case Direction::lower_is_better:
+      return "lower";
+    case Direction::higher_is_better:
+      return "higher";
+    case Direction::none:
+      break;
+  }
+  return "–";
+}
+
+}  // namespace
+
+std::span<const MetricInfo> registry() {
+  return kRegistry;
+}
+
+const MetricInfo* find_metric(const std::string& id) {
+  for (const MetricInfo& info : kRegistry)
+    if (id == info.id) return &info;
+  return nullptr;
+}
+
+std::vector<MetricValue> measure_all(const Signals& signals) {
+  std::vector<MetricValue> values;
+  for (const MetricInfo& info : kRegistry) {
+    Measured measured = info.measure(signals);
+    if (measured.value && !std::isfinite(*measured.value)) measured = Measured::none("not_finite");
+    values.push_back({info.id, info.version, measured.value, info.unit, measured.reason});
+  }
+  return values;
+}
+
+std::string metrics_markdown() {
+  std::string text =
+      "# Metrics\n\nMade from `assessment/metrics/registry.cpp` by `seldinger help --metrics`; a test compares.\n"
+      "Lengths in mm, coordinates in LPS. A metric that cannot be given is null with a reason, never 0.\n\n"
+      "| id | version | unit | better | definition | source |\n|---|---|---|---|---|---|\n";
+  for (const MetricInfo& info : kRegistry)
+    text += "| `" + std::string(info.id) + "` | " + std::to_string(info.version) + " | " + info.unit + " | " +
+            words(info.direction) + " | " + info.definition + " | " + info.source + " |\n";
+  return text;
+}
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,103 @@
+#include "assessment/operators/lesion_site.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <sstream>
+
+namespace seldinger::assessment {
+namespace {
+
+struct Candidate {
+  glm::dvec3 center_lps_mm;
+  double mean_hu, sd_hu;
+};
+
+// Offsets of a cubic lattice within a ball.
+std::vector<glm::dvec3> ball(double radius_mm, double step_mm) {
+  std::vector<glm::dvec3> offsets;
+  const int n = static_cast<int>(radius_mm / step_mm);
+  for (int k = -n; k <= n; ++k)
+    for (int j = -n; j <= n; ++j)
+      for (int i = -n; i <= n; ++i) {
+        const glm::dvec3 d = glm::dvec3(i, j, k) * step_mm;
+        if (glm::dot(d, d) <= radius_mm * radius_mm) offsets.push_back(d);
+      }
+  return offsets;
+}
+
+}  // namespace
+
+std::string describe(const LesionRule& rule) {
+  std::ostringstream text;
+  text << "a sphere of " << 2 * rule.radius_mm << " mm diameter, " << rule.min_depth_mm << "–" << rule.max_depth_mm
+       << " mm below the skin, where soft tissue (mean " << rule.min_mean_hu << "–" << rule.max_mean_hu
+       << " HU) is most homogeneous within " << rule.homogeneous_radius_mm
+       << " mm, on a straight path free of bone and gas";
+  return text.str();
+}
+
+base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const cases::MeshIndex& skin,
+                                          const LesionRule& rule) {
+  const base::Error none{"no_lesion_site", "no place in this volume fits the rule for a lesion"};
+  if (skin.empty()) return none;
+  // The lattice lies along the volume's axes; all samples below are nearest voxels, by integer offsets.
+  const glm::ivec3 size = volume.size_voxels;
+  glm::ivec3 stride;
+  for (int axis = 0; axis < 3; ++axis)
+    stride[axis] = std::max(1, static_cast<int>(std::lround(rule.grid_mm / volume.spacing_mm[axis])));
+  std::vector<glm::ivec3> around;
+  for (const glm::dvec3& d : ball(rule.homogeneous_radius_mm, 4.0))
+    around.push_back(glm::ivec3(std::lround(d.x / volume.spacing_mm.x), std::lround(d.y / volume.spacing_mm.y),
+                                std::lround(d.z / volume.spacing_mm.z)));
+  std::vector<Candidate> candidates;
+  for (int k = 0; k < size.z; k += stride.z)
+    for (int j = 0; j < size.y; j += stride.y)
+      for (int i = 0; i < size.x; i += stride.x) {
+        const int here = volume.at(i, j, k);
+        if (here < -50 || here > 300) continue;
+        double sum = 0.0, sum2 = 0.0;
+        bool fits = true;
+        for (const glm::ivec3& d : around) {
+          const glm::ivec3 p = glm::ivec3(i, j, k) + d;
+          if (p.x < 0 || p.y < 0 || p.z < 0 || p.x >= size.x || p.y >= size.y || p.z >= size.z) {
+            fits = false;
+            break;
+          }
+          const double hu = volume.at(p.x, p.y, p.z);
+          if (hu < -150.0 || hu > 400.0) {  // gas, bone or metal, beyond any noise of soft tissue
+            fits = false;
+            break;
+          }
+          sum += hu;
+          sum2 += hu * hu;
+        }
+        if (!fits) continue;
+        const double n = static_cast<double>(around.size()), mean = sum / n;
+        if (mean < rule.min_mean_hu || mean > rule.max_mean_hu) continue;
+        candidates.push_back({glm::dvec3(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0)), mean,
+                              std::sqrt(std::max(0.0, sum2 / n - mean * mean))});
+      }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.sd_hu < b.sd_hu; });
+  PathLimits limits;
+  limits.min_depth_mm = rule.min_depth_mm;
+  limits.max_depth_mm = rule.max_depth_mm;
+  for (const Candidate& candidate : candidates) {
+    const double below_mm = -skin.closest_skin(candidate.center_lps_mm).distance_mm;
+    if (below_mm < rule.min_depth_mm || below_mm > rule.max_depth_mm) continue;
+    const auto plan = plan_puncture(volume, skin, candidate.center_lps_mm, limits);
+    if (!plan) continue;
+    LesionSite site;
+    site.lesion = {candidate.center_lps_mm, rule.radius_mm, std::round(candidate.mean_hu + rule.contrast_hu)};
+    site.plan = *plan;
+    site.skin_distance_mm = below_mm;
+    site.mean_hu = candidate.mean_hu;
+    site.sd_hu = candidate.sd_hu;
+    return site;
+  }
+  return none;
+}
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,36 @@
+// Where a training lesion goes when nobody has placed one: the demo's stated rule.
+#pragma once
+
+#include "assessment/operators/plan.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+#include "sim/case/mesh_index.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::assessment {
+
+struct LesionRule {
+  double radius_mm = 6.0;
+  double min_depth_mm = 30.0, max_depth_mm = 90.0;  // below the nearest skin, and along the path
+  double homogeneous_radius_mm = 16.0;              // soft tissue around the centre
+  double min_mean_hu = 30.0, max_mean_hu = 180.0;   // parenchyma with or without contrast agent
+  double contrast_hu = -45.0;                       // the lesion against its surroundings
+  double grid_mm = 6.0;
+};
+
+struct LesionSite {
+  cases::Lesion lesion;
+  PuncturePlan plan;
+  double skin_distance_mm = 0.0;      // of the centre to the nearest skin
+  double mean_hu = 0.0, sd_hu = 0.0;  // within homogeneous_radius_mm
+};
+
+// One sentence: the rule with its numbers.
+std::string describe(const LesionRule& rule);
+
+// The most homogeneous place of the rule that a plan reaches. The same for the same scene. Refused:
+// `no_lesion_site`.
+base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const cases::MeshIndex& skin,
+                                          const LesionRule& rule = {});
+
+}  // namespace seldinger::assessment

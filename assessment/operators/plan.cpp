@@ -1,0 +1,116 @@
+#include "assessment/operators/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <numbers>
+#include <vector>
+
+#include "sim/base/exact_math.h"
+
+namespace seldinger::assessment {
+namespace {
+
+constexpr int kDirections = 600;
+constexpr double kMaxPosterior = 0.3;  // the table is behind a supine patient (LPS +y)
+constexpr double kProbeMinMm = 20.0;   // between probe's middle and entry: room for a hand
+constexpr double kProbeMaxDepthMm = 120.0;
+
+struct Way {
+  glm::dvec3 outward;
+  double depth_mm;
+};
+
+void perpendiculars(const glm::dvec3& axis, glm::dvec3& u, glm::dvec3& v) {
+  u = glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
+  v = glm::cross(axis, u);
+}
+
+// Directions spread evenly over the sphere (Fibonacci lattice).
+glm::dvec3 spread_direction(int i) {
+  constexpr double kGoldenAngle = 2.399963229728653;  // π (3 − √5)
+  const double z = 1.0 - 2.0 * (i + 0.5) / kDirections, r = std::sqrt(1.0 - z * z);
+  return {r * base::exact_cos(kGoldenAngle * i), r * base::exact_sin(kGoldenAngle * i), z};
+}
+
+// No bone, no gas from skin_free_mm below the entry to the target, in the mean over a small disc at each
+// millimetre.
+bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, const glm::dvec3& target,
+               const Way& way, const PathLimits& limits) {
+  glm::dvec3 u, v;
+  perpendiculars(way.outward, u, v);
+  for (double s_mm = 0.0; s_mm < way.depth_mm - limits.skin_free_mm; s_mm += 1.0) {
+    double sum = 0.0;
+    for (int k = 0; k < 7; ++k) {
+      const double angle = k * std::numbers::pi / 3.0, radius = k < 6 ? limits.clearance_mm : 0.0;
+      const glm::dvec3 p =
+          target + way.outward * s_mm + (u * base::exact_cos(angle) + v * base::exact_sin(angle)) * radius;
+      const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
+      if (!hu) return false;
+      if (*hu < -600.0 || *hu > 900.0) return false;  // one clear voxel of gas or cortex is enough
+      sum += *hu;
+    }
+    if (sum / 7.0 > limits.bone_hu || sum / 7.0 < limits.gas_hu) return false;
+  }
+  return true;
+}
+
+// Where a probe sees entry and target in its plane: on skin, some way beside the entry.
+bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way, const glm::dvec3& entry,
+                 cases::ToolPose& probe) {
+  glm::dvec3 u, v;
+  perpendiculars(way.outward, u, v);
+  double best = 0.0;
+  for (const double tilt_deg : {50.0, 40.0, 60.0, 30.0})
+    for (int k = 0; k < 12; ++k) {
+      const double azimuth = k * std::numbers::pi / 6.0, tilt = tilt_deg * std::numbers::pi / 180.0;
+      const glm::dvec3 side = u * base::exact_cos(azimuth) + v * base::exact_sin(azimuth);
+      const glm::dvec3 outward = way.outward * base::exact_cos(tilt) + side * base::exact_sin(tilt);
+      if (outward.y > kMaxPosterior) continue;
+      const auto hit = skin.first_hit(target, outward, kProbeMaxDepthMm);
+      if (!hit || hit->cut || hit->distance_mm < 5.0) continue;
+      const glm::dvec3 origin = target + outward * hit->distance_mm;
+      const double apart_mm = glm::length(origin - entry);
+      if (apart_mm < kProbeMinMm || apart_mm > 70.0) continue;
+      const double score = 1.0 / (hit->distance_mm + std::abs(apart_mm - 45.0));
+      if (score <= best) continue;
+      best = score;
+      probe.position_lps_mm = origin;
+      probe.axis = -outward;
+      const glm::dvec3 in_plane = -way.outward - probe.axis * glm::dot(-way.outward, probe.axis);
+      probe.side = glm::normalize(in_plane);
+    }
+  return best > 0.0;
+}
+
+}  // namespace
+
+base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
+                                         const glm::dvec3& target, const PathLimits& limits) {
+  const base::Error none{"no_path", "no straight path from the skin to the target is free of bone and gas"};
+  if (skin.empty()) return none;
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  std::vector<Way> ways;
+  for (int i = 0; i < kDirections; ++i) {
+    const glm::dvec3 outward = spread_direction(i);
+    if (outward.y > kMaxPosterior) continue;
+    const auto hit = skin.first_hit(target, outward, limits.max_depth_mm);
+    if (!hit || hit->cut || hit->distance_mm < limits.min_depth_mm) continue;
+    ways.push_back({outward, hit->distance_mm});
+  }
+  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.depth_mm < b.depth_mm; });
+  for (const Way& way : ways) {
+    PuncturePlan plan;
+    plan.target_lps_mm = target;
+    plan.entry_lps_mm = target + way.outward * way.depth_mm;
+    plan.direction = -way.outward;
+    plan.depth_mm = way.depth_mm;
+    if (free_path(volume, voxel_from_lps, target, way, limits) &&
+        place_probe(skin, target, way, plan.entry_lps_mm, plan.probe))
+      return plan;
+  }
+  return none;
+}
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,34 @@
+// A way to a target: skin entry, straight path, and where the probe stands to see both.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "sim/base/result.h"
+#include "sim/case/inputs.h"
+#include "sim/case/mesh_index.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::assessment {
+
+struct PuncturePlan {
+  glm::dvec3 target_lps_mm{0.0};
+  glm::dvec3 entry_lps_mm{0.0};
+  glm::dvec3 direction{0.0};  // unit, entry → target
+  double depth_mm = 0.0;      // entry to target
+  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target
+};
+
+struct PathLimits {
+  double min_depth_mm = 10.0, max_depth_mm = 130.0;
+  double clearance_mm = 3.0;  // around the path
+  double bone_hu = 300.0;     // mean over the clearance at one depth; contrast-filled vessels stay below
+  double gas_hu = -200.0;
+  double skin_free_mm = 4.0;  // the first millimetres mix skin and air
+};
+
+// The shortest straight path to the target that starts on skin (not a cut cap, not the supine patient's back), is
+// free of bone and gas, and can be seen. The same for the same scene. Refused: `no_path`.
+base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
+                                         const glm::dvec3& target_lps_mm, const PathLimits& limits = {});
+
+}  // namespace seldinger::assessment

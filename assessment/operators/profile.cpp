@@ -1,0 +1,44 @@
+#include "assessment/operators/profile.h"
+
+namespace seldinger::assessment {
+
+std::optional<OperatorProfile> named_profile(const std::string& name) {
+  OperatorProfile profile;
+  profile.name = name;
+  if (name == "expert") return profile;
+  if (name == "intermediate") {
+    profile.reaction_delay_s = 0.35;
+    profile.tremor_mm = 0.15;
+    profile.sway_mm = 0.9;
+    profile.probe_drift_mm = 1.5;
+    profile.target_error_mm = 2.2;
+    profile.aim_error_deg = 2.5;
+    profile.advance_mm_s = 9.0;
+    profile.approach_mm_s = 30.0;
+    profile.scan_s = 5.0;
+    profile.accept_miss_mm = 3.0;
+    profile.max_redirections = 3;
+    profile.full_withdrawal_share = 0.1;
+    profile.blind_advance_share = 0.3;
+    return profile;
+  }
+  if (name == "novice") {
+    profile.reaction_delay_s = 0.5;
+    profile.tremor_mm = 0.25;
+    profile.sway_mm = 1.6;
+    profile.probe_drift_mm = 3.5;
+    profile.target_error_mm = 4.5;
+    profile.aim_error_deg = 5.0;
+    profile.advance_mm_s = 7.0;
+    profile.approach_mm_s = 20.0;
+    profile.scan_s = 10.0;
+    profile.accept_miss_mm = 5.0;
+    profile.max_redirections = 4;
+    profile.full_withdrawal_share = 0.35;
+    profile.blind_advance_share = 0.8;
+    return profile;
+  }
+  return std::nullopt;
+}
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,62 @@
+#include "sim/engine/step.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace seldinger::engine {
+namespace {
+
+// A device that says nothing usable (zero, NaN) leaves the last direction.
+glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& last) noexcept {
+  const double length2 = glm::dot(v, v);
+  return length2 > 1e-12 && length2 < 1e12 ? v / std::sqrt(length2) : last;
+}
+
+bool finite(const glm::dvec3& p) noexcept {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void move_needle(const cases::Case& scene, const cases::Inputs& inputs, const cases::FireState& fire, bool first,
+                 cases::NeedleState& needle) noexcept {
+  needle.direction = unit_or(inputs.needle.axis, needle.direction);
+  if (finite(inputs.needle.position_lps_mm)) {
+    const bool thrown = fire.fired && scene.instrument.kind == cases::InstrumentKind::core;
+    needle.tip_lps_mm =
+        inputs.needle.position_lps_mm + needle.direction * (thrown ? scene.instrument.throw_mm : 0.0);
+  }
+  if (first)
+    needle.skin = cases::start_passage(scene.skin_index, needle.tip_lps_mm, needle.direction);
+  else
+    cases::advance_passage(scene.skin_index, needle.tip_lps_mm, needle.skin);
+  needle.inserted_mm =
+      needle.skin.in_body ? glm::dot(needle.tip_lps_mm - needle.skin.entry_lps_mm, needle.direction) : 0.0;
+}
+
+void move_probe(const cases::Inputs& inputs, cases::ProbeState& probe) noexcept {
+  probe.frozen = inputs.freeze;
+  if (finite(inputs.probe.position_lps_mm)) probe.origin_lps_mm = inputs.probe.position_lps_mm;
+  probe.axial = unit_or(inputs.probe.axis, probe.axial);
+  const glm::dvec3 side = inputs.probe.side - probe.axial * glm::dot(inputs.probe.side, probe.axial);
+  const glm::dvec3 last = probe.lateral - probe.axial * glm::dot(probe.lateral, probe.axial);
+  // Where both are along axial, any perpendicular will do.
+  const glm::dvec3 any = std::abs(probe.axial.x) < 0.5 ? glm::cross(probe.axial, glm::dvec3(1.0, 0.0, 0.0))
+                                                       : glm::cross(probe.axial, glm::dvec3(0.0, 1.0, 0.0));
+  probe.lateral = unit_or(side, unit_or(last, any / std::sqrt(glm::dot(any, any))));
+}
+
+}  // namespace
+
+void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s, cases::State& state) noexcept {
+  const bool first = state.tick == 0;
+  ++state.tick;
+  state.t_s = static_cast<double>(state.tick) * dt_s;
+  move_probe(inputs, state.probe);
+  move_needle(scene, inputs, state.fire, first, state.needle);
+  if (!inputs.fire || state.fire.fired) return;
+  // The endpoint is where the tip stands when the trigger falls; a core needle's throw follows in the same tick.
+  state.fire = {true, state.t_s, state.needle.tip_lps_mm, state.needle.direction};
+  if (scene.instrument.kind == cases::InstrumentKind::core)
+    move_needle(scene, inputs, state.fire, false, state.needle);
+}
+
+}  // namespace seldinger::engine
