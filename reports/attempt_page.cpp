@@ -35,6 +35,18 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n");
 }
 
+void add_definitions(Html& html, const casedb::AttemptRow& row) {
+  Html items;
+  for (const casedb::MetricValue& metric : row.metrics) {
+    const std::string definition = metric_definition(metric.id);
+    if (definition.empty()) continue;
+    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
+  }
+  if (items.empty()) return;
+  html.raw("<details><summary>How these are measured</summary>\n<dl class=\"definitions\">\n").add(items);
+  html.raw("</dl>\n</details>\n");
+}
+
 void add_metrics(Html& html, const casedb::AttemptRow& row) {
   html.raw("<section class=\"metrics\" aria-labelledby=\"metrics\">\n<h2 id=\"metrics\">Metrics</h2>\n");
   if (row.metrics.empty()) html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
@@ -61,6 +73,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
         .add(rows)
         .raw("</tbody>\n</table>\n");
   }
+  add_definitions(html, row);
   html.raw("</section>\n");
 }
 

@@ -6,60 +6,50 @@
 #include <cmath>
 #include <cstdio>
 
+#include "assessment/metrics/registry.h"
+
 namespace seldinger::reports {
 namespace {
 
 constexpr std::string_view kNone = "—";   // em dash
 constexpr std::string_view kMinus = "−";  // U+2212
 
-struct Words {
-  std::string_view id, group, label;
+struct Place {
+  std::string_view id, group;
 };
 
-// Groups in the order of what a trainee asks first.
-constexpr std::array kWords = {
-    Words{"hit", "Target", "Hit"},
-    Words{"tip_target_dist", "Target", "Distance to the target’s centre"},
-    Words{"tip_target_axial", "Target", "Distance along the needle"},
-    Words{"tip_target_lateral", "Target", "Distance across the needle"},
-    Words{"tip_target_surface", "Target", "Distance to the target’s surface (inside is negative)"},
-    Words{"core_in_target", "Target", "Length of the core inside the target"},
-    Words{"closest_approach", "Target", "Closest approach to the centre"},
-    Words{"first_pass_success", "Target", "Hit on the first pass"},
-    Words{"time_total", "Time", "Whole time"},
-    Words{"time_in_tissue", "Time", "Time with the tip in tissue"},
-    Words{"time_puncture_to_target", "Time", "Time from puncture to firing"},
-    Words{"vis_joint", "Picture", "Tip and target visible together"},
-    Words{"vis_tip", "Picture", "Tip visible"},
-    Words{"vis_needle", "Picture", "Needle visible"},
-    Words{"vis_target", "Picture", "Target visible"},
-    Words{"blind_advance", "Picture", "Advanced without seeing the tip"},
-    Words{"blind_advance_max", "Picture", "Longest advance without seeing the tip"},
-    Words{"probe_drift_advancing", "Picture", "Probe movement while advancing"},
-    Words{"plane_angle_mean", "Picture", "Mean angle between needle and picture"},
-    Words{"plane_angle_max", "Picture", "Largest angle between needle and picture"},
-    Words{"skin_punctures", "Needle path", "Skin punctures"},
-    Words{"withdrawals_partial", "Needle path", "Partial withdrawals"},
-    Words{"withdrawals_full", "Needle path", "Full withdrawals"},
-    Words{"path_in_tissue", "Needle path", "Tip path in tissue"},
-    Words{"path_tip", "Needle path", "Tip path"},
-    Words{"path_inefficiency", "Needle path", "Detour over the straight way"},
-    Words{"swept_area", "Needle path", "Area swept by the shaft in tissue"},
-    Words{"entry_angle_error", "Needle path", "Error of the entry angle"},
-    Words{"ldlj", "Needle path", "Smoothness (log dimensionless jerk)"},
-    Words{"lateral_force_peak", "Force", "Peak sideways force (model)"},
-    Words{"force_peak_axial", "Force", "Peak axial force (model)"},
-    Words{"nogo_contacts", "No-go structures", "Contacts"},
-    Words{"nogo_time", "No-go structures", "Time inside"},
-    Words{"clearance_min", "No-go structures", "Smallest clearance"},
-    Words{"gap_share", "Recording", "Share of missing samples"},
-    Words{"sample_rate_p5", "Recording", "Sample rate, 5th percentile"},
+// Groups in the order of what a trainee asks first. An id that is not here stands under "Other".
+constexpr std::array kPlaces = {
+    Place{"hit", "Target"},
+    Place{"first_pass_success", "Target"},
+    Place{"core_in_target", "Target"},
+    Place{"tip_target_dist", "Target"},
+    Place{"tip_target_surface", "Target"},
+    Place{"tip_target_axial", "Target"},
+    Place{"tip_target_lateral", "Target"},
+    Place{"closest_approach", "Target"},
+    Place{"time_total", "Time"},
+    Place{"time_in_tissue", "Time"},
+    Place{"time_puncture_to_target", "Time"},
+    Place{"vis_joint", "Picture"},
+    Place{"vis_needle", "Picture"},
+    Place{"vis_tip", "Picture"},
+    Place{"vis_target", "Picture"},
+    Place{"blind_advance", "Picture"},
+    Place{"blind_advance_max", "Picture"},
+    Place{"probe_drift_advancing", "Picture"},
+    Place{"skin_punctures", "Needle"},
+    Place{"withdrawals_partial", "Needle"},
+    Place{"withdrawals_full", "Needle"},
+    Place{"path_tip", "Needle"},
+    Place{"path_in_tissue", "Needle"},
+    Place{"path_inefficiency", "Needle"},
+    Place{"nogo_contacts", "No-go structures"},
+    Place{"nogo_time", "No-go structures"},
+    Place{"clearance_min", "No-go structures"},
+    Place{"gap_share", "Recording"},
+    Place{"sample_rate_p5", "Recording"},
 };
-
-const Words* words_of(std::string_view id) {
-  const auto* found = std::find_if(kWords.begin(), kWords.end(), [&](const Words& w) { return w.id == id; });
-  return found == kWords.end() ? nullptr : found;
-}
 
 std::string words_from_code(std::string_view code) {
   std::string words(code);
@@ -74,20 +64,25 @@ bool is_yes_or_no(const casedb::MetricValue& metric) {
 }  // namespace
 
 std::string metric_label(std::string_view id) {
-  const Words* words = words_of(id);
-  return words != nullptr ? std::string(words->label) : words_from_code(id);
+  const assessment::MetricInfo* info = assessment::find_metric(std::string(id));
+  return info != nullptr ? std::string(info->label) : words_from_code(id);
+}
+
+std::string metric_definition(std::string_view id) {
+  const assessment::MetricInfo* info = assessment::find_metric(std::string(id));
+  return info != nullptr ? std::string(info->definition) : "";
 }
 
 std::string metric_group(std::string_view id) {
-  const Words* words = words_of(id);
-  return words != nullptr ? std::string(words->group) : "Other";
+  const auto* found = std::find_if(kPlaces.begin(), kPlaces.end(), [&](const Place& p) { return p.id == id; });
+  return found == kPlaces.end() ? "Other" : std::string(found->group);
 }
 
 const std::vector<std::string>& metric_groups() {
   static const std::vector<std::string> groups = [] {
     std::vector<std::string> list;
-    for (const Words& words : kWords) {
-      if (list.empty() || list.back() != words.group) list.emplace_back(words.group);
+    for (const Place& place : kPlaces) {
+      if (list.empty() || list.back() != place.group) list.emplace_back(place.group);
     }
     list.emplace_back("Other");
     return list;

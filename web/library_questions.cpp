@@ -1,6 +1,7 @@
 #include "web/library_questions.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <mutex>
 #include <span>
@@ -100,7 +101,11 @@ base::Result<Server> open_server(casedb::Library library, const ServeOptions& op
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::int64_t{std::chrono::duration_cast<std::chrono::microseconds>(now).count()};
   };
-  surroundings.random_id = [] { return hex_text(casedb::random_bytes(32)); };
+  surroundings.random_id = [] {
+    std::array<std::byte, 32> bytes{};
+    casedb::fill_random(bytes);
+    return hex_text(bytes);
+  };
   surroundings.sha256_hex = [](std::string_view text) {
     return casedb::sha256_hex(std::as_bytes(std::span(text.data(), text.size())));
   };
