@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <span>
 #include <string>
 
@@ -27,17 +26,17 @@ std::map<std::string, std::size_t> offsets_from_compiler(const std::string& shad
   const std::filesystem::path file = folder / "mpr_slice.comp";
   std::ofstream(file) << shader_text;
   const std::string command = std::string(SELDINGER_GLSLANG) + " -l -q '" + file.string() + "'";
-  std::string answer;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return {};
-  std::array<char, 4096> piece{};
-  while (std::fgets(piece.data(), static_cast<int>(piece.size()), pipe) != nullptr) answer += piece.data();
-  if (pclose(pipe) != 0) return {};
-
   std::map<std::string, std::size_t> offsets;
-  const std::regex line("parameters\\.(\\w+): offset (\\d+)");
-  for (std::sregex_iterator found(answer.begin(), answer.end(), line), end; found != end; ++found)
-    offsets[(*found)[1]] = std::stoul((*found)[2]);
+  std::array<char, 4096> line{};
+  while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
+    std::array<char, 64> field{};
+    std::size_t offset = 0;
+    if (std::sscanf(line.data(), "parameters.%63[a-z_]: offset %zu", field.data(), &offset) == 2)
+      offsets[field.data()] = offset;
+  }
+  if (pclose(pipe) != 0) return {};
   return offsets;
 }
 
