@@ -22,6 +22,8 @@ Result<std::vector<std::byte>> decompress(std::span<const std::byte> bytes, std:
   const Error damaged{"damaged", "compressed bytes are damaged"};
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN || size > max_bytes) return damaged;
+  // ZSTD_decompress also takes several frames in a row: an empty or skippable one behind would pass.
+  if (ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) return damaged;
   std::vector<std::byte> out(static_cast<std::size_t>(size));
   const std::size_t got = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
   if (ZSTD_isError(got) != 0 || got != out.size()) return damaged;

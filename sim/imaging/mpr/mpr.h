@@ -48,8 +48,8 @@ using HuImage = std::vector<float>;
 HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
 
-// Holds the volume as an integer 3-D texture; render() as often as wanted. Throws base::Failure("gl") without
-// GL 4.3 or when the volume exceeds GL_MAX_3D_TEXTURE_SIZE.
+// Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May
+// outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.
 class MprGpu {
  public:
   MprGpu(gpu::Context& context, const volume::Volume& volume);
