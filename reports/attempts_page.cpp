@@ -37,7 +37,7 @@ void add_row(Html& html, const AttemptView& view) {
       .name(row.case_title)
       .raw("</td><td data-label=\"Operator\">")
       .name(view.operator_label)
-      .raw("</td><td data-label=\"Instrument\">")
+      .raw("</td><td class=\"short\" data-label=\"Instrument\">")
       .text(instrument_text(row.instrument))
       .raw("</td>");
   for (const std::string_view id : {"hit", "tip_target_dist", "time_total"}) add_metric_cell(html, row, id);
@@ -91,6 +91,14 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
   html.raw("</tbody>\n</table>\n</div>\n");
   add_pages(html, part);
   return page("Attempts", visitor, html);
+}
+
+std::string no_attempts_page(const Visitor& visitor) {
+  Html html;
+  html.raw(
+      "<div class=\"message\">\n<h1>No individual attempts</h1>\n<p>Your role does not see individual attempts. "
+      "Trainees see their own; mentors and researchers see them all.</p>\n</div>\n");
+  return page("No individual attempts", visitor, html);
 }
 
 }  // namespace seldinger::reports

@@ -18,5 +18,7 @@ struct ListPart {
 };
 
 std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> attempts, const ListPart& part);
+// For a role that sees none of them.
+std::string no_attempts_page(const Visitor& visitor);
 
 }  // namespace seldinger::reports

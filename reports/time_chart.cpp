@@ -11,7 +11,7 @@ namespace seldinger::reports {
 namespace {
 
 // The drawing's own units; CSS scales it.
-constexpr double kWidth = 720.0, kHeight = 260.0;
+constexpr double kWidth = 720.0, kHeight = 266.0;
 constexpr double kLeft = 56.0, kRight = 12.0, kTop = 14.0, kPlotBottom = 186.0, kStripTop = 200.0,
                  kStripBottom = 214.0;
 constexpr std::size_t kChartPoints = 300, kTableRows = 11;
@@ -59,7 +59,7 @@ void add_ticks(Html& html, const Axes& axes) {
   for (int i = 0; i * step_s <= (axes.t1_s - axes.t0_s) * (1.0 + 1e-9); ++i) {
     const double t_s = axes.t0_s + i * step_s;
     html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(px(axes.x(t_s))).raw("\" y=\"");
-    html.text(px(kStripBottom + 16.0)).raw("\">").text(tick_text(i * step_s, step_s)).raw("</text>");
+    html.text(px(kStripBottom + 20.0)).raw("\">").text(tick_text(i * step_s, step_s)).raw("</text>");
   }
 }
 
@@ -169,11 +169,12 @@ Html time_chart(const cases::Recording& recording, const cases::Lesion& lesion) 
     html.raw("<line class=\"fire\" x1=\"").text(x).raw("\" x2=\"").text(x).raw("\" y1=\"").text(px(kTop));
     html.raw("\" y2=\"").text(px(kStripBottom)).raw("\"/>");
   }
-  html.raw("<text class=\"tick\" text-anchor=\"start\" x=\"0.0\" y=\"").text(px(kTop + 4.0)).raw("\">mm</text>");
   html.raw("<text class=\"tick\" text-anchor=\"middle\" x=\"").text(px((kLeft + kWidth - kRight) / 2.0));
-  html.raw("\" y=\"").text(px(kHeight - 8.0)).raw("\">seconds since the start</text>\n</svg>\n<figcaption>");
+  html.raw("\" y=\"")
+      .text(px(kHeight - 8.0))
+      .raw("\">distance in mm, time in seconds since the start</text>\n</svg>\n<figcaption>");
   html.raw(
-      "Line: distance of the tip from the target’s centre. Shaded: inside the target’s "
+      "Line: distance of the tip from the target’s centre in mm. Shaded: inside the target’s "
       "radius. "
       "Band below: <span class=\"key seen-key\">tip in the picture</span>, "
       "<span class=\"key unseen-key\">tip not in the picture</span>.");

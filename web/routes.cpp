@@ -126,11 +126,7 @@ Response list_attempts(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
   const AttemptScope scope = attempt_scope(account.role);
   if (scope == AttemptScope::none) {
-    return html_response(200,
-                         reports::message_page("No individual attempts",
-                                               "Your role does not see individual attempts. Trainees see their "
-                                               "own; mentors and researchers see them all.",
-                                               call.reader->visitor()));
+    return html_response(200, reports::no_attempts_page(call.reader->visitor()));
   }
   const bool own_only = scope == AttemptScope::own;
   const auto rows = own_only ? site.questions.list_attempts_of(account.person_id) : site.questions.list_attempts();

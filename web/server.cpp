@@ -55,7 +55,8 @@ class BoundedQueue final : public httplib::TaskQueue {
     on_idle();
     {
       const std::lock_guard lock(mutex_);
-      if (tasks_.size() < kWaiting) {
+      if (held_ < kWorkers + kWaiting) {
+        ++held_;
         tasks_.push_back(std::move(task));
         task = nullptr;
       }
@@ -94,6 +95,8 @@ class BoundedQueue final : public httplib::TaskQueue {
         tasks_.pop_front();
       }
       task();
+      const std::lock_guard lock(mutex_);
+      --held_;
     }
   }
 
@@ -102,6 +105,7 @@ class BoundedQueue final : public httplib::TaskQueue {
   std::mutex mutex_;
   std::condition_variable arrived_;
   std::deque<std::function<void()>> tasks_;
+  std::size_t held_ = 0;  // in work or waiting
   std::vector<std::thread> workers_;
   bool ended_ = false;
 };
@@ -277,7 +281,7 @@ base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surround
     parts->port = options.port;
   }
   if (parts->port <= 0) {
-    return base::Error{"port_taken", "port " + std::to_string(options.port) + " cannot be listened on"};
+    throw base::Failure("port", "port " + std::to_string(options.port) + " cannot be listened on");
   }
   parts->listener.widen_backlog();
   const std::string shown = address == "::1" ? "[::1]" : address;

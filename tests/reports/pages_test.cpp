@@ -54,6 +54,7 @@ std::vector<std::string> all_pages() {
           message_page("Not found", "There is nothing here.", kMentor),
           attempts_page(kMentor, std::vector{view, view}, part),
           attempts_page(kMentor, {}, {}),
+          no_attempts_page(kMentor),
           attempt_page(kMentor, view, &recording),
           attempt_page(kMentor, view, nullptr)};
 }
