@@ -1,7 +1,7 @@
 // A volume of 16-bit integers (R16I) as a stack of slices, an isampler2DArray in shaders. A stack and not a 3-D
 // texture, because textureGather exists for stacks only: it answers the 2×2 neighbours of a slice at once,
-// unfiltered and exact, and two of them do what eight texelFetch do in half the time (Mesa 22.3 llvmpipe, 512×512
-// trilinear).
+// unfiltered and exact. Two of them instead of eight texelFetch bring a 512×512 trilinear picture with needle and
+// lesion from 16.3 to 10.1 ms of processor time (Mesa 22.3 llvmpipe).
 #pragma once
 
 #include <cstdint>
