@@ -12,6 +12,7 @@
 #include "assessment/operators/lesion_site.h"
 #include "casedb/credentials.h"
 #include "sim/base/failure.h"
+#include "sim/volume/volume_bytes.h"
 
 namespace seldinger::app {
 namespace {
@@ -36,7 +37,7 @@ base::Result<casedb::CaseRow> demo_case(casedb::Library& library, const Argument
   auto imported = own ? import_case(arguments.text("--ct"), {}, "Demo CT", "import") : import_phantom();
   if (!imported) return imported.error();
   if (own) {
-    const std::string volume_sha256 = casedb::sha256_of_volume(imported->volume);
+    const std::string volume_sha256 = casedb::sha256_hex(volume::bytes_from_volume(imported->volume));
     for (const casedb::CaseRow& row : casedb::list_cases(library))
       if (row.volume_sha256 == volume_sha256) return row;
   }
@@ -176,7 +177,8 @@ int run_demo(const Arguments& arguments) {
       std::printf("\nOpen %s  (Ctrl-C ends)\n", url.c_str());
     std::fflush(stdout);
   };
-  const auto served = serve_until_stopped(std::move(*library), "127.0.0.1", port, ready);
+  const auto served =
+      serve_until_stopped(std::move(*library), {"127.0.0.1", port, !arguments.has("--port")}, ready);
   return served ? kDone : refuse(served.error());
 }
 

@@ -9,6 +9,7 @@
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/version.h"
+#include "casedb/migrate.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
 #include "sim/gpu/context.h"
@@ -55,7 +56,8 @@ int run_doctor(const Arguments& arguments) {
     auto library = casedb::Library::open(arguments.text("--library"));
     if (library) {
       add("library", "opens");
-      add("schema", std::to_string(casedb::schema_version(*library)));
+      const auto version = casedb::schema_version(library->database(), casedb::library_schema());
+      add("schema", version ? std::to_string(*version) : version.error().code);
       std::error_code error;
       const auto space = std::filesystem::space(arguments.text("--library"), error);
       add("disk_free_mb", error ? "unknown" : std::to_string(space.available / 1'000'000));

@@ -11,7 +11,7 @@ int run_serve(const Arguments& arguments) {
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  const auto served = serve_until_stopped(std::move(*library), arguments.text("--host", "127.0.0.1"), port,
+  const auto served = serve_until_stopped(std::move(*library), {arguments.text("--host", "127.0.0.1"), port},
                                           [](const std::string& url) {
                                             std::printf("%s\n", url.c_str());
                                             std::fflush(stdout);

@@ -127,12 +127,16 @@ bool Statement::is_null(std::string_view name) const {
   return sqlite3_column_type(statement_.get(), column(name)) == SQLITE_NULL;
 }
 
-std::string Statement::text(std::string_view name) const {
+std::string_view Statement::view(std::string_view name) const {
   const int index = column(name);
   const unsigned char* data = sqlite3_column_text(statement_.get(), index);
   if (data == nullptr) return {};
   return {reinterpret_cast<const char*>(data),
           static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), index))};
+}
+
+std::string Statement::text(std::string_view name) const {
+  return std::string(view(name));
 }
 
 std::int64_t Statement::integer(std::string_view name) const {

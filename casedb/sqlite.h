@@ -53,7 +53,8 @@ class Statement {
   void rewind();  // ready for the next values; those bound stay
 
   bool is_null(std::string_view column) const;
-  std::string text(std::string_view column) const;  // empty for null
+  std::string text(std::string_view column) const;       // empty for null
+  std::string_view view(std::string_view column) const;  // as text, until the next step or rewind
   std::int64_t integer(std::string_view column) const;
   int small_integer(std::string_view column) const;  // CHECKs that it fits
   double real(std::string_view column) const;

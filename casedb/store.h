@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/metrics/metric.h"
 #include "casedb/library.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -62,13 +63,7 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
 std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id);  // oldest first
 
 // --- attempts ---------------------------------------------------------------------------------------------------
-struct MetricValue {
-  std::string id;
-  int version = 1;
-  std::optional<double> value;  // null is never 0
-  std::string unit;
-  std::string reason;  // why null; empty otherwise
-};
+using MetricValue = assessment::MetricValue;
 
 struct NewAttempt {
   std::string case_id, lesion_id;

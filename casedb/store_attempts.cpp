@@ -140,9 +140,9 @@ std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
     of_one.clear();
   };
   while (metrics.step()) {
-    if (std::string of = metrics.text("attempt_id"); of != attempt_id) {
+    if (metrics.view("attempt_id") != attempt_id) {
       hand_over();
-      attempt_id = std::move(of);
+      attempt_id = metrics.text("attempt_id");
     }
     MetricValue value;
     value.id = metrics.text("metric_id");

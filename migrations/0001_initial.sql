@@ -174,7 +174,7 @@ CREATE TABLE metric_value (
   reason TEXT NOT NULL, -- why there is no value; empty when there is one
   PRIMARY KEY (attempt_id, metric_id, version),
   CHECK ((value IS NULL) = (reason <> ''))
-) STRICT;
+) STRICT, WITHOUT ROWID; -- scores of an attempt lie side by side
 
 CREATE TRIGGER metric_value_is_immutable BEFORE UPDATE ON metric_value
 BEGIN

@@ -77,7 +77,7 @@ CREATE TABLE metric_value (
   reason TEXT NOT NULL, -- why there is no value; empty when there is one
   PRIMARY KEY (attempt_id, metric_id, version),
   CHECK ((value IS NULL) = (reason <> ''))
-) STRICT;
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE person (
   person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),

@@ -10,11 +10,12 @@
 namespace seldinger::casedb {
 
 struct SeriesText {
-  std::string description;  // e.g. "Seldinger built-in torso phantom"
+  std::string description;  // e.g. "Seldinger built-in torso phantom"; at most 64 characters are written
 };
 
-// Files slice_0001.dcm … into `folder`, which must exist. Refused: `left_handed` (DICOM slices cannot say it).
-// Throws base::Failure("disk").
+// Files slice_0001.dcm … into `folder`, which must exist; the same volume and text give the same bytes. Returns how
+// many. Refused: `left_handed` and `sheared` (DICOM slices cannot say it), `too_large` (65535 rows or columns).
+// Throws base::Failure("disk"); what it wrote is then removed.
 base::Result<int> write_dicom_series(const volume::Volume& volume, const SeriesText& text,
                                      const std::filesystem::path& folder);
 

@@ -1,5 +1,5 @@
-// Formulas of MPR: where a pixel lies, what of needle and lesion it shows, and the volume's HU there. Compiled as GLSL
-// in float (mpr_slice.comp) and as C++ in double (sim/imaging/mpr/mpr_cpu.cpp).
+// Formulas of MPR: where a pixel lies, what of needle and lesion it shows, and the volume's HU there. Compiled as
+// GLSL in float (mpr_slice.comp) and as C++ in double (sim/imaging/mpr/mpr_cpu.cpp).
 #ifndef SELDINGER_SHADERS_SHARED_MPR
 #define SELDINGER_SHADERS_SHARED_MPR
 
@@ -11,8 +11,8 @@ SHARED_CONSTANT real kMprOutsideHu = -1024.0;  // contracts.md: padding
 SHARED_CONSTANT real kMprLumenHu = -1000.0;    // the lumen of a hollow needle is empty: air
 SHARED_CONSTANT int kMprMaxLesions = 16;
 
-// A needle this near to parallel with the plane (sine of the angle) keeps one axial position across the slab: over a
-// slab of 100 mm the axial range moves by 0.1 µm, and nothing is divided by a vanishing number.
+// A needle this near to parallel with the plane (sine of the angle) keeps one axial position across the slab: over
+// a slab of 100 mm the axial range moves by 0.1 µm, and nothing is divided by a vanishing number.
 SHARED_CONSTANT real kMprParallel = 1e-6;
 
 // The uniform block (std140). Positions are relative to the view's centre, so that float keeps its digits.
@@ -42,11 +42,15 @@ struct MprParameters {
   vec4 lesion_hu[kMprMaxLesions];         // x
 };
 
-// The start of a row is computed first, then the column added to it: never accumulated, and every caller that hoists
-// the row's start gets the same bits.
-SHARED real3 mpr_row_start(real3 first, real3 per_row, int row) { return first + real(row) * per_row; }
+// The start of a row is computed first, then the column added to it: never accumulated, and every caller that
+// hoists the row's start gets the same bits.
+SHARED real3 mpr_row_start(real3 first, real3 per_row, int row) {
+  return first + real(row) * per_row;
+}
 
-SHARED real3 mpr_in_row(real3 row_start, real3 per_column, int column) { return row_start + real(column) * per_column; }
+SHARED real3 mpr_in_row(real3 row_start, real3 per_column, int column) {
+  return row_start + real(column) * per_column;
+}
 
 // The volume reaches half a voxel beyond the outermost centres. NaN is outside.
 SHARED bool mpr_inside(real3 index, int3 size) {
@@ -55,10 +59,14 @@ SHARED bool mpr_inside(real3 index, int3 size) {
 }
 
 // For an index inside: index + 0.5 is not negative, so truncation is floor. The clamp is for the far face itself.
-SHARED int3 mpr_nearest(real3 index, int3 size) { return clamp(int3(index + 0.5), int3(0), size - 1); }
+SHARED int3 mpr_nearest(real3 index, int3 size) {
+  return clamp(int3(index + 0.5), int3(0), size - 1);
+}
 
 // The last half voxel repeats the outermost centres (clamp to them).
-SHARED real3 mpr_clamped(real3 index, int3 size) { return clamp(index, real3(0.0), real3(size - 1)); }
+SHARED real3 mpr_clamped(real3 index, int3 size) {
+  return clamp(index, real3(0.0), real3(size - 1));
+}
 
 // From the eight corners; x runs fastest: front = (000, 100, 010, 110), back = the same at z + 1.
 SHARED real mpr_trilinear(real4 front, real4 back, real3 fraction) {
@@ -72,11 +80,11 @@ SHARED bool mpr_in_sphere(real3 from_center_mm, real radius_mm) {
   return dot(from_center_mm, from_center_mm) <= radius_mm * radius_mm;
 }
 
-// What of the needle a pixel shows: 0 nothing, 1 metal, 2 lumen. The needle is the finite cylinder tip − t·direction,
-// t in [0, length]. With a slab the pixel stands for the segment p + y·normal, |y| ≤ slab_half_mm, and shows metal
-// when any point of it lies in the solid cylinder: y is first limited to where the segment is between the two flat
-// ends, then the distance to the axis, a convex quadratic of y, is minimised there. slab_half_mm = 0 is the point test.
-// normal_across = normal − along·direction, along = normal·direction.
+// What of the needle a pixel shows: 0 nothing, 1 metal, 2 lumen. The needle is the finite cylinder tip −
+// t·direction, t in [0, length]. With a slab the pixel stands for the segment p + y·normal, |y| ≤ slab_half_mm, and
+// shows metal when any point of it lies in the solid cylinder: y is first limited to where the segment is between
+// the two flat ends, then the distance to the axis, a convex quadratic of y, is minimised there. slab_half_mm = 0
+// is the point test. normal_across = normal − along·direction, along = normal·direction.
 SHARED int mpr_needle_part(real3 from_tip_mm, real3 direction, real3 normal_across, real normal_along,
                            real length_mm, real radius_mm, real inner_radius_mm, real slab_half_mm) {
   real back_mm = -dot(from_tip_mm, direction);  // from the tip towards the hub; at y: back_mm − y·normal_along

@@ -1,8 +1,8 @@
 // The adapter that lets a formula be written once: as GLSL in float and as C++ in double (GLM).
 //
 // Rules for files that use it: the common subset of both languages; `real`, `real3`, `real4` and `int3` for values;
-// no swizzles (real3(v.x, v.y, v.z)); every function is SHARED; structs only of float, int, uint, vec4 and mat4, which
-// are float in both languages, because they travel in std140 blocks.
+// no swizzles (real3(v.x, v.y, v.z)); every function is SHARED; structs only of float, int, uint, vec4 and mat4,
+// which are float in both languages, because they travel in std140 blocks.
 #ifndef SELDINGER_SHADERS_SHARED_REAL
 #define SELDINGER_SHADERS_SHARED_REAL
 
@@ -26,9 +26,9 @@ using int3 = glm::ivec3;
 using glm::abs;
 using glm::clamp;
 using glm::dot;
+using glm::mat4;
 using glm::max;
 using glm::min;
-using glm::mat4;
 using glm::vec4;
 using uint = std::uint32_t;
 }  // namespace seldinger::shaders

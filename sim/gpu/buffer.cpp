@@ -14,16 +14,11 @@ GLenum target_of(BufferUse use) {
 
 }  // namespace
 
-Buffer::Buffer(Context& context, BufferUse use, std::size_t bytes)
-    : handles_(context.handles()), use_(use), bytes_(bytes) {
-  CHECK(bytes > 0);
+Buffer::Buffer(Context& context, BufferUse use, std::size_t bytes) : handles_(context.handles()), use_(use) {
   handles_->make_current();
   glGenBuffers(1, &name_);
   try {
-    glBindBuffer(target_of(use_), name_);
-    glBufferData(target_of(use_), static_cast<GLsizeiptr>(bytes_), nullptr,
-                 use_ == BufferUse::uniform ? GL_DYNAMIC_DRAW : GL_DYNAMIC_READ);
-    handles_->check_errors("making a buffer");
+    resize(bytes);
   } catch (...) {
     glDeleteBuffers(1, &name_);
     throw;
@@ -32,6 +27,16 @@ Buffer::Buffer(Context& context, BufferUse use, std::size_t bytes)
 
 Buffer::~Buffer() {
   if (handles_->try_make_current()) glDeleteBuffers(1, &name_);
+}
+
+void Buffer::resize(std::size_t bytes) {
+  CHECK(bytes > 0);
+  handles_->make_current();
+  glBindBuffer(target_of(use_), name_);
+  glBufferData(target_of(use_), static_cast<GLsizeiptr>(bytes), nullptr,
+               use_ == BufferUse::uniform ? GL_DYNAMIC_DRAW : GL_DYNAMIC_READ);
+  handles_->check_errors("making a buffer");
+  bytes_ = bytes;
 }
 
 void Buffer::bind(int binding) const {

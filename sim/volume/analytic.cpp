@@ -1,6 +1,7 @@
 #include "sim/volume/analytic.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -22,6 +23,34 @@ Bounds bounds_of(const Geometry& geometry) {
   const auto& cylinder = std::get<Cylinder>(geometry);
   return {glm::min(cylinder.from_mm, cylinder.to_mm) - cylinder.radius_mm,
           glm::max(cylinder.from_mm, cylinder.to_mm) + cylinder.radius_mm};
+}
+
+struct Row {
+  double from_mm, to_mm;
+};
+
+// Along x at (y, z): holds all of the shape, up to rounding. Empty (from > to) where the row misses it.
+Row row_bounds(const Geometry& geometry, const Bounds& bounds, double y_mm, double z_mm) {
+  const glm::dvec3 center_mm = 0.5 * (bounds.min_mm + bounds.max_mm),
+                   radii_mm = 0.5 * (bounds.max_mm - bounds.min_mm);
+  if (!std::holds_alternative<Sphere>(geometry) && !std::holds_alternative<Ellipsoid>(geometry))
+    return {bounds.min_mm.x, bounds.max_mm.x};
+  const double y = (y_mm - center_mm.y) / radii_mm.y, z = (z_mm - center_mm.z) / radii_mm.z;
+  const double rest = 1.0 - y * y - z * z;
+  if (rest < -1e-9) return {1.0, -1.0};
+  const double half_mm = radii_mm.x * std::sqrt(std::max(rest, 0.0));
+  return {center_mm.x - half_mm, center_mm.x + half_mm};
+}
+
+// The labels that a shape may overwrite.
+std::array<bool, 256> overwritable(const std::vector<std::string>& over, const LabelMap& labels) {
+  std::array<bool, 256> may{};
+  may.fill(over.empty());
+  for (const std::string& name : over) {
+    const auto found = std::find(labels.names.begin(), labels.names.end(), name);
+    if (found != labels.names.end()) may[static_cast<std::size_t>(found - labels.names.begin())] = true;
+  }
+  return may;
 }
 
 std::uint8_t label_of(const std::string& name, LabelMap& labels) {
@@ -53,6 +82,7 @@ bool contains(const Geometry& geometry, const glm::dvec3& p) noexcept {
   const glm::dvec3 axis = cylinder.to_mm - cylinder.from_mm;
   const glm::dvec3 d = p - cylinder.from_mm;
   const double length2 = glm::dot(axis, axis);
+  if (!(length2 > 0.0)) return false;  // without a length there is no axis
   const double along = glm::dot(d, axis);
   if (!(along >= 0.0 && along <= length2)) return false;
   return glm::dot(d, d) * length2 - along * along <= cylinder.radius_mm * cylinder.radius_mm * length2;
@@ -72,7 +102,9 @@ Volume rasterize(const AnalyticVolume& analytic, LabelMap& labels) {
   labels.label.assign(volume.hu.size(), 0);
   labels.names.assign(1, "none");
   for (const Shape& shape : analytic.shapes) {
+    const std::array<bool, 256> may_overwrite = overwritable(shape.over, labels);
     const std::uint8_t label = label_of(shape.class_name, labels);
+    const std::int16_t hu = to_hu(shape.hu);
     const Bounds bounds = bounds_of(shape.geometry);
     glm::ivec3 low, high;
     for (int axis = 0; axis < 3; ++axis) {
@@ -83,14 +115,24 @@ Volume rasterize(const AnalyticVolume& analytic, LabelMap& labels) {
       high[axis] = static_cast<int>(std::clamp(std::ceil(last), -1.0, n - 1.0));
     }
     for (int k = low.z; k <= high.z; ++k)
-      for (int j = low.y; j <= high.y; ++j)
-        for (int i = low.x; i <= high.x; ++i) {
-          const glm::dvec3 p = analytic.origin_mm + glm::dvec3(i, j, k) * analytic.spacing_mm;
-          if (!contains(shape.geometry, p)) continue;
+      for (int j = low.y; j <= high.y; ++j) {
+        const auto point = [&](int i) { return analytic.origin_mm + glm::dvec3(i, j, k) * analytic.spacing_mm; };
+        const Row row = row_bounds(shape.geometry, bounds, point(0).y, point(0).z);
+        const auto index = [&](double x_mm) {
+          return std::clamp((x_mm - analytic.origin_mm.x) / analytic.spacing_mm.x, -2.0, high.x + 2.0);
+        };
+        // Every shape is convex: between the first and the last voxel inside it, all are.
+        int first = std::max(low.x, static_cast<int>(std::floor(index(row.from_mm))) - 1);
+        int last = std::min(high.x, static_cast<int>(std::ceil(index(row.to_mm))) + 1);
+        while (first <= last && !contains(shape.geometry, point(first))) ++first;
+        while (first <= last && !contains(shape.geometry, point(last))) --last;
+        for (int i = first; i <= last; ++i) {
           const std::size_t at = volume.index(i, j, k);
-          volume.hu[at] = to_hu(shape.hu);
+          if (!may_overwrite[labels.label[at]]) continue;
+          volume.hu[at] = hu;
           labels.label[at] = label;
         }
+      }
   }
   return volume;
 }

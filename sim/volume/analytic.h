@@ -30,7 +30,8 @@ using Geometry = std::variant<Box, Sphere, Cylinder, Ellipsoid>;
 struct Shape {
   Geometry geometry;
   double hu = 0.0;
-  std::string class_name{};  // tissue name; empty: HU decides
+  std::string class_name{};         // tissue name; empty: HU decides
+  std::vector<std::string> over{};  // paints only where one of these classes lies so far; empty: everywhere
 };
 
 struct AnalyticVolume {

@@ -1,4 +1,5 @@
 // kill -9 of a writer at any moment: nothing that was acknowledged is lost, nothing is half there.
+#include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -70,7 +71,12 @@ TEST(KillTest, NothingAcknowledgedIsLostAndNothingIsHalf) {
       }
     }
     ::close(ends[1]);
-    std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(10'000 + rng.uniform() * 150'000)));
+    // Every other round surely kills writers at work, however slow the machine; the others at any moment.
+    if (round % 2 == 0) {
+      pollfd first_id{ends[0], POLLIN, 0};
+      EXPECT_EQ(::poll(&first_id, 1, 30'000), 1);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(rng.uniform() * 120'000)));
     for (const pid_t child : children) {
       ::kill(child, SIGKILL);
       std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(rng.uniform() * 10'000)));
@@ -104,7 +110,7 @@ TEST(KillTest, NothingAcknowledgedIsLostAndNothingIsHalf) {
   }
   for (const std::string& id : acknowledged) EXPECT_EQ(there.count(id), 1U) << "an acknowledged attempt is lost";
   // The test says something only when writers were at work when they were killed.
-  EXPECT_GE(acknowledged.size(), static_cast<std::size_t>(kRounds));
+  EXPECT_GE(acknowledged.size(), static_cast<std::size_t>(kRounds / 2));
   // An attempt may be stored and its writer killed before it could say so: at most one for each kill.
   EXPECT_LE(there.size(), acknowledged.size() + 2 * kRounds);
   RecordProperty("acknowledged", static_cast<int>(acknowledged.size()));

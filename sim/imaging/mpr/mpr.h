@@ -29,6 +29,8 @@ struct MprView {
       0.0;  // the needle is shown where it passes within half of this from the plane; 0 = its cut
 };
 
+// The finite cylinder tip − t·direction, 0 ≤ t ≤ length. Its lumen (inner_radius_mm > 0) is empty and shows as air,
+// −1000 HU, over whatever lies there; with a slab the needle shows solid. A pose that is not finite is not shown.
 struct NeedlePose {
   glm::dvec3 tip_lps_mm{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, hub → tip

@@ -83,21 +83,20 @@ MprParameters parameters_from(const glm::dmat4& voxel_from_lps, glm::ivec3 size_
 }  // namespace
 
 struct MprGpu::Parts {
-  Parts(gpu::Context& the_context, const volume::Volume& volume)
-      : context(the_context),
-        voxel_from_lps(volume::voxel_from_lps(volume)),
+  Parts(gpu::Context& context, const volume::Volume& volume)
+      : voxel_from_lps(volume::voxel_from_lps(volume)),
         size_voxels(volume.size_voxels),
         slice(context, shader("mpr_slice.comp")),
         voxels(context, volume.size_voxels, volume.hu),
-        parameters(context, gpu::BufferUse::uniform, sizeof(MprParameters)) {}
+        parameters(context, gpu::BufferUse::uniform, sizeof(MprParameters)),
+        picture(context, gpu::BufferUse::storage, sizeof(float)) {}
 
-  gpu::Context& context;
   glm::dmat4 voxel_from_lps;
   glm::ivec3 size_voxels;
   gpu::Program slice;
   gpu::Texture voxels;
   gpu::Buffer parameters;
-  std::unique_ptr<gpu::Buffer> picture;  // as large as the largest picture so far
+  gpu::Buffer picture;  // as large as the largest picture so far
 };
 
 MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume)
@@ -109,15 +108,14 @@ HuImage MprGpu::render(const MprView& view, const Inserted& inserted) {
   check_view(view, inserted);
   HuImage image(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
   const std::span<std::byte> bytes = std::as_writable_bytes(std::span(image));
-  if (!parts_->picture || parts_->picture->size() < bytes.size())
-    parts_->picture = std::make_unique<gpu::Buffer>(parts_->context, gpu::BufferUse::storage, bytes.size());
+  if (parts_->picture.size() < bytes.size()) parts_->picture.resize(bytes.size());
   const MprParameters parameters = parameters_from(parts_->voxel_from_lps, parts_->size_voxels, view, inserted);
   parts_->parameters.write(std::as_bytes(std::span(&parameters, 1)));
   parts_->parameters.bind(kParametersBinding);
-  parts_->picture->bind(kPictureBinding);
+  parts_->picture.bind(kPictureBinding);
   parts_->voxels.bind(kTextureUnit);
   parts_->slice.dispatch((view.width_px + kGroupPx - 1) / kGroupPx, (view.height_px + kGroupPx - 1) / kGroupPx, 1);
-  parts_->picture->read(bytes);
+  parts_->picture.read(bytes);
   return image;
 }
 

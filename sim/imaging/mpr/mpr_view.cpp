@@ -24,10 +24,9 @@ MprView view_under_probe(const glm::dvec3& origin_lps_mm, const glm::dvec3& axia
 std::vector<unsigned char> grey_from_hu(const HuImage& hu, double window_center_hu, double window_width_hu) {
   CHECK(window_width_hu > 0.0);
   std::vector<unsigned char> grey(hu.size());
-  const double scale = 255.0 / window_width_hu;
   const double black_hu = window_center_hu - 0.5 * window_width_hu;
   for (std::size_t i = 0; i < hu.size(); ++i) {
-    const double value = (static_cast<double>(hu[i]) - black_hu) * scale;
+    const double value = (static_cast<double>(hu[i]) - black_hu) * 255.0 / window_width_hu;
     // Written so that NaN falls through to white.
     grey[i] = value < 255.0 ? static_cast<unsigned char>(std::max(value, 0.0) + 0.5) : 255;
   }
