@@ -37,7 +37,7 @@ Words words_for(int status) {
   }
 }
 
-// As the answers of every refusal, so that one who may not see a thing cannot tell it from a missing one.
+// When not even a page can be made.
 Response plain_error(int status) noexcept {
   return {.status = status, .content_type = "text/plain", .body = "error\n"};
 }
