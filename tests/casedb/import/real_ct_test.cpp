@@ -146,13 +146,17 @@ Distances distances(const cases::Mesh& from, const cases::Mesh& to) {
   const cases::MeshIndex index(to);
   Distances result;
   std::uint32_t hint = 0;
-  for (const glm::vec3& p : from.vertices_lps_mm) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < from.vertices_lps_mm.size(); i += 4) {
+    const glm::vec3& p = from.vertices_lps_mm[i];
     const cases::Closest closest = index.closest(glm::dvec3(p), hint);
     hint = closest.triangle;
     const double d = std::abs(closest.distance_mm);
-    result.mean_mm += d / static_cast<double>(from.vertices_lps_mm.size());
+    result.mean_mm += d;
+    ++count;
     result.largest_mm = std::max(result.largest_mm, d);
   }
+  result.mean_mm /= static_cast<double>(count);
   return result;
 }
 
