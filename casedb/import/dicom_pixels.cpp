@@ -1,6 +1,7 @@
 // Pixels of a DICOM slice: native ones are read here, compressed ones by GDCM's codecs, which see nothing else of
 // the file.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <memory>
@@ -8,6 +9,9 @@
 #include <gdcmDataElement.h>
 #include <gdcmFragment.h>
 #include <gdcmImage.h>
+#include <gdcmJPEG12Codec.h>
+#include <gdcmJPEG16Codec.h>
+#include <gdcmJPEG8Codec.h>
 #include <gdcmSequenceOfFragments.h>
 #include <gdcmTrace.h>
 
@@ -30,14 +34,73 @@ bool ends_in_marker(std::span<const char> frame) {
   return frame.size() >= 2 && frame[frame.size() - 2] == '\xFF' && frame.back() == '\xD9';
 }
 
+// The sample precision a JPEG frame declares (ISO/IEC 10918-1 §B.2.2: start of frame, SOF0 to SOF15); 0 without one.
+int jpeg_precision(std::span<const char> frame) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(frame[at])); };
+  std::size_t at = 2;  // behind SOI
+  while (at + 5 <= frame.size() && byte(at) == 0xFF) {
+    const unsigned marker = byte(at + 1);
+    const bool is_table = marker == 0xC4 || marker == 0xC8 || marker == 0xCC;
+    if (marker >= 0xC0 && marker <= 0xCF && !is_table) return static_cast<int>(byte(at + 4));
+    at += 2 + (byte(at + 2) << 8 | byte(at + 3));
+  }
+  return 0;
+}
+
+bool is_jpeg(gdcm::TransferSyntax::TSType type) {
+  return type == gdcm::TransferSyntax::JPEGBaselineProcess1 || type == gdcm::TransferSyntax::JPEGExtendedProcess2_4 ||
+         type == gdcm::TransferSyntax::JPEGLosslessProcess14 || type == gdcm::TransferSyntax::JPEGLosslessProcess14_1;
+}
+
+gdcm::PixelFormat pixel_format(const DicomSlice& slice) {
+  return gdcm::PixelFormat(1, static_cast<unsigned short>(slice.bits_allocated),
+                           static_cast<unsigned short>(slice.bits_stored),
+                           static_cast<unsigned short>(slice.high_bit), slice.is_signed ? 1 : 0);
+}
+
+// gdcm::Image tries a codec of the wrong precision first, which complains on standard error; so JPEG goes straight to
+// the right one.
+template <typename Codec>
+bool decode_jpeg(const gdcm::DataElement& pixels, const DicomSlice& slice, std::vector<char>& buffer) {
+  const std::array<unsigned, 3> size = {static_cast<unsigned>(slice.size_px.x), static_cast<unsigned>(slice.size_px.y),
+                                        1};
+  Codec codec;
+  codec.SetNumberOfDimensions(2);
+  codec.SetDimensions(size.data());
+  codec.SetPlanarConfiguration(0);
+  codec.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  codec.SetPixelFormat(pixel_format(slice));
+  gdcm::DataElement decoded;
+  if (!codec.Decode(pixels, decoded) || decoded.GetByteValue() == nullptr) return false;
+  const gdcm::ByteValue& bytes = *decoded.GetByteValue();
+  if (static_cast<std::size_t>(bytes.GetLength()) < buffer.size()) return false;
+  std::copy_n(bytes.GetPointer(), buffer.size(), buffer.begin());
+  return true;
+}
+
+bool decode_other(const gdcm::DataElement& pixels, const DicomSlice& slice, gdcm::TransferSyntax::TSType type,
+                  std::vector<char>& buffer) {
+  gdcm::Image image;
+  image.SetNumberOfDimensions(2);
+  image.SetDimension(0, static_cast<unsigned>(slice.size_px.x));
+  image.SetDimension(1, static_cast<unsigned>(slice.size_px.y));
+  image.SetPixelFormat(pixel_format(slice));
+  image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
+  image.SetTransferSyntax(gdcm::TransferSyntax(type));
+  image.SetDataElement(pixels);
+  return image.GetBufferLength() == buffer.size() && image.GetBuffer(buffer.data());
+}
+
 base::Result<std::vector<char>> decompress(const DicomFile& file, const DicomSlice& slice) {
   const gdcm::TransferSyntax::TSType type = gdcm::TransferSyntax::GetTSType(slice.transfer_syntax.c_str());
   if (type == gdcm::TransferSyntax::TS_END || !gdcm::TransferSyntax(type).IsEncapsulated())
     return base::Error{"unknown_syntax", "is packed in a way that is not read"};
   if (file.pixel_pieces.empty()) return truncated();
-  const auto [at, size] = file.pixel_pieces.back();
-  const bool rle = type == gdcm::TransferSyntax::RLELossless;
-  if (!rle && !ends_in_marker({file.bytes.data() + at, size})) return truncated();
+  const auto piece = [&](const std::pair<std::size_t, std::size_t>& at) {
+    return std::span<const char>(file.bytes.data() + at.first, at.second);
+  };
+  if (type != gdcm::TransferSyntax::RLELossless && !ends_in_marker(piece(file.pixel_pieces.back())))
+    return truncated();
   try {
     gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
     for (const auto& [offset, length] : file.pixel_pieces) {
@@ -48,21 +111,15 @@ base::Result<std::vector<char>> decompress(const DicomFile& file, const DicomSli
     gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
     pixels.SetVR(gdcm::VR::OB);
     pixels.SetValue(*fragments);
-    gdcm::Image image;
-    image.SetNumberOfDimensions(2);
-    image.SetDimension(0, static_cast<unsigned>(slice.size_px.x));
-    image.SetDimension(1, static_cast<unsigned>(slice.size_px.y));
-    image.SetPixelFormat(gdcm::PixelFormat(1, static_cast<unsigned short>(slice.bits_allocated),
-                                           static_cast<unsigned short>(slice.bits_stored),
-                                           static_cast<unsigned short>(slice.high_bit), slice.is_signed ? 1 : 0));
-    image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
-    image.SetTransferSyntax(gdcm::TransferSyntax(type));
-    image.SetDataElement(pixels);
-    const std::size_t need = static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y) *
-                             static_cast<std::size_t>(slice.bits_allocated / 8);
-    if (image.GetBufferLength() != need) return damaged();
-    std::vector<char> buffer(need);
-    if (!image.GetBuffer(buffer.data())) return damaged();
+    std::vector<char> buffer(static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y) *
+                             static_cast<std::size_t>(slice.bits_allocated / 8));
+    const int precision = is_jpeg(type) ? jpeg_precision(piece(file.pixel_pieces.front())) : 0;
+    const bool good = !is_jpeg(type)     ? decode_other(pixels, slice, type, buffer)
+                      : precision == 0   ? false
+                      : precision <= 8   ? decode_jpeg<gdcm::JPEG8Codec>(pixels, slice, buffer)
+                      : precision <= 12  ? decode_jpeg<gdcm::JPEG12Codec>(pixels, slice, buffer)
+                                         : decode_jpeg<gdcm::JPEG16Codec>(pixels, slice, buffer);
+    if (!good) return damaged();
     return buffer;
   } catch (const std::exception&) {
     return damaged();

@@ -18,7 +18,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
-#include <numeric>
+#include <utility>
 
 #include "casedb/import/closed_mesh.h"
 #include "casedb/import/surface_grid.h"
@@ -28,7 +28,7 @@ namespace {
 
 // Pass band 0.1 of the windowed sinc keeps what is longer than about 20 edges, with 15 terms and more.
 constexpr double kPassBand = 0.1;
-constexpr double kOnFaceVoxel = 1e-3;
+constexpr double kOnFaceVoxel = 1e-3, kOffFaceVoxel = 0.05;
 
 cases::Mesh mesh_from(vtkPolyData* poly) {
   cases::Mesh mesh;
@@ -86,31 +86,17 @@ cases::Mesh iso_surface(const SurfaceGrid& grid, int iso_hu) {
   return mesh_from(edges->GetOutput());
 }
 
-cases::Mesh decimated(const cases::Mesh& mesh, double share) {
+cases::Mesh decimated(const cases::Mesh& mesh, double share, double feature_degrees) {
   const vtkNew<vtkPolyData> poly = poly_from(mesh);
   vtkNew<vtkDecimatePro> decimate;
   decimate->SetInputData(poly);
   decimate->SetTargetReduction(share);
+  decimate->SetFeatureAngle(feature_degrees);
   decimate->PreserveTopologyOn();
   decimate->SplittingOff();
   decimate->BoundaryVertexDeletionOff();
   decimate->Update();
   return mesh_from(decimate->GetOutput());
-}
-
-// Keeps vertices and triangles in their order.
-cases::Mesh smoothed(const cases::Mesh& mesh, int iterations) {
-  const vtkNew<vtkPolyData> poly = poly_from(mesh);
-  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
-  smooth->SetInputData(poly);
-  smooth->SetNumberOfIterations(iterations);
-  smooth->SetPassBand(kPassBand);
-  smooth->NormalizeCoordinatesOn();
-  smooth->BoundarySmoothingOff();
-  smooth->FeatureEdgeSmoothingOff();
-  smooth->NonManifoldSmoothingOff();
-  smooth->Update();
-  return mesh_from(smooth->GetOutput());
 }
 
 // Bit 2·axis: on the face below the first voxel; bit 2·axis + 1: on that beyond the last.
@@ -130,15 +116,43 @@ std::vector<std::uint8_t> faces_of(const cases::Mesh& mesh, const volume::Volume
   return faces;
 }
 
-// Smoothing lifts caps off the volume's faces: put what lay on a face back.
-void flatten_caps(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, const volume::Volume& volume) {
+bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) {
+  return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
+}
+
+// Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not have,
+// neither rounds nor rings. The rim itself is smoothed along its line.
+void smooth_skin(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, int iterations) {
+  cases::Mesh skin;
+  skin.vertices_lps_mm = mesh.vertices_lps_mm;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    if (!is_cut(triangle, faces)) skin.triangles.push_back(triangle);
+  if (skin.triangles.empty()) return;
+  const vtkNew<vtkPolyData> poly = poly_from(skin);
+  vtkNew<vtkWindowedSincPolyDataFilter> smooth;
+  smooth->SetInputData(poly);
+  smooth->SetNumberOfIterations(iterations);
+  smooth->SetPassBand(kPassBand);
+  smooth->NormalizeCoordinatesOn();
+  smooth->BoundarySmoothingOn();
+  smooth->FeatureEdgeSmoothingOff();
+  smooth->NonManifoldSmoothingOff();
+  smooth->Update();
+  CHECK(static_cast<std::size_t>(smooth->GetOutput()->GetNumberOfPoints()) == mesh.vertices_lps_mm.size());
+  mesh.vertices_lps_mm = mesh_from(smooth->GetOutput()).vertices_lps_mm;
+}
+
+// After smoothing: what lay on a face of the volume goes back there, and nothing else reaches a face.
+void settle_on_faces(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, const volume::Volume& volume) {
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (faces[i] == 0) continue;
     glm::dvec4 voxel = voxel_from_lps * glm::dvec4(glm::dvec3(mesh.vertices_lps_mm[i]), 1.0);
     for (int axis = 0; axis < 3; ++axis) {
-      if ((faces[i] & 1U << (2 * axis)) != 0) voxel[axis] = -0.5;
-      if ((faces[i] & 2U << (2 * axis)) != 0) voxel[axis] = volume.size_voxels[axis] - 0.5;
+      const double low = -0.5, high = volume.size_voxels[axis] - 0.5;
+      const bool on_low = (faces[i] & 1U << (2 * axis)) != 0, on_high = (faces[i] & 2U << (2 * axis)) != 0;
+      if (!on_low && !on_high) voxel[axis] = std::clamp(voxel[axis], low + kOffFaceVoxel, high - kOffFaceVoxel);
+      if (on_low) voxel[axis] = low;
+      if (on_high) voxel[axis] = high;
     }
     mesh.vertices_lps_mm[i] = glm::vec3(glm::dvec3(volume.lps_from_voxel * voxel));
   }
@@ -160,26 +174,27 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
   if (full.triangles.empty()) return no_body;
   CHECK(is_closed(full));
 
-  // Decimation keeps the topology; should it ever not, less of it is tried before none.
+  if (options.smoothing_iterations > 0) {
+    const std::vector<std::uint8_t> faces = faces_of(full, volume);
+    smooth_skin(full, faces, options.smoothing_iterations);
+    settle_on_faces(full, faces, volume);
+  }
+  // On real skin VTK's usual 15° joins two sheets along an edge now and then, in spite of PreserveTopology; from 45°
+  // on it did not. Should it ever, other ways are tried before none.
   cases::Mesh mesh = full;
-  for (const double share : {options.decimate_share, 0.5 * options.decimate_share}) {
-    if (!(share > 0.0)) break;
-    cases::Mesh fewer = decimated(full, share);
+  for (const auto& [share, feature_degrees] : {std::pair{1.0, 45.0}, std::pair{1.0, 90.0}, std::pair{0.7, 45.0}}) {
+    if (!(options.decimate_share > 0.0)) break;
+    cases::Mesh fewer = decimated(full, share * options.decimate_share, feature_degrees);
     if (!is_closed(fewer)) continue;
     mesh = std::move(fewer);
     break;
   }
-  const std::vector<std::uint8_t> faces = faces_of(mesh, volume);
-  if (options.smoothing_iterations > 0) {
-    mesh = smoothed(mesh, options.smoothing_iterations);
-    flatten_caps(mesh, faces, volume);
-  }
   CHECK(is_closed(mesh));
   if (signed_volume_mm3(mesh) < 0.0)
     for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
+  const std::vector<std::uint8_t> faces = faces_of(mesh, volume);  // decimation moves no vertex
   mesh.cut.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles)
-    mesh.cut.push_back((faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0 ? 1 : 0);
+  for (const glm::uvec3& triangle : mesh.triangles) mesh.cut.push_back(is_cut(triangle, faces) ? 1 : 0);
   return mesh;
 }
 
