@@ -22,6 +22,11 @@ imaging::HuImage render(const volume::Volume& volume, const Scene& scene, std::s
   const bool asked = backend == "gpu";
   try {
     gpu::Context context;
+    // On software GL the CPU's own code is faster.
+    if (!asked && context.software()) {
+      backend = "cpu";
+      return imaging::mpr_cpu(volume, *scene.view, scene.inserted);
+    }
     imaging::HuImage picture = imaging::MprGpu(context, volume).render(*scene.view, scene.inserted);
     backend = "gpu";
     return picture;

@@ -28,7 +28,7 @@ constexpr Option kLesionOptions[] = {kLibrary,
                                      kJson};
 constexpr Option kRenderOptions[] = {
     {"--out", "FILE", ".mha: float32 in HU; .png: what a person sees"},
-    {"--backend", "gpu|cpu|reference", "default gpu, or cpu where there is no GL 4.3"},
+    {"--backend", "gpu|cpu|reference", "default gpu where GL 4.3 has hardware, else cpu"},
     kLibrary,
     kJson};
 constexpr Option kSimulateOptions[] = {
