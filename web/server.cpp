@@ -281,7 +281,7 @@ base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surround
     parts->port = options.port;
   }
   if (parts->port <= 0) {
-    throw base::Failure("port", "port " + std::to_string(options.port) + " cannot be listened on");
+    return base::Error{"port_taken", "port " + std::to_string(options.port) + " cannot be listened on"};
   }
   parts->listener.widen_backlog();
   const std::string shown = address == "::1" ? "[::1]" : address;

@@ -18,8 +18,7 @@ struct ServeOptions {
 
 class Server {
  public:
-  // Listens when it returns. Refused: `not_loopback`, `bad_port`. Throws base::Failure ("port") when the port
-  // cannot be had.
+  // Listens when it returns. Refused: `not_loopback`, `bad_port`, `port_taken`.
   static base::Result<Server> open(std::unique_ptr<Questions> questions, Surroundings surroundings,
                                    const ServeOptions& options);
   Server(Server&&) noexcept;
