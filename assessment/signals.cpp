@@ -36,6 +36,11 @@ base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::R
     // A repeated time stamp adds nothing.
     if (!signals.poses.empty() && pose.t_s == signals.poses.back().t_s) continue;
     signals.poses.push_back(pose);
+    // A core needle's throw, in the same tick, is not part of the way to the endpoint.
+    if (recording.endpoint && pose.t_s == recording.endpoint->t_s) {
+      signals.poses.back().tip_lps_mm = recording.endpoint->tip_lps_mm;
+      signals.poses.back().needle_direction = recording.endpoint->direction;
+    }
   }
   if (signals.poses.empty()) return base::Error{"bad_poses", "there is no pose"};
   // The endpoint is the last pose also where the trigger fell between two samples.

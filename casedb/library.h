@@ -1,6 +1,7 @@
 // A library on disk: `seldinger.sqlite`, `identities.sqlite` (names, apart from performance) and `assets/<sha256>`.
 // Any process of this machine may open it. Throws base::Failure ("disk", "database"); refuses by Result what is not
-// a library of ours (`no_library`, `not_a_library`, `newer_schema`, `network_file_system`).
+// a library of ours (`no_library`, `not_a_library`, `newer_schema`, `damaged`, `network_file_system`). One thread
+// at a time uses a Library; every thread may open its own.
 #pragma once
 
 #include <filesystem>
@@ -38,6 +39,7 @@ class Library {
   };
   StoredAsset store_asset(std::span<const std::byte> bytes);
   void remove_asset(const std::string& sha256) noexcept;
+  bool has_asset(const std::string& sha256) const noexcept;
   // Refused: `asset_missing`, `asset_damaged` (its SHA-256 differs).
   base::Result<std::vector<std::byte>> load_asset(const std::string& sha256) const;
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/metrics/metric.h"
 #include "casedb/library.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -57,18 +58,12 @@ base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row);
 base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row);
 base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row);  // `no_labels`
 
-// `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume).
+// `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the volume).
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion);
 std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id);  // oldest first
 
 // --- attempts ---------------------------------------------------------------------------------------------------
-struct MetricValue {
-  std::string id;
-  int version = 1;
-  std::optional<double> value;  // null is never 0
-  std::string unit;
-  std::string reason;  // why null; empty otherwise
-};
+using MetricValue = assessment::MetricValue;
 
 struct NewAttempt {
   std::string case_id, lesion_id;
@@ -100,7 +95,7 @@ struct AttemptRow {
   std::vector<MetricValue> metrics;  // newest version of each
 };
 
-// `no_case`, `no_lesion`. Durable when it returns.
+// `no_case`, `no_lesion`, `no_person`. Durable when it returns.
 base::Result<std::string> add_attempt(Library& library, const NewAttempt& attempt);
 std::vector<AttemptRow> list_attempts(Library& library);                                   // newest first
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
@@ -118,9 +113,9 @@ struct Account {
 // bytes). Names compare without regard to ASCII case.
 base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
                                    const std::string& password);
-std::vector<Account> list_users(Library& library);
+std::vector<Account> list_users(Library& library);  // oldest first; those who have a name
 base::Result<void> set_password(Library& library, const std::string& name,
-                                const std::string& password);                             // `no_user`
+                                const std::string& password);  // `no_user`, `weak_password`
 base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled);  // `no_user`
 // The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);

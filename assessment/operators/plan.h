@@ -20,9 +20,9 @@ struct PuncturePlan {
 
 struct PathLimits {
   double min_depth_mm = 10.0, max_depth_mm = 130.0;
-  double clearance_mm = 3.0;  // around the path
-  double bone_hu = 300.0;     // mean over the clearance at one depth; contrast-filled vessels stay below
-  double gas_hu = -200.0;
+  double clearance_mm = 4.0;  // around the path
+  double bone_hu = 350.0;     // five noise SD above a contrast-filled vessel of 200 HU
+  double gas_hu = -300.0;     // the skin's threshold
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
 };
 

@@ -12,11 +12,11 @@ std::optional<OperatorProfile> named_profile(const std::string& name) {
     profile.sway_mm = 0.9;
     profile.probe_drift_mm = 1.5;
     profile.target_error_mm = 2.2;
-    profile.aim_error_deg = 2.5;
+    profile.aim_error_deg = 3.0;
     profile.advance_mm_s = 9.0;
     profile.approach_mm_s = 30.0;
     profile.scan_s = 5.0;
-    profile.accept_miss_mm = 3.0;
+    profile.accept_miss_mm = 2.5;
     profile.max_redirections = 3;
     profile.full_withdrawal_share = 0.1;
     profile.blind_advance_share = 0.3;
@@ -28,11 +28,11 @@ std::optional<OperatorProfile> named_profile(const std::string& name) {
     profile.sway_mm = 1.6;
     profile.probe_drift_mm = 3.5;
     profile.target_error_mm = 4.5;
-    profile.aim_error_deg = 5.0;
+    profile.aim_error_deg = 7.0;
     profile.advance_mm_s = 7.0;
     profile.approach_mm_s = 20.0;
     profile.scan_s = 10.0;
-    profile.accept_miss_mm = 5.0;
+    profile.accept_miss_mm = 4.0;
     profile.max_redirections = 4;
     profile.full_withdrawal_share = 0.35;
     profile.blind_advance_share = 0.8;

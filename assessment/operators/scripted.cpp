@@ -123,7 +123,7 @@ void ScriptedOperator::decide(const cases::State& state) {
   }
 }
 
-void ScriptedOperator::move(double dt_s) {
+void ScriptedOperator::move(const cases::State& state, double dt_s) {
   const bool lost = phase_ == Phase::advance && inserted_mm_ > 5.0 && !tip_seen();
   if (!lost) {
     decided_blind_ = going_blind_ = false;
@@ -144,9 +144,13 @@ void ScriptedOperator::move(double dt_s) {
     default:
       break;
   }
-  // Who stops because the tip is gone brings the probe back over it.
-  const double wanted = lost && !going_blind_ ? 0.0 : 1.0;
-  alignment_ += (wanted - alignment_) * (dt_s / (kRealignSeconds * (wanted > 0.5 ? 10.0 : 1.0)));
+  // Who stops because the tip is gone fans the probe to it, and back to the target when the tip is found.
+  const bool searching = lost && !going_blind_;
+  const glm::dvec3 normal = glm::cross(plan_.probe.side, plan_.probe.axis);
+  const double tip_off_mm = glm::dot(state.needle.tip_lps_mm - plan_.target_lps_mm, normal);
+  alignment_ += ((searching ? 0.0 : 1.0) - alignment_) * (dt_s / (kRealignSeconds * (searching ? 1.0 : 10.0)));
+  follow_mm_ +=
+      ((searching ? tip_off_mm : 0.0) - follow_mm_) * (dt_s / (kRealignSeconds * (searching ? 1.0 : 10.0)));
 }
 
 cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::FrameTruth* frame, double dt_s) {
@@ -154,7 +158,7 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   if (frame != nullptr) seen_.push_back(*frame);
   while (seen_.size() > 1 && seen_[1].t_s <= t_s_ - profile_.reaction_delay_s) seen_.pop_front();
   decide(state);
-  move(dt_s);
+  move(state, dt_s);
 
   cases::Inputs inputs;
   glm::dvec3 u, v;
@@ -172,7 +176,7 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   const double sweep = phase_ == Phase::scan
                            ? kSweepMm * (1.0 - (t_s_ - phase_since_s_) / scan_s_) * base::exact_sin(2.5 * t_s_)
                            : 0.0;
-  const double off_mm = sweep + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_;
+  const double off_mm = sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_;
   inputs.probe.position_lps_mm = plan_.probe.position_lps_mm + normal * off_mm;
   // A drifting hand also tilts: about 1° for each millimetre.
   const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;

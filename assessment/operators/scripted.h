@@ -38,7 +38,7 @@ class ScriptedOperator {
   void aim();
   bool tip_seen() const noexcept;
   void decide(const cases::State& state);
-  void move(double dt_s);
+  void move(const cases::State& state, double dt_s);
   double goal_mm() const noexcept;
 
   OperatorProfile profile_;
@@ -53,6 +53,7 @@ class ScriptedOperator {
   int redirections_ = 0;
   bool going_blind_ = false, decided_blind_ = false;
   double alignment_ = 1.0;  // share of the probe's drift not yet corrected
+  double follow_mm_ = 0.0;  // the probe's way out of the planned plane, after the tip
   Wander tremor_[3], sway_[2], drift_, tilt_;
   std::deque<cases::FrameTruth> seen_;  // pictures younger than the reaction delay, and the one acted upon
 };

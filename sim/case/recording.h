@@ -22,6 +22,7 @@ struct PoseSample {
   glm::dvec3 probe_origin_lps_mm{0.0};
   glm::dvec3 probe_axial{0.0, 0.0, 1.0};
   glm::dvec3 probe_lateral{1.0, 0.0, 0.0};
+  bool operator==(const PoseSample&) const = default;
 };
 
 // What one picture showed (contracts.md, "What a picture shows").
@@ -38,6 +39,7 @@ struct Endpoint {
   double t_s = 0.0;
   glm::dvec3 tip_lps_mm{0.0};  // when the trigger fell, before any throw
   glm::dvec3 direction{0.0, 0.0, 1.0};
+  bool operator==(const Endpoint&) const = default;
 };
 
 struct Recording {

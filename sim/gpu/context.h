@@ -1,11 +1,16 @@
 // A GL 4.3 core context without a window: first EGL_EXT_platform_device with a device that is not software, else
 // EGL_PLATFORM_SURFACELESS_MESA (llvmpipe anywhere). The door of EGL and GLEW is this folder.
+//
+// What is made with a context (program, texture, buffer) shares it: the GL context itself ends with the last of
+// them, so they may be destroyed in any order. All of them are used on the thread that made the context.
 #pragma once
 
 #include <memory>
 #include <string>
 
 namespace seldinger::gpu {
+
+class Handles;  // the EGL side (handles.h), shared by everything made with a context
 
 class Context {
  public:
@@ -17,10 +22,10 @@ class Context {
   const std::string& renderer() const noexcept { return renderer_; }  // GL_RENDERER
   const std::string& version() const noexcept { return version_; }    // GL_VERSION
   bool software() const noexcept { return software_; }
+  const std::shared_ptr<Handles>& handles() const noexcept { return handles_; }
 
  private:
-  struct Handles;
-  std::unique_ptr<Handles> handles_;
+  std::shared_ptr<Handles> handles_;
   std::string renderer_, version_;
   bool software_ = false;
 };

@@ -29,6 +29,8 @@ struct MprView {
       0.0;  // the needle is shown where it passes within half of this from the plane; 0 = its cut
 };
 
+// The finite cylinder tip − t·direction, 0 ≤ t ≤ length. Its lumen (inner_radius_mm > 0) is empty and shows as air,
+// −1000 HU, over whatever lies there; with a slab the needle shows solid. A pose that is not finite is not shown.
 struct NeedlePose {
   glm::dvec3 tip_lps_mm{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, hub → tip
@@ -48,8 +50,8 @@ using HuImage = std::vector<float>;
 HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
 
-// Holds the volume as an integer 3-D texture; render() as often as wanted. Throws base::Failure("gl") without
-// GL 4.3 or when the volume exceeds GL_MAX_3D_TEXTURE_SIZE.
+// Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May
+// outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.
 class MprGpu {
  public:
   MprGpu(gpu::Context& context, const volume::Volume& volume);

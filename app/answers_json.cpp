@@ -1,0 +1,189 @@
+#include "app/answers_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace seldinger::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point(const glm::dvec3& p) {
+  return Json::array({p.x, p.y, p.z});
+}
+
+template <typename T>
+Json maybe(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json lesion_json(const casedb::LesionRow& row) {
+  return {{"lesion_id", row.lesion_id},
+          {"center_mm", point(row.lesion.center_lps_mm)},
+          {"radius_mm", row.lesion.radius_mm},
+          {"hu", row.lesion.hu}};
+}
+
+Json case_json(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions) {
+  Json matrix = Json::array();
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) matrix.push_back(row.lps_from_voxel[c][r]);
+  Json warnings = Json::array(), all = Json::array(), attributes = Json::object();
+  for (const base::Problem& warning : row.warnings)
+    warnings.push_back({{"code", warning.code}, {"text", warning.text}});
+  for (const casedb::LesionRow& lesion : lesions) all.push_back(lesion_json(lesion));
+  for (const auto& [name, value] : row.attributes) attributes[name] = value;
+  return {{"case_id", row.case_id},
+          {"title", row.title},
+          {"state", row.state},
+          {"origin", row.origin},
+          {"size_voxels", Json::array({row.size_voxels.x, row.size_voxels.y, row.size_voxels.z})},
+          {"spacing_mm", point(row.spacing_mm)},
+          {"lps_from_voxel", matrix},
+          {"hu_min", row.hu_min},
+          {"hu_max", row.hu_max},
+          {"slices_used", row.slices_used},
+          {"attributes", attributes},
+          {"lesions", all},
+          {"warnings", warnings}};
+}
+
+Json metrics_json(const std::vector<assessment::MetricValue>& metrics) {
+  Json list = Json::array();
+  for (const assessment::MetricValue& metric : metrics)
+    list.push_back({{"id", metric.id},
+                    {"version", metric.version},
+                    {"value", maybe(metric.value)},
+                    {"unit", metric.unit},
+                    {"reason", metric.reason.empty() ? Json(nullptr) : Json(metric.reason)}});
+  return list;
+}
+
+Json attempts_json(const std::vector<SimulatedAttempt>& attempts) {
+  Json list = Json::array();
+  for (const SimulatedAttempt& attempt : attempts)
+    list.push_back({{"attempt_id", attempt.attempt_id},
+                    {"operator", attempt.operator_name},
+                    {"seed", attempt.seed},
+                    {"metrics", metrics_json(attempt.metrics)}});
+  return list;
+}
+
+Json attempt_json(const casedb::AttemptRow& attempt) {
+  return {{"attempt_id", attempt.attempt_id},
+          {"case_id", attempt.case_id},
+          {"case_title", attempt.case_title},
+          {"lesion_id", attempt.lesion_id},
+          {"person_id", maybe(attempt.person_id)},
+          {"operator", attempt.operator_name},
+          {"seed", attempt.seed},
+          {"instrument", attempt.instrument.kind == cases::InstrumentKind::core ? "core" : "access"},
+          {"approach", attempt.approach == cases::Approach::in_plane ? "in_plane" : "out_of_plane"},
+          {"started_us", attempt.started_us},
+          {"duration_s", attempt.duration_s},
+          {"program_version", attempt.program_version},
+          {"step_version", attempt.step_version},
+          {"metrics", metrics_json(attempt.metrics)}};
+}
+
+std::string text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string json_of_case(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions) {
+  return text(case_json(row, lesions));
+}
+
+std::string json_of_cases(const std::vector<std::pair<casedb::CaseRow, std::vector<casedb::LesionRow>>>& cases) {
+  Json list = Json::array();
+  for (const auto& [row, lesions] : cases) {
+    Json all = Json::array();
+    for (const casedb::LesionRow& lesion : lesions) all.push_back(lesion_json(lesion));
+    list.push_back({{"case_id", row.case_id}, {"title", row.title}, {"state", row.state}, {"lesions", all}});
+  }
+  return text({{"cases", list}});
+}
+
+std::string json_of_samples(const std::vector<PointSample>& samples) {
+  Json list = Json::array();
+  for (const PointSample& sample : samples)
+    list.push_back({{"lps_mm", point(sample.lps_mm)},
+                    {"hu_nearest", maybe(sample.hu_nearest)},
+                    {"hu_trilinear", maybe(sample.hu_trilinear)}});
+  return text({{"samples", list}});
+}
+
+std::string json_of_lesion(const std::string& lesion_id) {
+  return text({{"lesion_id", lesion_id}});
+}
+
+std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics) {
+  return text({{"metrics", metrics_json(metrics)}});
+}
+
+std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts) {
+  return text({{"attempts", attempts_json(attempts)}});
+}
+
+std::string json_of_attempt(const casedb::AttemptRow& attempt) {
+  return text(attempt_json(attempt));
+}
+
+std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts) {
+  Json list = Json::array();
+  for (const casedb::AttemptRow& attempt : attempts) list.push_back(attempt_json(attempt));
+  return text({{"attempts", list}});
+}
+
+std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
+                           const std::string& reason) {
+  return text({{"verified", maybe(verified)},
+               {"first_difference_tick", maybe(first_difference_tick)},
+               {"reason", reason.empty() ? Json(nullptr) : Json(reason)}});
+}
+
+std::string json_of_users(const std::vector<casedb::Account>& accounts) {
+  Json list = Json::array();
+  for (const casedb::Account& account : accounts)
+    list.push_back({{"name", account.login_name},
+                    {"person_id", account.person_id},
+                    {"role", casedb::name_of(account.role)},
+                    {"enabled", account.enabled}});
+  return text({{"users", list}});
+}
+
+std::string json_of_picture(const std::string& backend, int width_px, int height_px,
+                            const std::optional<imaging::Visible>& visible, double min, double max) {
+  Json json = {{"backend", backend}, {"size_px", Json::array({width_px, height_px})},
+               {"min", min},         {"max", max},
+               {"unit", "HU"},       {"visible", nullptr}};
+  if (visible)
+    json["visible"] = {{"needle_tip", visible->needle_tip},
+                       {"needle_length_mm", visible->needle_length_mm},
+                       {"target", visible->target},
+                       {"joint", visible->joint}};
+  return text(json);
+}
+
+std::string json_of_facts(const DoctorAnswer& doctor) {
+  Json json = Json::object();
+  for (const auto& [name, value] : doctor.facts) json[name] = value;
+  return text(json);
+}
+
+std::string json_of_demo(const DemoAnswer& demo) {
+  Json accounts = Json::array();
+  for (const auto& [name, password] : demo.passwords) accounts.push_back({{"name", name}, {"password", password}});
+  Json lesion = lesion_json(demo.lesion);
+  lesion["rule"] = demo.lesion_rule;
+  lesion["depth_below_skin_mm"] = demo.lesion_depth_mm;
+  return text({{"case_id", demo.found.case_id},
+               {"title", demo.found.title},
+               {"lesion", lesion},
+               {"attempts", attempts_json(demo.attempts)},
+               {"accounts", accounts},
+               {"url", demo.url.empty() ? Json(nullptr) : Json(demo.url)}});
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,54 @@
+// The JSON documents that commands answer (contracts.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assessment/metrics/metric.h"
+#include "casedb/store.h"
+#include "sim/imaging/mpr/visibility.h"
+
+namespace seldinger::app {
+
+struct PointSample {
+  glm::dvec3 lps_mm{0.0};
+  std::optional<double> hu_nearest, hu_trilinear;
+};
+
+struct SimulatedAttempt {
+  std::string attempt_id, operator_name;
+  std::uint64_t seed = 0;
+  std::vector<assessment::MetricValue> metrics;
+};
+
+struct DemoAnswer {
+  casedb::CaseRow found;
+  casedb::LesionRow lesion;
+  std::string lesion_rule;
+  double lesion_depth_mm = 0.0;
+  std::vector<SimulatedAttempt> attempts;
+  std::vector<std::pair<std::string, std::string>> passwords;  // of accounts made in this run
+  std::string url;                                             // empty when not served
+};
+
+struct DoctorAnswer {
+  std::vector<std::pair<std::string, std::string>> facts;
+};
+
+std::string json_of_case(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions);
+std::string json_of_cases(const std::vector<std::pair<casedb::CaseRow, std::vector<casedb::LesionRow>>>& cases);
+std::string json_of_samples(const std::vector<PointSample>& samples);
+std::string json_of_lesion(const std::string& lesion_id);
+std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics);
+std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
+std::string json_of_attempt(const casedb::AttemptRow& attempt);
+std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts);
+std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
+                           const std::string& reason);
+std::string json_of_users(const std::vector<casedb::Account>& accounts);
+std::string json_of_picture(const std::string& backend, int width_px, int height_px,
+                            const std::optional<imaging::Visible>& visible, double min, double max);
+std::string json_of_facts(const DoctorAnswer& doctor);
+std::string json_of_demo(const DemoAnswer& demo);
+
+}  // namespace seldinger::app

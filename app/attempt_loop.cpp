@@ -1,0 +1,144 @@
+#include "app/attempt_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/png.h"
+#include "assessment/metrics/registry.h"
+#include "assessment/operators/scripted.h"
+#include "assessment/signals.h"
+#include "sim/devices/virtual_device.h"
+#include "sim/engine/step.h"
+#include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/mpr/visibility.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr std::uint64_t kPoseTicks = 10;                          // 100 Hz
+constexpr double kPixelMm = 0.4;                                  // a 22-gauge needle is 1.8 of these
+constexpr double kWindowCenterHu = 60.0, kWindowWidthHu = 400.0;  // abdominal soft tissue
+
+cases::PoseSample pose_of(const cases::State& state) {
+  return {state.t_s,         state.needle.tip_lps_mm, state.needle.direction, state.probe.origin_lps_mm,
+          state.probe.axial, state.probe.lateral};
+}
+
+imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) {
+  const cases::Instrument& instrument = scene.instrument;
+  return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
+          instrument.hu};
+}
+
+imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose) {
+  imaging::MprView view = imaging::view_under_probe(pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral,
+                                                    scene.picture.width_mm, scene.picture.depth_mm, kPixelMm);
+  view.needle_slab_mm = 2.0 * imaging::kMprSlabHalfMm;  // drawn where it counts as seen
+  return view;
+}
+
+cases::FrameTruth truth_of(const cases::Case& scene, const cases::State& state) {
+  const std::optional<glm::dvec3> target =
+      scene.lesions.empty() ? std::nullopt : std::optional(scene.lesions[0].center_lps_mm);
+  const imaging::Visible visible = imaging::mpr_visible(
+      view_of(scene, pose_of(state)), needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), target);
+  cases::FrameTruth truth;
+  truth.t_s = state.t_s;
+  truth.live = !state.probe.frozen;
+  truth.needle_tip = visible.needle_tip;
+  truth.target = visible.target;
+  truth.needle_length_mm = visible.needle_length_mm;
+  return truth;
+}
+
+}  // namespace
+
+cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                             const assessment::OperatorProfile& profile, std::uint64_t seed) {
+  const double dt_s = engine::kTickSeconds;
+  cases::Recording recording;
+  recording.step_version = engine::kStepVersion;
+  recording.dt_s = dt_s;
+  assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
+  devices::VirtualDevice needle_arm, probe_arm;
+  cases::State state;
+  cases::FrameTruth frame;
+  bool new_frame = false;
+  std::uint64_t hash = 0;
+  long long frames = 0;
+  while (!person.done() && state.t_s < kMaxAttemptSeconds) {
+    const cases::Inputs hands = person.act(state, new_frame ? &frame : nullptr, dt_s);
+    cases::Inputs inputs = hands;
+    inputs.needle = needle_arm.advance(hands.needle, dt_s);
+    inputs.probe = probe_arm.advance(hands.probe, dt_s);
+    engine::step(scene, inputs, dt_s, state);
+    hash = cases::state_hash(state, hash);
+    recording.inputs.push_back(inputs);
+    recording.hashes.push_back(static_cast<std::uint32_t>(hash));
+    if ((state.tick - 1) % kPoseTicks == 0) recording.poses.push_back(pose_of(state));
+    const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
+    new_frame = due >= frames;
+    if (new_frame) {
+      frames = due + 1;
+      frame = truth_of(scene, state);
+      recording.frames.push_back(frame);
+    }
+    if (state.fire.fired && !recording.endpoint)
+      recording.endpoint = cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction};
+  }
+  return recording;
+}
+
+base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
+                                                           const cases::Recording& recording) {
+  assessment::AttemptSetting setting;
+  setting.skin = &scene.skin_index;
+  if (!scene.lesions.empty()) setting.target = scene.lesions[0];
+  setting.instrument = scene.instrument;
+  setting.modality = scene.picture.modality;
+  setting.approach = scene.approach;
+  const auto signals = assessment::make_signals(setting, recording);
+  if (!signals) return signals.error();
+  return assessment::measure_all(*signals);
+}
+
+std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
+  CHECK(!recording.poses.empty());
+  cases::PoseSample pose = recording.poses.back();
+  if (recording.endpoint)
+    for (const cases::PoseSample& one : recording.poses)
+      if (one.t_s <= recording.endpoint->t_s) pose = one;
+  imaging::Inserted inserted;
+  inserted.lesions = scene.lesions;
+  inserted.needle = recording.endpoint
+                        ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
+                        : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
+  const imaging::MprView view = view_of(scene, pose);
+  const auto grey =
+      imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, inserted), kWindowCenterHu, kWindowWidthHu);
+  return png_from_grey(grey, view.width_px, view.height_px);
+}
+
+Replay replay(const cases::Case& scene, const cases::Recording& recording) {
+  cases::State state;
+  std::uint64_t hash = 0;
+  std::size_t pose = 0;
+  for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
+    engine::step(scene, recording.inputs[i], recording.dt_s, state);
+    hash = cases::state_hash(state, hash);
+    bool same = static_cast<std::uint32_t>(hash) == recording.hashes[i];
+    if ((state.tick - 1) % kPoseTicks == 0) {
+      const cases::PoseSample now = pose_of(state);
+      same = same && pose < recording.poses.size() && recording.poses[pose] == now;
+      ++pose;
+    }
+    if (!same) return {false, state.tick};
+  }
+  const bool endpoint_same =
+      state.fire.fired == recording.endpoint.has_value() &&
+      (!recording.endpoint ||
+       (*recording.endpoint == cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction}));
+  return {pose == recording.poses.size() && endpoint_same, state.tick};
+}
+
+}  // namespace seldinger::app

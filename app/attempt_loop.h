@@ -1,0 +1,34 @@
+// Turns the loop of one simulated attempt: operator → virtual device → step → pictures → operator, and records it.
+#pragma once
+
+#include <cstdint>
+
+#include "assessment/metrics/metric.h"
+#include "assessment/operators/plan.h"
+#include "assessment/operators/profile.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+#include "sim/case/recording.h"
+
+namespace seldinger::app {
+
+constexpr double kMaxAttemptSeconds = 300.0;  // an operator who has not fired by then gives up
+
+cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                             const assessment::OperatorProfile& profile, std::uint64_t seed);
+
+// The metrics of a recording made in this scene.
+base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
+                                                           const cases::Recording& recording);
+
+// What the picture under the probe showed when the trigger fell (or last), as PNG.
+std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
+
+// Replays the inputs by this step version.
+struct Replay {
+  bool same = false;
+  std::uint64_t first_difference_tick = 0;
+};
+Replay replay(const cases::Case& scene, const cases::Recording& recording);
+
+}  // namespace seldinger::app

@@ -1,0 +1,16 @@
+// Builds the Case of a simulation from the library, or of a scoring from a scene.
+#pragma once
+
+#include "casedb/store.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+
+namespace seldinger::app {
+
+// Loads volume and skin of a stored case; the lesion becomes the target.
+base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
+                                     const std::optional<cases::Lesion>& target,
+                                     const cases::Instrument& instrument, const cases::Picture& picture,
+                                     cases::Approach approach);
+
+}  // namespace seldinger::app

@@ -1,0 +1,185 @@
+// demo: the main job, end to end.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/answers_json.h"
+#include "app/command.h"
+#include "app/import_case.h"
+#include "app/serving.h"
+#include "app/simulation.h"
+#include "assessment/operators/lesion_site.h"
+#include "casedb/credentials.h"
+#include "sim/base/failure.h"
+#include "sim/volume/volume_bytes.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr const char* kOperators[] = {"novice", "intermediate", "expert"};
+constexpr std::uint64_t kSeed = 1;
+
+std::filesystem::path default_library() {
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
+    return std::filesystem::path(data) / "seldinger" / "demo";
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || *home != '/') throw base::Failure("disk", "there is no home folder; give --library");
+  return std::filesystem::path(home) / ".local" / "share" / "seldinger" / "demo";
+}
+
+// The demo's case: one already there is used again, so that a second run is quick and makes nothing twice.
+base::Result<casedb::CaseRow> demo_case(casedb::Library& library, const Arguments& arguments) {
+  const bool own = arguments.has("--ct");
+  if (!own)
+    for (const casedb::CaseRow& row : casedb::list_cases(library))
+      if (row.origin == phantom_origin()) return row;
+  auto imported = own ? import_case(arguments.text("--ct"), {}, "Demo CT", "import") : import_phantom();
+  if (!imported) return imported.error();
+  if (own) {
+    const std::string volume_sha256 = casedb::sha256_hex(volume::bytes_from_volume(imported->volume));
+    for (const casedb::CaseRow& row : casedb::list_cases(library))
+      if (row.volume_sha256 == volume_sha256) return row;
+  }
+  return casedb::find_case(library, casedb::add_case(library, *imported));
+}
+
+base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const casedb::CaseRow& row) {
+  auto lesions = casedb::list_lesions(library, row.case_id);
+  if (!lesions.empty()) return lesions.front();
+  const auto volume = casedb::load_volume(library, row);
+  if (!volume) return volume.error();
+  const auto skin = casedb::load_skin(library, row);
+  if (!skin) return skin.error();
+  const auto site = assessment::find_lesion_site(*volume, cases::MeshIndex(*skin));
+  if (!site) return site.error();
+  const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);
+  if (!lesion_id) return lesion_id.error();
+  return casedb::list_lesions(library, row.case_id).front();
+}
+
+// Accounts of the demo that are missing get random passwords, shown once.
+base::Result<void> demo_accounts(casedb::Library& library, DemoAnswer& answer) {
+  const std::pair<const char*, casedb::Role> wanted[] = {{"mentor", casedb::Role::mentor},
+                                                         {"novice", casedb::Role::trainee},
+                                                         {"intermediate", casedb::Role::trainee},
+                                                         {"expert", casedb::Role::trainee}};
+  const auto accounts = casedb::list_users(library);
+  for (const auto& [name, role] : wanted) {
+    bool there = false;
+    for (const casedb::Account& account : accounts) there = there || account.login_name == name;
+    if (there) continue;
+    const std::string password = casedb::random_password();
+    const auto added = casedb::add_user(library, name, role, password);
+    if (!added) return added.error();
+    answer.passwords.emplace_back(name, password);
+  }
+  return {};
+}
+
+base::Result<void> demo_attempts(casedb::Library& library, DemoAnswer& answer) {
+  for (const casedb::AttemptRow& attempt : casedb::list_attempts(library))
+    if (attempt.case_id == answer.found.case_id && attempt.lesion_id == answer.lesion.lesion_id &&
+        attempt.seed == kSeed)
+      answer.attempts.insert(answer.attempts.begin(),
+                             {attempt.attempt_id, attempt.operator_name, attempt.seed, attempt.metrics});
+  std::optional<Simulation> simulation;
+  for (const char* name : kOperators) {
+    bool there = false;
+    for (const SimulatedAttempt& attempt : answer.attempts) there = there || attempt.operator_name == name;
+    if (there) continue;
+    if (!simulation) {
+      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id,
+                                          cases::InstrumentKind::access);
+      if (!prepared) return prepared.error();
+      simulation.emplace(std::move(*prepared));
+    }
+    std::optional<std::string> person_id;
+    for (const casedb::Account& account : casedb::list_users(library))
+      if (account.login_name == name) person_id = account.person_id;
+    auto attempt = simulation->attempt(*assessment::named_profile(name), kSeed, person_id);
+    if (!attempt) return attempt.error();
+    answer.attempts.push_back(std::move(*attempt));
+  }
+  return {};
+}
+
+void print_value(const assessment::MetricValue& metric) {
+  if (metric.value)
+    std::printf(" %12.*f", metric.unit == "count" || metric.unit == "bool" ? 0 : 2, *metric.value);
+  else
+    std::printf(" %12s", "–");
+}
+
+void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder) {
+  const cases::Lesion& lesion = answer.lesion.lesion;
+  std::printf("Training only, not for planning a patient's procedure.\n\nLibrary  %s\nCase     %s  %s\n",
+              folder.c_str(), answer.found.case_id.c_str(), answer.found.title.c_str());
+  for (const base::Problem& warning : answer.found.warnings)
+    std::printf("         warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  std::printf(
+      "Lesion   %.0f mm across at (%.1f, %.1f, %.1f) mm LPS, %.0f HU, its centre %.0f mm below the skin\n"
+      "         rule: %s\n\n%-20s",
+      2.0 * lesion.radius_mm, lesion.center_lps_mm.x, lesion.center_lps_mm.y, lesion.center_lps_mm.z, lesion.hu,
+      answer.lesion_depth_mm, answer.lesion_rule.c_str(), "Metric");
+  for (const SimulatedAttempt& attempt : answer.attempts) std::printf(" %12s", attempt.operator_name.c_str());
+  std::printf("  unit\n");
+  for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
+    const assessment::MetricValue& first = answer.attempts.front().metrics[i];
+    std::printf("%-20s", first.id.c_str());
+    for (const SimulatedAttempt& attempt : answer.attempts)
+      for (const assessment::MetricValue& metric : attempt.metrics)
+        if (metric.id == first.id) print_value(metric);
+    std::printf("  %s\n", first.unit.c_str());
+  }
+  std::printf("\nThe operators are simulated: they test the software and say nothing about validity.\n\n");
+  if (answer.passwords.empty())
+    std::printf(
+        "The accounts were made in an earlier run; `seldinger user passwd NAME --library DIR` sets a new "
+        "password.\n");
+  else
+    std::printf("Accounts, with passwords that are shown only now:\n");
+  for (const auto& [name, password] : answer.passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int run_demo(const Arguments& arguments) {
+  const std::filesystem::path folder =
+      arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : default_library();
+  const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
+  auto library = casedb::Library::open_or_create(folder);
+  if (!library) return refuse(library.error());
+  DemoAnswer answer;
+  auto found = demo_case(*library, arguments);
+  if (!found) return refuse(found.error());
+  answer.found = std::move(*found);
+  auto lesion = demo_lesion(*library, answer.found);
+  if (!lesion) return refuse(lesion.error());
+  answer.lesion = std::move(*lesion);
+  answer.lesion_rule = assessment::describe(assessment::LesionRule{});
+  if (const auto skin = casedb::load_skin(*library, answer.found))
+    answer.lesion_depth_mm = -cases::MeshIndex(*skin).closest_skin(answer.lesion.lesion.center_lps_mm).distance_mm;
+  if (const auto made = demo_accounts(*library, answer); !made) return refuse(made.error());
+  if (const auto made = demo_attempts(*library, answer); !made) return refuse(made.error());
+  const bool json = arguments.has("--json"), serving = !arguments.has("--no-serve");
+  if (!json) print_answer(answer, folder);
+  if (!serving) {
+    if (json) std::fputs(json_of_demo(answer).c_str(), stdout);
+    return kDone;
+  }
+  const auto ready = [&](const std::string& url) {
+    answer.url = url;
+    if (json)
+      std::fputs(json_of_demo(answer).c_str(), stdout);
+    else
+      std::printf("\nOpen %s  (Ctrl-C ends)\n", url.c_str());
+    std::fflush(stdout);
+  };
+  const auto served =
+      serve_until_stopped(std::move(*library), {"127.0.0.1", port, !arguments.has("--port")}, ready);
+  return served ? kDone : refuse(served.error());
+}
+
+}  // namespace seldinger::app

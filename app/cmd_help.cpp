@@ -1,0 +1,42 @@
+// help.
+#include <cstdio>
+#include <string>
+
+#include "app/command.h"
+#include "assessment/metrics/registry.h"
+#include "web/routes.h"
+
+namespace seldinger::app {
+
+int run_help(const Arguments& arguments) {
+  if (arguments.has("--metrics")) {
+    std::fputs(assessment::metrics_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--commands")) {
+    std::fputs(commands_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--routes")) {
+    std::fputs(web::routes_markdown().c_str(), stdout);
+    return kDone;
+  }
+  std::string wanted;
+  for (std::size_t i = 0; i < arguments.positionals(); ++i)
+    wanted += (wanted.empty() ? "" : " ") + arguments.positional(i);
+  if (wanted.empty()) {
+    std::fputs(help_text().c_str(), stdout);
+    return kDone;
+  }
+  bool found = false;
+  for (const Command& command : commands()) {
+    const std::string name = command.name;
+    if (name != wanted && name.rfind(wanted + " ", 0) != 0) continue;
+    std::fputs(help_text(command).c_str(), stdout);
+    found = true;
+  }
+  if (!found) throw UsageError("there is no command of that name");
+  return kDone;
+}
+
+}  // namespace seldinger::app

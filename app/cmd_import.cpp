@@ -1,0 +1,68 @@
+// import, sample.
+#include <cstdio>
+
+#include "app/answers_json.h"
+#include "app/command.h"
+#include "app/import_case.h"
+
+namespace seldinger::app {
+
+int run_import(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library");
+  std::optional<std::string> series;
+  if (arguments.has("--series")) series = arguments.text("--series");
+  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import");
+  if (!imported) return refuse(imported.error());
+  auto library = casedb::Library::open_or_create(folder);
+  if (!library) return refuse(library.error());
+  const std::string case_id = casedb::add_case(*library, *imported);
+  const auto row = casedb::find_case(*library, case_id);
+  if (!row) return refuse(row.error());
+  if (arguments.has("--json")) {
+    std::fputs(json_of_case(*row, {}).c_str(), stdout);
+    return kDone;
+  }
+  std::printf("case %s\n%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n",
+              row->case_id.c_str(), row->title.c_str(), row->size_voxels.x, row->size_voxels.y, row->size_voxels.z,
+              row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max, row->slices_used);
+  for (const base::Problem& warning : row->warnings)
+    std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  return kDone;
+}
+
+int run_sample(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library");
+  arguments.required("--lps");
+  std::vector<PointSample> samples;
+  for (const std::string& text : arguments.all("--lps")) {
+    const auto point = parse_point(text);
+    if (!point) throw UsageError("--lps needs X,Y,Z in mm");
+    samples.push_back({*point, {}, {}});
+  }
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  const auto row = casedb::find_case(*library, arguments.positional(0));
+  if (!row) return refuse(row.error());
+  const auto volume = casedb::load_volume(*library, *row);
+  if (!volume) return refuse(volume.error());
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
+  for (PointSample& sample : samples) {
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
+    if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
+    sample.hu_trilinear = volume::sample_trilinear(*volume, index);
+  }
+  if (arguments.has("--json")) {
+    std::fputs(json_of_samples(samples).c_str(), stdout);
+    return kDone;
+  }
+  for (const PointSample& sample : samples) {
+    std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
+    if (sample.hu_nearest)
+      std::printf("nearest %.0f HU, trilinear %.2f HU\n", *sample.hu_nearest, *sample.hu_trilinear);
+    else
+      std::printf("outside the volume\n");
+  }
+  return kDone;
+}
+
+}  // namespace seldinger::app

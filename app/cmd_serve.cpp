@@ -1,0 +1,22 @@
+// serve.
+#include <cstdio>
+
+#include "app/command.h"
+#include "app/serving.h"
+
+namespace seldinger::app {
+
+int run_serve(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library");
+  const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  const auto served = serve_until_stopped(std::move(*library), {arguments.text("--host", "127.0.0.1"), port},
+                                          [](const std::string& url) {
+                                            std::printf("%s\n", url.c_str());
+                                            std::fflush(stdout);
+                                          });
+  return served ? kDone : refuse(served.error());
+}
+
+}  // namespace seldinger::app

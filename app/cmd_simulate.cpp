@@ -1,0 +1,51 @@
+// simulate.
+#include <cstdio>
+
+#include "app/answers_json.h"
+#include "app/command.h"
+#include "app/file.h"
+#include "app/simulation.h"
+
+namespace seldinger::app {
+namespace {
+
+base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
+  if (const auto profile = assessment::named_profile(name)) return *profile;
+  if (!name.ends_with(".json")) throw UsageError("--operator is novice, intermediate, expert or a .json file");
+  const auto text = read_text(name, 1U << 20U);
+  if (!text) return text.error();
+  return assessment::profile_from_json(*text);
+}
+
+}  // namespace
+
+int run_simulate(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
+  const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
+  const auto count = arguments.whole("--count", 1, 1, 100'000);
+  const std::string instrument_name = arguments.text("--instrument", "access");
+  if (instrument_name != "access" && instrument_name != "core") throw UsageError("--instrument is access or core");
+  const auto profile = profile_of(arguments.required("--operator"));
+  if (!profile) return refuse(profile.error());
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  auto simulation =
+      Simulation::prepare(*library, case_id, arguments.text("--lesion"),
+                          instrument_name == "core" ? cases::InstrumentKind::core : cases::InstrumentKind::access);
+  if (!simulation) return refuse(simulation.error());
+  std::vector<SimulatedAttempt> attempts;
+  for (long long i = 0; i < count; ++i) {
+    auto attempt = simulation->attempt(*profile, seed + static_cast<std::uint64_t>(i), std::nullopt);
+    if (!attempt) return refuse(attempt.error());
+    attempts.push_back(std::move(*attempt));
+    if (!arguments.has("--json")) {
+      std::printf("attempt %s  %s  seed %llu\n", attempts.back().attempt_id.c_str(),
+                  attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
+      print_metrics(attempts.back().metrics);
+    }
+  }
+  if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);
+  return kDone;
+}
+
+}  // namespace seldinger::app

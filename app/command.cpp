@@ -1,0 +1,161 @@
+#include "app/command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace seldinger::app {
+namespace {
+
+constexpr Option kLibrary{"--library", "DIR", "the library's folder"};
+constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
+
+constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+                                   {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
+                                   {"--routes", nullptr, "print the table of web routes (docs/routes.md)"}};
+constexpr Option kImportOptions[] = {kLibrary,
+                                     {"--title", "TEXT", "the case's title; never taken from the source"},
+                                     {"--series", "UID|N", "which series, when the folder holds several"},
+                                     kJson};
+constexpr Option kSampleOptions[] = {
+    kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
+constexpr Option kLibraryJson[] = {kLibrary, kJson};
+constexpr Option kLibraryOnly[] = {kLibrary};
+constexpr Option kLesionOptions[] = {kLibrary,
+                                     {"--center-mm", "X,Y,Z", "centre, LPS"},
+                                     {"--radius-mm", "R", "radius"},
+                                     {"--hu", "H", "its HU"},
+                                     kJson};
+constexpr Option kRenderOptions[] = {
+    {"--out", "FILE", ".mha: float32 in HU; .png: what a person sees"},
+    {"--backend", "gpu|cpu|reference", "default gpu, or cpu where there is no GL 4.3"},
+    kLibrary,
+    kJson};
+constexpr Option kSimulateOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "the target; default the case's first lesion"},
+    {"--operator", "novice|intermediate|expert|FILE.json", "who"},
+    {"--seed", "N", "attempt i uses seed N + i"},
+    {"--count", "K", "how many attempts; default 1"},
+    {"--instrument", "access|core", "default access: the tip decides; core: the fired notch"},
+    kJson};
+constexpr Option kScoreOptions[] = {kLibrary,
+                                    {"--poses", "FILE.csv", "poses of an attempt made elsewhere"},
+                                    {"--scene", "SCENE.json", "the scene they were made in"},
+                                    kJson};
+constexpr Option kReplayOptions[] = {
+    kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
+constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
+constexpr Option kBenchOptions[] = {{"--stage", "a,b", "import, mpr, step; default all"},
+                                    {"--quick", nullptr, "fewer repetitions"},
+                                    {"--ct", "SOURCE", "what import reads; default the built-in case"},
+                                    {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kDemoOptions[] = {
+    {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
+    {"--no-serve", nullptr, "end by printing what was made"},
+    {"--port", "N", "the page's port; default 8080, or any free one"},
+    kJson};
+constexpr Option kServeOptions[] = {kLibrary,
+                                    {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},
+                                    {"--port", "N", "default 8080; 0 takes any free one"}};
+
+constexpr Command kCommands[] = {
+    {"import", "SOURCE", 1, 1, kImportOptions,
+     "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case.",
+     &run_import},
+    {"sample", "CASE", 1, 1, kSampleOptions, "Prints the HU at points of a case.", &run_sample},
+    {"case list", "", 0, 0, kLibraryJson, "Lists the cases, oldest first.", &run_case_list},
+    {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
+    {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
+    {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr).", &run_render},
+    {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
+     &run_simulate},
+    {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",
+     &run_score},
+    {"replay", "ATTEMPT", 1, 1, kReplayOptions, "Replays a stored attempt.", &run_replay},
+    {"attempt list", "", 0, 0, kLibraryJson, "Lists the attempts, newest first.", &run_attempt_list},
+    {"attempt show", "ATTEMPT", 1, 1, kLibraryJson, "Shows one attempt with its metrics.", &run_attempt_show},
+    {"user add", "NAME", 1, 1, kUserAddOptions, "Adds an account; the password is read from standard input.",
+     &run_user_add},
+    {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
+    {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
+    {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
+    {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
+    {"doctor", "", 0, 0, kLibraryJson,
+     "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
+    {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},
+    {"serve", "", 0, 0, kServeOptions, "Serves the library's pages on this machine.", &run_serve},
+    {"help", "[COMMAND]", 0, 2, kHelpOptions, "Prints this, or one command's options.", &run_help},
+};
+
+std::string synopsis(const Command& command) {
+  std::string text = std::string("seldinger ") + command.name;
+  if (*command.positionals != '\0') text += std::string(" ") + command.positionals;
+  for (const Option& option : command.options) {
+    text += std::string(" [") + option.name;
+    if (option.value != nullptr) text += std::string(" ") + option.value;
+    text += option.repeatable ? " …]" : "]";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::span<const Command> commands() {
+  return kCommands;
+}
+
+std::string help_text(const Command& command) {
+  std::string text = synopsis(command) + "\n  " + command.summary + "\n";
+  for (const Option& option : command.options) {
+    std::string name = option.name;
+    if (option.value != nullptr) name += std::string(" ") + option.value;
+    name.resize(std::max<std::size_t>(name.size(), 26), ' ');
+    text += "  " + name + " " + option.help + "\n";
+  }
+  return text;
+}
+
+std::string help_text() {
+  std::string text =
+      "seldinger: training in image-guided needle puncture. Training only, not for planning a patient's "
+      "procedure.\n\n";
+  for (const Command& command : commands()) {
+    std::string name = command.name;
+    if (*command.positionals != '\0') name += std::string(" ") + command.positionals;
+    name.resize(std::max<std::size_t>(name.size(), 22), ' ');
+    text += "  " + name + " " + command.summary + "\n";
+  }
+  return text + "\n`seldinger help COMMAND` lists a command's options; `seldinger --version` prints the version.\n";
+}
+
+std::string commands_markdown() {
+  std::string text =
+      "# Commands\n\nMade from the table in `app/command.cpp` by `seldinger help --commands`; a test compares.\n"
+      "Lengths in mm, coordinates in LPS. Exit codes: 0 done · 1 ran and its check did not hold · 2 usage · "
+      "3 the input is refused, nothing is changed · 4 the environment fails (disk, database, GL).\n";
+  for (const Command& command : commands()) {
+    text += "\n## " + std::string(command.name) + "\n\n" + command.summary + "\n\n```\n" + synopsis(command) +
+            "\n```\n";
+    if (command.options.empty()) continue;
+    text += "\n| option | what |\n|---|---|\n";
+    for (const Option& option : command.options) {
+      std::string value = option.value == nullptr ? "" : std::string(" ") + option.value;
+      for (std::size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2)
+        value.replace(at, 1, "\\|");
+      text += "| `" + std::string(option.name) + value + "` | " + option.help + " |\n";
+    }
+  }
+  return text;
+}
+
+int refuse(const base::Error& error) {
+  std::fprintf(stderr, "error: %s: %s\n", error.code.c_str(), error.text.c_str());
+  for (const base::Problem& finding : error.findings)
+    std::fprintf(stderr, "finding: %s: %s\n", finding.code.c_str(), finding.text.c_str());
+  return kRefused;
+}
+
+}  // namespace seldinger::app

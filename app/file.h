@@ -1,0 +1,20 @@
+// Whole files in and out.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+// Refused: `not_found`, `unreadable`, `too_large`.
+base::Result<std::string> read_text(const std::filesystem::path& path, std::size_t max_bytes = 256U << 20U);
+
+// Written beside and renamed, so that a failure leaves what was there. Throws base::Failure("disk").
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace seldinger::app

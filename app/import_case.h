@@ -1,0 +1,22 @@
+// From a source to a case ready for the library: read, skin made, nothing stored yet.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "casedb/store.h"
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+// An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
+base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
+                                          const std::optional<std::string>& series, const std::string& title,
+                                          const std::string& origin);
+
+// The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
+base::Result<casedb::NewCase> import_phantom();
+std::string phantom_origin();
+
+}  // namespace seldinger::app

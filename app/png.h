@@ -1,0 +1,13 @@
+// Grey pictures as PNG: the door of libpng.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace seldinger::app {
+
+// 8-bit grey, row-major, width · height.
+std::vector<std::byte> png_from_grey(std::span<const unsigned char> grey, int width_px, int height_px);
+
+}  // namespace seldinger::app

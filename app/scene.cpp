@@ -1,0 +1,41 @@
+#include "app/scene.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/file.h"
+#include "casedb/import/import.h"
+#include "casedb/store.h"
+
+namespace seldinger::app {
+
+base::Result<Scene> read_scene(const std::filesystem::path& path) {
+  const auto text = read_text(path, 64U << 20U);
+  if (!text) return text.error();
+  std::vector<std::string> unused;
+  auto scene = scene_from_json(*text, path.parent_path(), unused);
+  std::sort(unused.begin(), unused.end());
+  unused.erase(std::unique(unused.begin(), unused.end()), unused.end());
+  if (scene)
+    for (const std::string& where : unused)
+      std::fprintf(stderr, "note: %s holds fields that are not used\n", where.c_str());
+  return scene;
+}
+
+base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
+  if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume))
+    return volume::rasterize(*analytic);
+  if (const auto* file = std::get_if<VolumeFile>(&scene.volume)) {
+    auto source = casedb::read_source(file->path);
+    if (!source) return source.error();
+    return std::move(source->volume);
+  }
+  if (library.empty()) return base::Error{"no_library", "the scene names a case, but no --library is given"};
+  auto opened = casedb::Library::open(library);
+  if (!opened) return opened.error();
+  const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
+  if (!row) return row.error();
+  return casedb::load_volume(*opened, *row);
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,43 @@
+// A scene file (contracts.md, "Scenes and pictures"): a volume, what is inserted, and a view.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+#include "sim/imaging/mpr/mpr.h"
+#include "sim/volume/analytic.h"
+
+namespace seldinger::app {
+
+struct VolumeFile {
+  std::filesystem::path path;  // absolute, or relative to the working folder
+};
+struct VolumeOfCase {
+  std::string case_id;
+};
+
+struct Scene {
+  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume> volume;
+  imaging::Inserted inserted;
+  cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
+  cases::Approach approach = cases::Approach::in_plane;
+  std::optional<imaging::MprView> view;
+};
+
+// All problems at once (`bad_scene`); `unsupported_view` for kinds that this version does not render. Relative
+// paths are those of `folder`. Fields that are not used are named in `unused`.
+base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
+                                    std::vector<std::string>& unused);
+
+// Reads the file. Refused as scene_from_json, `not_found`, `too_large`.
+base::Result<Scene> read_scene(const std::filesystem::path& path);
+
+// The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
+base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);
+
+}  // namespace seldinger::app

@@ -1,0 +1,276 @@
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/scene.h"
+
+namespace seldinger::app {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kFar = 1e5;        // mm: no scanner is 100 m long
+constexpr int kMaxPixels = 8192;    // per side
+constexpr double kMaxVoxels = 4e8;  // 800 MB of int16
+constexpr int kMaxShapes = 10'000;
+
+// Reads fields of one object and remembers what is wrong and what nobody asked for.
+class Reader {
+ public:
+  Reader(const Json& json, std::string where, base::Error& error)
+      : json_(json), where_(std::move(where)), error_(error) {
+    if (!json_.is_object()) bad("", "is not an object");
+  }
+
+  void bad(const std::string& field, const std::string& what) {
+    const std::string name = field.empty() ? where_ : where_ + "." + field;
+    error_.findings.push_back({"bad_scene", name + " " + what});
+  }
+
+  bool has(const char* field) {
+    asked_.insert(field);
+    return json_.is_object() && json_.contains(field);
+  }
+
+  const Json& operator[](const char* field) { return json_.at(field); }
+
+  double number(const char* field, double min, double max, std::optional<double> fallback = {}) {
+    if (!has(field)) {
+      if (!fallback) bad(field, "is missing");
+      return fallback.value_or(min);
+    }
+    const Json& value = json_.at(field);
+    if (!value.is_number() || !(value.get<double>() >= min && value.get<double>() <= max)) {
+      bad(field, "is not a number in its range");
+      return fallback.value_or(min);
+    }
+    return value.get<double>();
+  }
+
+  glm::dvec3 point(const char* field, double min = -kFar, double max = kFar) {
+    glm::dvec3 p(0.0);
+    if (!has(field)) {
+      bad(field, "is missing");
+      return p;
+    }
+    const Json& value = json_.at(field);
+    bool good = value.is_array() && value.size() == 3;
+    for (int axis = 0; good && axis < 3; ++axis) {
+      const Json& component = value.at(static_cast<std::size_t>(axis));
+      good = component.is_number() && component.get<double>() >= min && component.get<double>() <= max;
+      if (good) p[axis] = component.get<double>();
+    }
+    if (!good) bad(field, "is not three numbers in their range");
+    return p;
+  }
+
+  glm::dvec3 unit(const char* field) {
+    const glm::dvec3 v = point(field, -1.001, 1.001);
+    const double length = glm::length(v);
+    if (std::abs(length - 1.0) <= 1e-3) return v / length;
+    if (has(field)) bad(field, "is not of unit length");
+    return {1.0, 0.0, 0.0};
+  }
+
+  std::string choice(const char* field, const std::vector<std::string>& choices, const char* fallback) {
+    if (!has(field)) {
+      if (fallback == nullptr) bad(field, "is missing");
+      return fallback == nullptr ? choices.front() : fallback;
+    }
+    const Json& value = json_.at(field);
+    if (value.is_string())
+      for (const std::string& one : choices)
+        if (value.get<std::string>() == one) return one;
+    bad(field, "is none of the known words");
+    return choices.front();
+  }
+
+  std::string text(const char* field) {
+    if (!has(field)) return {};
+    const Json& value = json_.at(field);
+    if (!value.is_string()) bad(field, "is not a text");
+    return value.is_string() ? value.get<std::string>() : std::string();
+  }
+
+  template <int N>
+  std::array<int, N> wholes(const char* field, int max) {
+    std::array<int, N> numbers;
+    numbers.fill(1);
+    if (!has(field)) {
+      bad(field, "is missing");
+      return numbers;
+    }
+    const Json& value = json_.at(field);
+    bool good = value.is_array() && value.size() == N;
+    for (std::size_t i = 0; good && i < N; ++i) {
+      good = value.at(i).is_number_integer() && value.at(i).get<long long>() >= 1 &&
+             value.at(i).get<long long>() <= max;
+      if (good) numbers[i] = value.at(i).get<int>();
+    }
+    if (!good) bad(field, "is not whole numbers in their range");
+    return numbers;
+  }
+
+  void unused(std::vector<std::string>& names) const {
+    if (!json_.is_object()) return;
+    for (const auto& [key, value] : json_.items())
+      if (!asked_.contains(key)) names.push_back(where_);
+  }
+
+ private:
+  const Json& json_;
+  std::string where_;
+  base::Error& error_;
+  std::set<std::string> asked_;
+};
+
+volume::Shape read_shape(const Json& json, const std::string& where, base::Error& error,
+                         std::vector<std::string>& unused) {
+  Reader reader(json, where, error);
+  volume::Shape shape;
+  const std::string kind = reader.choice("kind", {"box", "sphere", "cylinder", "ellipsoid"}, nullptr);
+  if (kind == "box") {
+    shape.geometry = volume::Box{reader.point("min_mm"), reader.point("max_mm")};
+  } else if (kind == "sphere") {
+    shape.geometry = volume::Sphere{reader.point("center_mm"), reader.number("radius_mm", 1e-6, kFar)};
+  } else if (kind == "cylinder") {
+    shape.geometry =
+        volume::Cylinder{reader.point("from_mm"), reader.point("to_mm"), reader.number("radius_mm", 1e-6, kFar)};
+  } else {
+    shape.geometry = volume::Ellipsoid{reader.point("center_mm"), reader.point("radii_mm", 1e-6, kFar)};
+  }
+  shape.hu = reader.number("hu", -1024.0, 32767.0);
+  shape.class_name = reader.text("class");
+  if (shape.class_name.size() > 64) reader.bad("class", "is too long");
+  reader.unused(unused);
+  return shape;
+}
+
+volume::AnalyticVolume read_analytic(const Json& json, base::Error& error, std::vector<std::string>& unused) {
+  Reader reader(json, "volume.analytic", error);
+  volume::AnalyticVolume analytic;
+  const auto size = reader.wholes<3>("size_voxels", 4096);
+  analytic.size_voxels = {size[0], size[1], size[2]};
+  if (static_cast<double>(size[0]) * size[1] * size[2] > kMaxVoxels) reader.bad("size_voxels", "is too large");
+  analytic.spacing_mm = reader.point("spacing_mm", 1e-3, 1e3);
+  analytic.origin_mm = reader.point("origin_mm");
+  analytic.background_hu = reader.number("background_hu", -1024.0, 32767.0, -1000.0);
+  if (!reader.has("shapes")) return analytic;
+  const Json& shapes = reader["shapes"];
+  if (!shapes.is_array() || shapes.size() > kMaxShapes) {
+    reader.bad("shapes", "is not a list of at most 10000");
+    return analytic;
+  }
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    analytic.shapes.push_back(
+        read_shape(shapes[i], "volume.analytic.shapes[" + std::to_string(i) + "]", error, unused));
+  reader.unused(unused);
+  return analytic;
+}
+
+void read_volume(Reader& root, const std::filesystem::path& folder, Scene& scene, base::Error& error,
+                 std::vector<std::string>& unused) {
+  if (!root.has("volume")) return root.bad("volume", "is missing");
+  const Json& json = root["volume"];
+  if (json.is_string()) {
+    const std::filesystem::path path = json.get<std::string>();
+    scene.volume = VolumeFile{path.is_absolute() ? path : folder / path};
+    return;
+  }
+  Reader reader(json, "volume", error);
+  if (reader.has("case"))
+    scene.volume = VolumeOfCase{reader.text("case")};
+  else if (reader.has("analytic"))
+    scene.volume = read_analytic(reader["analytic"], error, unused);
+  else
+    reader.bad("", "is neither a path, a case nor analytic");
+  reader.unused(unused);
+}
+
+void read_needle(const Json& json, Scene& scene, base::Error& error, std::vector<std::string>& unused) {
+  Reader reader(json, "needle", error);
+  imaging::NeedlePose needle;
+  cases::Instrument& instrument = scene.instrument;
+  needle.tip_lps_mm = reader.point("tip_mm");
+  needle.direction = reader.unit("direction");
+  needle.length_mm = instrument.length_mm = reader.number("length_mm", 1e-3, 1e3, 200.0);
+  needle.radius_mm = instrument.radius_mm = reader.number("radius_mm", 1e-3, 20.0, 0.36);
+  needle.inner_radius_mm = instrument.inner_radius_mm =
+      reader.number("inner_radius_mm", 0.0, needle.radius_mm, 0.0);
+  needle.hu = instrument.hu = reader.number("hu", -1024.0, 32767.0, 3000.0);
+  reader.choice("surface", {"plain", "echogenic"}, "plain");
+  if (reader.choice("instrument", {"access", "core"}, "access") == "core")
+    instrument.kind = cases::InstrumentKind::core;
+  instrument.throw_mm = reader.number("throw_mm", 0.0, 60.0, instrument.throw_mm);
+  instrument.notch_mm = reader.number("notch_mm", 0.1, 60.0, instrument.notch_mm);
+  instrument.dead_tip_mm = reader.number("dead_tip_mm", 0.0, 30.0, instrument.dead_tip_mm);
+  scene.inserted.needle = needle;
+  reader.unused(unused);
+}
+
+imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std::string>& unused) {
+  Reader reader(json, "view", error);
+  imaging::MprView view;
+  reader.has("kind");
+  view.center_lps_mm = reader.point("center_mm");
+  view.u = reader.unit("u");
+  view.v = reader.unit("v");
+  if (std::abs(glm::dot(view.u, view.v)) > 1e-3) reader.bad("v", "is not perpendicular to view.u");
+  view.pixel_mm = reader.number("pixel_mm", 1e-4, 100.0);
+  const auto size = reader.wholes<2>("size_px", kMaxPixels);
+  view.width_px = size[0];
+  view.height_px = size[1];
+  view.interpolation = reader.choice("interpolation", {"nearest", "linear"}, "linear") == "nearest"
+                           ? imaging::Interpolation::nearest
+                           : imaging::Interpolation::linear;
+  view.needle_slab_mm = reader.number("needle_slab_mm", 0.0, 50.0, 0.0);
+  reader.unused(unused);
+  return view;
+}
+
+}  // namespace
+
+base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
+                                    std::vector<std::string>& unused) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return base::Error{"bad_scene", "the scene is not a JSON object"};
+  base::Error error{"bad_scene", "", {}};
+  Reader root(json, "scene", error);
+  Scene scene;
+  read_volume(root, folder, scene, error, unused);
+  if (root.has("needle")) read_needle(root["needle"], scene, error, unused);
+  if (root.has("lesions")) {
+    const Json& lesions = root["lesions"];
+    if (!lesions.is_array() || lesions.size() > imaging::kMaxLesions) {
+      root.bad("lesions", "is not a list of at most " + std::to_string(imaging::kMaxLesions));
+    } else {
+      for (std::size_t i = 0; i < lesions.size(); ++i) {
+        Reader reader(lesions[i], "lesions[" + std::to_string(i) + "]", error);
+        scene.inserted.lesions.push_back({reader.point("center_mm"), reader.number("radius_mm", 1e-6, 500.0),
+                                          reader.number("hu", -1024.0, 32767.0)});
+        reader.unused(unused);
+      }
+    }
+  }
+  if (root.choice("approach", {"in_plane", "out_of_plane"}, "in_plane") == "out_of_plane")
+    scene.approach = cases::Approach::out_of_plane;
+  if (root.has("view")) {
+    const Json& view = root["view"];
+    const std::string kind =
+        view.is_object() ? view.value("kind", Json()).is_string() ? view.at("kind").get<std::string>() : "" : "";
+    if (kind == "mpr")
+      scene.view = read_mpr(view, error, unused);
+    else if (kind == "xray" || kind == "ultrasound")
+      return base::Error{"unsupported_view", "this version renders views of kind mpr only"};
+    else
+      root.bad("view", "has no known kind");
+  }
+  root.unused(unused);
+  if (error.findings.empty()) return scene;
+  error.text = error.findings.front().text;
+  error.findings.erase(error.findings.begin());
+  return error;
+}
+
+}  // namespace seldinger::app

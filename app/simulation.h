@@ -1,0 +1,47 @@
+// Attempts of simulated operators at a stored case: run, score, picture, store.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/answers_json.h"
+#include "assessment/operators/plan.h"
+#include "assessment/operators/profile.h"
+#include "casedb/store.h"
+#include "sim/case/case.h"
+
+namespace seldinger::app {
+
+class Simulation {
+ public:
+  // An empty lesion id takes the case's first lesion. Refused: `no_case`, `no_lesion`, `no_path`, damaged assets.
+  // `library` must outlive it.
+  static base::Result<Simulation> prepare(casedb::Library& library, const std::string& case_id,
+                                          const std::string& lesion_id, cases::InstrumentKind kind);
+
+  // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
+  base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                         const std::optional<std::string>& person_id);
+
+  const cases::Case& scene() const noexcept { return scene_; }
+  const assessment::PuncturePlan& plan() const noexcept { return plan_; }
+
+ private:
+  Simulation(casedb::Library& library, casedb::CaseRow row, casedb::LesionRow lesion, cases::Case scene,
+             assessment::PuncturePlan plan)
+      : library_(&library),
+        row_(std::move(row)),
+        lesion_(std::move(lesion)),
+        scene_(std::move(scene)),
+        plan_(plan) {}
+
+  casedb::Library* library_;
+  casedb::CaseRow row_;
+  casedb::LesionRow lesion_;
+  cases::Case scene_;
+  assessment::PuncturePlan plan_;
+};
+
+void print_metrics(const std::vector<assessment::MetricValue>& metrics);
+
+}  // namespace seldinger::app

@@ -1,0 +1,72 @@
+#include "casedb/import/import.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <new>
+
+#include "casedb/import/byte_count.h"
+#include "casedb/import/dicom_file.h"
+#include "casedb/import/read_dicom.h"
+#include "casedb/import/read_file.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr int kTissueHu = -200;  // a CT of a patient without anything below is none, or not in HU
+
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string name = file.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* known : {".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd", ".dcm"})
+    if (name.ends_with(known)) return known;
+  return {};
+}
+
+bool is_nifti_header(const char* bytes, std::size_t size) {
+  return size >= 348 && std::memcmp(bytes + 344, "n+1", 4) == 0;
+}
+
+bool is_metaimage_header(std::string_view start) {
+  const std::string_view text = start.substr(0, std::min<std::size_t>(start.size(), 4096));
+  return text.find("ElementDataFile") != std::string_view::npos || text.starts_with("ObjectType") ||
+         (text.starts_with("NDims") && text.find('=') != std::string_view::npos);
+}
+
+// What a file begins as decides; its name only says what a damaged one was meant to be.
+base::Result<Source> read_one_file(const std::filesystem::path& file, const std::optional<std::string>& series) {
+  const auto bytes = read_bytes(file, 0, 4096);
+  if (!bytes) return base::Error{"not_readable", "the file cannot be read"};
+  const std::string_view start(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const std::string extension = lower_extension(file);
+  if (looks_like_dicom(start.data(), start.size())) return read_dicom_slice(file, series);
+  if (series && *series != "1") return base::Error{"no_series", "there is no such series: the file holds one volume"};
+  const bool packed = start.size() >= 2 && start[0] == '\x1F' && start[1] == '\x8B';
+  if (packed && extension == ".nii.gz") return read_volume_file(file, FileFormat::nifti);
+  if (!packed && is_nifti_header(start.data(), start.size()) && extension == ".nii")
+    return read_volume_file(file, FileFormat::nifti);
+  if (start.starts_with("NRRD000")) return read_volume_file(file, FileFormat::nrrd);
+  if (is_metaimage_header(start)) return read_volume_file(file, FileFormat::metaimage);
+  if (!extension.empty()) return base::Error{"damaged", "the file does not begin as its name says"};
+  return base::Error{"unknown_format", "the file is none of DICOM, NIfTI, NRRD and MetaImage"};
+}
+
+}  // namespace
+
+base::Result<Source> read_source(const std::filesystem::path& source, const std::optional<std::string>& series) {
+  std::error_code error;
+  const auto status = std::filesystem::status(source, error);
+  if (error || !std::filesystem::exists(status)) return base::Error{"not_found", "there is no such file or folder"};
+  try {
+    auto result = std::filesystem::is_directory(status)      ? read_dicom_folder(source, series)
+                  : std::filesystem::is_regular_file(status) ? read_one_file(source, series)
+                                                             : base::Error{"unknown_format", "no file or folder"};
+    if (result && *std::min_element(result->volume.hu.begin(), result->volume.hu.end()) > kTissueHu)
+      result->warnings.push_back({"no_air", "nothing in the volume is air: are its values HU?"});
+    return result;
+  } catch (const std::bad_alloc&) {
+    return base::Error{"bad_size", "there is not enough memory for the volume"};
+  }
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,113 @@
+// The only door of SQLite: a connection, a statement, a transaction. One thread at a time uses a connection.
+// Whatever goes wrong throws DatabaseFailure with SQLite's message, which names tables and columns but no values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "sim/base/failure.h"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace seldinger::casedb {
+
+// code() is "disk" when the file system fails (full, not writable, input/output error), otherwise "database".
+class DatabaseFailure : public base::Failure {
+ public:
+  enum class Kind { other, disk, busy, constraint, damaged, not_a_database };
+  DatabaseFailure(Kind kind, const std::string& text)
+      : base::Failure(kind == Kind::disk ? "disk" : "database", text), kind_(kind) {}
+  Kind kind() const noexcept { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+// One prepared question. Parameters and columns go by name: `:case_id` in SQL is bind("case_id", …).
+class Statement {
+ public:
+  Statement& bind(std::string_view name, std::string_view text);
+  Statement& bind(std::string_view name, const char* text) { return bind(name, std::string_view(text)); }
+  Statement& bind(std::string_view name, const std::string& text) { return bind(name, std::string_view(text)); }
+  Statement& bind(std::string_view name, std::int64_t value);
+  Statement& bind(std::string_view name, int value) { return bind(name, std::int64_t{value}); }
+  Statement& bind(std::string_view name, double value);
+  Statement& bind(std::string_view name, std::span<const std::byte> bytes);
+  Statement& bind_null(std::string_view name);
+  template <typename T>
+  Statement& bind(std::string_view name, const std::optional<T>& value) {
+    return value.has_value() ? bind(name, *value) : bind_null(name);
+  }
+
+  bool step();    // true: a row is there to be read
+  void run();     // for statements without rows; then ready for the next values
+  void rewind();  // ready for the next values; those bound stay
+
+  bool is_null(std::string_view column) const;
+  std::string text(std::string_view column) const;       // empty for null
+  std::string_view view(std::string_view column) const;  // as text, until the next step or rewind
+  std::int64_t integer(std::string_view column) const;
+  int small_integer(std::string_view column) const;  // CHECKs that it fits
+  double real(std::string_view column) const;
+  std::vector<std::byte> bytes(std::string_view column) const;
+
+ private:
+  friend class Sqlite;
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const noexcept;
+  };
+  Statement(sqlite3* connection, std::string_view sql);
+  int parameter(std::string_view name) const;
+  int column(std::string_view name) const;
+  void check(int code) const;
+
+  sqlite3* connection_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::unordered_map<std::string_view, int> columns_;
+};
+
+class Sqlite {
+ public:
+  enum class Mode { existing, create };
+  // Foreign keys are enforced, writes are durable when they return, another writer is waited for up to 5 s.
+  explicit Sqlite(const std::filesystem::path& file, Mode mode = Mode::existing);
+
+  const std::filesystem::path& file() const noexcept { return file_; }
+  Statement prepare(std::string_view sql);  // CHECKs that it is one statement
+  void run(const std::string& script);      // several statements without parameters
+  std::int64_t integer(std::string_view sql);
+  std::string text(std::string_view sql);
+  bool in_transaction() const noexcept;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* connection) const noexcept;
+  };
+  std::filesystem::path file_;
+  std::unique_ptr<sqlite3, Close> connection_;
+};
+
+// A write transaction: takes the write lock at once, so that what it reads still holds when it writes. Rolled back
+// unless committed.
+class Transaction {
+ public:
+  explicit Transaction(Sqlite& database);
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  ~Transaction();
+  void commit();
+
+ private:
+  Sqlite& database_;
+};
+
+}  // namespace seldinger::casedb

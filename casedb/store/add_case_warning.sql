@@ -1,0 +1,6 @@
+-- What import found odd.
+INSERT INTO case_warning (
+  case_id, position, code, text
+) VALUES (
+  :case_id, :position, :code, :text
+)

@@ -1,0 +1,3 @@
+-- One attempt.
+SELECT * FROM attempt_summary
+WHERE attempt_id = :attempt_id

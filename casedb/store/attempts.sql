@@ -1,0 +1,3 @@
+-- Every attempt, newest first.
+SELECT * FROM attempt_summary
+ORDER BY started_us DESC, attempt_id DESC

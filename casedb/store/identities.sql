@@ -1,0 +1,2 @@
+-- Identities: every name.
+SELECT person_id, name FROM identity

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "casedb/new_assets.h"
+#include "casedb/question.h"
+#include "casedb/sqlite.h"
+#include "casedb/store.h"
+#include "casedb/uuid.h"
+#include "sim/base/check.h"
+#include "sim/volume/volume_bytes.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+std::string matrix_column(int row, int column) {
+  return "lps_from_voxel_" + std::to_string(row) + std::to_string(column);
+}
+
+void insert_case(Sqlite& database, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
+                 const std::string& volume_sha256, const std::string& skin_sha256,
+                 const std::optional<std::string>& labels_sha256) {
+  const volume::Volume& volume = new_case.volume;
+  const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
+  Statement insert = question(database, "add_case");
+  insert.bind("case_id", case_id).bind("title", new_case.title).bind("state", "draft");
+  insert.bind("origin", new_case.origin).bind("created_us", created_us).bind("slices_used", new_case.slices_used);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = kAxes[axis];
+    insert.bind("size_" + name + "_voxels", volume.size_voxels[axis]);
+    insert.bind("spacing_" + name + "_mm", volume.spacing_mm[axis]);
+    for (int column = 0; column < 4; ++column)
+      insert.bind(matrix_column(axis, column), volume.lps_from_voxel[column][axis]);
+  }
+  insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
+  insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
+  insert.bind("labels_sha256", labels_sha256).run();
+
+  Statement attribute = question(database, "add_case_attribute");
+  for (std::size_t i = 0; i < new_case.attributes.size(); ++i)
+    attribute.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("name", new_case.attributes[i].first)
+        .bind("value", new_case.attributes[i].second)
+        .run();
+  Statement warning = question(database, "add_case_warning");
+  for (std::size_t i = 0; i < new_case.warnings.size(); ++i)
+    warning.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("code", new_case.warnings[i].code)
+        .bind("text", new_case.warnings[i].text)
+        .run();
+}
+
+CaseRow read_case(const Statement& from) {
+  CaseRow row;
+  row.case_id = from.text("case_id");
+  row.title = from.text("title");
+  row.state = from.text("state");
+  row.origin = from.text("origin");
+  row.created_us = from.integer("created_us");
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = kAxes[axis];
+    row.size_voxels[axis] = from.small_integer("size_" + name + "_voxels");
+    row.spacing_mm[axis] = from.real("spacing_" + name + "_mm");
+    for (int column = 0; column < 4; ++column)
+      row.lps_from_voxel[column][axis] = from.real(matrix_column(axis, column));
+  }
+  row.hu_min = from.small_integer("hu_min");
+  row.hu_max = from.small_integer("hu_max");
+  row.slices_used = from.small_integer("slices_used");
+  row.volume_sha256 = from.text("volume_sha256");
+  row.skin_sha256 = from.text("skin_sha256");
+  row.labels_sha256 = from.text("labels_sha256");
+  return row;
+}
+
+// Every case, or the one.
+std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
+  std::vector<CaseRow> rows;
+  std::unordered_map<std::string, std::size_t> place;
+  Statement cases = question(database, "cases");
+  for (cases.bind("case_id", case_id); cases.step();) {
+    rows.push_back(read_case(cases));
+    place.emplace(rows.back().case_id, rows.size() - 1);
+  }
+  // A case added between two questions is not in `place`.
+  Statement attributes = question(database, "case_attributes");
+  for (attributes.bind("case_id", case_id); attributes.step();)
+    if (const auto at = place.find(attributes.text("case_id")); at != place.end())
+      rows[at->second].attributes.emplace_back(attributes.text("name"), attributes.text("value"));
+  Statement warnings = question(database, "case_warnings");
+  for (warnings.bind("case_id", case_id); warnings.step();)
+    if (const auto at = place.find(warnings.text("case_id")); at != place.end())
+      rows[at->second].warnings.push_back({warnings.text("code"), warnings.text("text")});
+  return rows;
+}
+
+bool sound_lesion(const CaseRow& row, const cases::Lesion& lesion) {
+  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
+  // A target larger than the volume is a mistake in the unit.
+  const double diagonal_mm = glm::length(glm::dvec3(row.size_voxels) * row.spacing_mm);
+  if (!(lesion.radius_mm > 0.0 && lesion.radius_mm <= diagonal_mm)) return false;
+  if (!(lesion.hu >= -1024.0 && lesion.hu <= 32767.0)) return false;  // what a voxel can hold
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(lesion.center_lps_mm[axis])) return false;
+  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(lesion.center_lps_mm, 1.0)));
+}
+
+}  // namespace
+
+std::string add_case(Library& library, const NewCase& new_case) {
+  const volume::Volume& volume = new_case.volume;
+  const std::size_t voxels = static_cast<std::size_t>(volume.size_voxels.x) *
+                             static_cast<std::size_t>(volume.size_voxels.y) *
+                             static_cast<std::size_t>(volume.size_voxels.z);
+  CHECK(voxels > 0 && volume.hu.size() == voxels);
+  CHECK(!new_case.labels || new_case.labels->label.size() == voxels);
+
+  NewAssets assets(library);
+  const std::string volume_sha256 = assets.add(volume::bytes_from_volume(volume));
+  const std::string skin_sha256 = assets.add(cases::bytes_from_mesh(new_case.skin));
+  std::optional<std::string> labels_sha256;
+  if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
+
+  Transaction transaction(library.database());
+  assets.make_sure();
+  const std::int64_t created_us = now_us();
+  const std::string case_id = new_uuid();
+  insert_case(library.database(), new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256);
+  transaction.commit();
+  assets.keep();
+  return case_id;
+}
+
+std::vector<CaseRow> list_cases(Library& library) {
+  return read_cases(library.database(), std::nullopt);
+}
+
+base::Result<CaseRow> find_case(Library& library, const std::string& case_id) {
+  std::vector<CaseRow> rows = read_cases(library.database(), case_id);
+  if (rows.empty()) return base::Error{"no_case", "there is no such case in the library"};
+  return std::move(rows.front());
+}
+
+base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row) {
+  const auto bytes = library.load_asset(row.volume_sha256);
+  if (!bytes) return bytes.error();
+  return volume::volume_from_bytes(*bytes);
+}
+
+base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row) {
+  const auto bytes = library.load_asset(row.skin_sha256);
+  if (!bytes) return bytes.error();
+  return cases::mesh_from_bytes(*bytes);
+}
+
+base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row) {
+  if (row.labels_sha256.empty()) return base::Error{"no_labels", "the case has no labels"};
+  const auto bytes = library.load_asset(row.labels_sha256);
+  if (!bytes) return bytes.error();
+  return volume::labels_from_bytes(*bytes);
+}
+
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion) {
+  Transaction transaction(library.database());
+  const auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (!sound_lesion(*row, lesion))
+    return base::Error{
+        "bad_lesion",
+        "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, and HU "
+        "from -1024 to 32767"};
+  const std::int64_t created_us = now_us();
+  std::string lesion_id = new_uuid();
+  question(library.database(), "add_lesion")
+      .bind("lesion_id", lesion_id)
+      .bind("case_id", case_id)
+      .bind("center_x_lps_mm", lesion.center_lps_mm.x)
+      .bind("center_y_lps_mm", lesion.center_lps_mm.y)
+      .bind("center_z_lps_mm", lesion.center_lps_mm.z)
+      .bind("radius_mm", lesion.radius_mm)
+      .bind("hu", lesion.hu)
+      .bind("created_us", created_us)
+      .run();
+  transaction.commit();
+  return lesion_id;
+}
+
+std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id) {
+  std::vector<LesionRow> rows;
+  Statement lesions = question(library.database(), "lesions_of_case");
+  for (lesions.bind("case_id", case_id); lesions.step();) {
+    LesionRow& row = rows.emplace_back();
+    row.lesion_id = lesions.text("lesion_id");
+    row.case_id = lesions.text("case_id");
+    row.lesion.center_lps_mm = {lesions.real("center_x_lps_mm"), lesions.real("center_y_lps_mm"),
+                                lesions.real("center_z_lps_mm")};
+    row.lesion.radius_mm = lesions.real("radius_mm");
+    row.lesion.hu = lesions.real("hu");
+    row.created_us = lesions.integer("created_us");
+  }
+  return rows;
+}
+
+}  // namespace seldinger::casedb

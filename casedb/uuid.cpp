@@ -1,0 +1,46 @@
+#include "casedb/uuid.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+
+#include "casedb/credentials.h"
+
+namespace seldinger::casedb {
+
+std::int64_t now_us() {
+  static std::atomic<std::int64_t> last_us{0};
+  const std::int64_t clock_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  std::int64_t before_us = last_us.load();
+  std::int64_t now;
+  do {
+    now = clock_us > before_us ? clock_us : before_us + 1;
+  } while (!last_us.compare_exchange_weak(before_us, now));
+  return now;
+}
+
+std::string new_uuid() {
+  const auto time_us = static_cast<std::uint64_t>(now_us());
+  const std::uint64_t ms = time_us / 1000;
+  // RFC 9562 §6.2 method 3: the twelve bits after the version carry the fraction of the millisecond; 4096/1000 > 1
+  // keeps microseconds apart.
+  const std::uint64_t fraction = time_us % 1000 * 4096 / 1000;
+  std::array<std::byte, 16> bytes{};
+  fill_random(std::span(bytes).subspan(8));
+  for (unsigned i = 0; i < 6; ++i) bytes[i] = static_cast<std::byte>(ms >> (40 - 8 * i));
+  bytes[6] = static_cast<std::byte>(0x70 | fraction >> 8);
+  bytes[7] = static_cast<std::byte>(fraction);
+  bytes[8] = (bytes[8] & std::byte{0x3f}) | std::byte{0x80};
+
+  std::string text;
+  for (unsigned i = 0; i < 16; ++i) {
+    if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
+    text += "0123456789abcdef"[std::to_integer<unsigned>(bytes[i]) >> 4];
+    text += "0123456789abcdef"[std::to_integer<unsigned>(bytes[i]) & 15];
+  }
+  return text;
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,9 @@
+-- The sum of the numbered steps beside this file, for reading. Written by casedb_migrate_test.
+
+CREATE TABLE identity (
+  person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36), -- person in the library's database
+  name TEXT NOT NULL CHECK (name <> ''), -- what the person types to log in
+  created_us INTEGER NOT NULL
+) STRICT;
+
+CREATE UNIQUE INDEX identity_by_name ON identity (lower(name));

@@ -1,0 +1,188 @@
+-- The sum of the numbered steps beside this file, for reading. Written by casedb_migrate_test.
+
+CREATE TABLE account (
+  person_id TEXT NOT NULL PRIMARY KEY REFERENCES person (person_id),
+  role TEXT NOT NULL CHECK (role IN ('trainee', 'mentor', 'researcher', 'director', 'admin')),
+  password_hash TEXT NOT NULL CHECK (password_hash LIKE '$argon2id$%'),
+  enabled INTEGER NOT NULL CHECK (enabled IN (0, 1)),
+  created_us INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE attempt (
+  attempt_id TEXT NOT NULL PRIMARY KEY CHECK (length(attempt_id) = 36),
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  lesion_id TEXT NOT NULL,
+  person_id TEXT REFERENCES person (person_id), -- null: a simulation of nobody
+  operator_name TEXT NOT NULL, -- 'person', or the simulated operator
+  seed INTEGER NOT NULL, -- the 64 bits of an unsigned number, read as a signed one
+  program_version TEXT NOT NULL,
+  step_version INTEGER NOT NULL CHECK (step_version >= 0), -- replay needs the same
+  approach TEXT NOT NULL CHECK (approach IN ('in_plane', 'out_of_plane')),
+  instrument_kind TEXT NOT NULL CHECK (instrument_kind IN ('access', 'core')),
+  instrument_length_mm REAL NOT NULL,
+  instrument_radius_mm REAL NOT NULL,
+  instrument_inner_radius_mm REAL NOT NULL, -- 0: solid
+  instrument_hu REAL NOT NULL,
+  instrument_throw_mm REAL NOT NULL,
+  instrument_notch_mm REAL NOT NULL,
+  instrument_dead_tip_mm REAL NOT NULL,
+  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr')),
+  picture_depth_mm REAL NOT NULL,
+  picture_width_mm REAL NOT NULL,
+  picture_rate_hz REAL NOT NULL,
+  started_us INTEGER NOT NULL,
+  duration_s REAL NOT NULL CHECK (duration_s >= 0),
+  state TEXT NOT NULL CHECK (state IN ('complete', 'unfinished')), -- complete: the trigger fell
+  recording_chunks INTEGER NOT NULL CHECK (recording_chunks > 0), -- how many belong to it
+  picture_sha256 TEXT CHECK (length(picture_sha256) = 64), -- PNG in assets/ at the trigger; null: none
+  FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
+) STRICT;
+
+CREATE TABLE case_attribute (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  position INTEGER NOT NULL CHECK (position >= 0), -- order in which they are shown
+  name TEXT NOT NULL,
+  value TEXT NOT NULL,
+  PRIMARY KEY (case_id, position),
+  UNIQUE (case_id, name)
+) STRICT;
+
+CREATE TABLE case_warning (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  position INTEGER NOT NULL CHECK (position >= 0),
+  code TEXT NOT NULL,
+  text TEXT NOT NULL,
+  PRIMARY KEY (case_id, position)
+) STRICT;
+
+CREATE TABLE lesion (
+  lesion_id TEXT NOT NULL PRIMARY KEY CHECK (length(lesion_id) = 36),
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  center_x_lps_mm REAL NOT NULL,
+  center_y_lps_mm REAL NOT NULL,
+  center_z_lps_mm REAL NOT NULL,
+  radius_mm REAL NOT NULL CHECK (radius_mm > 0),
+  hu REAL NOT NULL,
+  created_us INTEGER NOT NULL,
+  UNIQUE (lesion_id, case_id) -- so that an attempt's lesion is one of its case
+) STRICT;
+
+CREATE TABLE metric_value (
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  metric_id TEXT NOT NULL,
+  version INTEGER NOT NULL CHECK (version > 0),
+  position INTEGER NOT NULL CHECK (position >= 0), -- order in which they are shown
+  value REAL CHECK (value BETWEEN -1.7976931348623157e308 AND 1.7976931348623157e308), -- in unit; null is not 0
+  unit TEXT NOT NULL,
+  reason TEXT NOT NULL, -- why there is no value; empty when there is one
+  PRIMARY KEY (attempt_id, metric_id, version),
+  CHECK ((value IS NULL) = (reason <> ''))
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE person (
+  person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),
+  pseudonym TEXT NOT NULL UNIQUE, -- random; what others than mentors see
+  created_us INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE recording_chunk (
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  sequence INTEGER NOT NULL CHECK (sequence >= 0),
+  checksum INTEGER NOT NULL, -- base::hash_bytes of data; 64 bits as in attempt.seed
+  data BLOB NOT NULL, -- compressed
+  PRIMARY KEY (attempt_id, sequence)
+) STRICT;
+
+CREATE TABLE training_case (
+  case_id TEXT NOT NULL PRIMARY KEY CHECK (length(case_id) = 36),
+  title TEXT NOT NULL, -- given by a person, never by the source
+  state TEXT NOT NULL CHECK (state IN ('draft', 'review', 'published', 'retired')),
+  origin TEXT NOT NULL CHECK (origin = 'import' OR origin LIKE 'phantom:%'),
+  created_us INTEGER NOT NULL,
+  size_x_voxels INTEGER NOT NULL CHECK (size_x_voxels > 0),
+  size_y_voxels INTEGER NOT NULL CHECK (size_y_voxels > 0),
+  size_z_voxels INTEGER NOT NULL CHECK (size_z_voxels > 0),
+  spacing_x_mm REAL NOT NULL CHECK (spacing_x_mm > 0),
+  spacing_y_mm REAL NOT NULL CHECK (spacing_y_mm > 0),
+  spacing_z_mm REAL NOT NULL CHECK (spacing_z_mm > 0),
+  -- mm from voxel index, of voxel centres: row and column from 0; the last row is 0 0 0 1
+  lps_from_voxel_00 REAL NOT NULL,
+  lps_from_voxel_01 REAL NOT NULL,
+  lps_from_voxel_02 REAL NOT NULL,
+  lps_from_voxel_03 REAL NOT NULL,
+  lps_from_voxel_10 REAL NOT NULL,
+  lps_from_voxel_11 REAL NOT NULL,
+  lps_from_voxel_12 REAL NOT NULL,
+  lps_from_voxel_13 REAL NOT NULL,
+  lps_from_voxel_20 REAL NOT NULL,
+  lps_from_voxel_21 REAL NOT NULL,
+  lps_from_voxel_22 REAL NOT NULL,
+  lps_from_voxel_23 REAL NOT NULL,
+  hu_min INTEGER NOT NULL,
+  hu_max INTEGER NOT NULL CHECK (hu_max >= hu_min),
+  slices_used INTEGER NOT NULL CHECK (slices_used >= 0),
+  -- names of files in assets/
+  volume_sha256 TEXT NOT NULL CHECK (length(volume_sha256) = 64),
+  skin_sha256 TEXT NOT NULL CHECK (length(skin_sha256) = 64),
+  labels_sha256 TEXT CHECK (length(labels_sha256) = 64) -- null: no labels
+) STRICT;
+
+CREATE INDEX attempt_by_case ON attempt (case_id);
+
+CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
+
+CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
+
+CREATE INDEX lesion_by_case ON lesion (case_id);
+
+CREATE VIEW attempt_summary AS
+SELECT attempt.*, training_case.title AS case_title, lesion.center_x_lps_mm, lesion.center_y_lps_mm,
+  lesion.center_z_lps_mm, lesion.radius_mm, lesion.hu AS lesion_hu
+FROM attempt
+JOIN training_case ON training_case.case_id = attempt.case_id
+JOIN lesion ON lesion.lesion_id = attempt.lesion_id;
+
+CREATE TRIGGER attempt_is_immutable BEFORE UPDATE ON attempt
+BEGIN
+  SELECT RAISE(ABORT, 'an attempt cannot be changed');
+END;
+
+CREATE TRIGGER attempt_is_kept BEFORE DELETE ON attempt
+BEGIN
+  SELECT RAISE(ABORT, 'an attempt cannot be deleted');
+END;
+
+CREATE TRIGGER lesion_is_immutable BEFORE UPDATE ON lesion
+BEGIN
+  SELECT RAISE(ABORT, 'a lesion cannot be changed');
+END;
+
+CREATE TRIGGER metric_value_is_immutable BEFORE UPDATE ON metric_value
+BEGIN
+  SELECT RAISE(ABORT, 'a score cannot be changed');
+END;
+
+CREATE TRIGGER metric_value_is_kept BEFORE DELETE ON metric_value
+BEGIN
+  SELECT RAISE(ABORT, 'a score cannot be deleted');
+END;
+
+CREATE TRIGGER recording_chunk_is_immutable BEFORE UPDATE ON recording_chunk
+BEGIN
+  SELECT RAISE(ABORT, 'a recording cannot be changed');
+END;
+
+CREATE TRIGGER recording_chunk_is_kept BEFORE DELETE ON recording_chunk
+BEGIN
+  SELECT RAISE(ABORT, 'a recording cannot be deleted');
+END;
+
+CREATE TRIGGER training_case_keeps_its_data
+BEFORE UPDATE OF case_id, origin, created_us, size_x_voxels, size_y_voxels, size_z_voxels, spacing_x_mm, spacing_y_mm,
+  spacing_z_mm, lps_from_voxel_00, lps_from_voxel_01, lps_from_voxel_02, lps_from_voxel_03, lps_from_voxel_10,
+  lps_from_voxel_11, lps_from_voxel_12, lps_from_voxel_13, lps_from_voxel_20, lps_from_voxel_21, lps_from_voxel_22,
+  lps_from_voxel_23, hu_min, hu_max, slices_used, volume_sha256, skin_sha256, labels_sha256
+ON training_case
+BEGIN
+  SELECT RAISE(ABORT, 'the data of a case cannot be changed');
+END;

@@ -1,0 +1,26 @@
+// The frame of every page: title, navigation, the training-only notice.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reports/html.h"
+
+namespace seldinger::reports {
+
+inline constexpr std::string_view kTrainingOnly = "Training only — not for planning a patient’s procedure.";
+
+// Who looks. Empty name: nobody is logged in, so there is no navigation.
+struct Visitor {
+  std::string name;
+  std::string role;
+  std::string form_token;  // goes into every form that changes something
+};
+
+// A whole document; `content` is what stands inside <main>.
+std::string page(std::string_view title, const Visitor& visitor, const Html& content);
+
+// A page that says one thing: an error, or that there is nothing to see.
+std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor);
+
+}  // namespace seldinger::reports

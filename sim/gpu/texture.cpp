@@ -1,0 +1,55 @@
+#include "sim/gpu/texture.h"
+
+#include <GL/glew.h>
+
+#include <algorithm>
+
+#include "sim/base/check.h"
+#include "sim/base/failure.h"
+#include "sim/gpu/handles.h"
+
+namespace seldinger::gpu {
+
+Texture::Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t> values)
+    : handles_(context.handles()) {
+  CHECK(size.x > 0 && size.y > 0 && size.z > 0);
+  CHECK(values.size() ==
+        static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z));
+  handles_->make_current();
+  GLint largest_side = 0, most_slices = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest_side);
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_slices);
+  if (std::max(size.x, size.y) > largest_side || size.z > most_slices)
+    throw base::Failure("gl", "the volume exceeds the largest texture of this OpenGL, " +
+                                  std::to_string(most_slices) + " slices of " + std::to_string(largest_side) +
+                                  " voxels along a side");
+  glGenTextures(1, &name_);
+  try {
+    glBindTexture(GL_TEXTURE_2D_ARRAY, name_);
+    // Integer textures are incomplete with any other filter.
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 2);  // rows of int16 follow each other without padding
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R16I, size.x, size.y, size.z, 0, GL_RED_INTEGER, GL_SHORT,
+                 values.data());
+    handles_->check_errors("uploading a volume");
+  } catch (...) {
+    glDeleteTextures(1, &name_);
+    throw;
+  }
+}
+
+Texture::~Texture() {
+  if (handles_->try_make_current()) glDeleteTextures(1, &name_);
+}
+
+void Texture::bind(int unit) const {
+  handles_->make_current();
+  glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, name_);
+}
+
+}  // namespace seldinger::gpu

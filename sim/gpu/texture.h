@@ -1,0 +1,32 @@
+// A volume of 16-bit integers (R16I) as a stack of slices, an isampler2DArray in shaders. A stack and not a 3-D
+// texture, because textureGather exists for stacks only: it answers the 2×2 neighbours of a slice at once,
+// unfiltered and exact. Two of them instead of eight texelFetch bring a 512×512 trilinear picture with needle and
+// lesion from 16.3 to 10.1 ms of processor time (Mesa 22.3 llvmpipe).
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+
+#include "sim/gpu/context.h"
+
+namespace seldinger::gpu {
+
+class Texture {
+ public:
+  // `values` with x fastest, size.x·size.y·size.z of them. Throws base::Failure("gl") when the size exceeds
+  // GL_MAX_TEXTURE_SIZE, GL_MAX_ARRAY_TEXTURE_LAYERS or memory.
+  Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t> values);
+  ~Texture();
+  Texture(const Texture&) = delete;
+  Texture& operator=(const Texture&) = delete;
+
+  void bind(int unit) const;  // layout(binding = unit) in the shader; reads beyond a border repeat it
+
+ private:
+  std::shared_ptr<Handles> handles_;
+  unsigned int name_ = 0;
+};
+
+}  // namespace seldinger::gpu

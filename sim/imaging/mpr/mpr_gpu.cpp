@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "shaders/shared/mpr.glsl.h"
+#include "sim/base/check.h"
+#include "sim/base/embedded.h"
+#include "sim/gpu/buffer.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/texture.h"
+#include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/mpr/plane.h"
+
+namespace seldinger::embedded {
+std::span<const base::EmbeddedFile> mpr_shaders();
+}
+
+namespace seldinger::imaging {
+namespace {
+
+using shaders::MprParameters;
+static_assert(offsetof(MprParameters, index_first) == 0);
+static_assert(offsetof(MprParameters, position_first_mm) == 48);
+static_assert(offsetof(MprParameters, needle_tip_mm) == 96);
+static_assert(offsetof(MprParameters, needle_inner_radius_mm) == 144);
+static_assert(offsetof(MprParameters, lesion_count) == 160);
+static_assert(offsetof(MprParameters, size_z) == 180);
+static_assert(offsetof(MprParameters, lesion_sphere_mm) == 192);
+static_assert(offsetof(MprParameters, lesion_hu) == 448);
+static_assert(sizeof(MprParameters) == 704);
+
+constexpr int kGroupPx = 16;  // local_size_x and _y of the shader
+constexpr int kTextureUnit = 0, kParametersBinding = 0, kPictureBinding = 1;
+
+std::string_view shader(std::string_view name) {
+  const auto files = embedded::mpr_shaders();
+  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
+  CHECK(found != files.end());
+  return found->content;
+}
+
+glm::vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {
+  return glm::vec4(glm::dvec4(xyz, w));
+}
+
+MprParameters parameters_from(const glm::dmat4& voxel_from_lps, glm::ivec3 size_voxels, const MprView& view,
+                              const Inserted& inserted) {
+  const Plane plane = plane_from_view(voxel_from_lps, view);
+  MprParameters p{};
+  p.index_first = vec4_from(plane.index_first);
+  p.index_per_column = vec4_from(plane.index_per_column);
+  p.index_per_row = vec4_from(plane.index_per_row);
+  p.position_first_mm = vec4_from(plane.position_first_mm);
+  p.position_per_column_mm = vec4_from(plane.position_per_column_mm);
+  p.position_per_row_mm = vec4_from(plane.position_per_row_mm);
+  p.width_px = view.width_px;
+  p.height_px = view.height_px;
+  p.size_x = size_voxels.x;
+  p.size_y = size_voxels.y;
+  p.size_z = size_voxels.z;
+  p.nearest = view.interpolation == Interpolation::nearest ? 1 : 0;
+  if (inserted.needle && is_finite(*inserted.needle)) {
+    const NeedlePose& needle = *inserted.needle;
+    const double along = glm::dot(plane.normal, needle.direction);
+    p.needle_present = 1;
+    p.needle_tip_mm = vec4_from(needle.tip_lps_mm - view.center_lps_mm, needle.length_mm);
+    p.needle_direction = vec4_from(needle.direction, needle.radius_mm);
+    p.needle_normal_across = vec4_from(plane.normal - along * needle.direction, along);
+    p.needle_inner_radius_mm = static_cast<float>(needle.inner_radius_mm);
+    p.needle_slab_half_mm = static_cast<float>(0.5 * view.needle_slab_mm);
+    p.needle_hu = static_cast<float>(needle.hu);
+  }
+  p.lesion_count = static_cast<int>(inserted.lesions.size());
+  for (std::size_t i = 0; i < inserted.lesions.size(); ++i) {
+    const cases::Lesion& lesion = inserted.lesions[i];
+    p.lesion_sphere_mm[i] = vec4_from(lesion.center_lps_mm - view.center_lps_mm, lesion.radius_mm);
+    p.lesion_hu[i].x = static_cast<float>(lesion.hu);
+  }
+  return p;
+}
+
+}  // namespace
+
+struct MprGpu::Parts {
+  Parts(gpu::Context& context, const volume::Volume& volume)
+      : voxel_from_lps(volume::voxel_from_lps(volume)),
+        size_voxels(volume.size_voxels),
+        slice(context, shader("mpr_slice.comp")),
+        voxels(context, volume.size_voxels, volume.hu),
+        parameters(context, gpu::BufferUse::uniform, sizeof(MprParameters)),
+        picture(context, gpu::BufferUse::storage, sizeof(float)) {}
+
+  glm::dmat4 voxel_from_lps;
+  glm::ivec3 size_voxels;
+  gpu::Program slice;
+  gpu::Texture voxels;
+  gpu::Buffer parameters;
+  gpu::Buffer picture;  // as large as the largest picture so far
+};
+
+MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume)
+    : parts_(std::make_unique<Parts>(context, volume)) {}
+
+MprGpu::~MprGpu() = default;
+
+HuImage MprGpu::render(const MprView& view, const Inserted& inserted) {
+  check_view(view, inserted);
+  HuImage image(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
+  const std::span<std::byte> bytes = std::as_writable_bytes(std::span(image));
+  if (parts_->picture.size() < bytes.size()) parts_->picture.resize(bytes.size());
+  const MprParameters parameters = parameters_from(parts_->voxel_from_lps, parts_->size_voxels, view, inserted);
+  parts_->parameters.write(std::as_bytes(std::span(&parameters, 1)));
+  parts_->parameters.bind(kParametersBinding);
+  parts_->picture.bind(kPictureBinding);
+  parts_->voxels.bind(kTextureUnit);
+  parts_->slice.dispatch((view.width_px + kGroupPx - 1) / kGroupPx, (view.height_px + kGroupPx - 1) / kGroupPx, 1);
+  parts_->picture.read(bytes);
+  return image;
+}
+
+}  // namespace seldinger::imaging

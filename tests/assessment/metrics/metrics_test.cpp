@@ -1,0 +1,369 @@
+// Tests of assessment/metrics: closed forms, edge rules, and laws that every metric keeps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "assessment/metrics/path.h"
+#include "assessment/metrics/registry.h"
+#include "assessment/signals.h"
+#include "sim/base/rng.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::assessment {
+namespace {
+
+// A body that fills y ≥ 0; the needle comes from −y.
+const cases::MeshIndex& body() {
+  static const cases::MeshIndex kIndex(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}));
+  return kIndex;
+}
+
+AttemptSetting setting() {
+  AttemptSetting s;
+  s.skin = &body();
+  s.target = cases::Lesion{{0.0, 60.0, 0.0}, 6.0, 20.0};
+  return s;
+}
+
+// Tip depth as a function of time, straight down, at rate_hz; all frames show everything.
+cases::Recording straight(const std::function<double(double)>& depth_mm, double seconds, double rate_hz = 100.0) {
+  cases::Recording recording;
+  const int n = static_cast<int>(std::lround(seconds * rate_hz));
+  for (int i = 0; i <= n; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = i / rate_hz;
+    pose.tip_lps_mm = {0.0, depth_mm(pose.t_s), 0.0};
+    pose.needle_direction = {0.0, 1.0, 0.0};
+    recording.poses.push_back(pose);
+    recording.frames.push_back({pose.t_s, true, true, true, 10.0});
+  }
+  recording.endpoint =
+      cases::Endpoint{recording.poses.back().t_s, recording.poses.back().tip_lps_mm, {0.0, 1.0, 0.0}};
+  return recording;
+}
+
+MetricValue value(const cases::Recording& recording, const std::string& id, const AttemptSetting& s = setting()) {
+  const auto signals = make_signals(s, recording);
+  EXPECT_TRUE(signals.has_value()) << signals.error().text;
+  for (const MetricValue& metric : measure_all(*signals))
+    if (metric.id == id) return metric;
+  ADD_FAILURE() << id;
+  return {};
+}
+
+double number(const cases::Recording& recording, const std::string& id, const AttemptSetting& s = setting()) {
+  const MetricValue metric = value(recording, id, s);
+  EXPECT_TRUE(metric.value.has_value()) << id << ": " << metric.reason;
+  return metric.value.value_or(std::nan(""));
+}
+
+double ramp(double t_s, double mm_s) {
+  return -20.0 + mm_s * t_s;
+}
+
+TEST(PathTip, AStraightWayIsItsLength) {
+  const auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
+  EXPECT_NEAR(number(recording, "path_tip"), 60.0, 0.06);
+}
+
+TEST(PathTip, AHelixIsItsClosedForm) {
+  // Radius 5 mm, pitch 4 mm, three turns: 3·√((2π·5)² + 4²) mm (assessment.md §8).
+  cases::Recording recording;
+  for (int i = 0; i <= 1200; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = i * 0.01;
+    const double angle = 2.0 * std::numbers::pi * 3.0 * i / 1200.0;
+    pose.tip_lps_mm = {5.0 * std::cos(angle), 20.0 + 4.0 * 3.0 * i / 1200.0, 5.0 * std::sin(angle)};
+    recording.poses.push_back(pose);
+  }
+  EXPECT_NEAR(number(recording, "path_tip"), 95.00865203222506, 0.095);
+}
+
+TEST(PathTip, OnePoseIsZeroAndAGapIsNotBridged) {
+  cases::Recording one;
+  one.poses.resize(1);
+  EXPECT_EQ(number(one, "path_tip"), 0.0);
+  auto gap = straight([](double t) { return ramp(t, 10.0); }, 4.0);
+  std::erase_if(gap.poses, [](const auto& pose) { return pose.t_s > 1.0 && pose.t_s < 3.0; });
+  EXPECT_NEAR(number(gap, "path_tip"), 20.0, 0.1);
+  EXPECT_NEAR(number(gap, "gap_share"), 0.5, 0.01);
+}
+
+TEST(PathTip, NoiseBarelyAddsToIt) {
+  base::Rng rng(1);
+  auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
+  for (auto& pose : recording.poses) pose.tip_lps_mm += glm::dvec3(rng.normal(), rng.normal(), rng.normal()) * 0.05;
+  double raw_mm = 0.0;
+  for (std::size_t i = 1; i < recording.poses.size(); ++i)
+    raw_mm += glm::length(recording.poses[i].tip_lps_mm - recording.poses[i - 1].tip_lps_mm);
+  EXPECT_GT(raw_mm, 64.0) << "the noise matters when nothing filters it";
+  EXPECT_NEAR(number(recording, "path_tip"), 60.0, 1.5);
+}
+
+TEST(LowPass, LosesThreeDecibelsAtItsCutoffAndKeepsSlowMotion) {
+  for (const auto& [hz, gain] : {std::pair{1.0, 1.0}, std::pair{10.0, std::sqrt(0.5)}, std::pair{40.0, 0.0}}) {
+    std::vector<glm::dvec3> wave;
+    for (int i = 0; i < 1000; ++i) wave.emplace_back(std::sin(2.0 * std::numbers::pi * hz * i / 100.0), 0.0, 0.0);
+    const auto out = low_pass(wave, 100.0, 10.0);
+    double peak = 0.0;
+    for (int i = 200; i < 800; ++i) peak = std::fmax(peak, std::abs(out[static_cast<std::size_t>(i)].x));
+    EXPECT_NEAR(peak, gain, 0.02) << hz;
+    for (int i = 200; i < 800; ++i)
+      EXPECT_NEAR(out[static_cast<std::size_t>(i)].x, gain * wave[static_cast<std::size_t>(i)].x, 0.02)
+          << "no phase";
+  }
+}
+
+TEST(Endpoint, AccessNeedleCountsFromTheTip) {
+  const auto recording = straight([](double t) { return std::fmin(ramp(t, 25.0), 57.0); }, 5.0);
+  EXPECT_EQ(number(recording, "hit"), 1.0);
+  EXPECT_NEAR(number(recording, "tip_target_dist"), 3.0, 1e-12);
+  EXPECT_NEAR(number(recording, "tip_target_surface"), -3.0, 1e-12);
+  EXPECT_NEAR(number(recording, "tip_target_axial"), 3.0, 1e-12);
+  EXPECT_NEAR(number(recording, "tip_target_lateral"), 0.0, 1e-12);
+  EXPECT_EQ(value(recording, "core_in_target").reason, "not_a_core_needle");
+}
+
+TEST(Endpoint, ASweepThroughTheTargetIsNoHit) {
+  const auto recording = straight([](double t) { return ramp(t, 20.0); }, 5.0);
+  EXPECT_NEAR(number(recording, "tip_target_dist"), 20.0, 1e-9);
+  EXPECT_EQ(number(recording, "hit"), 0.0);
+}
+
+TEST(Endpoint, CoreNeedleCountsFromTheFiredNotch) {
+  AttemptSetting core = setting();
+  core.instrument.kind = cases::InstrumentKind::core;  // throw 22, notch 18, dead tip 4
+  // Stopped at the near edge (54): the notch reaches from 54 to 72 and holds the 12 mm of the target.
+  const auto edge = straight([](double t) { return std::fmin(ramp(t, 25.0), 54.0); }, 5.0);
+  EXPECT_NEAR(number(edge, "core_in_target", core), 12.0, 1e-12);
+  EXPECT_EQ(number(edge, "hit", core), 1.0);
+  EXPECT_NEAR(number(edge, "tip_target_dist", core), 3.0, 1e-12);
+  // 40: notch 40..58 holds 4 mm of it, under 5.
+  const auto shallow = straight([](double t) { return std::fmin(ramp(t, 25.0), 40.0); }, 5.0);
+  EXPECT_NEAR(number(shallow, "core_in_target", core), 4.0, 1e-12);
+  EXPECT_EQ(number(shallow, "hit", core), 0.0);
+}
+
+TEST(Endpoint, NoTriggerAndNoTargetAreNullWithTheirReason) {
+  auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
+  recording.endpoint.reset();
+  EXPECT_EQ(value(recording, "hit").reason, "no_endpoint");
+  EXPECT_FALSE(value(recording, "tip_target_dist").value.has_value());
+  AttemptSetting bare = setting();
+  bare.target.reset();
+  EXPECT_EQ(value(straight([](double t) { return ramp(t, 20.0); }, 3.0), "hit", bare).reason, "no_target");
+}
+
+TEST(SkinPunctures, ScrapesAndShortTouchesAreNone) {
+  EXPECT_EQ(number(straight([](double t) { return t < 1.0 ? -5.0 : 1.9; }, 3.0), "skin_punctures"), 0.0);
+  const auto touch = [](double t) { return t > 1.0 && t < 1.085 ? 3.0 : -5.0; };
+  EXPECT_EQ(number(straight(touch, 3.0), "skin_punctures"), 0.0);
+  EXPECT_EQ(number(straight([](double t) { return t > 1.0 && t < 1.125 ? 3.0 : -5.0; }, 3.0), "skin_punctures"),
+            1.0);
+}
+
+TEST(SkinPunctures, TheNextNeedsTheTipOneMillimetreOutside) {
+  const auto twice = [](double out_mm) {
+    return [out_mm](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? 10.0 : t < 3.0 ? out_mm : 10.0; };
+  };
+  EXPECT_EQ(number(straight(twice(-0.9), 4.0), "skin_punctures"), 1.0);
+  EXPECT_EQ(number(straight(twice(-0.9), 4.0), "withdrawals_full"), 0.0);
+  EXPECT_EQ(number(straight(twice(-1.1), 4.0), "skin_punctures"), 2.0);
+  EXPECT_EQ(number(straight(twice(-1.1), 4.0), "withdrawals_full"), 1.0);
+}
+
+TEST(SkinPunctures, ANeedleInThroughTheVolumesEndIsNone) {
+  const cases::MeshIndex cut(fixtures::box_mesh({-200, 0, -200}, {200, 200, 200}, true));
+  AttemptSetting s = setting();
+  s.skin = &cut;
+  cases::Recording recording;
+  for (int i = 0; i <= 300; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = i * 0.01;
+    pose.tip_lps_mm = {0.0, 100.0, 250.0 - i};
+    recording.poses.push_back(pose);
+  }
+  EXPECT_EQ(number(recording, "skin_punctures", s), 0.0);
+}
+
+TEST(WithdrawalsPartial, HysteresisIsAFifthOfTheDepthBetweenTwoAndFiveMillimetres) {
+  const auto back_by = [](double depth_mm, double back_mm) {
+    return [=](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? depth_mm : t < 3.0 ? depth_mm - back_mm : depth_mm; };
+  };
+  const auto count = [&](double depth_mm, double back_mm) {
+    return number(straight(back_by(depth_mm, back_mm), 4.0), "withdrawals_partial");
+  };
+  EXPECT_EQ(count(5.0, 1.9), 0.0);
+  EXPECT_EQ(count(5.0, 2.1), 1.0);
+  EXPECT_EQ(count(15.0, 2.9), 0.0);
+  EXPECT_EQ(count(15.0, 3.1), 1.0);
+  EXPECT_EQ(count(60.0, 4.9), 0.0);
+  EXPECT_EQ(count(60.0, 5.1), 1.0);
+}
+
+TEST(WithdrawalsPartial, JitterAndLeavingTheSkinAreNone) {
+  const auto jitter = [](double t) { return t < 1.0 ? -5.0 : 40.0 + 2.4 * std::sin(30.0 * t); };
+  EXPECT_EQ(number(straight(jitter, 6.0), "withdrawals_partial"), 0.0);
+  const auto out = [](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? 40.0 : t < 3.0 ? -5.0 : 40.0; };
+  EXPECT_EQ(number(straight(out, 4.0), "withdrawals_partial"), 0.0);
+  EXPECT_EQ(number(straight(out, 4.0), "withdrawals_full"), 1.0);
+}
+
+TEST(Visibility, SharesAreOfTheTimeInTissueWithALivePicture) {
+  auto recording = straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 10.0);
+  for (auto& frame : recording.frames) {
+    frame.needle_tip = frame.t_s >= 2.0 && frame.t_s < 4.0;  // 2 of 8 s in tissue
+    frame.target = frame.t_s < 7.0;                          // 5 of 8 s
+  }
+  EXPECT_NEAR(number(recording, "vis_needle"), 0.25, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_target"), 0.625, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_joint"), 0.25, 1e-9);
+  for (auto& frame : recording.frames) frame.live = frame.t_s < 6.0;  // a frozen picture shows nothing
+  EXPECT_NEAR(number(recording, "vis_needle"), 0.5, 1e-9);
+}
+
+TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
+  auto recording = straight([](double) { return 30.0; }, 10.0);
+  recording.frames = {
+      {0.0, true, true, true, 1.0}, {2.503, true, false, true, 1.0}, {9.001, true, true, false, 1.0}};
+  EXPECT_NEAR(number(recording, "vis_needle"), 0.2503 + 0.0999, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_target"), 0.9001, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_joint"), 0.2503, 1e-9);
+}
+
+TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {
+  EXPECT_EQ(value(straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 2.9), "vis_needle").reason,
+            "under_1_s_in_tissue_with_a_live_picture");
+  AttemptSetting s = setting();
+  s.approach = cases::Approach::out_of_plane;
+  const auto recording = straight([](double) { return 30.0; }, 5.0);
+  EXPECT_EQ(value(recording, "vis_needle", s).reason, "not_meaningful_out_of_plane");
+  EXPECT_EQ(value(recording, "vis_joint", s).reason, "not_meaningful_out_of_plane");
+  EXPECT_TRUE(value(recording, "vis_target", s).value.has_value());
+  s = setting();
+  s.target.reset();
+  EXPECT_EQ(value(recording, "vis_target", s).reason, "no_target");
+  EXPECT_EQ(value(recording, "vis_joint", s).reason, "no_target");
+}
+
+TEST(TimeTotal, RunsFromTheFirstPoseToTheEndpoint) {
+  auto recording = straight([](double t) { return ramp(t, 20.0); }, 5.0);
+  for (auto& pose : recording.poses) pose.t_s += 100.0;
+  recording.endpoint->t_s = 103.456;
+  EXPECT_NEAR(number(recording, "time_total"), 3.456, 1e-9);
+}
+
+TEST(Signals, BadPosesAreRefused) {
+  const auto code = [](const std::function<void(cases::Recording&)>& spoil) {
+    auto recording = straight([](double t) { return ramp(t, 20.0); }, 1.0);
+    spoil(recording);
+    const auto signals = make_signals(setting(), recording);
+    return signals ? std::string("accepted") : signals.error().code;
+  };
+  EXPECT_EQ(code([](auto&) {}), "accepted");
+  EXPECT_EQ(code([](auto& r) { r.poses.clear(); }), "bad_poses");
+  EXPECT_EQ(code([](auto& r) { r.poses[5].tip_lps_mm.x = std::nan(""); }), "bad_poses");
+  EXPECT_EQ(code([](auto& r) { r.poses[5].t_s = 0.0; }), "bad_poses");
+  EXPECT_EQ(code([](auto& r) { r.poses[5].needle_direction *= 1.5; }), "bad_poses");
+  EXPECT_EQ(code([](auto& r) { r.poses[6].t_s = r.poses[5].t_s; }), "accepted");
+}
+
+// --- laws of every metric (assessment.md §8)
+// ----------------------------------------------------------------------
+
+cases::Recording lively() {
+  auto recording = straight(
+      [](double t) {
+        return t < 2.0   ? -20.0 + 15.0 * t
+               : t < 5.0 ? 12.0 * (t - 1.0)
+               : t < 6.0 ? 48.0 - 12.0 * (t - 5.0)
+                         : 36.0 + 9.0 * (t - 6.0);
+      },
+      8.0, 200.0);
+  for (auto& frame : recording.frames) {
+    frame.needle_tip = std::sin(3.0 * frame.t_s) > -0.3;
+    frame.target = std::sin(2.0 * frame.t_s) > 0.0;
+  }
+  for (auto& pose : recording.poses) pose.tip_lps_mm.x = 3.0 * std::sin(pose.t_s);
+  recording.endpoint->tip_lps_mm = recording.poses.back().tip_lps_mm;
+  return recording;
+}
+
+void expect_equal_metrics(const cases::Recording& a, const AttemptSetting& sa, const cases::Recording& b,
+                          const AttemptSetting& sb, double relative) {
+  const auto signals_a = make_signals(sa, a), signals_b = make_signals(sb, b);
+  ASSERT_TRUE(signals_a.has_value() && signals_b.has_value());
+  const auto values_a = measure_all(*signals_a), values_b = measure_all(*signals_b);
+  ASSERT_EQ(values_a.size(), registry().size());
+  for (std::size_t i = 0; i < values_a.size(); ++i) {
+    ASSERT_EQ(values_a[i].value.has_value(), values_b[i].value.has_value()) << values_a[i].id;
+    if (!values_a[i].value) continue;
+    EXPECT_NEAR(*values_a[i].value, *values_b[i].value, relative * (1.0 + std::abs(*values_a[i].value)))
+        << values_a[i].id;
+  }
+}
+
+TEST(EveryMetric, IsTheSameInAnotherFrameOfReference) {
+  // A rotation by 90° about z and a large shift: float vertices stay exact.
+  const auto moved = [](const glm::dvec3& p) { return glm::dvec3(-p.y, p.x, p.z) + glm::dvec3(512, -1024, 256); };
+  const auto turned = [](const glm::dvec3& v) { return glm::dvec3(-v.y, v.x, v.z); };
+  auto mesh = fixtures::box_mesh({-200, 0, -200}, {200, 200, 200});
+  for (glm::vec3& v : mesh.vertices_lps_mm) v = glm::vec3(moved(glm::dvec3(v)));
+  const cases::MeshIndex skin(mesh);
+  AttemptSetting there = setting();
+  there.skin = &skin;
+  there.target->center_lps_mm = moved(there.target->center_lps_mm);
+  const auto here = lively();
+  auto other = here;
+  for (auto& pose : other.poses) {
+    pose.tip_lps_mm = moved(pose.tip_lps_mm);
+    pose.needle_direction = turned(pose.needle_direction);
+  }
+  other.endpoint->tip_lps_mm = moved(other.endpoint->tip_lps_mm);
+  other.endpoint->direction = turned(other.endpoint->direction);
+  expect_equal_metrics(here, setting(), other, there, 1e-9);
+}
+
+TEST(EveryMetric, IsTheSameAtAnotherTime) {
+  const auto here = lively();
+  auto later = here;
+  for (auto& pose : later.poses) pose.t_s += 1000.0;
+  for (auto& frame : later.frames) frame.t_s += 1000.0;
+  later.endpoint->t_s += 1000.0;
+  expect_equal_metrics(here, setting(), later, setting(), 1e-9);
+}
+
+TEST(EveryMetric, DoesNotChangeWithRepeatedSamples) {
+  const auto here = lively();
+  auto doubled = here;
+  doubled.poses.clear();
+  for (const auto& pose : here.poses) doubled.poses.insert(doubled.poses.end(), 2, pose);
+  expect_equal_metrics(here, setting(), doubled, setting(), 0.0);
+}
+
+TEST(EveryMetric, BarelyChangesWithTheSamplingRate) {
+  const auto here = lively();
+  auto half = here;
+  half.poses.clear();
+  for (std::size_t i = 0; i < here.poses.size(); i += 2) half.poses.push_back(here.poses[i]);
+  expect_equal_metrics(here, setting(), half, setting(), 0.01);
+}
+
+TEST(Registry, IdsAreUniqueAndEveryRowIsComplete) {
+  std::vector<std::string> ids;
+  for (const MetricInfo& info : registry()) {
+    EXPECT_EQ(std::count(ids.begin(), ids.end(), info.id), 0) << info.id;
+    ids.emplace_back(info.id);
+    EXPECT_GE(info.version, 1);
+    for (const char* text : {info.unit, info.label, info.definition, info.source})
+      EXPECT_GT(std::string(text).size(), 0U);
+    EXPECT_EQ(find_metric(info.id), &info);
+  }
+  EXPECT_EQ(find_metric("nothing"), nullptr);
+}
+
+}  // namespace
+}  // namespace seldinger::assessment

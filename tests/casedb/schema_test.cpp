@@ -1,0 +1,117 @@
+// The two databases of a library: migrations/schema.sql shows the sum of all steps, and the constraints hold.
+#include <sstream>
+
+#include "casedb/migrate.h"
+#include "tests/casedb/library_samples.h"
+
+namespace seldinger::casedb {
+namespace {
+
+std::string sum_of(Sqlite& database) {
+  std::ostringstream sum;
+  sum << "-- The sum of the numbered steps beside this file, for reading. Written by casedb_migrate_test.\n";
+  Statement objects = database.prepare(
+      "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL "
+      "ORDER BY CASE type WHEN 'table' THEN 0 WHEN 'index' THEN 1 WHEN 'view' THEN 2 ELSE 3 END, name");
+  while (objects.step()) sum << '\n' << objects.text("sql") << ";\n";
+  return sum.str();
+}
+
+class SchemaTest : public testing::Test {
+ protected:
+  std::filesystem::path folder_ = fresh_folder();
+  Library library_ = open_library(folder_ / "library");
+  Sqlite& database_ = library_.database();
+
+  void expect_written(Sqlite& database, const std::string& file) {
+    const std::string sum = sum_of(database);
+    const auto put = folder_ / "schema.sql";
+    std::ofstream(put, std::ios::binary) << sum;
+    EXPECT_EQ(content_of(std::filesystem::path(SELDINGER_SOURCE_DIR) / file), sum)
+        << file << " is not the sum of the migrations: copy " << put << " over it.";
+  }
+  void refuse(const std::string& sql) {
+    EXPECT_TRUE(refused_by_constraint([&] { database_.run(sql); })) << sql;
+  }
+};
+
+TEST_F(SchemaTest, SchemaSqlIsTheSumOfTheMigrations) {
+  expect_written(library_.database(), "migrations/schema.sql");
+}
+
+TEST_F(SchemaTest, SchemaSqlOfIdentitiesIsTheSumOfTheMigrations) {
+  expect_written(library_.identities(), "migrations/identities/schema.sql");
+}
+
+TEST_F(SchemaTest, EveryTableIsStrict) {
+  for (Sqlite* database : {&library_.database(), &library_.identities()}) {
+    EXPECT_EQ(database->integer("SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND strict = 0 AND "
+                                "name NOT LIKE 'sqlite_%'"),
+              0);
+    EXPECT_GT(database->integer("SELECT count(*) FROM pragma_table_list WHERE strict = 1"), 0);
+  }
+}
+
+TEST_F(SchemaTest, NamesHaveNoPlaceInThePerformanceDatabase) {
+  EXPECT_EQ(
+      database_.integer("SELECT count(*) FROM sqlite_schema s, pragma_table_info(s.name) c WHERE "
+                        "c.name IN ('name', 'login_name', 'username', 'email') AND s.name <> 'case_attribute'"),
+      0);
+}
+
+TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
+  const std::string case_id = add_case(library_, sample_case());
+  const std::string other_case = add_case(library_, sample_case());
+  const std::string lesion_id = add_lesion(library_, case_id, sample_lesion()).value();
+  const std::string attempt_id = add_attempt(library_, sample_attempt(case_id, lesion_id)).value();
+  const std::string nobody(36, '0');
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 1, 0)");
+  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + nobody + "', 0, 0, 0, 1, 0, 0)");
+  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + case_id + "', 0, 0, 0, 0, 0, 0)");       // radius 0
+  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + case_id + "', 'here', 0, 0, 1, 0, 0)");  // STRICT
+  refuse("INSERT INTO case_attribute VALUES ('" + case_id + "', 9, 'modality', 'MR')");              // twice
+  refuse("INSERT INTO recording_chunk VALUES ('" + nobody + "', 0, 0, x'00')");
+  refuse("UPDATE training_case SET state = 'lost'");
+  refuse("DELETE FROM training_case");
+  database_.run("INSERT INTO person VALUES ('" + nobody + "', 'P', 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'king', '$argon2id$x', 1, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', 'secret', 1, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 2, 0)");
+  const std::string metric = "INSERT INTO metric_value VALUES ('" + attempt_id + "', 'm', 1, 0, ";
+  refuse(metric + "NULL, 'mm', '')");        // no value, no reason
+  refuse(metric + "0.0, 'mm', 'no plan')");  // both
+  refuse(metric + "9e999, 'mm', '')");       // infinite
+  database_.run(metric + "NULL, 'mm', 'no plan')");
+  EXPECT_EQ(database_.integer("SELECT count(*) FROM pragma_foreign_key_check"), 0);
+}
+
+TEST_F(SchemaTest, AnAttemptsLesionIsOneOfItsCase) {
+  const std::string case_id = add_case(library_, sample_case());
+  const std::string other_case = add_case(library_, sample_case());
+  const std::string lesion_id = add_lesion(library_, case_id, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id, lesion_id)).value());
+  // The same row with another id and case, written past the store.
+  database_.run("CREATE TEMP TABLE copy AS SELECT * FROM attempt; UPDATE copy SET attempt_id = '" +
+                std::string(36, '1') + "', case_id = '" + other_case + "'");
+  refuse("INSERT INTO attempt SELECT * FROM copy");
+  database_.run("UPDATE copy SET case_id = '" + case_id + "'; INSERT INTO attempt SELECT * FROM copy");
+}
+
+TEST_F(SchemaTest, WhatHappenedCannotBeChanged) {
+  const std::string case_id = add_case(library_, sample_case());
+  const std::string lesion_id = add_lesion(library_, case_id, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id, lesion_id)).value());
+  for (const std::string table : {"attempt", "recording_chunk", "metric_value"}) {
+    refuse("UPDATE " + table + " SET attempt_id = attempt_id");
+    refuse("DELETE FROM " + table);
+    refuse("INSERT OR REPLACE INTO " + table + " SELECT * FROM " + table);
+  }
+  refuse("UPDATE lesion SET radius_mm = radius_mm * 2");
+  refuse("UPDATE training_case SET volume_sha256 = skin_sha256");
+  refuse("UPDATE training_case SET lps_from_voxel_23 = 0");
+  database_.run("UPDATE training_case SET title = 'B', state = 'published'");
+  EXPECT_EQ(list_cases(library_).front().title, "B");
+}
+
+}  // namespace
+}  // namespace seldinger::casedb

@@ -1,0 +1,52 @@
+// Tests that the generated documents are what their tables say. To renew one: seldinger help --commands >
+// docs/commands.md
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "app/command.h"
+#include "assessment/metrics/registry.h"
+#include "web/routes.h"
+
+namespace {
+
+std::string file(const std::string& name) {
+  std::ifstream stream(std::string(SELDINGER_SOURCE_DIR) + "/" + name);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Docs, CommandsAreTheTable) {
+  EXPECT_EQ(file("docs/commands.md"), seldinger::app::commands_markdown());
+}
+
+TEST(Docs, MetricsAreTheRegistry) {
+  EXPECT_EQ(file("docs/metrics.md"), seldinger::assessment::metrics_markdown());
+}
+
+TEST(Docs, RoutesAreTheRegistry) {
+  EXPECT_EQ(file("docs/routes.md"), seldinger::web::routes_markdown());
+}
+
+TEST(Docs, HelpNamesEveryCommandAndOption) {
+  for (const auto& command : seldinger::app::commands()) {
+    EXPECT_NE(seldinger::app::help_text().find(command.name), std::string::npos) << command.name;
+    for (const auto& option : command.options)
+      EXPECT_NE(seldinger::app::help_text(command).find(option.name), std::string::npos) << option.name;
+  }
+}
+
+TEST(Docs, TheReadmeNamesOnlyCommandsThatExist) {
+  const std::string readme = file("README.md");
+  ASSERT_FALSE(readme.empty());
+  for (std::size_t at = readme.find("`seldinger "); at != std::string::npos;
+       at = readme.find("`seldinger ", at + 1)) {
+    const std::string rest = readme.substr(at + 11, 40);
+    bool known = false;
+    for (const auto& command : seldinger::app::commands()) known = known || rest.rfind(command.name, 0) == 0;
+    EXPECT_TRUE(known) << rest;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,180 @@
+// The pages: what they lead with, that nothing of the data becomes markup, that every one says what it is not for.
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "reports/attempt_page.h"
+#include "reports/attempts_page.h"
+#include "reports/login_page.h"
+#include "reports/page.h"
+#include "sample_attempt.h"
+
+namespace seldinger::reports {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const Visitor kMentor{"Ann", "mentor", "token-1"};
+
+std::size_t count_of(const std::string& text, const std::string& piece) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(piece); at != text.npos; at = text.find(piece, at + 1)) ++count;
+  return count;
+}
+
+// Every element that opens closes in order; void elements aside.
+std::string first_unbalanced_tag(const std::string& html) {
+  std::vector<std::string> open;
+  for (std::size_t at = html.find('<'); at != html.npos; at = html.find('<', at + 1)) {
+    const std::size_t end = html.find('>', at);
+    if (end == html.npos) return "unfinished";
+    const bool closes = html[at + 1] == '/';
+    const std::size_t from = at + (closes ? 2 : 1);
+    const std::string name = html.substr(from, html.find_first_of(" >/\n", from) - from);
+    if (name == "!doctype" || name == "meta" || name == "link" || name == "input" || name == "img") continue;
+    if (html[end - 1] == '/') continue;
+    if (!closes) {
+      open.push_back(name);
+    } else if (open.empty() || open.back() != name) {
+      return name;
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() ? "" : open.back();
+}
+
+std::vector<std::string> all_pages() {
+  const AttemptView view = sample_attempt();
+  const cases::Recording recording = sample_recording(view.row.lesion, 8.0);
+  const ListPart part{2, 3, 120, false};
+  return {login_page("t", ""),
+          login_page("t", "Name and password do not fit."),
+          message_page("Not found", "There is nothing here.", kMentor),
+          attempts_page(kMentor, std::vector{view, view}, part),
+          attempts_page(kMentor, {}, {}),
+          no_attempts_page(kMentor),
+          attempt_page(kMentor, view, &recording),
+          attempt_page(kMentor, view, nullptr)};
+}
+
+TEST(EveryPage, SaysTrainingOnlyAndIsWellFormed) {
+  for (const std::string& html : all_pages()) {
+    EXPECT_THAT(html, HasSubstr("Training only — not for planning a patient’s procedure."));
+    EXPECT_EQ(first_unbalanced_tag(html), "");
+    EXPECT_THAT(html, HasSubstr("<html lang=\"en\">"));
+    EXPECT_THAT(html, HasSubstr("<a class=\"skip\" href=\"#content\">"));
+    EXPECT_EQ(count_of(html, "<h1>"), 1U);
+    EXPECT_EQ(count_of(html, "<main id=\"content\""), 1U);
+  }
+}
+
+TEST(EveryPage, NeedsNoScriptAndNoInlineStyleSoThatThePolicyHolds) {
+  for (const std::string& html : all_pages()) {
+    for (const char* forbidden :
+         {"<script", "<style", " style=", "javascript:", " onclick", "http://", "https://", "data:"}) {
+      EXPECT_THAT(html, Not(HasSubstr(forbidden)));
+    }
+  }
+}
+
+TEST(EveryPage, GivesItsTablesACaptionAndItsHeadersAScope) {
+  for (const std::string& html : all_pages()) {
+    EXPECT_EQ(count_of(html, "<table"), count_of(html, "<caption>"));
+    EXPECT_EQ(count_of(html, "<th "), count_of(html, "<th scope=\""));
+    EXPECT_EQ(count_of(html, "<th>"), 0U);
+    EXPECT_EQ(count_of(html, "<img "), count_of(html, " alt=\""));
+  }
+}
+
+TEST(AttemptPage, LeadsWithHitAndDistance) {
+  const std::string html = attempt_page(kMentor, sample_attempt(), nullptr);
+  const std::size_t hit = html.find("<dd>Yes</dd>"), distance = html.find("<dd>2.3 mm</dd>");
+  ASSERT_NE(hit, html.npos);
+  ASSERT_NE(distance, html.npos);
+  EXPECT_LT(hit, distance);
+  EXPECT_LT(distance, html.find("<table>"));
+  EXPECT_THAT(html, HasSubstr("LPS (12.0, −34.5, 100.0) mm, diameter 16.0 mm"));
+  EXPECT_THAT(html, HasSubstr("2026-03-01 14:05 UTC"));
+  EXPECT_THAT(html, HasSubstr("/attempts/0190a1b2-0000-7000-8000-0000000000a1/picture.png"));
+  EXPECT_THAT(html, HasSubstr("time_total v2"));
+}
+
+TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
+  AttemptView view = sample_attempt();
+  for (casedb::MetricValue& metric : view.row.metrics) metric.value = std::nullopt, metric.reason = "no_endpoint";
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  // Hit, distance and time lead; all seven stand in the tables.
+  EXPECT_EQ(count_of(html, "— <span class=\"why\">no endpoint</span>"), 3U + 7U);
+  for (const char* zero : {">0<", ">0.0", "No</dd>", "Yes</dd>", "the target was"})
+    EXPECT_THAT(html, Not(HasSubstr(zero)));
+}
+
+TEST(AttemptPage, WithoutMetricsOrPictureSaysSo) {
+  AttemptView view = sample_attempt();
+  view.row.metrics.clear();
+  view.row.picture_sha256.clear();
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("No metrics are stored"));
+  EXPECT_THAT(html, HasSubstr("No picture is stored"));
+  EXPECT_THAT(html, Not(HasSubstr("<img")));
+  EXPECT_EQ(count_of(html, "— <span class=\"why\">not measured</span>"), 2U);
+}
+
+TEST(AttemptPage, NothingOfTheDataBecomesMarkup) {
+  const std::string bad = "\"'><img src=x onerror=alert(1)>\u202E</title></bdi>";
+  AttemptView view = sample_attempt();
+  view.row.case_title = view.operator_label = view.row.program_version = view.row.attempt_id = bad;
+  for (casedb::MetricValue& metric : view.row.metrics) {
+    metric.unit = bad;
+    metric.id += bad;
+    metric.reason = bad;
+  }
+  const Visitor visitor{bad, bad, bad};
+  const std::string page_html = attempt_page(visitor, view, nullptr);
+  const std::string list_html = attempts_page(visitor, std::vector{view}, {1, 1, 1, false});
+  for (const std::string& html : {page_html, list_html, message_page(bad, bad, visitor), login_page(bad, bad)}) {
+    EXPECT_THAT(html, Not(HasSubstr("<img src=x")));
+    EXPECT_THAT(html, Not(HasSubstr("\u202E")));
+    EXPECT_EQ(first_unbalanced_tag(html), "");
+    EXPECT_EQ(count_of(html, "</title>"), 1U);
+  }
+}
+
+TEST(AttemptsPage, ShowsTheRowsInTheOrderGivenWithLinks) {
+  AttemptView first = sample_attempt(), second = sample_attempt();
+  second.row.attempt_id = "0190a1b2-0000-7000-8000-0000000000a2";
+  second.row.metrics = {{"hit", 1, 0.0, "bool", ""}, {"tip_target_dist", 1, std::nullopt, "mm", "no_target"}};
+  const std::string html = attempts_page(kMentor, std::vector{first, second}, {1, 1, 2, false});
+  EXPECT_LT(html.find("/attempts/" + first.row.attempt_id), html.find("/attempts/" + second.row.attempt_id));
+  EXPECT_THAT(html, HasSubstr("<span class=\"yes\">Yes</span>"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"no\">No</span>"));
+  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">no target</span>"));
+  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">not measured</span>"));
+  EXPECT_THAT(html, Not(HasSubstr("Pages of the list")));
+}
+
+TEST(AttemptsPage, WhenEmptySaysWhatToDo) {
+  EXPECT_THAT(attempts_page(kMentor, {}, {}), HasSubstr("seldinger simulate"));
+  EXPECT_THAT(attempts_page(kMentor, {}, {1, 1, 0, true}), HasSubstr("seldinger train"));
+}
+
+TEST(AttemptsPage, ALongListLinksItsNeighbours) {
+  const std::string html = attempts_page(kMentor, std::vector{sample_attempt()}, {2, 3, 101, false});
+  EXPECT_THAT(html, HasSubstr("?page=1\">Newer"));
+  EXPECT_THAT(html, HasSubstr("?page=3\">Older"));
+  EXPECT_THAT(html, HasSubstr("Page 2 of 3"));
+}
+
+TEST(LogInPage, PostsNamePasswordAndTokenAndTellsTheProblemAloud) {
+  const std::string html = login_page("tok", "Name and password do not fit.");
+  for (const char* piece : {"method=\"post\" action=\"/login\"", "name=\"token\" value=\"tok\"",
+                            "type=\"password\"", "autocomplete=\"current-password\"", "role=\"alert\""}) {
+    EXPECT_THAT(html, HasSubstr(piece));
+  }
+  EXPECT_THAT(login_page("tok", ""), Not(HasSubstr("role=\"alert\"")));
+}
+
+}  // namespace
+}  // namespace seldinger::reports

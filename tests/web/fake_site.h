@@ -1,0 +1,220 @@
+// A library in memory and a world whose clock and chance the test sets.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/failure.h"
+#include "sim/base/hash.h"
+#include "web/questions.h"
+#include "web/site.h"
+
+namespace seldinger::web {
+
+class FakeQuestions final : public Questions {
+ public:
+  std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
+    ++log_ins;
+    if (during_log_in) during_log_in();
+    const auto found = passwords.find(name);
+    if (found == passwords.end() || found->second != password) return std::nullopt;
+    for (const casedb::Account& account : list_accounts()) {
+      if (account.login_name == name && account.enabled) return account;
+    }
+    return std::nullopt;
+  }
+  std::optional<casedb::Account> find_account(const std::string& person_id) override {
+    for (const casedb::Account& account : list_accounts()) {
+      if (account.person_id == person_id) return account;
+    }
+    return std::nullopt;
+  }
+  std::vector<casedb::Account> list_accounts() override {
+    fail_if_asked();
+    const std::lock_guard lock(mutex);
+    return accounts;
+  }
+  std::vector<casedb::AttemptRow> list_attempts() override {
+    fail_if_asked();
+    return attempts;
+  }
+  std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {
+    std::vector<casedb::AttemptRow> own;
+    for (const casedb::AttemptRow& row : attempts) {
+      if (row.person_id == person_id) own.push_back(row);
+    }
+    return own;
+  }
+  base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) override {
+    fail_if_asked();
+    for (const casedb::AttemptRow& row : attempts) {
+      if (row.attempt_id == attempt_id) return row;
+    }
+    return base::Error{"no_attempt", "there is no such attempt"};
+  }
+  base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
+  base::Result<cases::Recording> load_recording(const std::string&) override {
+    return base::Error{"damaged", "the recording is damaged"};
+  }
+
+  std::mutex mutex;  // guards accounts
+  std::vector<casedb::Account> accounts;
+  std::map<std::string, std::string> passwords;  // by log-in name
+  std::vector<casedb::AttemptRow> attempts;      // newest first
+  std::vector<std::byte> picture;
+  std::function<void()> fault;  // thrown from questions about attempts and accounts
+  std::function<void()> during_log_in;
+  std::atomic<int> log_ins = 0;
+
+ private:
+  void fail_if_asked() const {
+    if (fault) fault();
+  }
+};
+
+inline constexpr const char* kPassword = "correct horse battery";
+inline const std::string kOwnAttempt = "0190a1b2-0000-7000-8000-0000000000a1";
+inline const std::string kOthersAttempt = "0190a1b2-0000-7000-8000-0000000000a2";
+inline const std::string kNobodysAttempt = "0190a1b2-0000-7000-8000-0000000000a3";
+inline const std::string kMissingAttempt = "0190a1b2-0000-7000-8000-0000000000ff";
+
+inline casedb::AttemptRow attempt_row(const std::string& id, std::optional<std::string> person_id) {
+  casedb::AttemptRow row;
+  row.attempt_id = id;
+  row.case_title = "Case of " + id.substr(34);
+  row.operator_name = person_id.has_value() ? "person" : "novice";
+  row.person_id = std::move(person_id);
+  row.picture_sha256 = std::string(64, 'a');
+  row.metrics = {{"hit", 1, 1.0, "bool", ""}, {"vis_joint", 1, std::nullopt, "share", "no_endpoint"}};
+  return row;
+}
+
+// One account a role, named after it, and a second trainee. "Own" of each role is kOwnAttempt given to that person.
+inline void fill(FakeQuestions& questions) {
+  using casedb::Role;
+  for (const Role role : {Role::trainee, Role::mentor, Role::researcher, Role::director, Role::admin}) {
+    const std::string name = casedb::name_of(role);
+    questions.accounts.push_back({"person-of-" + name, name, role, true});
+    questions.passwords[name] = kPassword;
+  }
+  questions.accounts.push_back({"person-of-other-zzz999", "Other Trainee", Role::trainee, true});
+  questions.attempts = {attempt_row(kOwnAttempt, "person-of-trainee"),
+                        attempt_row(kOthersAttempt, "person-of-other-zzz999"),
+                        attempt_row(kNobodysAttempt, std::nullopt)};
+  for (const unsigned char c : std::string_view("\x89PNG\r\n\x1a\nrest")) questions.picture.push_back(std::byte{c});
+}
+
+inline std::string fake_hash(std::string_view text) {
+  std::string out;
+  for (std::uint64_t part = 0; part < 4; ++part) {
+    std::uint64_t value = base::hash_bytes(std::as_bytes(std::span(text.data(), text.size())), part);
+    for (int i = 0; i < 16; ++i, value >>= 4) out += "0123456789abcdef"[value & 15];
+  }
+  return out;
+}
+
+// A site, its world, and a browser that keeps cookies.
+struct FakeSite {
+  FakeSite() {
+    fill(questions);
+    surroundings.now_us = [this] { return now_us.load(); };
+    surroundings.random_id = [this] { return fake_hash("random " + std::to_string(++ids)); };
+    surroundings.sha256_hex = fake_hash;
+    surroundings.log = [this](const std::string& line) {
+      const std::lock_guard lock(log_mutex);
+      log.push_back(line);
+    };
+    surroundings.program_version = "9.8.7";
+    site.emplace(questions, surroundings);
+  }
+  FakeSite(const FakeSite&) = delete;
+  FakeSite& operator=(const FakeSite&) = delete;
+
+  FakeQuestions questions;
+  Surroundings surroundings;
+  std::atomic<std::int64_t> now_us = 1000000;
+  std::atomic<int> ids = 0;
+  std::mutex log_mutex;
+  std::vector<std::string> log;
+  std::optional<Site> site;
+};
+
+inline std::string header_of(const Response& response, const std::string& name) {
+  std::string all;
+  for (const auto& [one, value] : response.headers) {
+    if (one == name) all += (all.empty() ? "" : "\n") + value;
+  }
+  return all;
+}
+
+// The value of the hidden token field of the form with this action.
+inline std::string form_token(const std::string& html, const std::string& action) {
+  const std::size_t form = html.find("action=\"" + action + "\"");
+  if (form == html.npos) return "";
+  const std::string before = "name=\"token\" value=\"";
+  const std::size_t at = html.find(before, form);
+  if (at == html.npos) return "";
+  return html.substr(at + before.size(), html.find('"', at + before.size()) - at - before.size());
+}
+
+class FakeBrowser {
+ public:
+  explicit FakeBrowser(Site& site) : site_(site) {}
+
+  Request request(const std::string& method, const std::string& path) const {
+    Request out;
+    out.method = method;
+    out.path = path.substr(0, path.find('?'));
+    out.query = out.path.size() == path.size() ? "" : path.substr(out.path.size() + 1);
+    out.headers["host"] = "127.0.0.1:8080";
+    if (method == "POST") {
+      out.headers["origin"] = "null";  // what browsers send under our own referrer policy
+      out.headers["sec-fetch-site"] = "same-origin";
+      out.headers["content-type"] = "application/x-www-form-urlencoded";
+    }
+    std::string all;
+    for (const auto& [name, value] : cookies) all += (all.empty() ? "" : "; ") + name + "=" + value;
+    if (!all.empty()) out.headers["cookie"] = all;
+    return out;
+  }
+  Response send(const Request& asked) {
+    Response response = site_.answer(asked);
+    for (const auto& [name, value] : response.headers) {
+      if (name != "Set-Cookie") continue;
+      const std::size_t equals = value.find('='), end = value.find(';');
+      const std::string cookie_name = value.substr(0, equals);
+      if (value.find("Max-Age=0") != value.npos) {
+        cookies.erase(cookie_name);
+      } else {
+        cookies[cookie_name] = value.substr(equals + 1, end - equals - 1);
+      }
+    }
+    return response;
+  }
+  Response get(const std::string& path) { return send(request("GET", path)); }
+  Response post(const std::string& path, const std::string& body) {
+    Request asked = request("POST", path);
+    asked.body = body;
+    return send(asked);
+  }
+  Response log_in(const std::string& name, const std::string& password) {
+    const std::string token = form_token(get("/login").body, "/login");
+    return post("/login", "name=" + name + "&password=" + password + "&token=" + token);
+  }
+  // Logged in as the account named after a role.
+  Response log_in_as(casedb::Role role) { return log_in(casedb::name_of(role), "correct+horse%20battery"); }
+
+  std::map<std::string, std::string> cookies;
+
+ private:
+  Site& site_;
+};
+
+}  // namespace seldinger::web

@@ -1,0 +1,171 @@
+// The pages over a real library on disk: an attempt that was stored is found, shown and guarded.
+#include "web/library_questions.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "fake_site.h"
+#include "raw_client.h"
+
+namespace seldinger::web {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+casedb::Library fresh_library() {
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+  const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "web" / test->name();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder.parent_path());
+  return std::move(casedb::Library::open_or_create(folder).value());
+}
+
+// One case with one lesion; answers its ids.
+std::pair<std::string, std::string> add_small_case(casedb::Library& library) {
+  casedb::NewCase new_case;
+  new_case.title = "Kidney <b>A</b>";
+  new_case.origin = "import";
+  new_case.volume = volume::make_volume({8, 8, 8}, {1.0, 1.0, 1.0}, glm::dmat3(1.0), {0.0, 0.0, 0.0});
+  new_case.skin.vertices_lps_mm = {{0, 0, 0}, {6, 0, 0}, {0, 6, 0}, {0, 0, 6}};
+  new_case.skin.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  new_case.skin.cut = {0, 0, 0, 0};
+  new_case.slices_used = 8;
+  const std::string case_id = casedb::add_case(library, new_case);
+  return {case_id, casedb::add_lesion(library, case_id, {{4.0, 4.0, 4.0}, 2.0, 20.0}).value()};
+}
+
+std::string add_small_attempt(casedb::Library& library, std::optional<std::string> person_id) {
+  const auto [case_id, lesion_id] = add_small_case(library);
+  casedb::NewAttempt attempt;
+  attempt.case_id = case_id;
+  attempt.lesion_id = lesion_id;
+  attempt.operator_name = person_id.has_value() ? "person" : "expert";
+  attempt.person_id = std::move(person_id);
+  attempt.program_version = "0.1.0";
+  attempt.started_us = 1700000000000000;
+  attempt.duration_s = 0.5;
+  for (int tick = 0; tick < 500; ++tick) {
+    attempt.recording.inputs.push_back({});
+    attempt.recording.hashes.push_back(static_cast<std::uint32_t>(tick));
+  }
+  for (int i = 0; i < 50; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = 0.01 * i;
+    pose.tip_lps_mm = {4.0, 4.0, 4.0 + 0.1 * (49 - i)};
+    attempt.recording.poses.push_back(pose);
+  }
+  attempt.metrics = {{"hit", 1, 1.0, "bool", ""}, {"vis_joint", 1, std::nullopt, "share", "no_endpoint"}};
+  for (const unsigned char c : std::string_view("\x89PNG\r\n\x1a\nrest"))
+    attempt.picture_png.push_back(std::byte{c});
+  return casedb::add_attempt(library, attempt).value();
+}
+
+// The site over a real library, with the fakes' chance and clock.
+struct RealSite {
+  explicit RealSite(casedb::Library library) : questions(std::move(questions_of(std::move(library)).value())) {}
+  FakeSite world;
+  std::unique_ptr<Questions> questions;
+  Site site{*questions, world.surroundings};
+};
+
+TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  const std::string attempt_id = add_small_attempt(library, std::nullopt);
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  ASSERT_EQ(browser.log_in("mia", "correct+horse+battery").status, 303);
+  EXPECT_THAT(browser.get("/attempts").body, HasSubstr("/attempts/" + attempt_id));
+  const std::string page = browser.get("/attempts/" + attempt_id).body;
+  for (const char* piece :
+       {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
+        "— <span class=\"why\">no endpoint</span>", "From 4.9 mm at the start to 0.0 mm at the end",
+        "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
+    EXPECT_THAT(page, HasSubstr(piece));
+  }
+  EXPECT_THAT(browser.get("/attempts/" + attempt_id + "/picture.png").body, StartsWith("\x89PNG"));
+}
+
+TEST(LibraryQuestions, TraineesSeeTheirOwnAndNobodyElses) {
+  casedb::Library library = fresh_library();
+  const std::string tom = casedb::add_user(library, "Tom", casedb::Role::trainee, kPassword).value();
+  ASSERT_TRUE(casedb::add_user(library, "Ute", casedb::Role::trainee, kPassword).has_value());
+  const std::string attempt_id = add_small_attempt(library, tom);
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site), other(real.site);
+  ASSERT_EQ(browser.log_in("Tom", "correct+horse+battery").status, 303);
+  ASSERT_EQ(other.log_in("Ute", "correct+horse+battery").status, 303);
+  EXPECT_EQ(browser.get("/attempts/" + attempt_id).status, 200);
+  EXPECT_EQ(other.get("/attempts/" + attempt_id).status, 404);
+  EXPECT_THAT(browser.get("/attempts").body, HasSubstr(attempt_id));
+  EXPECT_THAT(other.get("/attempts").body, Not(HasSubstr(attempt_id)));
+}
+
+TEST(LibraryQuestions, DisablingAnAccountElsewhereEndsItsSession) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  auto elsewhere = casedb::Library::open(library.folder());
+  ASSERT_TRUE(elsewhere.has_value());
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  ASSERT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 303);
+  EXPECT_EQ(browser.get("/attempts").status, 200);
+  ASSERT_TRUE(casedb::set_enabled(*elsewhere, "Mia", false).has_value());
+  EXPECT_EQ(browser.get("/attempts").status, 303);
+  EXPECT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 403);
+}
+
+TEST(LibraryQuestions, LogInsTakeAsLongForAnUnknownNameAsForAWrongPassword) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  const auto questions = std::move(questions_of(std::move(library)).value());
+  // Best of several: the least disturbed one. A missing hash would be a hundred times faster.
+  const auto best_us = [&](const std::string& name) {
+    std::int64_t best = INT64_MAX;
+    for (int i = 0; i < 5; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      EXPECT_FALSE(questions->log_in(name, "wrong-password").has_value());
+      const auto took = std::chrono::steady_clock::now() - start;
+      best = std::min<std::int64_t>(best, std::chrono::duration_cast<std::chrono::microseconds>(took).count());
+    }
+    return static_cast<double>(best);
+  };
+  const double known = best_us("Mia"), unknown = best_us("Nobody");
+  RecordProperty("known_us", std::to_string(known));
+  RecordProperty("unknown_us", std::to_string(unknown));
+  EXPECT_GT(unknown, 0.5 * known);
+  EXPECT_LT(unknown, 2.0 * known);
+}
+
+TEST(OpenServer, AnswersOverALibraryWithRandomThatNobodyGuesses) {
+  casedb::Library library = fresh_library();
+  auto opened = open_server(std::move(library), {"127.0.0.1", 0}, "3.2.1", [](const std::string&) {});
+  ASSERT_TRUE(opened.has_value());
+  Server server = std::move(*opened);
+  std::thread thread([&] { server.run(); });
+  const auto ask = [&](const std::string& path) {
+    RawClient client(server.port());
+    client.send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    return client.read_all();
+  };
+  EXPECT_THAT(ask("/healthz"), HasSubstr("\"version\":\"3.2.1\""));
+  const std::string first = form_token(ask("/login"), "/login"), second = form_token(ask("/login"), "/login");
+  EXPECT_EQ(first.size(), 64U);
+  EXPECT_NE(first, second);
+  server.stop();
+  thread.join();
+}
+
+TEST(OpenServer, RefusesOtherHosts) {
+  const auto opened = open_server(fresh_library(), {"0.0.0.0", 0}, "", [](const std::string&) {});
+  ASSERT_FALSE(opened.has_value());
+  EXPECT_EQ(opened.error().code, "not_loopback");
+}
+
+}  // namespace
+}  // namespace seldinger::web

@@ -1,0 +1,44 @@
+#include "web/access.h"
+
+#include "reports/attempt_words.h"
+
+namespace seldinger::web {
+
+AttemptScope attempt_scope(casedb::Role role) noexcept {
+  switch (role) {
+    case casedb::Role::trainee:
+      return AttemptScope::own;
+    case casedb::Role::mentor:
+    case casedb::Role::researcher:
+      return AttemptScope::all;
+    case casedb::Role::director:
+    case casedb::Role::admin:
+      return AttemptScope::none;
+  }
+  return AttemptScope::none;
+}
+
+bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row) {
+  switch (attempt_scope(reader.role)) {
+    case AttemptScope::all:
+      return true;
+    case AttemptScope::own:
+      return row.person_id.has_value() && *row.person_id == reader.person_id;
+    case AttemptScope::none:
+      return false;
+  }
+  return false;
+}
+
+std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
+                           const AccountOf& account_of) {
+  if (!row.person_id.has_value()) return reports::simulated_operator_text(row.operator_name);
+  if (reader.role != casedb::Role::researcher) {
+    if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
+  }
+  // The end of a UUIDv7 is random; its beginning would tell when the account was made.
+  const std::string& id = *row.person_id;
+  return "Person " + id.substr(id.size() < 6 ? 0 : id.size() - 6);
+}
+
+}  // namespace seldinger::web

@@ -1,0 +1,25 @@
+// Who may see what. Deny by default; cohorts and studies do not exist yet, so a mentor and a researcher see all.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "casedb/store.h"
+
+namespace seldinger::web {
+
+enum class AttemptScope { none, own, all };
+
+// Which attempts a role sees: trainee own; mentor and researcher all; director and admin none.
+AttemptScope attempt_scope(casedb::Role role) noexcept;
+
+bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row);
+
+// How the operator is called for this reader: the log-in name, except that a researcher reads a pseudonym.
+// `account_of` answers none for a person whose account is gone.
+using AccountOf = std::function<std::optional<casedb::Account>(const std::string& person_id)>;
+std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
+                           const AccountOf& account_of);
+
+}  // namespace seldinger::web

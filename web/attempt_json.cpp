@@ -1,0 +1,31 @@
+#include "web/attempt_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace seldinger::web {
+namespace {
+std::string dumped(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+}  // namespace
+
+std::string metrics_json(const casedb::AttemptRow& row) {
+  auto metrics = nlohmann::ordered_json::array();
+  for (const casedb::MetricValue& metric : row.metrics) {
+    const bool is_number = metric.value.has_value() && std::isfinite(*metric.value);
+    const bool is_broken = metric.value.has_value() && !is_number;
+    metrics.push_back({{"id", metric.id},
+                       {"version", metric.version},
+                       {"value", is_number ? nlohmann::ordered_json(*metric.value) : nlohmann::ordered_json()},
+                       {"unit", metric.unit},
+                       {"reason", is_broken ? "not_finite" : metric.reason}});
+  }
+  return dumped({{"attempt_id", row.attempt_id}, {"metrics", metrics}});
+}
+
+std::string health_json(const std::string& program_version) {
+  return dumped({{"status", "ok"}, {"version", program_version}});
+}
+
+}  // namespace seldinger::web

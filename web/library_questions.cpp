@@ -1,0 +1,117 @@
+#include "web/library_questions.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <span>
+
+#include "casedb/credentials.h"
+
+namespace seldinger::web {
+namespace {
+
+// A library's handle serves one question at a time.
+struct Handle {
+  explicit Handle(casedb::Library opened) : library(std::move(opened)) {}
+  std::mutex mutex;
+  casedb::Library library;
+};
+
+class LibraryQuestions final : public Questions {
+ public:
+  LibraryQuestions(casedb::Library pages, casedb::Library first, casedb::Library second)
+      : pages_(std::move(pages)), first_(std::move(first)), second_(std::move(second)) {}
+
+  std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
+    std::unique_lock first(first_.mutex, std::try_to_lock);
+    if (first.owns_lock()) return casedb::log_in(first_.library, name, password);
+    const std::lock_guard second(second_.mutex);
+    return casedb::log_in(second_.library, name, password);
+  }
+
+  std::optional<casedb::Account> find_account(const std::string& person_id) override {
+    const auto all = list_accounts();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const casedb::Account& a) { return a.person_id == person_id; });
+    return found == all.end() ? std::nullopt : std::optional(*found);
+  }
+
+  std::vector<casedb::Account> list_accounts() override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_users(pages_.library);
+  }
+
+  std::vector<casedb::AttemptRow> list_attempts() override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_attempts(pages_.library);
+  }
+
+  std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_attempts_of(pages_.library, person_id);
+  }
+
+  base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::find_attempt(pages_.library, attempt_id);
+  }
+
+  base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {
+    const std::lock_guard lock(pages_.mutex);
+    return pages_.library.load_asset(row.picture_sha256);
+  }
+
+  base::Result<cases::Recording> load_recording(const std::string& attempt_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::load_recording(pages_.library, attempt_id);
+  }
+
+ private:
+  Handle pages_, first_, second_;
+};
+
+std::string hex_text(std::span<const std::byte> bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  for (const std::byte byte : bytes) {
+    out += kDigits[std::to_integer<std::size_t>(byte >> 4)];
+    out += kDigits[std::to_integer<std::size_t>(byte & std::byte{15})];
+  }
+  return out;
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library) {
+  auto first = casedb::Library::open(library.folder());
+  if (!first.has_value()) return first.error();
+  auto second = casedb::Library::open(library.folder());
+  if (!second.has_value()) return second.error();
+  return std::unique_ptr<Questions>(
+      std::make_unique<LibraryQuestions>(std::move(library), std::move(*first), std::move(*second)));
+}
+
+base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
+                                 std::function<void(const std::string&)> log) {
+  auto questions = questions_of(std::move(library));
+  if (!questions.has_value()) return questions.error();
+  Surroundings surroundings;
+  surroundings.now_us = [] {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return std::int64_t{std::chrono::duration_cast<std::chrono::microseconds>(now).count()};
+  };
+  surroundings.random_id = [] {
+    std::array<std::byte, 32> bytes{};
+    casedb::fill_random(bytes);
+    return hex_text(bytes);
+  };
+  surroundings.sha256_hex = [](std::string_view text) {
+    return casedb::sha256_hex(std::as_bytes(std::span(text.data(), text.size())));
+  };
+  surroundings.log = std::move(log);
+  surroundings.program_version = std::move(program_version);
+  return Server::open(std::move(*questions), std::move(surroundings), options);
+}
+
+}  // namespace seldinger::web

@@ -1,0 +1,28 @@
+// What the pages ask. Called from several threads at once; throws base::Failure when the library is gone.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casedb/store.h"
+
+namespace seldinger::web {
+
+class Questions {
+ public:
+  virtual ~Questions() = default;
+
+  virtual std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) = 0;
+  virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
+  virtual std::vector<casedb::Account> list_accounts() = 0;
+
+  virtual std::vector<casedb::AttemptRow> list_attempts() = 0;                                 // newest first
+  virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;  // newest first
+  virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;    // `no_attempt`
+  virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
+  virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
+};
+
+}  // namespace seldinger::web

@@ -1,0 +1,270 @@
+#include "web/routes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+#include "reports/attempt_page.h"
+#include "reports/attempts_page.h"
+#include "reports/login_page.h"
+#include "sim/base/embedded.h"
+#include "web/access.h"
+#include "web/attempt_json.h"
+
+namespace seldinger::embedded {
+std::span<const base::EmbeddedFile> frontend();
+}
+
+namespace seldinger::web {
+namespace {
+
+constexpr std::size_t kRowsOfAPage = 50;
+
+std::string set_cookie(std::string_view name, std::string_view value) {
+  std::string text(name);
+  text += "=";
+  text += value;
+  // No Secure: on the loopback there is no TLS. Without Max-Age the browser forgets it when it closes.
+  return text + "; Path=/; HttpOnly; SameSite=Strict";
+}
+std::string drop_cookie(std::string_view name) {
+  return set_cookie(name, "") + "; Max-Age=0";
+}
+
+// --- open to all
+// --------------------------------------------------------------------------------------------------
+
+Response start(Site&, const Call& call) {
+  return redirect(call.reader != nullptr ? "/attempts" : "/login");
+}
+
+Response healthz(Site& site, const Call&) {
+  return {.content_type = "application/json", .body = health_json(site.surroundings.program_version)};
+}
+
+Response style(Site&, const Call&) {
+  for (const base::EmbeddedFile& file : embedded::frontend()) {
+    if (file.name == "style.css")
+      return {.content_type = "text/css; charset=utf-8", .body = std::string(file.content)};
+  }
+  return refusal(404, nullptr);
+}
+
+Response login_form(Site& site, const Call& call, int status, std::string_view problem) {
+  std::string before_id = cookie(call.request, kBeforeLoginCookie);
+  const bool is_new = site.login_token(before_id).empty();
+  if (is_new) before_id = site.surroundings.random_id();
+  Response response = html_response(status, reports::login_page(site.login_token(before_id), problem));
+  if (is_new) response.headers.emplace_back("Set-Cookie", set_cookie(kBeforeLoginCookie, before_id));
+  return response;
+}
+
+Response show_login(Site& site, const Call& call) {
+  if (call.reader != nullptr) return redirect("/attempts");
+  return login_form(site, call, 200, "");
+}
+
+std::string field(const Call& call, const std::string& name) {
+  const auto found = call.form.find(name);
+  return found == call.form.end() ? "" : found->second;
+}
+
+Response log_in(Site& site, const Call& call) {
+  const std::string token = site.login_token(cookie(call.request, kBeforeLoginCookie));
+  if (token.empty() || !equal_in_constant_time(field(call, "token"), token)) {
+    return login_form(site, call, 403, "The page was too old. Please try again.");
+  }
+  const std::string name = field(call, "name"), password = field(call, "password");
+  if (const auto wait_s = site.throttle.begin(name); wait_s.has_value()) {
+    Response response = login_form(site, call, 429, "Too many tries. Wait a little, then try again.");
+    response.headers.emplace_back("Retry-After", std::to_string(*wait_s));
+    return response;
+  }
+  std::optional<casedb::Account> account;
+  {
+    const auto pass = site.gate.enter();
+    if (!pass.has_value()) {
+      Response response = login_form(site, call, 503, "Too many people log in at once. Try again in a moment.");
+      response.headers.emplace_back("Retry-After", "1");
+      return response;
+    }
+    account = site.questions.log_in(name, password);
+  }
+  if (!account.has_value() || !account->enabled) {
+    return login_form(site, call, 403, "Name and password do not fit.");
+  }
+  site.throttle.succeeded(name);
+  site.sessions.end(cookie(call.request, kSessionCookie));
+  Response response = redirect("/attempts");
+  response.headers.emplace_back("Set-Cookie", set_cookie(kSessionCookie, site.sessions.begin(account->person_id)));
+  response.headers.emplace_back("Set-Cookie", drop_cookie(kBeforeLoginCookie));
+  return response;
+}
+
+Response log_out(Site& site, const Call& call) {
+  site.sessions.end(cookie(call.request, kSessionCookie));
+  Response response = redirect("/login");
+  response.headers.emplace_back("Set-Cookie", drop_cookie(kSessionCookie));
+  return response;
+}
+
+// --- attempts
+// -----------------------------------------------------------------------------------------------------
+
+std::size_t wanted_page(const Request& request, std::size_t pages) {
+  std::size_t page = 1;
+  const std::string_view query = request.query;
+  constexpr std::string_view kName = "page=";
+  if (query.substr(0, kName.size()) == kName) {
+    const std::string_view digits = query.substr(kName.size());
+    std::from_chars(digits.data(), digits.data() + digits.size(), page);
+  }
+  return std::clamp<std::size_t>(page, 1, pages);
+}
+
+Response list_attempts(Site& site, const Call& call) {
+  const casedb::Account& account = call.reader->account;
+  const AttemptScope scope = attempt_scope(account.role);
+  if (scope == AttemptScope::none) {
+    return html_response(200, reports::no_attempts_page(call.reader->visitor()));
+  }
+  const bool own_only = scope == AttemptScope::own;
+  const auto rows = own_only ? site.questions.list_attempts_of(account.person_id) : site.questions.list_attempts();
+  const std::size_t pages = std::max<std::size_t>(1, (rows.size() + kRowsOfAPage - 1) / kRowsOfAPage);
+  const std::size_t page = wanted_page(call.request, pages);
+
+  std::map<std::string, casedb::Account> accounts;
+  for (casedb::Account& one : site.questions.list_accounts()) accounts.emplace(one.person_id, one);
+  const AccountOf account_of = [&](const std::string& person_id) {
+    const auto found = accounts.find(person_id);
+    return found == accounts.end() ? std::nullopt : std::optional(found->second);
+  };
+  std::vector<reports::AttemptView> views;
+  const std::size_t end = std::min(rows.size(), page * kRowsOfAPage);
+  for (std::size_t i = (page - 1) * kRowsOfAPage; i < end; ++i) {
+    if (!may_see_attempt(account, rows[i])) continue;  // the question was right already; this holds it to the table
+    views.push_back({rows[i], operator_label(account, rows[i], account_of)});
+  }
+  const reports::ListPart part{page, pages, rows.size(), own_only};
+  return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
+}
+
+// The attempt when it exists and this reader may see it. Both are asked before either is answered.
+std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) {
+  auto row = site.questions.find_attempt(call.attempt_id);
+  if (!row.has_value() || !may_see_attempt(call.reader->account, *row)) return std::nullopt;
+  return std::move(*row);
+}
+
+Response show_attempt(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
+  const auto recording = site.questions.load_recording(row->attempt_id);
+  const reports::AttemptView view{*row, operator_label(call.reader->account, *row, account_of)};
+  return html_response(200, reports::attempt_page(call.reader->visitor(), view,
+                                                  recording.has_value() ? &recording.value() : nullptr));
+}
+
+bool is_png(const std::vector<std::byte>& bytes) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  return bytes.size() > kSignature.size() && std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) == 0;
+}
+
+Response show_picture(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value() || row->picture_sha256.empty()) return refusal(404, call.reader);
+  const auto picture = site.questions.load_picture(*row);
+  if (!picture.has_value() || !is_png(*picture)) {
+    site.surroundings.log("error: " + (picture.has_value() ? std::string("not_png") : picture.error().code) +
+                          ": a stored picture cannot be shown");
+    return refusal(500, call.reader);
+  }
+  Response response{.content_type = "image/png"};
+  response.body.resize(picture->size());
+  std::memcpy(response.body.data(), picture->data(), picture->size());
+  return response;
+}
+
+Response show_metrics(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json", .body = metrics_json(*row)};
+}
+
+constexpr std::string_view kOwn = "trainee: own";
+constexpr std::string_view kOwnOrNone = "trainee: own; director, admin: none, the page says so";
+
+constexpr Route kRoutes[] = {
+    {"GET", "/healthz", kOpen, false, "", "that the server answers, and its version, as JSON", healthz},
+    {"GET", "/style.css", kOpen, false, "", "the style sheet", style},
+    {"GET", "/", kOpen, true, "", "goes on to /attempts or /login", start},
+    {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
+    {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in},
+    {"POST", "/logout", kEveryRole, true, "", "ends the session: token", log_out},
+    {"GET", "/attempts", kEveryRole, true, kOwnOrNone, "the list, newest first; ?page=N", list_attempts},
+    {"GET", "/attempts/{attempt_id}", kAttemptReaders, true, kOwn, "one attempt: metrics, picture, course",
+     show_attempt},
+    {"GET", "/attempts/{attempt_id}/picture.png", kAttemptReaders, false, kOwn,
+     "the picture at the moment of firing", show_picture},
+    {"GET", "/attempts/{attempt_id}/metrics.json", kAttemptReaders, false, kOwn,
+     "its metrics as `score` prints them", show_metrics},
+};
+
+bool is_uuid(std::string_view text) {
+  if (text.size() != 36) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool dash = i == 8 || i == 13 || i == 18 || i == 23;
+    const char c = text[i];
+    const bool hex = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+    if (dash ? c != '-' : !hex) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::span<const Route> routes() {
+  return kRoutes;
+}
+
+bool matches(std::string_view pattern, std::string_view path, std::string& attempt_id) {
+  constexpr std::string_view kHole = "{attempt_id}";
+  const std::size_t hole = pattern.find(kHole);
+  if (hole == pattern.npos) return pattern == path;
+  const std::string_view before = pattern.substr(0, hole), after = pattern.substr(hole + kHole.size());
+  if (path.size() != before.size() + 36 + after.size()) return false;
+  const std::string_view id = path.substr(hole, 36);
+  if (path.substr(0, hole) != before || path.substr(hole + 36) != after || !is_uuid(id)) return false;
+  attempt_id = id;
+  return true;
+}
+
+std::string routes_markdown() {
+  std::string text =
+      "# Routes of the dashboard\n\n"
+      "Generated from the registry in `web/routes.cpp`; a test compares. HEAD is answered as GET without a body. "
+      "What a\n"
+      "reader may not see answers 404 with the same page as what does not exist. A page asked without a session "
+      "goes to\n"
+      "`/login` (303); the other routes answer 401. Every POST needs the form's token and a browser's word that it "
+      "comes\n"
+      "from this server (`Sec-Fetch-Site: same-origin`, or an `Origin` that names it), else 403.\n\n"
+      "| method | path | who | scope | answers |\n|---|---|---|---|---|\n";
+  for (const Route& route : routes()) {
+    std::string who;
+    for (const auto role : {casedb::Role::trainee, casedb::Role::mentor, casedb::Role::researcher,
+                            casedb::Role::director, casedb::Role::admin}) {
+      if ((route.roles & bit_of(role)) == 0) continue;
+      if (!who.empty()) who += ", ";
+      who += casedb::name_of(role);
+    }
+    if (route.roles == kOpen) who = "anyone";
+    if (route.roles == kEveryRole) who = "any role";
+    text.append("| ").append(route.method).append(" | `").append(route.pattern).append("` | ").append(who);
+    text.append(" | ").append(route.scope).append(" | ").append(route.summary).append(" |\n");
+  }
+  return text;
+}
+
+}  // namespace seldinger::web

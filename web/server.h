@@ -1,0 +1,44 @@
+// The embedded server: the one door of cpp-httplib, which listens, accepts and hands out connections. Requests are
+// read by our own guard and answered by Site. One request a connection, a deadline for the whole of it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/base/result.h"
+#include "web/questions.h"
+#include "web/surroundings.h"
+
+namespace seldinger::web {
+
+struct ServeOptions {
+  std::string host = "127.0.0.1";  // loopback only: there is no TLS
+  int port = 8080;                 // 0: any free port
+};
+
+class Server {
+ public:
+  // Listens when it returns. Refused: `not_loopback`, `bad_port`. Throws base::Failure ("port") when the port
+  // cannot be had.
+  static base::Result<Server> open(std::unique_ptr<Questions> questions, Surroundings surroundings,
+                                   const ServeOptions& options);
+  Server(Server&&) noexcept;
+  Server& operator=(Server&&) noexcept;
+  ~Server();
+
+  std::string url() const;  // "http://127.0.0.1:8080"
+  int port() const noexcept;
+
+  // Answers until stop(). Throws base::Failure ("network") when the socket dies.
+  void run();
+  // Makes run() return within about a third of a second. From any thread, also from a signal handler; before run()
+  // too.
+  void stop() noexcept;
+
+ private:
+  struct Parts;
+  explicit Server(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace seldinger::web

@@ -1,0 +1,135 @@
+#include "web/site.h"
+
+#include <exception>
+
+#include "sim/base/failure.h"
+#include "web/routes.h"
+
+namespace seldinger::web {
+namespace {
+
+struct Words {
+  std::string_view title, message;
+};
+
+Words words_for(int status) {
+  switch (status) {
+    case 400:
+      return {"Not understood", "The request is not well formed."};
+    case 401:
+      return {"Not logged in", "Log in first."};
+    case 403:
+      return {"Refused",
+              "This form did not come from a page of this server, or the page is too old. Go back, reload and try "
+              "again."};
+    case 404:
+      return {"Not found", "There is nothing here, or it is not yours to see."};
+    case 405:
+      return {"Not possible", "This address does not answer that method."};
+    case 415:
+      return {"Not understood", "Only forms are accepted here."};
+    case 421:
+      return {"Refused", "This server answers under the name of this machine only."};
+    case 503:
+      return {"Not available", "The library cannot be read right now. Try again later."};
+    default:
+      return {"Something went wrong", "The page could not be made. The server\u2019s log has a line about it."};
+  }
+}
+
+// When not even a page can be made.
+Response plain_error(int status) noexcept {
+  return {.status = status, .content_type = "text/plain", .body = "error\n"};
+}
+
+}  // namespace
+
+Response refusal(int status, const Reader* reader) {
+  const Words words = words_for(status);
+  const reports::Visitor visitor = reader != nullptr ? reader->visitor() : reports::Visitor{};
+  return html_response(status, reports::message_page(words.title, words.message, visitor));
+}
+
+Site::Site(Questions& questions_in, const Surroundings& surroundings_in)
+    : questions(questions_in),
+      surroundings(surroundings_in),
+      sessions(surroundings_in),
+      throttle(surroundings_in),
+      secret_(surroundings_in.random_id()) {}
+
+std::string Site::login_token(const std::string& before_login_id) const {
+  // Both parts have a fixed length, so that nothing can be moved from one to the other.
+  return before_login_id.size() == 64 ? surroundings.sha256_hex(secret_ + before_login_id) : "";
+}
+
+std::optional<Reader> Site::reader_of(const Request& request) {
+  const std::string id = cookie(request, kSessionCookie);
+  const auto session = sessions.find(id);
+  if (!session.has_value()) return std::nullopt;
+  // Asked every time, so that a disabled account is out at once and a changed role holds at once.
+  const auto account = questions.find_account(session->person_id);
+  if (!account.has_value() || !account->enabled) {
+    sessions.end_all_of(session->person_id);
+    return std::nullopt;
+  }
+  return Reader{*account, session->form_token};
+}
+
+Response Site::route(const Request& request) {
+  if (!is_loopback_host_header(request.header("host"))) return refusal(421, nullptr);
+  const std::string method = request.method == "HEAD" ? "GET" : request.method;
+
+  const Route* found = nullptr;
+  std::string allowed, attempt_id;
+  for (const Route& candidate : routes()) {
+    if (!matches(candidate.pattern, request.path, attempt_id)) continue;
+    if (!allowed.empty()) allowed += ", ";
+    allowed += candidate.method == "GET" ? "GET, HEAD" : candidate.method;
+    if (candidate.method == method) found = &candidate;
+  }
+  const bool is_change = method == "POST";
+  if (found != nullptr && is_change && !is_same_origin(request)) return refusal(403, nullptr);
+
+  const auto reader = reader_of(request);
+  const Reader* who = reader.has_value() ? &*reader : nullptr;
+  if (allowed.empty()) return refusal(404, who);
+  if (found == nullptr) {
+    Response response = refusal(405, who);
+    response.headers.emplace_back("Allow", allowed);
+    return response;
+  }
+
+  Call call{request, who, attempt_id};
+  if (is_change) {
+    const std::string type = request.header("content-type");
+    if (type.substr(0, type.find(';')) != "application/x-www-form-urlencoded") return refusal(415, who);
+    auto form = form_fields(request.body);
+    if (!form.has_value()) return refusal(400, who);
+    call.form = std::move(*form);
+  }
+  if (found->roles != kOpen) {
+    if (who == nullptr) return found->is_page ? redirect("/login") : refusal(401, nullptr);
+    if (is_change && !equal_in_constant_time(call.form["token"], who->form_token)) return refusal(403, who);
+    if ((found->roles & bit_of(who->account.role)) == 0) return refusal(404, who);
+  }
+  return found->handle(*this, call);
+}
+
+Response Site::answer(const Request& request) noexcept {
+  try {
+    try {
+      return route(request);
+    } catch (const base::Failure& failure) {
+      surroundings.log("error: " + failure.code() + ": " + failure.what());
+      return refusal(503, nullptr);
+    } catch (const std::exception&) {
+      // Its text may hold anything, so it goes nowhere.
+      surroundings.log("error: internal: a page could not be made");
+      return refusal(500, nullptr);
+    }
+  } catch (...) {
+    return plain_error(500);
+  }
+}
+
+}  // namespace seldinger::web

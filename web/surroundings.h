@@ -1,0 +1,19 @@
+// What the pages take from the world besides the library: time, chance, a hash, a place for complaints.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace seldinger::web {
+
+struct Surroundings {
+  std::function<std::int64_t()> now_us;                     // monotonic: sessions outlive no change of the clock
+  std::function<std::string()> random_id;                   // 256 random bits as 64 hex digits
+  std::function<std::string(std::string_view)> sha256_hex;  // 64 hex digits
+  std::function<void(const std::string&)> log;              // one line; no patient data, no names
+  std::string program_version;
+};
+
+}  // namespace seldinger::web
