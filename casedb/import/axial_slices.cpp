@@ -81,8 +81,8 @@ AxialSlices::AxialSlices(const volume::Volume& volume) {
     }
   const int x = axial == 0 ? 1 : 0, y = axial == 2 ? 1 : 2;
   const glm::ivec3 size = volume.size_voxels;
-  const std::array<std::size_t, 3> step = {
-      1, static_cast<std::size_t>(size.x), static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
+  const std::array<std::size_t, 3> step = {1, static_cast<std::size_t>(size.x),
+                                           static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y)};
   count_ = size[axial];
   width_ = size[x];
   height_ = size[y];

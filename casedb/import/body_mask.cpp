@@ -10,7 +10,8 @@ namespace seldinger::casedb {
 namespace {
 
 // The cover of a couch's mattress may touch the back and so belong to the same component, though it is a sheet of 2
-// to 3 mm. A part thinner than about 5 mm and longer than 80 mm is no part of a body; an ear or a finger is shorter.
+// to 3 mm. A part thinner than about 5 mm and longer than 80 mm is no part of a body; an ear or a finger is
+// shorter.
 constexpr double kSheetRadiusMm = 2.0, kSheetLengthMm = 80.0;
 
 void drop_sheets(const volume::Volume& volume, const AxialSlices& slices, std::vector<std::uint8_t>& mask) {

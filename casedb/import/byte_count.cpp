@@ -96,11 +96,20 @@ Unpacked unpack(const PackedBytes& source, std::vector<std::byte>* keep) {
 
 std::vector<std::byte> unpack_start(const std::filesystem::path& file, std::size_t count) {
   std::vector<std::byte> bytes(count);
-  gzFile in = gzopen(file.c_str(), "rb");
-  if (!in) return {};
-  const int made = gzread(in, bytes.data(), static_cast<unsigned>(count));
-  gzclose(in);
-  bytes.resize(made > 0 ? static_cast<std::size_t>(made) : 0);
+  std::ifstream in(file, std::ios::binary);
+  Inflater inflater(Packing::gzip_or_zlib);
+  if (!in || !inflater.ready()) return {};
+  z_stream& stream = inflater.stream();
+  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_out = static_cast<uInt>(count);
+  std::array<char, 4096> packed;
+  for (int code = Z_OK; code == Z_OK && stream.avail_out > 0;) {
+    in.read(packed.data(), packed.size());
+    stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_in = static_cast<uInt>(in.gcount());
+    code = stream.avail_in == 0 ? Z_STREAM_END : inflate(&stream, Z_NO_FLUSH);
+  }
+  bytes.resize(count - stream.avail_out);
   return bytes;
 }
 

@@ -21,12 +21,14 @@ constexpr std::array<DicomTag, 27> kWanted = {
     0x00080008, 0x00080016, 0x00080060,              // image type, SOP class, modality
     0x00180015, 0x00180050, 0x00180060, 0x00185100,  // body part, slice thickness, kVp, patient position
     0x0020000E, 0x00200011, 0x00200032, 0x00200037,  // series UID and number, position, orientation
-    0x00280002, 0x00280004, 0x00280008, 0x00280010, 0x00280011, 0x00280030,  // samples, photometric, frames, size, spacing
-    0x00280100, 0x00280101, 0x00280102, 0x00280103,                          // bits allocated, stored, high, sign
-    0x00280120, 0x00280121,                                                  // padding
-    0x00281052, 0x00281053, 0x00281054,                                      // intercept, slope, type
+    0x00280002, 0x00280004, 0x00280008, 0x00280010,
+    0x00280011, 0x00280030,                          // samples, photometric, frames, size, spacing
+    0x00280100, 0x00280101, 0x00280102, 0x00280103,  // bits allocated, stored, high, sign
+    0x00280120, 0x00280121,                          // padding
+    0x00281052, 0x00281053, 0x00281054,              // intercept, slope, type
 };
-constexpr std::array<DicomTag, 3> kWantedToo = {0x00280301, 0x00282110, 0x00283000};  // burned in, lossy, modality LUT
+constexpr std::array<DicomTag, 3> kWantedToo = {0x00280301, 0x00282110,
+                                                0x00283000};  // burned in, lossy, modality LUT
 
 bool is_wanted(DicomTag tag) {
   return std::find(kWanted.begin(), kWanted.end(), tag) != kWanted.end() ||
@@ -258,8 +260,7 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
   }
   if (file.transfer_syntax == "1.2.840.10008.1.2.1.99") {
     std::vector<std::byte> data_set;
-    const Unpacked unpacked =
-        unpack({path, at, UINT64_MAX, kLargestFile, Packing::deflate}, &data_set);
+    const Unpacked unpacked = unpack({path, at, UINT64_MAX, kLargestFile, Packing::deflate}, &data_set);
     if (unpacked.state != ByteState::complete) {
       file.state = unpacked.state == ByteState::too_few ? DicomState::truncated : DicomState::damaged;
       return file;

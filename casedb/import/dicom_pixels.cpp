@@ -16,6 +16,7 @@
 #include <gdcmTrace.h>
 
 #include "casedb/import/dicom_slice.h"
+#include "casedb/import/quiet_standard_error.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
@@ -34,7 +35,8 @@ bool ends_in_marker(std::span<const char> frame) {
   return frame.size() >= 2 && frame[frame.size() - 2] == '\xFF' && frame.back() == '\xD9';
 }
 
-// The sample precision a JPEG frame declares (ISO/IEC 10918-1 §B.2.2: start of frame, SOF0 to SOF15); 0 without one.
+// The sample precision a JPEG frame declares (ISO/IEC 10918-1 §B.2.2: start of frame, SOF0 to SOF15); 0 without
+// one.
 int jpeg_precision(std::span<const char> frame) {
   const auto byte = [&](std::size_t at) { return static_cast<unsigned>(static_cast<unsigned char>(frame[at])); };
   std::size_t at = 2;  // behind SOI
@@ -48,8 +50,10 @@ int jpeg_precision(std::span<const char> frame) {
 }
 
 bool is_jpeg(gdcm::TransferSyntax::TSType type) {
-  return type == gdcm::TransferSyntax::JPEGBaselineProcess1 || type == gdcm::TransferSyntax::JPEGExtendedProcess2_4 ||
-         type == gdcm::TransferSyntax::JPEGLosslessProcess14 || type == gdcm::TransferSyntax::JPEGLosslessProcess14_1;
+  return type == gdcm::TransferSyntax::JPEGBaselineProcess1 ||
+         type == gdcm::TransferSyntax::JPEGExtendedProcess2_4 ||
+         type == gdcm::TransferSyntax::JPEGLosslessProcess14 ||
+         type == gdcm::TransferSyntax::JPEGLosslessProcess14_1;
 }
 
 gdcm::PixelFormat pixel_format(const DicomSlice& slice) {
@@ -58,12 +62,12 @@ gdcm::PixelFormat pixel_format(const DicomSlice& slice) {
                            static_cast<unsigned short>(slice.high_bit), slice.is_signed ? 1 : 0);
 }
 
-// gdcm::Image tries a codec of the wrong precision first, which complains on standard error; so JPEG goes straight to
-// the right one.
+// gdcm::Image tries a codec of the wrong precision first, which complains on standard error; so JPEG goes straight
+// to the right one.
 template <typename Codec>
 bool decode_jpeg(const gdcm::DataElement& pixels, const DicomSlice& slice, std::vector<char>& buffer) {
-  const std::array<unsigned, 3> size = {static_cast<unsigned>(slice.size_px.x), static_cast<unsigned>(slice.size_px.y),
-                                        1};
+  const std::array<unsigned, 3> size = {static_cast<unsigned>(slice.size_px.x),
+                                        static_cast<unsigned>(slice.size_px.y), 1};
   Codec codec;
   codec.SetNumberOfDimensions(2);
   codec.SetDimensions(size.data());
@@ -101,6 +105,7 @@ base::Result<std::vector<char>> decompress(const DicomFile& file, const DicomSli
   };
   if (type != gdcm::TransferSyntax::RLELossless && !ends_in_marker(piece(file.pixel_pieces.back())))
     return truncated();
+  const QuietStandardError quiet;
   try {
     gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
     for (const auto& [offset, length] : file.pixel_pieces) {
@@ -114,11 +119,11 @@ base::Result<std::vector<char>> decompress(const DicomFile& file, const DicomSli
     std::vector<char> buffer(static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y) *
                              static_cast<std::size_t>(slice.bits_allocated / 8));
     const int precision = is_jpeg(type) ? jpeg_precision(piece(file.pixel_pieces.front())) : 0;
-    const bool good = !is_jpeg(type)     ? decode_other(pixels, slice, type, buffer)
-                      : precision == 0   ? false
-                      : precision <= 8   ? decode_jpeg<gdcm::JPEG8Codec>(pixels, slice, buffer)
-                      : precision <= 12  ? decode_jpeg<gdcm::JPEG12Codec>(pixels, slice, buffer)
-                                         : decode_jpeg<gdcm::JPEG16Codec>(pixels, slice, buffer);
+    const bool good = !is_jpeg(type)    ? decode_other(pixels, slice, type, buffer)
+                      : precision == 0  ? false
+                      : precision <= 8  ? decode_jpeg<gdcm::JPEG8Codec>(pixels, slice, buffer)
+                      : precision <= 12 ? decode_jpeg<gdcm::JPEG12Codec>(pixels, slice, buffer)
+                                        : decode_jpeg<gdcm::JPEG16Codec>(pixels, slice, buffer);
     if (!good) return damaged();
     return buffer;
   } catch (const std::exception&) {

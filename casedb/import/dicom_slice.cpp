@@ -16,13 +16,13 @@ bool is_one_of(const std::string& value, std::span<const char* const> terms) {
 }
 
 // PS3.3 C.7.3.1.1.2.
-constexpr std::array<const char*, 16> kPositions = {"HFP",  "HFS",  "HFDR", "HFDL", "FFDR", "FFDL", "FFP",  "FFS",
-                                                    "LFP",  "LFS",  "RFP",  "RFS",  "AFDR", "AFDL", "PFDR", "PFDL"};
+constexpr std::array<const char*, 16> kPositions = {"HFP", "HFS", "HFDR", "HFDL", "FFDR", "FFDL", "FFP",  "FFS",
+                                                    "LFP", "LFS", "RFP",  "RFS",  "AFDR", "AFDL", "PFDR", "PFDL"};
 // The regions of PS3.16 Annex L a CT puncture case can show; any other word may be free text and is dropped.
 constexpr std::array<const char*, 22> kBodyParts = {
-    "ABDOMEN", "ABDOMENPELVIS", "BREAST",       "CHEST", "CHESTABDOMEN", "CHESTABDPELVIS", "CSPINE", "HEART",
-    "HIP",     "KIDNEY",        "LIVER",        "LSPINE", "LUNG",        "NECK",           "NECKCHEST",
-    "PANCREAS", "PELVIS",       "SHOULDER",     "SPINE", "THORAX",       "TSPINE",         "WHOLEBODY"};
+    "ABDOMEN", "ABDOMENPELVIS", "BREAST", "CHEST",  "CHESTABDOMEN", "CHESTABDPELVIS", "CSPINE",    "HEART",
+    "HIP",     "KIDNEY",        "LIVER",  "LSPINE", "LUNG",         "NECK",           "NECKCHEST", "PANCREAS",
+    "PELVIS",  "SHOULDER",      "SPINE",  "THORAX", "TSPINE",       "WHOLEBODY"};
 
 std::string plain_number(double value) {
   std::array<char, 32> text;

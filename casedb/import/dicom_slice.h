@@ -20,8 +20,8 @@ struct DicomSlice {
   std::filesystem::path file;
   std::string series_uid;
   double series_number = 0.0;
-  glm::ivec2 size_px{0};          // columns, rows
-  glm::dvec2 spacing_mm{0.0};     // along a row (from column to column), along a column
+  glm::ivec2 size_px{0};       // columns, rows
+  glm::dvec2 spacing_mm{0.0};  // along a row (from column to column), along a column
   glm::dvec3 position_lps_mm{0.0};
   glm::dvec3 row{0.0}, column{0.0};  // unit vectors along increasing column and row index
   int bits_allocated = 0, bits_stored = 0, high_bit = 0;
@@ -34,7 +34,16 @@ struct DicomSlice {
   std::vector<base::Problem> problems;                          // why this slice cannot be read
 };
 
-enum class DicomKind { ct_slice, ct_localizer, other_modality, no_image, multi_frame, truncated, damaged, not_dicom };
+enum class DicomKind {
+  ct_slice,
+  ct_localizer,
+  other_modality,
+  no_image,
+  multi_frame,
+  truncated,
+  damaged,
+  not_dicom
+};
 
 // What a file is; says of other modalities nothing but that they are other.
 DicomKind kind_of(const DicomFile& file);

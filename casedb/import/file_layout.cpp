@@ -26,8 +26,8 @@ void check_layout(const FileLayout& layout, Problems& problems) {
     return;
   }
   if (!problems.empty()) return;
-  const std::uint64_t need =
-      layout.unpacked_skip + static_cast<std::uint64_t>(voxels) * static_cast<std::uint64_t>(layout.bytes_per_voxel);
+  const std::uint64_t need = layout.unpacked_skip + static_cast<std::uint64_t>(voxels) *
+                                                        static_cast<std::uint64_t>(layout.bytes_per_voxel);
   Unpacked found;
   if (layout.packing == Packing::none) {
     const std::uint64_t size = file_size_bytes(layout.data_file);

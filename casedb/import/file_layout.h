@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +18,13 @@ namespace seldinger::casedb {
 struct FileLayout {
   std::array<std::int64_t, 3> size_voxels{1, 1, 1};
   int bytes_per_voxel = 0;
-  std::filesystem::path data_file;   // the file itself or the one it names
-  std::uint64_t data_offset = 0;     // of the (packed) data in data_file
+  std::filesystem::path data_file;  // the file itself or the one it names
+  std::uint64_t data_offset = 0;    // of the (packed) data in data_file
   std::uint64_t packed_limit = UINT64_MAX;
-  std::uint64_t unpacked_skip = 0;   // bytes before the voxels once unpacked (a packed NIfTI's header)
+  std::uint64_t unpacked_skip = 0;  // bytes before the voxels once unpacked (a packed NIfTI's header)
   Packing packing = Packing::none;
   std::vector<base::Problem> warnings;
+  std::optional<glm::dmat4> lps_from_voxel;  // where ITK's is not used
 };
 
 // Each adds what speaks against the file to `problems`; the layout counts only when there is nothing.

@@ -40,7 +40,8 @@ base::Result<Source> read_one_file(const std::filesystem::path& file, const std:
   const std::string_view start(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   const std::string extension = lower_extension(file);
   if (looks_like_dicom(start.data(), start.size())) return read_dicom_slice(file, series);
-  if (series && *series != "1") return base::Error{"no_series", "there is no such series: the file holds one volume"};
+  if (series && *series != "1")
+    return base::Error{"no_series", "there is no such series: the file holds one volume"};
   const bool packed = start.size() >= 2 && start[0] == '\x1F' && start[1] == '\x8B';
   if (packed && extension == ".nii.gz") return read_volume_file(file, FileFormat::nifti);
   if (!packed && is_nifti_header(start.data(), start.size()) && extension == ".nii")

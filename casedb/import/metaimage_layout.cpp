@@ -1,6 +1,4 @@
 // MetaImage headers (itk.org/Wiki/ITK/MetaIO/Documentation): .mha with the voxels behind, .mhd with a file beside.
-#include <cmath>
-#include <glm/mat3x3.hpp>
 #include <map>
 
 #include "casedb/import/file_layout.h"
@@ -28,9 +26,10 @@ bool is_true(const std::string& value) {
 }
 
 int scalar_bytes(const std::string& type) {
-  static const std::map<std::string, int> kBytes = {
-      {"MET_CHAR", 1},  {"MET_UCHAR", 1},     {"MET_SHORT", 2},      {"MET_USHORT", 2}, {"MET_INT", 4},   {"MET_UINT", 4},
-      {"MET_FLOAT", 4}, {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8}, {"MET_DOUBLE", 8}, {"MET_LONG", 4}, {"MET_ULONG", 4}};
+  static const std::map<std::string, int> kBytes = {{"MET_CHAR", 1},   {"MET_UCHAR", 1},     {"MET_SHORT", 2},
+                                                    {"MET_USHORT", 2}, {"MET_INT", 4},       {"MET_UINT", 4},
+                                                    {"MET_FLOAT", 4},  {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8},
+                                                    {"MET_DOUBLE", 8}, {"MET_LONG", 4},      {"MET_ULONG", 4}};
   const auto found = kBytes.find(type);
   return found == kBytes.end() ? 0 : found->second;
 }
@@ -59,11 +58,13 @@ void read_size(const Fields& fields, FileLayout& layout, Problems& problems) {
     problems.add("damaged", "the header's sizes are missing or do not fit its dimension");
     return;
   }
-  if (const auto channels = numbers_of(field("ElementNumberOfChannels")); channels.size() == 1 && channels[0] != 1.0)
+  if (const auto channels = numbers_of(field("ElementNumberOfChannels"));
+      channels.size() == 1 && channels[0] != 1.0)
     problems.add("not_scalar", "a voxel holds more than one value");
   for (std::size_t axis = 0; axis < sizes.size(); ++axis)
     if (axis < 3)
-      layout.size_voxels[axis] = sizes[axis] >= 1.0 && sizes[axis] < 1e9 ? static_cast<std::int64_t>(sizes[axis]) : 0;
+      layout.size_voxels[axis] =
+          sizes[axis] >= 1.0 && sizes[axis] < 1e9 ? static_cast<std::int64_t>(sizes[axis]) : 0;
     else if (sizes[axis] != 1.0)
       problems.add("not_3d", "the file holds more than one volume");
   if (sizes.size() == 1) problems.add("not_3d", "the file holds no volume");

@@ -1,4 +1,5 @@
 // NIfTI-1 headers (nifti1.h of the NIfTI Data Format Working Group): 348 bytes, either byte order.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -78,8 +79,32 @@ void read_size(const NiftiHeader& header, FileLayout& layout, Problems& problems
   if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
 }
 
+// Whether qform and sform put a corner of the volume more than half a millimetre apart. The qform's rotation is
+// nifti1.h's: from the quaternion's b, c, d, the third axis times pixdim[0].
+bool forms_differ(const NiftiHeader& header, const FileLayout& layout) {
+  const double b = header.number<float>(256), c = header.number<float>(260), d = header.number<float>(264);
+  const double a = std::sqrt(std::max(0.0, 1.0 - b * b - c * c - d * d));
+  const std::array<glm::dvec3, 3> axis = {
+      glm::dvec3(a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)),
+      glm::dvec3(2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)),
+      glm::dvec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b)};
+  const double flip = header.number<float>(76) < 0.0F ? -1.0 : 1.0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    glm::dvec3 apart_mm =
+        glm::dvec3(header.number<float>(268), header.number<float>(272), header.number<float>(276)) -
+        header.srow_column(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double voxels = (corner >> i & 1U) != 0 ? static_cast<double>(layout.size_voxels[i] - 1) : 0.0;
+      const double step_mm = header.number<float>(80 + 4 * i) * (i == 2 ? flip : 1.0);
+      apart_mm += voxels * (step_mm * axis[i] - header.srow_column(i));
+    }
+    if (!(glm::length(apart_mm) <= 0.5)) return true;
+  }
+  return false;
+}
+
 // ITK takes the voxel size from pixdim and straightens a sheared sform without a word.
-void check_geometry(const NiftiHeader& header, const FileLayout& layout, Problems& problems) {
+void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& problems) {
   std::array<double, 3> spacing_mm{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double mm = header.number<float>(80 + 4 * axis);
@@ -102,7 +127,14 @@ void check_geometry(const NiftiHeader& header, const FileLayout& layout, Problem
       problems.add("no_geometry", "the orientation holds values that are no numbers");
       return;
     }
-  if (sform <= 0) return;
+  if (sform > 0 && qform > 0 && forms_differ(header, layout)) {
+    if (sform == 1 && qform == 1)
+      problems.add("no_geometry", "the header gives two places in the patient that contradict each other");
+    else
+      layout.warnings.push_back(
+          {"two_geometries", "the header also gives a place in another frame, which is not used"});
+  }
+  if (sform <= 0 || (qform > 0 && sform != 1)) return;  // ITK takes the sform when it is the scanner's or alone
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const glm::dvec3 a = header.srow_column(axis), b = header.srow_column((axis + 1) % 3);
     const double length_mm = glm::length(a);
@@ -121,7 +153,8 @@ FileLayout nifti_layout(const std::filesystem::path& file, Problems& problems) {
   FileLayout layout;
   layout.data_file = file;
   const auto start = read_bytes(file, 0, 2);
-  const bool packed = start && start->size() == 2 && (*start)[0] == std::byte{0x1F} && (*start)[1] == std::byte{0x8B};
+  const bool packed =
+      start && start->size() == 2 && (*start)[0] == std::byte{0x1F} && (*start)[1] == std::byte{0x8B};
   std::vector<std::byte> bytes;
   if (packed)
     bytes = unpack_start(file, kHeaderBytes);

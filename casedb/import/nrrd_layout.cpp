@@ -1,6 +1,7 @@
 // NRRD headers (teem.sourceforge.net/nrrd/format.html): attached or detached, raw or gzip.
 #include <algorithm>
 #include <cctype>
+#include <glm/geometric.hpp>
 #include <map>
 
 #include "casedb/import/file_layout.h"
@@ -45,9 +46,9 @@ int scalar_bytes(std::string type) {
     for (const char* name :
          {"int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float"})
       bytes[name] = 4;
-    for (const char* name : {"longlong", "long long", "long long int", "signed long long", "signed long long int",
-                             "int64", "int64_t", "ulonglong", "unsigned long long", "unsigned long long int", "uint64",
-                             "uint64_t", "double"})
+    for (const char* name :
+         {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
+          "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double"})
       bytes[name] = 8;
     return bytes;
   }();
@@ -78,35 +79,44 @@ void read_size(const Fields& fields, FileLayout& layout, Problems& problems) {
   if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
 }
 
-void check_geometry(const Fields& fields, const FileLayout& layout, Problems& problems) {
+std::vector<double> vectors_of(std::string text) {
+  for (char& c : text)
+    if (c == '(' || c == ')' || c == ',') c = ' ';
+  return numbers_of(text);
+}
+
+// Read here, since ITK 5.2 turns the directions of left-anterior-superior space but not its origin.
+void read_geometry(const Fields& fields, FileLayout& layout, Problems& problems) {
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
   const std::string space = lower(field("space"));
-  static constexpr std::array<const char*, 6> kPatient = {"left-posterior-superior",  "lps",
-                                                          "right-anterior-superior", "ras",
-                                                          "left-anterior-superior",  "las"};
-  const bool known = std::find(kPatient.begin(), kPatient.end(), space) != kPatient.end();
-  if (!known || field("spacedirections").empty()) {
+  glm::dvec3 turn;
+  if (space == "left-posterior-superior" || space == "lps")
+    turn = {1.0, 1.0, 1.0};
+  else if (space == "right-anterior-superior" || space == "ras")
+    turn = {-1.0, -1.0, 1.0};
+  else if (space == "left-anterior-superior" || space == "las")
+    turn = {1.0, -1.0, 1.0};
+  else {
     problems.add("no_geometry", "the header does not say how the volume lies in the patient");
     return;
   }
-  if (const std::string units = lower(field("spaceunits")); !units.empty())
-    for (const char* other : {"\"cm\"", "\"m\"", "\"um\"", "\"µm\"", "\"in\""})
-      if (units.find(other) != std::string::npos)
-        problems.add("no_geometry", "the voxel size is not in millimetres");
-  std::string plain = field("spacedirections");
-  for (char& c : plain)
-    if (c == '(' || c == ')' || c == ',') c = ' ';
-  const std::size_t axes = layout.size_voxels[2] == 1 && numbers_of(field("sizes")).size() == 2 ? 2 : 3;
-  if (numbers_of(plain).size() != axes * 3)
-    problems.add("no_geometry", "the space directions are not three numbers for each axis");
-  if (!field("spaceorigin").empty()) {
-    std::string origin = field("spaceorigin");
-    for (char& c : origin)
-      if (c == '(' || c == ')' || c == ',') c = ' ';
-    if (numbers_of(origin).size() != 3) problems.add("no_geometry", "the space origin is not three numbers");
-  } else {
-    problems.add("no_geometry", "the space origin is missing");
+  for (const std::string& unit : words_of(lower(field("spaceunits"))))
+    if (unit != "\"mm\"" && unit != "mm" && unit != "\"\"")
+      problems.add("no_geometry", "the voxel size is not in millimetres");
+  const auto axes = vectors_of(field("spacedirections")), origin = vectors_of(field("spaceorigin"));
+  const std::size_t count = numbers_of(field("sizes")).size();
+  if (axes.size() != count * 3 || origin.size() != 3) {
+    problems.add("no_geometry", "the space directions and origin are not three numbers for each axis");
+    return;
   }
+  glm::dmat4 matrix(1.0);
+  for (std::size_t axis = 0; axis < count; ++axis)
+    matrix[static_cast<int>(axis)] =
+        glm::dvec4(turn * glm::dvec3(axes[3 * axis], axes[3 * axis + 1], axes[3 * axis + 2]), 0.0);
+  if (count == 2)  // one slice, 1 mm thick
+    matrix[2] = glm::dvec4(glm::normalize(glm::cross(glm::dvec3(matrix[0]), glm::dvec3(matrix[1]))), 0.0);
+  matrix[3] = glm::dvec4(turn * glm::dvec3(origin[0], origin[1], origin[2]), 1.0);
+  layout.lps_from_voxel = matrix;
 }
 
 }  // namespace
@@ -121,7 +131,7 @@ FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems) {
   const Fields fields = fields_of(header);
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
   read_size(fields, layout, problems);
-  if (problems.empty()) check_geometry(fields, layout, problems);
+  if (problems.empty()) read_geometry(fields, layout, problems);
   const std::string encoding = lower(field("encoding"));
   if (encoding == "gzip" || encoding == "gz")
     layout.packing = Packing::gzip_or_zlib;

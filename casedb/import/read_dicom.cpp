@@ -33,7 +33,8 @@ void look_at(const std::filesystem::path& path, Found& found) {
   if (!file.encapsulated && slice.problems.empty()) {
     const std::size_t need = static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y) *
                              static_cast<std::size_t>(slice.bits_allocated / 8);
-    if (file.pixel_pieces.front().second < need) slice.problems.push_back({"truncated", "ends before its pixels do"});
+    if (file.pixel_pieces.front().second < need)
+      slice.problems.push_back({"truncated", "ends before its pixels do"});
   } else if (file.pixels_cut) {
     slice.problems.push_back({"truncated", "ends before its pixels do"});
   }

@@ -6,14 +6,15 @@
 #include <itkOutputWindow.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <limits>
 #include <type_traits>
 
 #include "casedb/import/file_layout.h"
+#include "casedb/import/quiet_standard_error.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -56,33 +57,32 @@ FileLayout layout_of(const std::filesystem::path& file, FileFormat format, Probl
 }
 
 // An axis of one voxel that the reader left out stands perpendicular on the others, 1 mm thick.
-void read_geometry(const itk::ImageIOBase& reader, volume::Volume& volume, Problems& problems) {
-  const unsigned axes = std::min(reader.GetNumberOfDimensions(), 3U);
-  glm::dmat3 direction(1.0);
-  glm::dvec3 origin_mm(0.0), spacing_mm(1.0);
-  for (unsigned axis = 0; axis < axes; ++axis) {
+glm::dmat4 lps_from_voxel(const itk::ImageIOBase& reader) {
+  glm::dmat4 matrix(1.0);
+  for (unsigned axis = 0; axis < std::min(reader.GetNumberOfDimensions(), 3U); ++axis) {
     const std::vector<double> cosines = reader.GetDirection(axis);
-    glm::dvec3 column(0.0);
+    const int column = static_cast<int>(axis);
+    matrix[column] = glm::dvec4(0.0);
     for (unsigned row = 0; row < std::min<std::size_t>(cosines.size(), 3); ++row)
-      column[static_cast<int>(row)] = cosines[row];
-    direction[static_cast<int>(axis)] = column;
-    origin_mm[static_cast<int>(axis)] = reader.GetOrigin(axis);
-    spacing_mm[static_cast<int>(axis)] = reader.GetSpacing(axis);
+      matrix[column][static_cast<int>(row)] = cosines[row] * reader.GetSpacing(axis);
+    matrix[3][column] = reader.GetOrigin(axis);
   }
+  return matrix;
+}
+
+// Perpendicular axes of a sound length; the library's volumes have no others.
+void check_axes(volume::Volume& volume, Problems& problems) {
+  std::array<glm::dvec3, 3> axis;
   bool sound = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    sound = sound && spacing_mm[axis] > 0.0 && spacing_mm[axis] < 1000.0 && std::abs(origin_mm[axis]) < 1e6;
-    sound = sound && std::abs(glm::length(direction[axis]) - 1.0) < 2e-3 &&
-            std::abs(glm::dot(direction[axis], direction[(axis + 1) % 3])) < 2e-3;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 column(volume.lps_from_voxel[i]);
+    volume.spacing_mm[i] = glm::length(column);
+    sound = sound && volume.spacing_mm[i] > 0.0 && volume.spacing_mm[i] < 1000.0 &&
+            std::abs(volume.lps_from_voxel[3][i]) < 1e6;
+    axis[static_cast<std::size_t>(i)] = column / volume.spacing_mm[i];
   }
-  if (!sound || !(std::abs(glm::determinant(direction)) > 0.99)) {
-    problems.add("no_geometry", "the axes are not perpendicular, or sizes are out of range");
-    return;
-  }
-  volume.spacing_mm = spacing_mm;
-  for (int axis = 0; axis < 3; ++axis)
-    volume.lps_from_voxel[axis] = glm::dvec4(glm::normalize(direction[axis]) * spacing_mm[axis], 0.0);
-  volume.lps_from_voxel[3] = glm::dvec4(origin_mm, 1.0);
+  for (std::size_t i = 0; i < 3; ++i) sound = sound && std::abs(glm::dot(axis[i], axis[(i + 1) % 3])) < 2e-3;
+  if (!sound) problems.add("no_geometry", "the axes are not perpendicular, or sizes are out of range");
 }
 
 template <typename T>
@@ -169,6 +169,7 @@ base::Result<Source> read_volume_file(const std::filesystem::path& file, FileFor
   volume::Volume& volume = source.volume;
   for (int axis = 0; axis < 3; ++axis)
     volume.size_voxels[axis] = static_cast<int>(layout.size_voxels[static_cast<std::size_t>(axis)]);
+  const QuietStandardError quiet;
   try {
     const itk::ImageIOBase::Pointer reader = reader_of(format);
     reader->SetFileName(file.string());
@@ -178,14 +179,16 @@ base::Result<Source> read_volume_file(const std::filesystem::path& file, FileFor
     } else if (!same_size(*reader, layout)) {
       problems.add("damaged", "the header's sizes contradict each other");
     } else {
-      read_geometry(*reader, volume, problems);
+      volume.lps_from_voxel = layout.lps_from_voxel ? *layout.lps_from_voxel : lps_from_voxel(*reader);
+      check_axes(volume, problems);
     }
     if (problems.empty()) {
       itk::ImageIORegion whole(reader->GetNumberOfDimensions());
       for (unsigned axis = 0; axis < reader->GetNumberOfDimensions(); ++axis)
         whole.SetSize(axis, reader->GetDimensions(axis));
       reader->SetIORegion(whole);
-      volume.hu.resize(static_cast<std::size_t>(layout.size_voxels[0] * layout.size_voxels[1] * layout.size_voxels[2]));
+      volume.hu.resize(
+          static_cast<std::size_t>(layout.size_voxels[0] * layout.size_voxels[1] * layout.size_voxels[2]));
       read_voxels(*reader, volume.hu, problems);
     }
   } catch (const std::exception&) {  // its text names the file

@@ -90,10 +90,9 @@ void order_slices(std::vector<DicomSlice>& slices, Problems& problems) {
 
 glm::dmat4 lps_from_voxel(const std::vector<DicomSlice>& ordered, double thickness_mm) {
   const DicomSlice& first = ordered.front();
-  const glm::dvec3 step =
-      ordered.size() > 1
-          ? (ordered.back().position_lps_mm - first.position_lps_mm) / static_cast<double>(ordered.size() - 1)
-          : glm::cross(first.row, first.column) * thickness_mm;
+  const glm::dvec3 step = ordered.size() > 1 ? (ordered.back().position_lps_mm - first.position_lps_mm) /
+                                                   static_cast<double>(ordered.size() - 1)
+                                             : glm::cross(first.row, first.column) * thickness_mm;
   return {glm::dvec4(first.row * first.spacing_mm.x, 0.0), glm::dvec4(first.column * first.spacing_mm.y, 0.0),
           glm::dvec4(step, 0.0), glm::dvec4(first.position_lps_mm, 1.0)};
 }

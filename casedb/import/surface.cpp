@@ -120,8 +120,8 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
-// Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not have,
-// neither rounds nor rings. The rim itself is smoothed along its line.
+// Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not
+// have, neither rounds nor rings. The rim itself is smoothed along its line.
 void smooth_skin(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, int iterations) {
   cases::Mesh skin;
   skin.vertices_lps_mm = mesh.vertices_lps_mm;
@@ -179,8 +179,8 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
     smooth_skin(full, faces, options.smoothing_iterations);
     settle_on_faces(full, faces, volume);
   }
-  // On real skin VTK's usual 15° joins two sheets along an edge now and then, in spite of PreserveTopology; from 45°
-  // on it did not. Should it ever, other ways are tried before none.
+  // On real skin VTK's usual 15° joins two sheets along an edge now and then, in spite of PreserveTopology; from
+  // 45° on it did not. Should it ever, other ways are tried before none.
   cases::Mesh mesh = full;
   for (const auto& [share, feature_degrees] : {std::pair{1.0, 45.0}, std::pair{1.0, 90.0}, std::pair{0.7, 45.0}}) {
     if (!(options.decimate_share > 0.0)) break;

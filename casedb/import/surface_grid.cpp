@@ -8,7 +8,8 @@
 namespace seldinger::casedb {
 namespace {
 
-// The surface needs only the step from air to tissue: bone and metal must not pull it outwards, nor padding inwards.
+// The surface needs only the step from air to tissue: bone and metal must not pull it outwards, nor padding
+// inwards.
 constexpr float kAir = -1000.0F, kMostHu = 200.0F, kFilled = 0.0F;
 // A layer exactly at the iso value would give triangles without area; this moves it by less than 1 % of a voxel.
 constexpr float kOffIso = 4.0F;
@@ -105,7 +106,8 @@ SurfaceGrid surface_grid(const volume::Volume& volume, int iso_hu, double target
   for (int k = 1; k + 1 < grid.size.z; ++k)
     for (int j = 1; j + 1 < grid.size.y; ++j)
       for (int i = 1; i + 1 < grid.size.x; ++i)
-        grid.hu[(static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.size.y) + static_cast<std::size_t>(j)) *
+        grid.hu[(static_cast<std::size_t>(k) * static_cast<std::size_t>(grid.size.y) +
+                 static_cast<std::size_t>(j)) *
                     static_cast<std::size_t>(grid.size.x) +
                 static_cast<std::size_t>(i)] =
             inner[block_of(k, 2) * slice + block_of(j, 1) * row + block_of(i, 0)];

@@ -9,8 +9,8 @@
 
 namespace seldinger::casedb {
 
-// Each axis holds: air and a copy of the first layer, both on the volume's face, the layers, the same at the end. So
-// a body that runs out of the volume ends flat on the face (half a voxel beyond the outermost centres).
+// Each axis holds: air and a copy of the first layer, both on the volume's face, the layers, the same at the end.
+// So a body that runs out of the volume ends flat on the face (half a voxel beyond the outermost centres).
 struct SurfaceGrid {
   glm::ivec3 size{0};
   std::vector<float> hu;

@@ -1,5 +1,5 @@
-// DICOM that would give a wrong volume, or none, is refused with a stable code, without a crash and without a word of
-// what the file says.
+// DICOM that would give a wrong volume, or none, is refused with a stable code, without a crash and without a word
+// of what the file says.
 #include <cmath>
 #include <random>
 
@@ -20,11 +20,17 @@ class DicomRefused : public ImportCase {
 };
 
 TEST_F(DicomRefused, EverySampleThatIsNoCtImage) {
-  const std::pair<const char*, const char*> samples[] = {
-      {"MR_small", "not_ct"},         {"MR_small_bigendian", "not_ct"},    {"emri_small", "not_ct"},
-      {"rtstruct", "not_ct"},         {"rtdose", "not_ct"},                {"liver_1frame", "not_ct"},
-      {"sr_no_pixel_data", "not_ct"}, {"us_no_pixel_spacing", "not_ct"},   {"SC_rgb_rle", "not_ct"},
-      {"priv_SQ", "no_image"},        {"no_meta_group_length", "no_image"}};
+  const std::pair<const char*, const char*> samples[] = {{"MR_small", "not_ct"},
+                                                         {"MR_small_bigendian", "not_ct"},
+                                                         {"emri_small", "not_ct"},
+                                                         {"rtstruct", "not_ct"},
+                                                         {"rtdose", "not_ct"},
+                                                         {"liver_1frame", "not_ct"},
+                                                         {"sr_no_pixel_data", "not_ct"},
+                                                         {"us_no_pixel_spacing", "not_ct"},
+                                                         {"SC_rgb_rle", "not_ct"},
+                                                         {"priv_SQ", "no_image"},
+                                                         {"no_meta_group_length", "no_image"}};
   for (const auto& [name, code] : samples)
     EXPECT_EQ(refusal(shared_data(std::string("dicom-samples/") + name + ".dcm")), code) << name;
 }
@@ -137,8 +143,10 @@ TEST_F(DicomRefused, FilesThatEndTooEarly) {
   for (std::size_t size = whole.size() - 1; size > 140; size -= 7) {
     write("PLANTED1", whole.substr(0, size));
     const std::string code = refusal(folder_);
-    // Cut between two elements before its modality or pixels, it reads as an object without a picture; a gap is left.
-    EXPECT_TRUE(code == "truncated" || code == "uneven_slices" || code == "no_geometry" || code == "") << size << code;
+    // Cut between two elements before its modality or pixels, it reads as an object without a picture; a gap is
+    // left.
+    EXPECT_TRUE(code == "truncated" || code == "uneven_slices" || code == "no_geometry" || code == "")
+        << size << code;
     if (size + 24 >= whole.size()) {
       EXPECT_EQ(code, "truncated") << size;
     }
@@ -149,8 +157,8 @@ TEST_F(DicomRefused, FilesThatEndTooEarly) {
 }
 
 TEST_F(DicomRefused, CompressedFilesThatEndTooEarly) {
-  for (const char* name : {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless", "chest_jpeg_lossless_sv1",
-                           "chest_rle", "chest_jpeg12_lossy", "chest_explicit_le"}) {
+  for (const char* name : {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless",
+                           "chest_jpeg_lossless_sv1", "chest_rle", "chest_jpeg12_lossy", "chest_explicit_le"}) {
     const std::string whole = file_bytes(shared_data(std::string("dicom-samples/") + name + ".dcm"));
     for (const double share : {0.02, 0.3, 0.5, 0.9, 0.999}) {
       const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
@@ -161,8 +169,8 @@ TEST_F(DicomRefused, CompressedFilesThatEndTooEarly) {
 
 TEST_F(DicomRefused, DestroyedPixelsNeverCrashOrTalk) {
   std::mt19937 random(7);
-  for (const char* name : {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless", "chest_jpeg_lossless_sv1",
-                           "chest_rle", "chest_jpeg12_lossy"}) {
+  for (const char* name : {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless",
+                           "chest_jpeg_lossless_sv1", "chest_rle", "chest_jpeg12_lossy"}) {
     const std::string whole = file_bytes(shared_data(std::string("dicom-samples/") + name + ".dcm"));
     for (int round = 0; round < 4; ++round) {
       std::string bytes = whole;

@@ -1,4 +1,5 @@
-// DICOM series written by hand are read with the geometry and values put in, whatever their order, names and syntax.
+// DICOM series written by hand are read with the geometry and values put in, whatever their order, names and
+// syntax.
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -35,7 +36,8 @@ TEST_F(DicomSeries, AnObliqueSeriesKeepsItsAxes) {
   const glm::dvec3 column = glm::normalize(glm::cross(glm::normalize(glm::dvec3(-0.2, 0.1, 0.97)), row));
   const glm::dvec3 normal = glm::cross(row, column), origin(5.0, -6.0, 7.0);
   for (int k = 0; k < 4; ++k)
-    write(numbered("s", k), TestDicom::ct_slice(kSize, 10 * k).lying(row, column).at(origin + 3.0 * k * normal).bytes());
+    write(numbered("s", k),
+          TestDicom::ct_slice(kSize, 10 * k).lying(row, column).at(origin + 3.0 * k * normal).bytes());
   const auto source = read(folder_);
   ASSERT_TRUE(source) << source.error().text;
   const glm::dmat4 expected(glm::dvec4(0.25 * row, 0), glm::dvec4(0.5 * column, 0), glm::dvec4(3.0 * normal, 0),
@@ -84,12 +86,12 @@ TEST_F(DicomSeries, ValuesAreRescaledRoundedAndClamped) {
   const auto source = read(file);
   ASSERT_TRUE(source);
   const auto& hu = source->volume.hu;
-  EXPECT_EQ(hu[0], 0);       // −0.25
-  EXPECT_EQ(hu[1], 1);       // 1.05
-  EXPECT_EQ(hu[2], 2);       // 2.35
-  EXPECT_EQ(hu[3], 4);       // 3.65
-  EXPECT_EQ(hu[4], -1024);   // −2600.25
-  EXPECT_EQ(hu[5], 32767);   // 42596.85
+  EXPECT_EQ(hu[0], 0);      // −0.25
+  EXPECT_EQ(hu[1], 1);      // 1.05
+  EXPECT_EQ(hu[2], 2);      // 2.35
+  EXPECT_EQ(hu[3], 4);      // 3.65
+  EXPECT_EQ(hu[4], -1024);  // −2600.25
+  EXPECT_EQ(hu[5], 32767);  // 42596.85
 }
 
 TEST_F(DicomSeries, BitsAboveTheStoredOnesAreNoPartOfTheValue) {
@@ -145,10 +147,8 @@ TEST_F(DicomSeries, OneSliceIsACaseWithAWarning) {
 TEST_F(DicomSeries, AttributesAreOfTheAllowListOnly) {
   auto source = read(write("s", TestDicom::ct_slice(kSize).bytes()));
   ASSERT_TRUE(source);
-  const std::vector<std::pair<std::string, std::string>> expected = {{"modality", "CT"},
-                                                                     {"slice_thickness_mm", "2.5"},
-                                                                     {"tube_voltage_kv", "120"},
-                                                                     {"patient_position", "HFS"}};
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"modality", "CT"}, {"slice_thickness_mm", "2.5"}, {"tube_voltage_kv", "120"}, {"patient_position", "HFS"}};
   EXPECT_EQ(source->attributes, expected);  // the body part is free text here
   source = read(write("s", TestDicom::ct_slice(kSize)
                                .text(0x00180015, "CS", "ABDOMEN")
@@ -162,14 +162,13 @@ TEST_F(DicomSeries, AttributesAreOfTheAllowListOnly) {
 }
 
 TEST_F(DicomSeries, OneOfSeveralSeriesIsChosenByNumberOrUid) {
-  for (int k = 0; k < 3; ++k)
-    write(numbered("a", k), TestDicom::ct_slice(kSize, 100).at({0, 0, 2.0 * k}).bytes());
+  for (int k = 0; k < 3; ++k) write(numbered("a", k), TestDicom::ct_slice(kSize, 100).at({0, 0, 2.0 * k}).bytes());
   for (int k = 0; k < 2; ++k)
     write(numbered("b", k), TestDicom::ct_slice(kSize, 200)
-                                       .at({0, 0, 2.0 * k})
-                                       .text(0x0020000E, "UI", "1.2.3.5")
-                                       .text(0x00200011, "IS", "2")
-                                       .bytes());
+                                .at({0, 0, 2.0 * k})
+                                .text(0x0020000E, "UI", "1.2.3.5")
+                                .text(0x00200011, "IS", "2")
+                                .bytes());
   const auto several = read(folder_);
   ASSERT_FALSE(several);
   EXPECT_EQ(several.error().code, "several_series");
@@ -181,7 +180,8 @@ TEST_F(DicomSeries, OneOfSeveralSeriesIsChosenByNumberOrUid) {
   EXPECT_EQ(first->volume.at(0, 0, 0), 200);
   EXPECT_EQ(second->volume.at(0, 0, 0), 100);
   EXPECT_EQ(by_uid->volume.hu, first->volume.hu);
-  for (const char* wrong : {"0", "3", "-1", "1.2.3.6", "", "PLANTED"}) EXPECT_EQ(refusal(folder_, wrong), "no_series");
+  for (const char* wrong : {"0", "3", "-1", "1.2.3.6", "", "PLANTED"})
+    EXPECT_EQ(refusal(folder_, wrong), "no_series");
 }
 
 TEST_F(DicomSeries, OtherFilesBesideASeriesAreLeftOut) {
@@ -217,8 +217,7 @@ TEST_F(DicomSeries, NestedSequencesBeforeThePixelsArePassedOver) {
 
 TEST_F(DicomSeries, PositionsWrittenWithTwoDecimalsAreEven) {
   const double written_mm[] = {0.0, 0.63, 1.25, 1.88, 2.5, 3.13};  // 0.625 apart
-  for (int k = 0; k < 6; ++k)
-    write(numbered("s", k), TestDicom::ct_slice(kSize).at({0, 0, written_mm[k]}).bytes());
+  for (int k = 0; k < 6; ++k) write(numbered("s", k), TestDicom::ct_slice(kSize).at({0, 0, written_mm[k]}).bytes());
   const auto source = read(folder_);
   ASSERT_TRUE(source);
   EXPECT_NEAR(source->volume.spacing_mm.z, 3.13 / 5, 1e-12);

@@ -89,8 +89,7 @@ TestDicom& TestDicom::at(const glm::dvec3& p) {
 
 TestDicom& TestDicom::lying(const glm::dvec3& row, const glm::dvec3& column) {
   std::string all;
-  for (const double cosine : {row.x, row.y, row.z, column.x, column.y, column.z})
-    {
+  for (const double cosine : {row.x, row.y, row.z, column.x, column.y, column.z}) {
     if (!all.empty()) all += '\\';
     all += number_text(cosine);
   }
@@ -121,7 +120,8 @@ std::string TestDicom::bytes(TestSyntax syntax, const std::string& before_pixels
     data += element_bytes(tag, element.vr, value, explicit_vr, big_endian);
   }
   if (syntax == TestSyntax::deflated) data = deflated(data);
-  const std::string length = element_bytes(0x00020000, "UL", u32_bytes(static_cast<unsigned>(meta.size()), false), true, false);
+  const std::string length =
+      element_bytes(0x00020000, "UL", u32_bytes(static_cast<unsigned>(meta.size()), false), true, false);
   return std::string(128, '\0') + "DICM" + length + meta + data;
 }
 

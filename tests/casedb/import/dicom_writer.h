@@ -15,7 +15,8 @@ enum class TestSyntax { implicit_le, explicit_le, explicit_be, deflated };
 
 class TestDicom {
  public:
-  // A sound CT slice of columns × rows whose stored pixel i is `first_value` + i, with a patient's name and such in it.
+  // A sound CT slice of columns × rows whose stored pixel i is `first_value` + i, with a patient's name and such in
+  // it.
   static TestDicom ct_slice(glm::ivec2 size, int first_value = 0);
 
   TestDicom& text(std::uint32_t tag, const char* vr, const std::string& value);

@@ -1,5 +1,5 @@
-// NIfTI, NRRD and MetaImage files written by hand are read with the geometry and values put in: oblique, left-handed,
-// RAS or LPS, of any scalar type, packed or not.
+// NIfTI, NRRD and MetaImage files written by hand are read with the geometry and values put in: oblique,
+// left-handed, RAS or LPS, of any scalar type, packed or not.
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -63,15 +63,18 @@ std::string text_of(const glm::dvec3& v, const char* between) {
 
 std::string nrrd_header(const glm::dmat4& space_from_voxel, const std::string& space, const std::string& encoding,
                         const std::string& more = "") {
-  const auto vector = [&](int column) { return std::string("(").append(text_of(glm::dvec3(space_from_voxel[column]), ",")).append(")"); };
-  return "NRRD0004\n# PLANTED\ntype: short\ndimension: 3\nspace: " + space + "\nsizes: 4 3 2\nspace directions: " +
-         vector(0) + " " + vector(1) + " " + vector(2) + "\nendian: little\nencoding: " + encoding +
-         "\nspace origin: " + vector(3) + "\ncontent: PLANTED\n" + more + "\n";
+  const auto vector = [&](int column) {
+    return std::string("(").append(text_of(glm::dvec3(space_from_voxel[column]), ",")).append(")");
+  };
+  return "NRRD0004\n# PLANTED\ntype: short\ndimension: 3\nspace: " + space +
+         "\nsizes: 4 3 2\nspace directions: " + vector(0) + " " + vector(1) + " " + vector(2) +
+         "\nendian: little\nencoding: " + encoding + "\nspace origin: " + vector(3) + "\ncontent: PLANTED\n" +
+         more + "\n";
 }
 
 std::string meta_header(const glm::dmat3& direction, const std::string& data_file, const std::string& more = "") {
-  return "ObjectType = Image\nNDims = 3\nComment = PLANTED\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" + more +
-         "TransformMatrix = " + text_of(direction[0], " ") + " " + text_of(direction[1], " ") + " " +
+  return "ObjectType = Image\nNDims = 3\nComment = PLANTED\nBinaryData = True\nBinaryDataByteOrderMSB = False\n" +
+         more + "TransformMatrix = " + text_of(direction[0], " ") + " " + text_of(direction[1], " ") + " " +
          text_of(direction[2], " ") +
          "\nOffset = -11 22 -33\nElementSpacing = 0.5 0.75 2\nDimSize = 4 3 2\nElementType = MET_SHORT\n"
          "ElementDataFile = " +
@@ -118,6 +121,23 @@ TEST_F(FileGeometry, NiftiQformIsReadAsItsFormulaSays) {
   }
 }
 
+TEST_F(FileGeometry, OfTwoNiftiFormsTheScannersIsTaken) {
+  const glm::dmat4 lps = placed(glm::dmat3(1.0));
+  Nifti nifti({4, 3, 2}, ras_from(lps));
+  // A qform (axes along RAS) elsewhere: contradictory when both are the scanner's, another frame otherwise.
+  nifti.put<std::int16_t>(252, 1).put<float>(268, 50.0F);
+  EXPECT_EQ(refusal(write("t.nii", nifti.bytes(little_endian(kVoxels)))), "no_geometry");
+  nifti.put<std::int16_t>(252, 2);
+  const auto by_sform = read(write("t.nii", nifti.bytes(little_endian(kVoxels))));
+  expect_volume(by_sform, lps, 2e-5, "sform");
+  EXPECT_TRUE(has_code(by_sform->warnings, "two_geometries"));
+  nifti.put<std::int16_t>(252, 1).put<std::int16_t>(254, 4);
+  const auto by_qform = read(write("t.nii", nifti.bytes(little_endian(kVoxels))));
+  ASSERT_TRUE(by_qform);
+  EXPECT_NEAR(by_qform->volume.lps_from_voxel[3].x, -50.0, 1e-4);
+  EXPECT_TRUE(has_code(by_qform->warnings, "two_geometries"));
+}
+
 TEST_F(FileGeometry, NrrdSpacesAreTurnedToLps) {
   for (const auto& [name, direction] : directions()) {
     const glm::dmat4 lps = placed(direction);
@@ -125,8 +145,8 @@ TEST_F(FileGeometry, NrrdSpacesAreTurnedToLps) {
     for (int column = 0; column < 4; ++column) las[column].y = -las[column].y;
     const std::string raw = little_endian(kVoxels);
     expect_volume(read(write("l.nrrd", nrrd_header(lps, "left-posterior-superior", "raw") + raw)), lps, 1e-9, name);
-    expect_volume(read(write("r.nrrd", nrrd_header(ras_from(lps), "right-anterior-superior", "gzip") + gzip(raw))), lps,
-                  1e-9, name);
+    expect_volume(read(write("r.nrrd", nrrd_header(ras_from(lps), "right-anterior-superior", "gzip") + gzip(raw))),
+                  lps, 1e-9, name);
     expect_volume(read(write("a.nrrd", nrrd_header(las, "LAS", "gz") + gzip(raw))), lps, 1e-9, name);
   }
 }
@@ -218,8 +238,8 @@ TEST_F(FileGeometry, AVolumeWithoutAirIsDoubted) {
   EXPECT_TRUE(has_code(source->warnings, "no_air"));
   std::vector<std::int16_t> with_air = tissue;
   with_air[5] = -900;
-  EXPECT_FALSE(has_code(read(write("t.mha", meta_header(glm::dmat3(1.0), "LOCAL") + little_endian(with_air)))->warnings,
-                        "no_air"));
+  EXPECT_FALSE(has_code(
+      read(write("t.mha", meta_header(glm::dmat3(1.0), "LOCAL") + little_endian(with_air)))->warnings, "no_air"));
 }
 
 }  // namespace

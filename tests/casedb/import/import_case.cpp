@@ -22,7 +22,8 @@ void ImportCase::TearDown() {
   std::filesystem::remove_all(folder_);
 }
 
-base::Result<Source> ImportCase::read(const std::filesystem::path& source, const std::optional<std::string>& series) {
+base::Result<Source> ImportCase::read(const std::filesystem::path& source,
+                                      const std::optional<std::string>& series) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   auto result = read_source(source, series);

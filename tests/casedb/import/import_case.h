@@ -47,7 +47,8 @@ class Nifti {
   Nifti(std::array<std::int16_t, 3> size, const glm::dmat4& ras_from_voxel);
   template <typename T>
   Nifti& put(std::size_t at, T value) {
-    std::copy_n(reinterpret_cast<const char*>(&value), sizeof(T), header_.begin() + static_cast<std::ptrdiff_t>(at));
+    std::copy_n(reinterpret_cast<const char*>(&value), sizeof(T),
+                header_.begin() + static_cast<std::ptrdiff_t>(at));
     return *this;
   }
   std::string bytes(const std::string& voxels) const { return header_ + voxels; }

@@ -1,8 +1,7 @@
-// The real CT volumes: the landmarks their READMEs measure, the six lossless syntaxes, voxels against an own decoding,
-// and a skin that is closed and can be punctured.
+// The real CT volumes: the landmarks their READMEs measure, the six lossless syntaxes, voxels against an own
+// decoding, and a skin that is closed and can be punctured.
 #include <zlib.h>
 
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -31,10 +30,12 @@ double mean_hu(const volume::Volume& v, const glm::dvec3& p_lps_mm) {
   return sum / 49.0;
 }
 
-const Landmark kContrast[] = {{{-107, 51, -153}, 164}, {{52, 66, -153}, 155}, {{-14, 25, -153}, 145}, {{-42, 16, -153}, 127},
-                              {{-115, -5, -98}, 103},  {{89, 55, -98}, 125},  {{-167, 21, -153}, -79}};
-const Landmark kPelvis[] = {{{-89, 58, -583}, 24},  {{63, 77, -583}, 33},   {{-104, 33, -506}, 64}, {{-4, 27, -583}, 43},
-                            {{-40, 106, -583}, 48}, {{-16, 48, -583}, 199}, {{-11, 28, -838}, -2},  {{-16, -79, -583}, -106}};
+const Landmark kContrast[] = {{{-107, 51, -153}, 164}, {{52, 66, -153}, 155},  {{-14, 25, -153}, 145},
+                              {{-42, 16, -153}, 127},  {{-115, -5, -98}, 103}, {{89, 55, -98}, 125},
+                              {{-167, 21, -153}, -79}};
+const Landmark kPelvis[] = {{{-89, 58, -583}, 24}, {{63, 77, -583}, 33},    {{-104, 33, -506}, 64},
+                            {{-4, 27, -583}, 43},  {{-40, 106, -583}, 48},  {{-16, 48, -583}, 199},
+                            {{-11, 28, -838}, -2}, {{-16, -79, -583}, -106}};
 
 TEST_F(RealCt, LandmarksOfTheDicomSeries) {
   const auto source = read(shared_data("ct-abdomen-contrast-dicom"));
@@ -65,6 +66,7 @@ TEST_F(RealCt, TheMetaImageIsTheNiftiAveraged) {
   const glm::dvec3 first(a.lps_from_voxel * glm::dvec4(0.5, 0.5, 0.0, 1.0));
   EXPECT_LT(glm::length(first - glm::dvec3(b.lps_from_voxel[3])), 1e-3);
   double worst = 0.0;
+  std::size_t compared = 0;
   for (int k = 0; k < 99; ++k)
     for (int j = 0; j < 195; ++j)
       for (int i = 0; i < 256; ++i) {
@@ -72,11 +74,10 @@ TEST_F(RealCt, TheMetaImageIsTheNiftiAveraged) {
                         a.at(2 * i + 1, 2 * j + 1, k);
         if (b.at(i, j, k) == -1024) continue;  // there it was averaged with the padding of −3024
         worst = std::max(worst, std::abs(b.at(i, j, k) - 0.25 * sum));
+        ++compared;
       }
-  EXPECT_GT(worst, -1.0);
-  RecordProperty("largest_difference_hu", std::to_string(worst));
-  for (const Landmark& landmark : kPelvis)
-    EXPECT_NEAR(mean_hu(b, landmark.p_lps_mm), landmark.hu, 1000.0);
+  EXPECT_GT(compared, b.hu.size() / 2);
+  EXPECT_LE(worst, 0.5);  // so every landmark of the one holds in the other
 }
 
 TEST_F(RealCt, NrrdVoxelsAreThoseOfTheFile) {
@@ -96,7 +97,8 @@ TEST_F(RealCt, NrrdVoxelsAreThoseOfTheFile) {
   inflateEnd(&stream);
   for (std::int16_t& hu : voxels) hu = std::max<std::int16_t>(hu, -1024);
   EXPECT_EQ(source->volume.hu, voxels);
-  const glm::dmat4 expected({0.976562, 0, 0, 0}, {0, 0.976562, 0, 0}, {0, 0, 4.25, 0}, {-201.1719, -123.04694, -319.75, 1});
+  const glm::dmat4 expected({0.976562, 0, 0, 0}, {0, 0.976562, 0, 0}, {0, 0, 4.25, 0},
+                            {-201.1719, -123.04694, -319.75, 1});
   EXPECT_LT(largest_difference(source->volume.lps_from_voxel, expected), 1e-9);
 }
 
@@ -118,7 +120,8 @@ TEST_F(RealCt, SixLosslessSyntaxesAreOneSlice) {
   const auto [low, high] = std::minmax_element(plain->volume.hu.begin(), plain->volume.hu.end());
   EXPECT_EQ(*low, -1024);  // −3024 in the file
   EXPECT_EQ(*high, 1378);
-  for (const char* name : {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless", "chest_jpeg_lossless_sv1", "chest_rle"}) {
+  for (const char* name :
+       {"chest_deflated", "chest_j2k_lossless", "chest_jpegls_lossless", "chest_jpeg_lossless_sv1", "chest_rle"}) {
     const auto other = sample(name);
     ASSERT_TRUE(other) << name;
     EXPECT_EQ(other->volume.hu, plain->volume.hu) << name;
@@ -130,7 +133,8 @@ TEST_F(RealCt, SixLosslessSyntaxesAreOneSlice) {
   EXPECT_TRUE(has_code(lossy->warnings, "lossy"));
   EXPECT_NE(lossy->volume.hu, plain->volume.hu);
   double sum = 0.0;
-  for (std::size_t i = 0; i < plain->volume.hu.size(); ++i) sum += std::abs(lossy->volume.hu[i] - plain->volume.hu[i]);
+  for (std::size_t i = 0; i < plain->volume.hu.size(); ++i)
+    sum += std::abs(lossy->volume.hu[i] - plain->volume.hu[i]);
   EXPECT_LT(sum / static_cast<double>(plain->volume.hu.size()), 20.0);
 }
 
@@ -191,8 +195,11 @@ TEST_F(RealCt, TheSkinOfTheAbdomenIsCrossedOnceFromBehind) {
   ASSERT_TRUE(full);
   const Distances there = distances(*skin, *full), back = distances(*full, *skin);
   RecordProperty("triangles", std::to_string(skin->triangles.size()));
-  std::printf("[ decimation ] %zu of %zu triangles; mm from decimated to full: mean %.4f max %.3f, back: mean %.4f max %.3f\n",
-              skin->triangles.size(), full->triangles.size(), there.mean_mm, there.largest_mm, back.mean_mm, back.largest_mm);
+  std::printf(
+      "[ decimation ] %zu of %zu triangles; mm from decimated to full: mean %.4f max %.3f, back: mean %.4f max "
+      "%.3f\n",
+      skin->triangles.size(), full->triangles.size(), there.mean_mm, there.largest_mm, back.mean_mm,
+      back.largest_mm);
   EXPECT_LT(there.mean_mm, 0.1);
   EXPECT_LT(back.mean_mm, 0.2);
   EXPECT_LT(back.largest_mm, 3.0);
@@ -206,15 +213,19 @@ TEST_F(RealCt, TheMattressCoverThatTouchesTheBackIsNoBody) {
   const cases::MeshIndex index(*skin);
   const volume::Volume& v = source->volume;
   const auto mask = body_mask(v);
-  // The cover hangs free beside the back in every slice: column 60 from row 310 down is outside.
+  // The cover's free edges, beside the back in every slice.
   for (int k = 0; k < 35; ++k)
-    for (int j = 345; j < 512; ++j) EXPECT_EQ(mask[v.index(60, j, k)], 0) << k << " " << j;
+    for (int j = 388; j < 512; ++j) {
+      EXPECT_EQ(mask[v.index(42, j, k)], 0) << k << " " << j;
+      EXPECT_EQ(mask[v.index(470, j, k)], 0) << k << " " << j;
+    }
   EXPECT_EQ(skin_crossings(index, {-100, 300, -100}, {0, -1, 0}, 600.0), 2);
   EXPECT_EQ(skin_crossings(index, {52, 300, -153}, {0, -1, 0}, 600.0), 2);
 }
 
 TEST_F(RealCt, EverySkinIsClosedAndFacesOutwards) {
-  for (const char* name : {"ct-neck/neck.nrrd", "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-abdomen-pelvis/abdomen_pelvis_2x.mha"}) {
+  for (const char* name :
+       {"ct-neck/neck.nrrd", "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-abdomen-pelvis/abdomen_pelvis_2x.mha"}) {
     const auto source = read(shared_data(name));
     ASSERT_TRUE(source);
     const auto skin = skin_surface(source->volume);

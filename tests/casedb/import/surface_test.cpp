@@ -59,7 +59,8 @@ volume::Volume scanned(glm::ivec3 size, glm::dvec3 spacing_mm, const glm::dmat3&
     for (int j = 0; j < size.y; ++j)
       for (int i = 0; i < size.x; ++i) {
         const double d = distance_mm(glm::dvec3(v.lps_from_voxel * glm::dvec4(i, j, k, 1.0)));
-        v.hu[v.index(i, j, k)] = static_cast<std::int16_t>(std::lround(std::clamp(-300.0 - 200.0 * d, -1000.0, 40.0)));
+        v.hu[v.index(i, j, k)] =
+            static_cast<std::int16_t>(std::lround(std::clamp(-300.0 - 200.0 * d, -1000.0, 40.0)));
       }
   return v;
 }
@@ -98,7 +99,8 @@ TEST(SkinSurface, ABoxKeepsItsVolumeAndSides) {
     const glm::dvec3 d = glm::max(low - p, p - high);
     return std::max({d.x, d.y, d.z});
   };
-  const auto mesh = skin_surface(scanned({80, 70, 80}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(-40.0, -33.0, -40.0), distance));
+  const auto mesh = skin_surface(
+      scanned({80, 70, 80}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(-40.0, -33.0, -40.0), distance));
   ASSERT_TRUE(mesh);
   expect_closed(*mesh);
   const glm::dvec3 size = high - low;
@@ -140,7 +142,8 @@ TEST(SkinSurface, ABodyThatLeavesTheVolumeIsCappedOnItsFaces) {
     EXPECT_NEAR(cap_area / (2.0 * area), 1.0, 0.02) << slices;
     double worst = 0.0;
     for (const glm::vec3& p : mesh->vertices_lps_mm)
-      if (p.z > bottom_mm + 3.0 && p.z < top_mm - 3.0) worst = std::max(worst, std::abs(body.distance(glm::dvec3(p))));
+      if (p.z > bottom_mm + 3.0 && p.z < top_mm - 3.0)
+        worst = std::max(worst, std::abs(body.distance(glm::dvec3(p))));
     EXPECT_LT(worst, 0.5);
   }
 }
@@ -156,8 +159,9 @@ TEST(SkinSurface, ABodyCutAtEverySideIsABoxOfCaps) {
 
 TEST(SkinSurface, OneSliceIsAPlateBetweenTwoCaps) {
   const Cylinder body;
-  const auto mesh = skin_surface(scanned({90, 90, 1}, {1.0, 1.0, 5.0}, glm::dmat3(1.0), glm::dvec3(-44.5, -44.5, 0.0),
-                                         [&](const glm::dvec3& p) { return body.distance(p); }));
+  const auto mesh =
+      skin_surface(scanned({90, 90, 1}, {1.0, 1.0, 5.0}, glm::dmat3(1.0), glm::dvec3(-44.5, -44.5, 0.0),
+                           [&](const glm::dvec3& p) { return body.distance(p); }));
   ASSERT_TRUE(mesh);
   expect_closed(*mesh);
   EXPECT_NEAR(enclosed_mm3(*mesh) / (std::numbers::pi * 35.0 * 35.0 * 5.0), 1.0, 0.02);
@@ -191,7 +195,8 @@ TEST(SkinSurface, LungsAreFilledAndTheCouchIsDropped) {
 }
 
 TEST(SkinSurface, AirHasNoSkin) {
-  const auto mesh = skin_surface(volume::make_volume({10, 10, 10}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(0.0)));
+  const auto mesh =
+      skin_surface(volume::make_volume({10, 10, 10}, glm::dvec3(1.0), glm::dmat3(1.0), glm::dvec3(0.0)));
   ASSERT_FALSE(mesh);
   EXPECT_EQ(mesh.error().code, "no_body");
 }
