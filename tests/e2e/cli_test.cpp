@@ -257,7 +257,8 @@ TEST(Cli, ScoreOfAPoseFileIsItsClosedForm) {
                          scratch);
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     std::map<std::string, Json> values;
-    for (const Json& metric : Json::parse(ran.out).at("metrics")) values[metric.at("id")] = metric.at("value");
+    const Json answer = Json::parse(ran.out);
+    for (const Json& metric : answer.at("metrics")) values[metric.at("id")] = metric.at("value");
     return values;
   };
   auto values = score(0.0, 0.0);
