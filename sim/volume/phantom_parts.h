@@ -1,6 +1,6 @@
 // What the built-in torso is made of: tissues with their HU, and the regions that paint it. Inside sim/volume only.
-// LPS mm: x to the patient's left, y to the back, z to the head; x = 0 is the midline, z = 0 the disc T12/L1's
-// level, the supine skin runs from y = −114 (belly) to 114 (back).
+// LPS mm: x to the patient's left, y to the back, z to the head; x = 0 is the midline, z = 0 is at
+// L1, the supine skin runs from y = −114 (belly) to 114 (back).
 #pragma once
 
 #include <glm/vec3.hpp>
