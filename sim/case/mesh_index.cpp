@@ -42,9 +42,17 @@ OnTriangle closest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const g
   return {a + ab * (vb * scale) + ac * (vc * scale), 6};
 }
 
-double box_distance2(const glm::dvec3& p, const glm::dvec3& low, const glm::dvec3& high) {
-  const glm::dvec3 d = glm::max(glm::max(low - p, p - high), glm::dvec3(0.0));
-  return glm::dot(d, d);
+// Written without branches and always inlined: half of a query is this.
+[[gnu::always_inline]] inline double box_distance2(const glm::dvec3& p, const glm::vec3& low,
+                                                   const glm::vec3& high) {
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double below = low[axis] - p[axis], above = p[axis] - high[axis];
+    const double outside = below > above ? below : above;
+    const double d = outside > 0.0 ? outside : 0.0;
+    sum += d * d;
+  }
+  return sum;
 }
 
 glm::dvec3 unit_or_zero(const glm::dvec3& v) {
@@ -70,6 +78,7 @@ MeshIndex::MeshIndex(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   if (count == 0) return;
   triangles_.resize(count);
+  normals_.resize(count);
   struct EdgeSide {
     std::uint32_t low, high, triangle, side;
   };
@@ -85,12 +94,12 @@ MeshIndex::MeshIndex(const Mesh& mesh) {
     triangle.b = mesh.vertices_lps_mm[v.y];
     triangle.c = mesh.vertices_lps_mm[v.z];
     const glm::dvec3 corner[3] = {triangle.a, triangle.b, triangle.c};
-    triangle.face_normal = unit_or_zero(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a));
+    normals_[t].face = unit_or_zero(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a));
     for (std::uint32_t i = 0; i < 3; ++i) {
       const std::uint32_t from = v[static_cast<int>(i)], to = v[static_cast<int>((i + 1) % 3)];
       sides.push_back({std::min(from, to), std::max(from, to), t, i});
       vertex_normal[from] +=
-          triangle.face_normal * angle_between(corner[(i + 1) % 3] - corner[i], corner[(i + 2) % 3] - corner[i]);
+          normals_[t].face * angle_between(corner[(i + 1) % 3] - corner[i], corner[(i + 2) % 3] - corner[i]);
     }
   }
   std::sort(sides.begin(), sides.end(), [](const EdgeSide& x, const EdgeSide& y) {
@@ -100,12 +109,12 @@ MeshIndex::MeshIndex(const Mesh& mesh) {
     std::size_t end = begin;
     glm::dvec3 sum(0.0);
     while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
-      sum += triangles_[sides[end++].triangle].face_normal;
-    for (std::size_t i = begin; i < end; ++i) triangles_[sides[i].triangle].edge_normal[sides[i].side] = sum;
+      sum += normals_[sides[end++].triangle].face;
+    for (std::size_t i = begin; i < end; ++i) normals_[sides[i].triangle].edge[sides[i].side] = sum;
     begin = end;
   }
-  for (Triangle& triangle : triangles_)
-    for (int i = 0; i < 3; ++i) triangle.vertex_normal[i] = vertex_normal[mesh.triangles[triangle.id][i]];
+  for (std::uint32_t t = 0; t < count; ++t)
+    for (int i = 0; i < 3; ++i) normals_[t].vertex[i] = vertex_normal[mesh.triangles[t][i]];
 
   nodes_.reserve(count);
   nodes_.emplace_back();
@@ -120,8 +129,8 @@ void MeshIndex::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end
     low = glm::min(low, glm::min(triangles_[t].a, glm::min(triangles_[t].b, triangles_[t].c)));
     high = glm::max(high, glm::max(triangles_[t].a, glm::max(triangles_[t].b, triangles_[t].c)));
   }
-  nodes_[node].min_mm = low;
-  nodes_[node].max_mm = high;
+  nodes_[node].min_mm = glm::vec3(low);
+  nodes_[node].max_mm = glm::vec3(high);
   if (end - begin <= kLeafTriangles) {
     nodes_[node].first = begin;
     nodes_[node].count = end - begin;
@@ -188,9 +197,10 @@ Closest MeshIndex::answer(const glm::dvec3& p, std::uint32_t hint, bool skin_onl
   }
   visit(p, skin_only, nearest);
   const Triangle& triangle = triangles_[nearest.at];
-  const glm::dvec3 normal = nearest.feature == 6  ? triangle.face_normal
-                            : nearest.feature < 3 ? triangle.vertex_normal[nearest.feature]
-                                                  : triangle.edge_normal[nearest.feature - 3];
+  const Normals& normals = normals_[triangle.id];
+  const glm::dvec3 normal = nearest.feature == 6  ? normals.face
+                            : nearest.feature < 3 ? normals.vertex[nearest.feature]
+                                                  : normals.edge[nearest.feature - 3];
   const double distance = std::sqrt(nearest.distance2);
   const bool inside = glm::dot(p - nearest.point, normal) < 0.0;
   return {inside ? -distance : distance, nearest.point, triangle.id};
@@ -267,7 +277,7 @@ std::optional<RayHit> MeshIndex::first_hit(const glm::dvec3& p, const glm::dvec3
 
 glm::dvec3 MeshIndex::normal(std::uint32_t triangle) const noexcept {
   CHECK(triangle < position_.size());
-  return triangles_[position_[triangle]].face_normal;
+  return normals_[triangle].face;
 }
 
 bool MeshIndex::cut(std::uint32_t triangle) const noexcept {

@@ -46,19 +46,21 @@ class MeshIndex {
   bool cut(std::uint32_t triangle) const noexcept;
 
  private:
+  // What a query touches is kept small: a pair of sibling nodes is one cache line, normals stand apart.
   struct Node {
-    glm::dvec3 min_mm, max_mm;
-    std::uint32_t first =
-        0;  // leaf: first of count triangles in order_; inner: index of the left child, right = +1
-    std::uint32_t count = 0;  // 0 = inner
+    glm::vec3 min_mm, max_mm;  // vertices are float, so these bounds are exact
+    std::uint32_t first = 0;   // leaf: first of count triangles; inner: index of the left child, right = +1
+    std::uint32_t count = 0;   // 0 = inner
   };
   struct Triangle {
     glm::dvec3 a, b, c;
-    glm::dvec3 face_normal;
-    glm::dvec3 edge_normal[3];    // of ab, bc, ca: sum of the two faces' normals
-    glm::dvec3 vertex_normal[3];  // angle weighted
     std::uint32_t id = 0;
     bool cut = false;
+  };
+  struct Normals {
+    glm::dvec3 face;
+    glm::dvec3 edge[3];    // of ab, bc, ca: sum of the two faces' normals
+    glm::dvec3 vertex[3];  // angle weighted
   };
   struct Nearest;
 
@@ -67,6 +69,7 @@ class MeshIndex {
   Closest answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept;
 
   std::vector<Node> nodes_;
+  std::vector<Normals> normals_;         // by triangle id
   std::vector<Triangle> triangles_;      // in tree order
   std::vector<std::uint32_t> position_;  // triangle id → place in triangles_
 };

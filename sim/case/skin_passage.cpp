@@ -8,7 +8,7 @@ namespace seldinger::cases {
 SkinPassage start_passage(const MeshIndex& skin, const glm::dvec3& tip_lps_mm,
                           const glm::dvec3& direction) noexcept {
   SkinPassage passage;
-  passage.tip_lps_mm = tip_lps_mm;
+  passage.tip_lps_mm = passage.asked_lps_mm = tip_lps_mm;
   if (skin.empty()) return passage;
   const Closest near = skin.closest_skin(tip_lps_mm);
   passage.triangle = near.triangle;
@@ -25,6 +25,11 @@ void advance_passage(const MeshIndex& skin, const glm::dvec3& tip_lps_mm, SkinPa
   const glm::dvec3 from = passage.tip_lps_mm;
   passage.tip_lps_mm = tip_lps_mm;
   if (skin.empty()) return;
+  // A distance changes by no more than the way: what is left of it is a bound.
+  const glm::dvec3 since = tip_lps_mm - passage.asked_lps_mm;
+  const double moved_mm = std::sqrt(glm::dot(since, since));
+  if (moved_mm < kStaleMm && std::abs(passage.depth_mm) - moved_mm > kFarMm) return;
+  passage.asked_lps_mm = tip_lps_mm;
   const Closest near = skin.closest_skin(tip_lps_mm, passage.triangle);
   const bool inside = near.distance_mm < 0.0;
   if (inside != passage.geometric_inside) {

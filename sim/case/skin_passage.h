@@ -10,9 +10,15 @@
 
 namespace seldinger::cases {
 
+// Far from the skin the tip cannot cross it and nobody needs its depth to the micrometre: more than kFarMm away,
+// the distance is asked for again only after kStaleMm of way. That bounds the depth's error; near the skin it is
+// exact.
+constexpr double kFarMm = 5.0, kStaleMm = 0.25;
+
 struct SkinPassage {
   glm::dvec3 tip_lps_mm{0.0};     // the last pose
-  double depth_mm = 0.0;          // below the skin; negative outside
+  double depth_mm = 0.0;          // below the skin; negative outside; within kStaleMm beyond kFarMm, else exact
+  glm::dvec3 asked_lps_mm{0.0};   // where depth_mm was found
   std::uint32_t triangle = 0;     // nearest, the next query's hint
   bool geometric_inside = false;  // inside the closed mesh, caps included
   bool in_body = false;           // came through skin

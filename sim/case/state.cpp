@@ -19,6 +19,7 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   add_point(state.needle.direction);
   add_point(state.needle.skin.tip_lps_mm);
   add(state.needle.skin.depth_mm);
+  add_point(state.needle.skin.asked_lps_mm);
   add_integer(state.needle.skin.triangle);
   add_point(state.needle.skin.entry_lps_mm);
   add(state.needle.inserted_mm);

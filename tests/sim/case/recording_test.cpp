@@ -131,6 +131,7 @@ TEST(StateHash, EveryFieldCounts) {
   EXPECT_TRUE(changes([](State& s) { s.needle.inserted_mm = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.needle.skin.tip_lps_mm.y = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.needle.skin.depth_mm = 1; }));
+  EXPECT_TRUE(changes([](State& s) { s.needle.skin.asked_lps_mm.y = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.needle.skin.triangle = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.needle.skin.geometric_inside = true; }));
   EXPECT_TRUE(changes([](State& s) { s.needle.skin.in_body = true; }));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "sim/base/rng.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::cases {
@@ -45,6 +48,29 @@ TEST(SkinPassage, WhatStartsInsideHasTheSkinBehindTheShaftAsItsEntry) {
   const SkinPassage passage = start_passage(skin, {0, 30, 0}, kDown);
   EXPECT_TRUE(passage.in_body);
   EXPECT_NEAR(passage.entry_lps_mm.y, 0.0, 1e-9);
+}
+
+TEST(SkinPassage, FarFromTheSkinDepthIsWithinItsBoundAndNearItExact) {
+  const MeshIndex skin(fixtures::sphere_mesh({0, 0, 0}, 50.0, 4, 3.0));
+  base::Rng rng(1);
+  glm::dvec3 tip(0, -80, 0), velocity(0.0);
+  SkinPassage passage = start_passage(skin, tip, kDown);
+  int inside = 0, asked = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    // A wandering tip that is drawn to the surface, at up to some 100 mm/s.
+    velocity = velocity * 0.99 + glm::dvec3(rng.normal(), rng.normal(), rng.normal()) * 0.01 - tip * 1e-5;
+    tip += velocity;
+    const glm::dvec3 before = passage.asked_lps_mm;
+    advance_passage(skin, tip, passage);
+    asked += passage.asked_lps_mm != before ? 1 : 0;
+    const double depth_mm = -skin.closest(tip).distance_mm;
+    ASSERT_EQ(passage.in_body, depth_mm > 0.0) << i;
+    ASSERT_NEAR(passage.depth_mm, depth_mm, std::abs(depth_mm) > kFarMm - kStaleMm ? kStaleMm : 1e-9) << i;
+    inside += passage.in_body ? 1 : 0;
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_LT(inside, 39'000);
+  EXPECT_LT(asked, 39'000) << "the bound saves something";
 }
 
 TEST(SkinPassage, AnEmptySkinHasNoInside) {
