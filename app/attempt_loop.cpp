@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/frame_truth.h"
 #include "app/png.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/scripted.h"
@@ -37,20 +38,6 @@ imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose
   return view;
 }
 
-cases::FrameTruth truth_of(const cases::Case& scene, const cases::State& state) {
-  const std::optional<glm::dvec3> target =
-      scene.lesions.empty() ? std::nullopt : std::optional(scene.lesions[0].center_lps_mm);
-  const imaging::Visible visible = imaging::mpr_visible(
-      view_of(scene, pose_of(state)), needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), target);
-  cases::FrameTruth truth;
-  truth.t_s = state.t_s;
-  truth.live = !state.probe.frozen;
-  truth.needle_tip = visible.needle_tip;
-  truth.target = visible.target;
-  truth.needle_length_mm = visible.needle_length_mm;
-  return truth;
-}
-
 }  // namespace
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
@@ -80,7 +67,9 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
     new_frame = due >= frames;
     if (new_frame) {
       frames = due + 1;
-      frame = truth_of(scene, state);
+      frame = frame_truth(state.t_s, view_of(scene, pose_of(state)),
+                          needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), scene.lesions);
+      frame.live = !state.probe.frozen;
       recording.frames.push_back(frame);
     }
     if (state.fire.fired && !recording.endpoint)

@@ -1,22 +1,13 @@
 // attempt list, attempt show.
 #include <cstdio>
-#include <ctime>
 
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/simulation.h"
+#include "reports/metric_words.h"
 
 namespace seldinger::app {
 namespace {
-
-std::string utc(std::int64_t time_us) {
-  const std::time_t seconds = time_us / 1'000'000;
-  std::tm parts{};
-  ::gmtime_r(&seconds, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%SZ", &parts);
-  return text;
-}
 
 std::string value_of(const casedb::AttemptRow& attempt, const char* id, const char* format) {
   for (const assessment::MetricValue& metric : attempt.metrics)
@@ -41,7 +32,7 @@ int run_attempt_list(const Arguments& arguments) {
   if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
   for (const casedb::AttemptRow& attempt : attempts)
     std::printf("%s  %s  %-12s seed %-6llu hit %s  %6s mm from the centre  %6s s\n", attempt.attempt_id.c_str(),
-                utc(attempt.started_us).c_str(), attempt.operator_name.c_str(),
+                reports::utc_text(attempt.started_us).c_str(), attempt.operator_name.c_str(),
                 static_cast<unsigned long long>(attempt.seed), value_of(attempt, "hit", "%.0f").c_str(),
                 value_of(attempt, "tip_target_dist", "%.1f").c_str(),
                 value_of(attempt, "time_total", "%.1f").c_str());
@@ -58,7 +49,7 @@ int run_attempt_show(const Arguments& arguments) {
     return kDone;
   }
   std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\noperator %s, seed %llu\n",
-              attempt->attempt_id.c_str(), utc(attempt->started_us).c_str(), attempt->case_id.c_str(),
+              attempt->attempt_id.c_str(), reports::utc_text(attempt->started_us).c_str(), attempt->case_id.c_str(),
               attempt->case_title.c_str(), attempt->lesion_id.c_str(), attempt->operator_name.c_str(),
               static_cast<unsigned long long>(attempt->seed));
   print_metrics(attempt->metrics);

@@ -28,15 +28,28 @@ std::filesystem::path default_library() {
   return std::filesystem::path(home) / ".local" / "share" / "seldinger" / "demo";
 }
 
-// The demo's case: one already there is used again, so that a second run is quick and makes nothing twice.
-base::Result<casedb::CaseRow> demo_case(casedb::Library& library, const Arguments& arguments) {
+// The library with the demo's case: one already there is used again, so that a second run is quick and makes
+// nothing twice. A CT that is refused makes no library.
+base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, const std::filesystem::path& folder,
+                                        const Arguments& arguments) {
   const bool own = arguments.has("--ct");
+  std::optional<casedb::NewCase> imported;
+  if (own) {
+    auto read = import_case(arguments.text("--ct"), {}, "Demo CT", "import");
+    if (!read) return read.error();
+    imported.emplace(std::move(*read));
+  }
+  auto made = casedb::Library::open_or_create(folder);
+  if (!made) return made.error();
+  casedb::Library& library = opened.emplace(std::move(*made));
   if (!own)
     for (const casedb::CaseRow& row : casedb::list_cases(library))
       if (row.origin == phantom_origin()) return row;
-  auto imported = own ? import_case(arguments.text("--ct"), {}, "Demo CT", "import") : import_phantom();
-  if (!imported) return imported.error();
-  if (own) {
+  if (!own) {
+    auto read = import_phantom();
+    if (!read) return read.error();
+    imported.emplace(std::move(*read));
+  } else {
     const std::string volume_sha256 = casedb::sha256_hex(volume::bytes_from_volume(imported->volume));
     for (const casedb::CaseRow& row : casedb::list_cases(library))
       if (row.volume_sha256 == volume_sha256) return row;
@@ -149,10 +162,9 @@ int run_demo(const Arguments& arguments) {
   const std::filesystem::path folder =
       arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : default_library();
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
-  auto library = casedb::Library::open_or_create(folder);
-  if (!library) return refuse(library.error());
+  std::optional<casedb::Library> library;
   DemoAnswer answer;
-  auto found = demo_case(*library, arguments);
+  auto found = demo_case(library, folder, arguments);
   if (!found) return refuse(found.error());
   answer.found = std::move(*found);
   auto lesion = demo_lesion(*library, answer.found);

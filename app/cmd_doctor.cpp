@@ -39,7 +39,7 @@ int run_doctor(const Arguments& arguments) {
   const auto add = [&doctor](const char* name, const std::string& value) {
     doctor.facts.emplace_back(name, value);
   };
-  bool healthy = true;
+  std::optional<base::Error> refused;
   add("version", kVersion);
   add("step_version", std::to_string(engine::kStepVersion));
   add("cores", std::to_string(std::thread::hardware_concurrency()));
@@ -62,8 +62,8 @@ int run_doctor(const Arguments& arguments) {
       const auto space = std::filesystem::space(arguments.text("--library"), error);
       add("disk_free_mb", error ? "unknown" : std::to_string(space.available / 1'000'000));
     } else {
-      add("library", library.error().code + ": " + library.error().text);
-      healthy = false;
+      add("library", library.error().code);
+      refused = library.error();
     }
   }
   if (arguments.has("--json")) {
@@ -71,7 +71,7 @@ int run_doctor(const Arguments& arguments) {
   } else {
     for (const auto& [name, value] : doctor.facts) std::printf("%-14s %s\n", name.c_str(), value.c_str());
   }
-  return healthy ? kDone : kRefused;
+  return refused ? refuse(*refused) : kDone;
 }
 
 }  // namespace seldinger::app

@@ -6,9 +6,11 @@
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/file.h"
+#include "app/frame_truth.h"
 #include "app/meta_image.h"
 #include "app/png.h"
 #include "app/scene.h"
+#include "casedb/disk.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {
@@ -46,7 +48,8 @@ int run_render(const Arguments& arguments) {
   std::string backend = arguments.text("--backend");
   if (!backend.empty() && backend != "gpu" && backend != "cpu" && backend != "reference")
     throw UsageError("--backend is gpu, cpu or reference");
-  const auto scene = read_scene(arguments.positional(0));
+  std::vector<std::string> notes;
+  const auto scene = read_scene(arguments.positional(0), notes);
   if (!scene) return refuse(scene.error());
   if (!scene->view) return refuse({"bad_scene", "scene.view is missing"});
   const auto volume = volume_of(*scene, arguments.text("--library"));
@@ -56,11 +59,11 @@ int run_render(const Arguments& arguments) {
   if (out.extension() == ".mha")
     write_file(out, meta_image(picture, view));
   else
-    write_file(out, png_from_grey(imaging::grey_from_hu(picture, kWindowCenterHu, kWindowWidthHu), view.width_px,
-                                  view.height_px));
-  const std::optional<glm::dvec3> target =
-      scene->inserted.lesions.empty() ? std::nullopt : std::optional(scene->inserted.lesions[0].center_lps_mm);
-  const imaging::Visible visible = imaging::mpr_visible(view, scene->inserted.needle, target);
+    casedb::write_durably(out, png_from_grey(imaging::grey_from_hu(picture, kWindowCenterHu, kWindowWidthHu),
+                                             view.width_px, view.height_px));
+  for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  const imaging::Visible visible =
+      imaging::mpr_visible(view, scene->inserted.needle, target_of(scene->inserted.lesions));
   const auto [min, max] = std::minmax_element(picture.begin(), picture.end());
   if (arguments.has("--json"))
     std::fputs(json_of_picture(backend, view.width_px, view.height_px, visible, *min, *max).c_str(), stdout);

@@ -1,16 +1,17 @@
 // score.
 #include <cstdio>
+#include <glm/geometric.hpp>
 
 #include "app/answers_json.h"
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/command.h"
 #include "app/file.h"
+#include "app/frame_truth.h"
 #include "app/poses_csv.h"
 #include "app/scene.h"
 #include "app/simulation.h"
 #include "casedb/import/surface.h"
-#include "sim/imaging/mpr/visibility.h"
 
 namespace seldinger::app {
 namespace {
@@ -19,30 +20,22 @@ using Metrics = std::vector<assessment::MetricValue>;
 
 // What the picture at each row's probe pose shows: the view's kind, depth and size (contracts.md, Attempts).
 void add_frames(const Scene& scene, cases::Recording& recording) {
-  const std::optional<glm::dvec3> target =
-      scene.inserted.lesions.empty() ? std::nullopt : std::optional(scene.inserted.lesions[0].center_lps_mm);
+  const imaging::MprView& size = *scene.view;
   for (const cases::PoseSample& pose : recording.poses) {
-    imaging::MprView view = *scene.view;
-    view.u = pose.probe_lateral;
-    view.v = pose.probe_axial;
-    view.center_lps_mm = pose.probe_origin_lps_mm + pose.probe_axial * (view.pixel_mm * view.height_px / 2);
+    const imaging::MprView view = imaging::view_under_probe(
+        pose.probe_origin_lps_mm, glm::normalize(pose.probe_axial), glm::normalize(pose.probe_lateral),
+        size.pixel_mm * size.width_px, size.pixel_mm * size.height_px, size.pixel_mm);
     imaging::NeedlePose needle;
     needle.tip_lps_mm = pose.tip_lps_mm;
-    needle.direction = pose.needle_direction;
+    needle.direction = glm::normalize(pose.needle_direction);
     needle.length_mm = scene.instrument.length_mm;
-    const imaging::Visible visible = imaging::mpr_visible(view, needle, target);
-    cases::FrameTruth frame;
-    frame.t_s = pose.t_s;
-    frame.needle_tip = visible.needle_tip;
-    frame.target = visible.target;
-    frame.needle_length_mm = visible.needle_length_mm;
-    recording.frames.push_back(frame);
+    recording.frames.push_back(frame_truth(pose.t_s, view, needle, scene.inserted.lesions));
   }
 }
 
 base::Result<Metrics> score_poses(const std::string& poses, const std::string& scene_path,
-                                  const std::string& library) {
-  const auto scene = read_scene(scene_path);
+                                  const std::string& library, std::vector<std::string>& notes) {
+  const auto scene = read_scene(scene_path, notes);
   if (!scene) return scene.error();
   const auto text = read_text(poses);
   if (!text) return text.error();
@@ -50,10 +43,12 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
   if (!recording) return recording.error();
   auto volume = volume_of(*scene, library);
   if (!volume) return volume.error();
-  auto skin = casedb::skin_surface(*volume);
-  if (!skin) return skin.error();
   cases::Case built;
-  built.skin_index = cases::MeshIndex(*skin);
+  const auto skin = casedb::skin_surface(*volume);
+  if (skin)
+    built.skin_index = cases::MeshIndex(*skin);
+  else if (skin.error().code != "no_body")  // without a body the metrics of the skin are null, the others hold
+    return skin.error();
   built.lesions = scene->inserted.lesions;
   built.instrument = scene->instrument;
   built.approach = scene->approach;
@@ -81,10 +76,12 @@ base::Result<Metrics> score_attempt(const std::string& attempt_id, const std::st
 int run_score(const Arguments& arguments) {
   const bool stored = arguments.positionals() == 1;
   if (stored == arguments.has("--poses")) throw UsageError("give either ATTEMPT or --poses with --scene");
-  const auto metrics =
-      stored ? score_attempt(arguments.positional(0), arguments.required("--library"))
-             : score_poses(arguments.text("--poses"), arguments.required("--scene"), arguments.text("--library"));
+  std::vector<std::string> notes;
+  const auto metrics = stored ? score_attempt(arguments.positional(0), arguments.required("--library"))
+                              : score_poses(arguments.text("--poses"), arguments.required("--scene"),
+                                            arguments.text("--library"), notes);
   if (!metrics) return refuse(metrics.error());
+  for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (arguments.has("--json"))
     std::fputs(json_of_metrics(*metrics).c_str(), stdout);
   else

@@ -7,6 +7,7 @@
 
 #include "app/answers_json.h"
 #include "app/command.h"
+#include "casedb/credentials.h"
 
 namespace seldinger::app {
 namespace {
@@ -38,10 +39,12 @@ int run_user_add(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   const auto role = casedb::role_from(arguments.required("--role"));
   if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
-  const std::string password = read_password();
+  std::string password = read_password();
+  if (const auto fit = casedb::check_new_user(arguments.positional(0), password); !fit) return refuse(fit.error());
   auto library = casedb::Library::open_or_create(folder);
   if (!library) return refuse(library.error());
   const auto person = casedb::add_user(*library, arguments.positional(0), *role, password);
+  casedb::wipe(password);
   if (!person) return refuse(person.error());
   std::printf("added, role %s\n", casedb::name_of(*role).c_str());
   return kDone;
@@ -63,10 +66,11 @@ int run_user_list(const Arguments& arguments) {
 
 int run_user_passwd(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
-  const std::string password = read_password();
+  std::string password = read_password();
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
   const auto done = casedb::set_password(*library, arguments.positional(0), password);
+  casedb::wipe(password);
   return done ? kDone : refuse(done.error());
 }
 

@@ -1,11 +1,8 @@
 #include "app/file.h"
 
-#include <unistd.h>
-
-#include <cstdio>
 #include <fstream>
 
-#include "sim/base/failure.h"
+#include "casedb/disk.h"
 
 namespace seldinger::app {
 
@@ -22,25 +19,8 @@ base::Result<std::string> read_text(const std::filesystem::path& path, std::size
   return text;
 }
 
-void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  std::filesystem::path beside = path;
-  beside += ".part";
-  std::FILE* file = std::fopen(beside.c_str(), "wb");
-  bool good = file != nullptr;
-  if (good) {
-    good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    good = std::fflush(file) == 0 && good;
-    good = ::fsync(::fileno(file)) == 0 && good;
-    good = std::fclose(file) == 0 && good;
-  }
-  if (good) good = std::rename(beside.c_str(), path.c_str()) == 0;
-  if (good) return;
-  std::remove(beside.c_str());
-  throw base::Failure("disk", "the output file cannot be written");
-}
-
 void write_file(const std::filesystem::path& path, const std::string& text) {
-  write_file(path, std::as_bytes(std::span(text)));
+  casedb::write_durably(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace seldinger::app

@@ -13,8 +13,7 @@ namespace seldinger::app {
 // Refused: `not_found`, `unreadable`, `too_large`.
 base::Result<std::string> read_text(const std::filesystem::path& path, std::size_t max_bytes = 256U << 20U);
 
-// Written beside and renamed, so that a failure leaves what was there. Throws base::Failure("disk").
-void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+// Whole or not at all. Throws base::Failure("disk").
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace seldinger::app

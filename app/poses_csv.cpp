@@ -85,7 +85,7 @@ base::Result<cases::Recording> recording_from_csv(const std::string& text) {
     }
     if (!error.findings.empty()) continue;
     std::array<double, kColumns.size()> value{};
-    for (std::size_t c = 0; c < kColumns.size(); ++c) {
+    for (std::size_t c = 0; c < kColumns.size() && error.findings.size() < kMaxProblems; ++c) {
       const auto number = parse_number(std::string(cells[place[c]]));
       if (!number)
         error.findings.push_back(

@@ -1,7 +1,6 @@
 #include "app/scene.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/file.h"
 #include "casedb/import/import.h"
@@ -9,16 +8,14 @@
 
 namespace seldinger::app {
 
-base::Result<Scene> read_scene(const std::filesystem::path& path) {
+base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes) {
   const auto text = read_text(path, 64U << 20U);
   if (!text) return text.error();
   std::vector<std::string> unused;
   auto scene = scene_from_json(*text, path.parent_path(), unused);
   std::sort(unused.begin(), unused.end());
   unused.erase(std::unique(unused.begin(), unused.end()), unused.end());
-  if (scene)
-    for (const std::string& where : unused)
-      std::fprintf(stderr, "note: %s holds fields that are not used\n", where.c_str());
+  for (const std::string& where : unused) notes.push_back(where + " holds fields that are not used");
   return scene;
 }
 

@@ -34,8 +34,9 @@ struct Scene {
 base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
                                     std::vector<std::string>& unused);
 
-// Reads the file. Refused as scene_from_json, `not_found`, `too_large`.
-base::Result<Scene> read_scene(const std::filesystem::path& path);
+// Reads the file; `notes` gets a line for each object with fields that are not used, to be shown when all went
+// well. Refused as scene_from_json, `not_found`, `too_large`.
+base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
 
 // The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);

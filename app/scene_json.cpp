@@ -10,10 +10,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kFar = 1e5;        // mm: no scanner is 100 m long
-constexpr int kMaxPixels = 8192;    // per side
-constexpr double kMaxVoxels = 4e8;  // 800 MB of int16
+constexpr double kFar = 1e5;      // mm: no scanner is 100 m long
+constexpr int kMaxPixels = 8192;  // per side
 constexpr int kMaxShapes = 10'000;
+constexpr std::size_t kMaxClasses = 254;  // a label is one byte; 0 is none
 
 // Reads fields of one object and remembers what is wrong and what nobody asked for.
 class Reader {
@@ -152,8 +152,9 @@ volume::AnalyticVolume read_analytic(const Json& json, base::Error& error, std::
   volume::AnalyticVolume analytic;
   const auto size = reader.wholes<3>("size_voxels", 4096);
   analytic.size_voxels = {size[0], size[1], size[2]};
-  if (static_cast<double>(size[0]) * size[1] * size[2] > kMaxVoxels) reader.bad("size_voxels", "is too large");
-  analytic.spacing_mm = reader.point("spacing_mm", 1e-3, 1e3);
+  if (static_cast<double>(size[0]) * size[1] * size[2] > static_cast<double>(volume::kMaxVoxels))
+    reader.bad("size_voxels", "is too large");
+  analytic.spacing_mm = reader.point("spacing_mm", volume::kMinSpacingMm, volume::kMaxSpacingMm);
   analytic.origin_mm = reader.point("origin_mm");
   analytic.background_hu = reader.number("background_hu", -1024.0, 32767.0, -1000.0);
   if (!reader.has("shapes")) return analytic;
@@ -165,6 +166,9 @@ volume::AnalyticVolume read_analytic(const Json& json, base::Error& error, std::
   for (std::size_t i = 0; i < shapes.size(); ++i)
     analytic.shapes.push_back(
         read_shape(shapes[i], "volume.analytic.shapes[" + std::to_string(i) + "]", error, unused));
+  std::set<std::string> classes;
+  for (const volume::Shape& shape : analytic.shapes) classes.insert(shape.class_name);
+  if (classes.size() > kMaxClasses) reader.bad("shapes", "name more than 254 classes");
   reader.unused(unused);
   return analytic;
 }
@@ -216,7 +220,10 @@ imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std:
   view.center_lps_mm = reader.point("center_mm");
   view.u = reader.unit("u");
   view.v = reader.unit("v");
-  if (std::abs(glm::dot(view.u, view.v)) > 1e-3) reader.bad("v", "is not perpendicular to view.u");
+  if (std::abs(glm::dot(view.u, view.v)) > 1e-3)
+    reader.bad("v", "is not perpendicular to view.u");
+  else  // axes written with a few decimals are meant to be perpendicular
+    view.v = glm::normalize(view.v - view.u * glm::dot(view.u, view.v));
   view.pixel_mm = reader.number("pixel_mm", 1e-4, 100.0);
   const auto size = reader.wholes<2>("size_px", kMaxPixels);
   view.width_px = size[0];

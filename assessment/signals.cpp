@@ -2,13 +2,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
 namespace {
-
-bool finite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 bool near_unit(const glm::dvec3& v) {
   const double length = glm::length(v);
@@ -25,8 +22,9 @@ base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::R
   for (std::size_t i = 0; i < recording.poses.size(); ++i) {
     const cases::PoseSample& pose = recording.poses[i];
     const std::string row = "pose " + std::to_string(i + 1);
-    if (!(std::isfinite(pose.t_s) && finite(pose.tip_lps_mm) && finite(pose.needle_direction) &&
-          finite(pose.probe_origin_lps_mm) && finite(pose.probe_axial) && finite(pose.probe_lateral)))
+    if (!(std::isfinite(pose.t_s) && base::is_finite(pose.tip_lps_mm) && base::is_finite(pose.needle_direction) &&
+          base::is_finite(pose.probe_origin_lps_mm) && base::is_finite(pose.probe_axial) &&
+          base::is_finite(pose.probe_lateral)))
       return base::Error{"bad_poses", row + " holds a number that is not finite"};
     if (!near_unit(pose.needle_direction) || !near_unit(pose.probe_axial) || !near_unit(pose.probe_lateral))
       return base::Error{"bad_poses", row + " holds a direction that is not of unit length"};

@@ -107,11 +107,15 @@ std::optional<Role> role_from(const std::string& name) {
   return std::nullopt;
 }
 
-base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
-                                   const std::string& password) {
+base::Result<void> check_new_user(const std::string& name, const std::string& password) {
   if (!is_login_name(name))
     return base::Error{"bad_name", "a user name has 1 to 64 printable characters and no space at its ends"};
-  if (const auto fit = check_password(password); !fit) return fit.error();
+  return check_password(password);
+}
+
+base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
+                                   const std::string& password) {
+  if (const auto fit = check_new_user(name, password); !fit) return fit.error();
   if (find_identity(library, name)) return kNameTaken;
   std::string person_id = new_uuid();
   // The account first: one without a name can never log in, a name without an account would be taken for ever.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "casedb/credentials.h"
+#include "sim/base/hex.h"
 
 namespace seldinger::casedb {
 
@@ -34,13 +35,9 @@ std::string new_uuid() {
   bytes[7] = static_cast<std::byte>(fraction);
   bytes[8] = (bytes[8] & std::byte{0x3f}) | std::byte{0x80};
 
-  std::string text;
-  for (unsigned i = 0; i < 16; ++i) {
-    if (i == 4 || i == 6 || i == 8 || i == 10) text += '-';
-    text += "0123456789abcdef"[std::to_integer<unsigned>(bytes[i]) >> 4];
-    text += "0123456789abcdef"[std::to_integer<unsigned>(bytes[i]) & 15];
-  }
-  return text;
+  const std::string hex = base::hex_from_bytes(bytes);
+  return hex.substr(0, 8) + '-' + hex.substr(8, 4) + '-' + hex.substr(12, 4) + '-' + hex.substr(16, 4) + '-' +
+         hex.substr(20);
 }
 
 }  // namespace seldinger::casedb

@@ -19,7 +19,9 @@ std::string metrics_json(const casedb::AttemptRow& row) {
                        {"version", metric.version},
                        {"value", is_number ? nlohmann::ordered_json(*metric.value) : nlohmann::ordered_json()},
                        {"unit", metric.unit},
-                       {"reason", is_broken ? "not_finite" : metric.reason}});
+                       {"reason", is_broken               ? nlohmann::ordered_json("not_finite")
+                                  : metric.reason.empty() ? nlohmann::ordered_json()
+                                                          : nlohmann::ordered_json(metric.reason)}});
   }
   return dumped({{"attempt_id", row.attempt_id}, {"metrics", metrics}});
 }

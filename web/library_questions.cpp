@@ -7,6 +7,7 @@
 #include <span>
 
 #include "casedb/credentials.h"
+#include "sim/base/hex.h"
 
 namespace seldinger::web {
 namespace {
@@ -71,16 +72,6 @@ class LibraryQuestions final : public Questions {
   Handle pages_, first_, second_;
 };
 
-std::string hex_text(std::span<const std::byte> bytes) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string out;
-  for (const std::byte byte : bytes) {
-    out += kDigits[std::to_integer<std::size_t>(byte >> 4)];
-    out += kDigits[std::to_integer<std::size_t>(byte & std::byte{15})];
-  }
-  return out;
-}
-
 }  // namespace
 
 base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library) {
@@ -104,7 +95,7 @@ base::Result<Server> open_server(casedb::Library library, const ServeOptions& op
   surroundings.random_id = [] {
     std::array<std::byte, 32> bytes{};
     casedb::fill_random(bytes);
-    return hex_text(bytes);
+    return base::hex_from_bytes(bytes);
   };
   surroundings.sha256_hex = [](std::string_view text) {
     return casedb::sha256_hex(std::as_bytes(std::span(text.data(), text.size())));

@@ -64,18 +64,23 @@ Counts count(const Signals& signals) {
   return counts;
 }
 
+Measured number(const Signals& signals, int Counts::*part) {
+  if (signals.setting.skin->empty()) return Measured::none("no_skin");
+  return Measured::of(count(signals).*part);
+}
+
 }  // namespace
 
 Measured skin_punctures(const Signals& signals) {
-  return Measured::of(count(signals).punctures);
+  return number(signals, &Counts::punctures);
 }
 
 Measured withdrawals_partial(const Signals& signals) {
-  return Measured::of(count(signals).partial);
+  return number(signals, &Counts::partial);
 }
 
 Measured withdrawals_full(const Signals& signals) {
-  return Measured::of(count(signals).full);
+  return number(signals, &Counts::full);
 }
 
 }  // namespace seldinger::assessment

@@ -45,6 +45,7 @@ Measured share(const Signals& signals, double Shares::*part, bool of_needle) {
     return Measured::none("not_meaningful_out_of_plane");
   if (!of_needle && !signals.setting.target) return Measured::none("no_target");
   if (part == &Shares::joint_s && !signals.setting.target) return Measured::none("no_target");
+  if (signals.setting.skin->empty()) return Measured::none("no_skin");
   const Shares shares = integrate(signals);
   if (!(shares.live_s >= kMinSeconds)) return Measured::none("under_1_s_in_tissue_with_a_live_picture");
   return Measured::of(shares.*part / shares.live_s);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/base/exact_math.h"
+#include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -22,11 +23,6 @@ struct Way {
   double depth_mm;
 };
 
-void perpendiculars(const glm::dvec3& axis, glm::dvec3& u, glm::dvec3& v) {
-  u = glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
-  v = glm::cross(axis, u);
-}
-
 // Directions spread evenly over the sphere (Fibonacci lattice).
 glm::dvec3 spread_direction(int i) {
   constexpr double kGoldenAngle = 2.399963229728653;  // π (3 − √5)
@@ -37,8 +33,7 @@ glm::dvec3 spread_direction(int i) {
 // No bone and no gas at seven points around each millimetre, from skin_free_mm below the entry to the target.
 bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, const glm::dvec3& target,
                const Way& way, const PathLimits& limits) {
-  glm::dvec3 u, v;
-  perpendiculars(way.outward, u, v);
+  const auto [u, v] = base::perpendiculars(way.outward);
   for (double s_mm = 0.0; s_mm < way.depth_mm - limits.skin_free_mm; s_mm += 1.0)
     for (int k = 0; k < 7; ++k) {
       const double angle = k * std::numbers::pi / 3.0, radius = k < 6 ? limits.clearance_mm : 0.0;
@@ -53,8 +48,7 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
 // Where a probe sees entry and target in its plane: on skin, some way beside the entry.
 bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way, const glm::dvec3& entry,
                  cases::ToolPose& probe) {
-  glm::dvec3 u, v;
-  perpendiculars(way.outward, u, v);
+  const auto [u, v] = base::perpendiculars(way.outward);
   double best = 0.0;
   for (const double tilt_deg : {50.0, 40.0, 60.0, 30.0})
     for (int k = 0; k < 12; ++k) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/base/exact_math.h"
+#include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -21,11 +22,6 @@ constexpr double kLearnedShare = 0.4;    // of the error about the target left a
 constexpr double kHoldSeconds = 0.4;     // after the trigger
 constexpr double kOutsideMm = 8.0;       // a full withdrawal ends this far outside
 
-void perpendiculars(const glm::dvec3& axis, glm::dvec3& u, glm::dvec3& v) {
-  u = glm::normalize(glm::cross(axis, std::abs(axis.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0)));
-  v = glm::cross(axis, u);
-}
-
 }  // namespace
 
 double ScriptedOperator::Wander::at(double t_s) const noexcept {
@@ -39,7 +35,12 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
     : profile_(profile), plan_(plan), rng_(seed) {
   if (instrument.kind == cases::InstrumentKind::core)
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
-  const auto error = [this](double sd) { return glm::dvec3(rng_.normal(), rng_.normal(), rng_.normal()) * sd; };
+  // Drawn one by one: the order of arguments' evaluation is the compiler's.
+  const auto error = [this](double sd) {
+    glm::dvec3 v(0.0);
+    for (int axis = 0; axis < 3; ++axis) v[axis] = rng_.normal() * sd;
+    return v;
+  };
   believed_target_ = plan.target_lps_mm + error(profile.target_error_mm);
   const glm::dvec3 beside = error(profile.target_error_mm / 2);
   entry_ = plan.entry_lps_mm + beside - plan.direction * glm::dot(beside, plan.direction);
@@ -64,10 +65,10 @@ ScriptedOperator::Wander ScriptedOperator::make_wander(double low_hz, double hig
 // Towards where the target is believed to be; each new aim is better than the last.
 void ScriptedOperator::aim() {
   const glm::dvec3 wanted = glm::normalize(believed_target_ - entry_);
-  glm::dvec3 u, v;
-  perpendiculars(wanted, u, v);
+  const auto [u, v] = base::perpendiculars(wanted);
   const double sd_rad = profile_.aim_error_deg * std::numbers::pi / 180.0 / (1 + redirections_);
-  direction_ = glm::normalize(wanted + u * (rng_.normal() * sd_rad) + v * (rng_.normal() * sd_rad));
+  const double off_u = rng_.normal() * sd_rad, off_v = rng_.normal() * sd_rad;
+  direction_ = glm::normalize(wanted + u * off_u + v * off_v);
 }
 
 bool ScriptedOperator::tip_seen() const noexcept {
@@ -161,8 +162,7 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   move(state, dt_s);
 
   cases::Inputs inputs;
-  glm::dvec3 u, v;
-  perpendiculars(direction_, u, v);
+  const auto [u, v] = base::perpendiculars(direction_);
   const double held = inserted_mm_ > 0.0 ? kHeldByTissue : 1.0;
   const glm::dvec3 tremor =
       glm::dvec3(tremor_[0].at(t_s_), tremor_[1].at(t_s_), tremor_[2].at(t_s_)) * (profile_.tremor_mm * held);

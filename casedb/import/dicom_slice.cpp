@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "sim/volume/volume.h"
+
 namespace seldinger::casedb {
 namespace {
 
@@ -71,8 +73,9 @@ void read_geometry(const DicomFile& file, DicomSlice& slice) {
   }
   slice.row /= row_mm;
   slice.column = glm::normalize(slice.column - slice.row * glm::dot(slice.row, slice.column));
-  const bool sane = slice.spacing_mm.x > 0.0 && slice.spacing_mm.y > 0.0 && slice.spacing_mm.x < 100.0 &&
-                    slice.spacing_mm.y < 100.0 && glm::length(slice.position_lps_mm) < 1e6;
+  const bool sane = std::min(slice.spacing_mm.x, slice.spacing_mm.y) >= volume::kMinSpacingMm &&
+                    std::max(slice.spacing_mm.x, slice.spacing_mm.y) <= volume::kMaxSpacingMm &&
+                    glm::length(slice.position_lps_mm) < 1e6;
   if (!sane) slice.problems.push_back({"no_geometry", "has a pixel spacing or position out of range"});
 }
 

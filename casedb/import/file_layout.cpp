@@ -4,10 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "sim/volume/volume.h"
+
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = std::int64_t{1} << 31;
+constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = static_cast<std::int64_t>(volume::kMaxVoxels);
 constexpr std::uint64_t kLongestHeader = 1 << 16, kSpareBytes = 1 << 20;
 
 }  // namespace

@@ -138,7 +138,7 @@ base::Result<Source> volume_of(const Found& found, Series slices) {
   order_slices(slices, problems);
   const glm::ivec3 size(slices.front().size_px, static_cast<int>(slices.size()));
   const std::size_t slice_voxels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-  if (problems.empty() && slice_voxels * slices.size() > (std::size_t{1} << 31))
+  if (problems.empty() && slice_voxels * slices.size() > volume::kMaxVoxels)
     problems.add("bad_size", "the series has more voxels than can be held");
   if (!problems.empty()) return problems.error();
 

@@ -77,8 +77,8 @@ void check_axes(volume::Volume& volume, Problems& problems) {
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3 column(volume.lps_from_voxel[i]);
     volume.spacing_mm[i] = glm::length(column);
-    sound = sound && volume.spacing_mm[i] > 0.0 && volume.spacing_mm[i] < 1000.0 &&
-            std::abs(volume.lps_from_voxel[3][i]) < 1e6;
+    sound = sound && volume.spacing_mm[i] >= volume::kMinSpacingMm &&
+            volume.spacing_mm[i] <= volume::kMaxSpacingMm && std::abs(volume.lps_from_voxel[3][i]) < 1e6;
     axis[static_cast<std::size_t>(i)] = column / volume.spacing_mm[i];
   }
   for (std::size_t i = 0; i < 3; ++i) sound = sound && std::abs(glm::dot(axis[i], axis[(i + 1) % 3])) < 2e-3;

@@ -20,6 +20,11 @@ struct OnTriangle {
   int feature;  // 0..2 vertices a b c, 3..5 edges ab bc ca, 6 face
 };
 
+// Shares along an edge; an edge without length has none.
+double share_of(double part, double whole) {
+  return whole > 0.0 ? part / whole : 0.0;
+}
+
 // Closest point of a triangle by Voronoi regions (Ericson, Real-Time Collision Detection, 2005, §5.1.5).
 OnTriangle closest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
@@ -29,17 +34,16 @@ OnTriangle closest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const g
   const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
   if (d3 >= 0.0 && d4 <= d3) return {b, 1};
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {a + ab * (d1 / (d1 - d3)), 3};
+  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {a + ab * share_of(d1, d1 - d3), 3};
   const glm::dvec3 cp = p - c;
   const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
   if (d6 >= 0.0 && d5 <= d6) return {c, 2};
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + ac * (d2 / (d2 - d6)), 5};
+  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + ac * share_of(d2, d2 - d6), 5};
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return {b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))), 4};
-  const double scale = 1.0 / (va + vb + vc);
-  return {a + ab * (vb * scale) + ac * (vc * scale), 6};
+    return {b + (c - b) * share_of(d4 - d3, (d4 - d3) + (d5 - d6)), 4};
+  return {a + ab * share_of(vb, va + vb + vc) + ac * share_of(vc, va + vb + vc), 6};
 }
 
 // Written without branches and always inlined: half of a query is this.
@@ -214,6 +218,7 @@ Closest MeshIndex::closest_skin(const glm::dvec3& p, std::uint32_t hint) const n
   const Closest whole = answer(p, hint, false);
   if (!triangles_[position_[whole.triangle]].cut) return whole;
   Closest skin = answer(p, hint, true);
+  if (!std::isfinite(skin.distance_mm)) return whole;  // there are only caps
   skin.distance_mm = whole.distance_mm < 0.0 ? -std::abs(skin.distance_mm) : std::abs(skin.distance_mm);
   return skin;
 }

@@ -193,6 +193,8 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s))
       return base::Error{"damaged", where + " belongs to another recording"};
+    if (!(header.dt_s > 0.0 && header.dt_s <= 1.0))
+      return base::Error{"damaged", where + " has no sound time step"};
     recording.step_version = header.step_version;
     recording.dt_s = header.dt_s;
     if (header.has_endpoint != 0)

@@ -60,7 +60,6 @@ struct RecordingChunk {
 };
 
 // Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint.
-// endpoint.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 // Refused: `damaged` (checksum, codec), `incomplete` (a sequence number is missing), `recording_version`.

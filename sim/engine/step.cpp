@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sim/base/vectors.h"
+
 namespace seldinger::engine {
 namespace {
 
@@ -12,14 +14,10 @@ glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& last) noexcept {
   return length2 > 1e-12 && length2 < 1e12 ? v / std::sqrt(length2) : last;
 }
 
-bool finite(const glm::dvec3& p) noexcept {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 void move_needle(const cases::Case& scene, const cases::Inputs& inputs, const cases::FireState& fire, bool first,
                  cases::NeedleState& needle) noexcept {
   needle.direction = unit_or(inputs.needle.axis, needle.direction);
-  if (finite(inputs.needle.position_lps_mm)) {
+  if (base::is_finite(inputs.needle.position_lps_mm)) {
     const bool thrown = fire.fired && scene.instrument.kind == cases::InstrumentKind::core;
     needle.tip_lps_mm =
         inputs.needle.position_lps_mm + needle.direction * (thrown ? scene.instrument.throw_mm : 0.0);
@@ -34,7 +32,7 @@ void move_needle(const cases::Case& scene, const cases::Inputs& inputs, const ca
 
 void move_probe(const cases::Inputs& inputs, cases::ProbeState& probe) noexcept {
   probe.frozen = inputs.freeze;
-  if (finite(inputs.probe.position_lps_mm)) probe.origin_lps_mm = inputs.probe.position_lps_mm;
+  if (base::is_finite(inputs.probe.position_lps_mm)) probe.origin_lps_mm = inputs.probe.position_lps_mm;
   probe.axial = unit_or(inputs.probe.axis, probe.axial);
   const glm::dvec3 side = inputs.probe.side - probe.axial * glm::dot(inputs.probe.side, probe.axial);
   const glm::dvec3 last = probe.lateral - probe.axial * glm::dot(probe.lateral, probe.axial);

@@ -19,8 +19,6 @@ static_assert(std::endian::native == std::endian::little);  // headers are copie
 constexpr std::uint32_t kVolumeMagic = 0x564c4453;  // "SDLV"
 constexpr std::uint32_t kLabelMagic = 0x4c4c4453;   // "SDLL"
 constexpr std::uint32_t kFormat = 1;
-constexpr std::uint64_t kMaxVoxels = std::uint64_t{1}
-                                     << 30;  // 2 GiB of HU: what damaged bytes can make us allocate
 constexpr std::uint32_t kMaxNames = 256;
 constexpr std::uint32_t kMaxNameBytes = 1024;
 

@@ -2,6 +2,7 @@
 // docs/commands.md
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -47,6 +48,16 @@ TEST(Docs, TheReadmeNamesOnlyCommandsThatExist) {
     for (const auto& command : seldinger::app::commands()) known = known || rest.rfind(command.name, 0) == 0;
     EXPECT_TRUE(known) << rest;
   }
+}
+
+TEST(Docs, TheReadmesLinksLeadSomewhere) {
+  const std::string readme = file("README.md");
+  int links = 0;
+  for (std::size_t at = readme.find("]("); at != std::string::npos; at = readme.find("](", at + 1), ++links) {
+    const std::string target = readme.substr(at + 2, readme.find(')', at) - at - 2);
+    EXPECT_TRUE(std::filesystem::exists(std::string(SELDINGER_SOURCE_DIR) + "/" + target)) << target;
+  }
+  EXPECT_GT(links, 5);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "sim/base/check.h"
+#include "sim/base/vectors.h"
 #include "sim/imaging/mpr/mpr.h"
 
 namespace seldinger::imaging {
@@ -23,9 +24,7 @@ inline void check_view(const MprView& view, const Inserted& inserted) {
   CHECK(inserted.lesions.size() <= static_cast<std::size_t>(kMaxLesions));
 }
 
-inline bool is_finite(const glm::dvec3& v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+using base::is_finite;
 
 inline bool is_finite(const NeedlePose& needle) noexcept {
   return is_finite(needle.tip_lps_mm) && is_finite(needle.direction) && std::isfinite(needle.length_mm) &&

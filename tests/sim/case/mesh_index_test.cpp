@@ -140,6 +140,18 @@ TEST(MeshIndex, TheAnswerIsEquivariantUnderARigidMotion) {
   }
 }
 
+TEST(MeshIndex, TrianglesWithoutAreaOrOnlyCapsGiveFiniteAnswers) {
+  Mesh mesh = fixtures::box_mesh({-1, -1, -1}, {1, 1, 1});
+  mesh.triangles.push_back({0, 0, 0});
+  mesh.triangles.push_back({0, 0, 1});
+  mesh.cut.resize(mesh.triangles.size(), 0);
+  const MeshIndex index(mesh);
+  for (std::uint32_t hint = 0; hint < mesh.triangles.size(); ++hint)
+    EXPECT_NEAR(index.closest({3, 0, 0}, hint).distance_mm, 2.0, 1e-12) << hint;
+  std::fill(mesh.cut.begin(), mesh.cut.end(), std::uint8_t{1});
+  EXPECT_NEAR(MeshIndex(mesh).closest_skin({3, 0, 0}).distance_mm, 2.0, 1e-12);
+}
+
 TEST(MeshBytes, RoundTripAndDamage) {
   Mesh mesh = fixtures::sphere_mesh({1, 2, 3}, 30.0, 2, 1.0);
   mesh.cut[5] = 1;

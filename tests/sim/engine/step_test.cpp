@@ -4,31 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <new>
 
 #include "sim/base/rng.h"
+#include "tests/fixtures/allocations.h"
 #include "tests/fixtures/meshes.h"
-
-namespace {
-// Counts allocations of this thread while armed: step() may make none.
-thread_local bool armed = false;
-thread_local int allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  if (armed) ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace seldinger::engine {
 namespace {
@@ -50,18 +31,17 @@ cases::Inputs at(double y_mm) {
 TEST(Step, MakesNoAllocation) {
   const cases::Case scene = sphere_case();
   cases::State state;
-  armed = true;
+  const long before = fixtures::allocations();
   int* volatile one = new int(1);  // volatile: the optimiser may not leave it out
   delete one;
-  ASSERT_EQ(allocations, 1) << "the counter counts";
-  allocations = 0;
+  ASSERT_EQ(fixtures::allocations(), before + 1) << "the counter counts";
+  const long start = fixtures::allocations();
   for (int i = 0; i < 1000; ++i) {
     cases::Inputs inputs = at(-120.0 + i * 0.1);
     inputs.fire = i > 900;
     step(scene, inputs, 0.001, state);
   }
-  armed = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(fixtures::allocations(), start);
   EXPECT_TRUE(state.fire.fired);
 }
 

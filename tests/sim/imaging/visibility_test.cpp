@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "tests/sim/imaging/allocations.h"
+#include "tests/fixtures/allocations.h"
 #include "tests/sim/imaging/mpr_scene.h"
 
 namespace seldinger::imaging {
@@ -123,13 +123,13 @@ TEST(MprVisible, SeesNothingOfALostNeedle) {
 TEST(MprVisible, AllocatesNothing) {
   const MprView view = flat_view();
   const NeedlePose needle = needle_at({1.0, 2.0, 0.0}, {0.8, 0.0, 0.6});
-  const long before = allocations();
+  const long before = fixtures::allocations();
   const Visible visible = mpr_visible(view, needle, glm::dvec3(0.0));
-  const long after = allocations();
+  const long after = fixtures::allocations();
   EXPECT_EQ(after, before);
   EXPECT_TRUE(visible.joint);
   const std::vector<double> one(1);  // the count counts
-  EXPECT_GT(allocations(), after);
+  EXPECT_GT(fixtures::allocations(), after);
 }
 
 }  // namespace

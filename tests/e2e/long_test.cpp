@@ -1,0 +1,94 @@
+// Heavy counts, run by `./run test --long`: many simulated attempts on every real CT that has room for the demo's
+// lesion, each replayed, and a library killed again and again while it is written.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#include "tests/fixtures/process.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+const std::string kData = SELDINGER_SHARED_DATA_DIR;
+
+double metric(const Json& attempt, const std::string& id) {
+  for (const Json& one : attempt.at("metrics"))
+    if (one.at("id") == id && one.at("value").is_number()) return one.at("value").get<double>();
+  return std::nan("");
+}
+
+TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
+  for (const std::string source : {"ct-abdomen-contrast-dicom", "ct-abdomen-pelvis/abdomen_pelvis.nii.gz"}) {
+    SCOPED_TRACE(source);
+    const auto scratch = fixtures::fresh_folder("long_operators");
+    const std::string library = " --library " + (scratch / "library").string();
+    const auto demo = run(kProgram + " demo --no-serve --json --ct " + kData + "/" + source + library, scratch);
+    ASSERT_EQ(demo.exit_code, 0) << demo.err;
+    const std::string case_id = Json::parse(demo.out).at("case_id").get<std::string>();
+    double hits = 0.0, distance_mm[2] = {};
+    for (const int who : {0, 1}) {
+      const auto ran = run(kProgram + " simulate --case " + case_id + " --operator " +
+                               (who == 0 ? "expert" : "novice") + " --seed 1000 --count 100 --json" + library,
+                           scratch);
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+      const Json answer = Json::parse(ran.out);
+      for (const Json& attempt : answer.at("attempts")) {
+        if (who == 0) hits += metric(attempt, "hit");
+        distance_mm[who] += metric(attempt, "tip_target_dist") / 100.0;
+        const auto replay =
+            run(kProgram + " replay --verify " + attempt.at("attempt_id").get<std::string>() + library, scratch);
+        EXPECT_EQ(replay.exit_code, 0) << replay.out;
+      }
+    }
+    EXPECT_GE(hits, 80.0);
+    EXPECT_LT(distance_mm[0], distance_mm[1]);
+  }
+}
+
+TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
+  const auto scratch = fixtures::fresh_folder("long_kill");
+  const std::string library = " --library " + (scratch / "library").string();
+  const auto demo = run(kProgram + " demo --no-serve --json" + library, scratch);
+  ASSERT_EQ(demo.exit_code, 0) << demo.err;
+  const std::string case_id = Json::parse(demo.out).at("case_id").get<std::string>();
+  std::vector<std::string> acknowledged;
+  for (int round = 0; round < 60; ++round) {
+    const auto out = scratch / "acknowledged.txt";
+    const int pid = ::fork();
+    if (pid == 0) {
+      std::freopen(out.c_str(), "w", stdout);
+      std::setvbuf(stdout, nullptr, _IOLBF, 0);
+      ::execl("/usr/bin/stdbuf", "stdbuf", "-oL", kProgram.c_str(), "simulate", "--library",
+              (scratch / "library").c_str(), "--case", case_id.c_str(), "--operator", "expert", "--seed", "1",
+              "--count", "1000", nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(400 + round * 17 % 300));
+    ::kill(pid, SIGKILL);
+    int status = 0;
+    ::waitpid(pid, &status, 0);
+    std::istringstream lines(fixtures::whole_file(out));
+    for (std::string line; std::getline(lines, line);)
+      if (line.rfind("attempt ", 0) == 0 && line.size() > 44) acknowledged.push_back(line.substr(8, 36));
+  }
+  ASSERT_GT(acknowledged.size(), 60U);
+  const auto list = run(kProgram + " attempt list" + library, scratch);
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  for (const std::string& id : acknowledged) EXPECT_NE(list.out.find(id), std::string::npos) << id;
+  for (std::size_t i = 0; i < acknowledged.size(); i += 10)
+    EXPECT_EQ(run(kProgram + " replay --verify " + acknowledged[i] + library, scratch).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace seldinger
