@@ -293,8 +293,12 @@ TEST(Cli, ASceneWithoutABodyHasNullSkinMetricsOnly) {
   const Json answer = Json::parse(ran.out);
   for (const Json& metric : answer.at("metrics")) {
     const std::string id = metric.at("id");
-    if (id == "hit") EXPECT_EQ(metric.at("value"), 1.0);
-    if (id == "skin_punctures" || id == "vis_target") EXPECT_EQ(metric.at("reason"), "no_skin") << id;
+    if (id == "hit") {
+      EXPECT_EQ(metric.at("value"), 1.0);
+    }
+    if (id == "skin_punctures" || id == "vis_target") {
+      EXPECT_EQ(metric.at("reason"), "no_skin") << id;
+    }
   }
 }
 

@@ -225,7 +225,7 @@ TEST(Routes, PictureHealthAndMetricsAnswerInTheirTypes) {
   EXPECT_EQ(metrics.content_type, "application/json");
   EXPECT_EQ(metrics.body,
             R"({"attempt_id":")" + kOwnAttempt +
-                R"(","metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":""},)"
+                R"(","metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
                 R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
                 "\n");
   EXPECT_EQ(browser.get("/healthz").body, "{\"status\":\"ok\",\"version\":\"9.8.7\"}\n");
