@@ -107,10 +107,13 @@ std::string json_of_cases(const std::vector<std::pair<casedb::CaseRow, std::vect
 
 std::string json_of_samples(const std::vector<PointSample>& samples) {
   Json list = Json::array();
-  for (const PointSample& sample : samples)
-    list.push_back({{"lps_mm", point(sample.lps_mm)},
-                    {"hu_nearest", maybe(sample.hu_nearest)},
-                    {"hu_trilinear", maybe(sample.hu_trilinear)}});
+  for (const PointSample& sample : samples) {
+    Json one = {{"lps_mm", point(sample.lps_mm)},
+                {"hu_nearest", maybe(sample.hu_nearest)},
+                {"hu_trilinear", maybe(sample.hu_trilinear)}};
+    if (sample.label) one["label"] = *sample.label;
+    list.push_back(one);
+  }
   return text({{"samples", list}});
 }
 

@@ -13,6 +13,7 @@ namespace seldinger::app {
 struct PointSample {
   glm::dvec3 lps_mm{0.0};
   std::optional<double> hu_nearest, hu_trilinear;
+  std::optional<std::string> label;  // of cases whose tissues are known
 };
 
 struct SimulatedAttempt {

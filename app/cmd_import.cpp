@@ -1,5 +1,6 @@
 // import, sample.
 #include <cstdio>
+#include <glm/common.hpp>
 
 #include "app/answers_json.h"
 #include "app/command.h"
@@ -37,7 +38,7 @@ int run_sample(const Arguments& arguments) {
   for (const std::string& text : arguments.all("--lps")) {
     const auto point = parse_point(text);
     if (!point) throw UsageError("--lps needs X,Y,Z in mm");
-    samples.push_back({*point, {}, {}});
+    samples.push_back({*point, {}, {}, {}});
   }
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
@@ -45,11 +46,22 @@ int run_sample(const Arguments& arguments) {
   if (!row) return refuse(row.error());
   const auto volume = casedb::load_volume(*library, *row);
   if (!volume) return refuse(volume.error());
+  std::optional<volume::LabelMap> labels;  // the built-in case knows its tissues
+  if (!row->labels_sha256.empty()) {
+    auto loaded = casedb::load_labels(*library, *row);
+    if (!loaded) return refuse(loaded.error());
+    labels = std::move(*loaded);
+  }
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
   for (PointSample& sample : samples) {
     const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
     if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
     sample.hu_trilinear = volume::sample_trilinear(*volume, index);
+    if (labels && sample.hu_nearest) {
+      const glm::ivec3 nearest =
+          glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
+      sample.label = labels->names[labels->label[volume->index(nearest.x, nearest.y, nearest.z)]];
+    }
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_samples(samples).c_str(), stdout);
@@ -58,7 +70,8 @@ int run_sample(const Arguments& arguments) {
   for (const PointSample& sample : samples) {
     std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
     if (sample.hu_nearest)
-      std::printf("nearest %.0f HU, trilinear %.2f HU\n", *sample.hu_nearest, *sample.hu_trilinear);
+      std::printf("nearest %.0f HU, trilinear %.2f HU%s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
+                  sample.label ? ", " : "", sample.label ? sample.label->c_str() : "");
     else
       std::printf("outside the volume\n");
   }
