@@ -12,7 +12,8 @@
 
 namespace seldinger::assessment {
 
-constexpr double kGapSeconds = 0.25;  // a longer silence of the tracker is not bridged (assessment.md §8)
+constexpr double kTimeTolerance_s = 1e-6;  // decimal time stamps are not exact
+constexpr double kGapSeconds = 0.25;       // a longer silence of the tracker is not bridged (assessment.md §8)
 
 // What is fixed about an attempt.
 struct AttemptSetting {
@@ -32,7 +33,13 @@ struct Signals {
 
   // Interval i runs from pose i to pose i + 1; a gap belongs to no denominator.
   double interval_s(std::size_t i) const { return poses[i + 1].t_s - poses[i].t_s; }
-  bool gap(std::size_t i) const { return interval_s(i) > kGapSeconds; }
+  bool gap(std::size_t i) const { return interval_s(i) > kGapSeconds + kTimeTolerance_s; }
+  // Whether nothing is known between any two poses.
+  bool only_gaps() const {
+    for (std::size_t i = 0; i + 1 < poses.size(); ++i)
+      if (!gap(i)) return false;
+    return poses.size() > 1;
+  }
 };
 
 // Poses and frames after the endpoint are left out. Refused: `bad_poses` (none, times not increasing, a number not

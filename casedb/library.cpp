@@ -1,6 +1,7 @@
 #include "casedb/library.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <system_error>
@@ -23,6 +24,17 @@ constexpr const char* kUnfinished = ".new";  // a database that is being made
 const base::Error kNoLibrary{"no_library", "there is no library in that folder"};
 const base::Error kNetwork{"network_file_system",
                            "a library cannot lie on a network file system; use a disk of this machine"};
+
+// SQLite's side files need room even to read, and stay behind where it ends. What cannot be opened is not touched.
+void require_room(const fs::path& folder) {
+  constexpr std::uint64_t kRoom = 512 * 1024;
+  std::error_code error;
+  const fs::space_info space = fs::space(folder, error);
+  rlimit limit{};
+  const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  if ((!error && space.available < kRoom) || (limited && limit.rlim_cur < kRoom))
+    throw base::Failure("disk", "the disk is full");
+}
 
 void remove_database(const fs::path& file) noexcept {
   for (const char* part : {"", "-wal", "-shm", "-journal"}) ::unlink((file.string() + part).c_str());
@@ -108,6 +120,7 @@ base::Result<Library> Library::open(const fs::path& folder) {
   return without_paths([&]() -> base::Result<Library> {
     if (!fs::is_directory(folder) || !fs::exists(folder / kDatabase)) return kNoLibrary;
     if (lies_on_network(folder)) return kNetwork;
+    require_room(folder);
     if (!fs::exists(folder / kIdentities))
       return base::Error{"damaged", "the library's database of names is missing; restore a backup"};
     auto parts = std::make_unique<Parts>(

@@ -107,6 +107,7 @@ struct Account {
   std::string person_id, login_name;
   Role role = Role::trainee;
   bool enabled = true;
+  std::string password_mark{};  // another one after each change of the password; says nothing about it
 };
 
 // What add_user would refuse in any library: `bad_name`, `weak_password`.

@@ -1,4 +1,5 @@
 #include <array>
+#include <span>
 #include <unordered_map>
 
 #include "casedb/credentials.h"
@@ -35,6 +36,10 @@ std::optional<Identity> find_identity(Library& library, const std::string& name)
   Statement identity = question(library.identities(), "identity_by_name");
   if (!identity.bind("name", name).step()) return std::nullopt;
   return Identity{identity.text("person_id"), identity.text("name")};
+}
+
+std::string mark_of(const std::string& password_hash) {
+  return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
 }
 
 base::Result<void> check_password(const std::string& password) {
@@ -145,7 +150,8 @@ std::vector<Account> list_users(Library& library) {
   std::vector<Account> users;
   for (Statement all = question(library.database(), "accounts"); all.step();)
     if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
-      users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0});
+      users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
+                       mark_of(all.text("password_hash"))});
   return users;
 }
 
@@ -175,13 +181,18 @@ std::optional<Account> log_in(Library& library, const std::string& name, const s
   if (const auto identity = find_identity(library, name)) {
     Statement stored = question(library.database(), "account");
     if (stored.bind("person_id", identity->person_id).step()) {
-      account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0};
+      account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}};
       hash = stored.text("password_hash");
     }
   }
   const bool fits = verify_password(hash, password);
   if (!fits || account.person_id.empty() || !account.enabled) return std::nullopt;
-  if (needs_rehash(hash)) store_hash(library, account.person_id, hash_password(password), hash);
+  if (needs_rehash(hash)) {
+    const std::string better = hash_password(password);
+    store_hash(library, account.person_id, better, hash);
+    hash = better;
+  }
+  account.password_mark = mark_of(hash);
   return account;
 }
 

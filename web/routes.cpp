@@ -96,7 +96,8 @@ Response log_in(Site& site, const Call& call) {
   site.throttle.succeeded(name);
   site.sessions.end(cookie(call.request, kSessionCookie));
   Response response = redirect("/attempts");
-  response.headers.emplace_back("Set-Cookie", set_cookie(kSessionCookie, site.sessions.begin(account->person_id)));
+  response.headers.emplace_back(
+      "Set-Cookie", set_cookie(kSessionCookie, site.sessions.begin(account->person_id, account->password_mark)));
   response.headers.emplace_back("Set-Cookie", drop_cookie(kBeforeLoginCookie));
   return response;
 }

@@ -22,6 +22,7 @@ struct Session {
   std::string form_token;
   std::int64_t begun_us = 0;
   std::int64_t last_seen_us = 0;
+  std::string password_mark{};  // of the password that began it
 };
 
 class Sessions {
@@ -29,7 +30,7 @@ class Sessions {
   explicit Sessions(const Surroundings& surroundings) : surroundings_(surroundings) {}
 
   // Answers the id that goes into the cookie. The oldest session makes room when there are too many.
-  std::string begin(const std::string& person_id);
+  std::string begin(const std::string& person_id, const std::string& password_mark = {});
   // The living session of this id, which is thereby used; none when unknown, idle too long or too old.
   std::optional<Session> find(const std::string& id);
   void end(const std::string& id);

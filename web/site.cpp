@@ -66,9 +66,10 @@ std::optional<Reader> Site::reader_of(const Request& request) {
   const std::string id = cookie(request, kSessionCookie);
   const auto session = sessions.find(id);
   if (!session.has_value()) return std::nullopt;
-  // Asked every time, so that a disabled account is out at once and a changed role holds at once.
+  // Asked every time, so that a disabled account or an old password is out at once and a changed role holds at
+  // once.
   const auto account = questions.find_account(session->person_id);
-  if (!account.has_value() || !account->enabled) {
+  if (!account.has_value() || !account->enabled || account->password_mark != session->password_mark) {
     sessions.end_all_of(session->person_id);
     return std::nullopt;
   }

@@ -85,6 +85,7 @@ std::vector<glm::dvec3> low_pass(std::span<const glm::dvec3> positions, double r
 }
 
 Measured path_tip(const Signals& signals) {
+  if (signals.only_gaps()) return Measured::none("only_gaps");
   double path_mm = 0.0;
   for (std::size_t first = 0; first < signals.poses.size();) {
     std::size_t last = first;

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kPunctureDepthMm = 2.0, kPunctureSeconds = 0.1, kRearmDepthMm = -1.0;  // assessment.md §8
 constexpr double kPartialShare = 0.2, kPartialMinMm = 2.0, kPartialMaxMm = 5.0;         // clinical.md, Metrics
-constexpr double kTimeTolerance = 1e-9;  // 100 ms in decimal fractions of a second
 
 struct Counts {
   int punctures = 0, full = 0, partial = 0;
@@ -25,12 +24,12 @@ Counts count(const Signals& signals) {
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     const cases::SkinPassage& skin = signals.passages[i];
     const double t_s = signals.poses[i].t_s;
+    if (i > 0 && signals.gap(i - 1)) deep = false;  // what happened in a gap is not known
     // Sample and hold: the depth of the pose before lasted until now.
-    if (armed && deep && t_s - deep_since_s >= kPunctureSeconds - kTimeTolerance) {
+    if (armed && deep && t_s - deep_since_s >= kPunctureSeconds - kTimeTolerance_s) {
       ++counts.punctures;
       armed = false;
     }
-    if (i > 0 && signals.gap(i - 1)) deep = false;  // what happened in a gap is not known
     if (skin.depth_mm > kPunctureDepthMm) {
       if (!deep) deep_since_s = t_s;
       deep = true;
@@ -66,6 +65,7 @@ Counts count(const Signals& signals) {
 
 Measured number(const Signals& signals, int Counts::*part) {
   if (signals.setting.skin->empty()) return Measured::none("no_skin");
+  if (signals.only_gaps()) return Measured::none("only_gaps");
   return Measured::of(count(signals).*part);
 }
 

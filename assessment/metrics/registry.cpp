@@ -41,17 +41,17 @@ constexpr MetricInfo kRegistry[] = {
     {"path_tip", 1, "mm", "Tip path", Direction::lower_is_better,
      "Length of the tip's way, resampled to 100 Hz, low-passed at 10 Hz (zero-phase 4th-order Butterworth); gaps "
      "over "
-     "0.25 s are not bridged. One pose: 0.",
+     "0.25 s are not bridged. One pose: 0. Null: only_gaps.",
      kJohnson, &path_tip},
     {"skin_punctures", 1, "count", "Skin punctures", Direction::lower_is_better,
      "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
      "outside. "
-     "The ends of the volume are no skin; lung and gas are body.",
+     "The ends of the volume are no skin; lung and gas are body. Null: no_skin, only_gaps.",
      kJohnson, &skin_punctures},
     {"withdrawals_partial", 1, "count", "Partial withdrawals", Direction::lower_is_better,
      "Times the inserted length fell below its running maximum by 20 % of it (at least 2, at most 5 mm) and rose "
      "by as "
-     "much again without leaving the skin.",
+     "much again without leaving the skin. Null: no_skin, only_gaps.",
      kVidal, &withdrawals_partial},
     {"withdrawals_full", 1, "count", "Full withdrawals", Direction::lower_is_better,
      "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm before the "
@@ -59,13 +59,14 @@ constexpr MetricInfo kRegistry[] = {
      kVidal, &withdrawals_full},
     {"vis_needle", 1, "share", "Needle tip visible", Direction::higher_is_better,
      "Share of the time in tissue with a live picture in which the picture showed the needle's tip. Null: "
-     "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane.",
+     "no_skin, under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane.",
      kVidal, &vis_needle},
     {"vis_target", 1, "share", "Target visible", Direction::higher_is_better,
-     "As vis_needle, for the target. Null: under_1_s_in_tissue_with_a_live_picture, no_target.", kVidal,
+     "As vis_needle, for the target. Null: no_skin, under_1_s_in_tissue_with_a_live_picture, no_target.", kVidal,
      &vis_target},
     {"vis_joint", 1, "share", "Needle and target visible", Direction::higher_is_better,
-     "As vis_needle, for tip and target at once. Null: under_1_s_in_tissue_with_a_live_picture, no_target, "
+     "As vis_needle, for tip and target at once. Null: no_skin, under_1_s_in_tissue_with_a_live_picture, "
+     "no_target, "
      "not_meaningful_out_of_plane.",
      kVidal, &vis_joint},
     {"gap_share", 1, "share", "Tracking gaps", Direction::lower_is_better,

@@ -98,7 +98,11 @@ void read_pixel_format(const DicomFile& file, DicomSlice& slice) {
 
 void read_values(const DicomFile& file, DicomSlice& slice) {
   const auto slope = file.numbers(0x00281053), intercept = file.numbers(0x00281052);
-  slice.no_rescale = slope.size() != 1 || intercept.size() != 1;
+  // Absent is a warning; there and no number is damage.
+  const bool slope_absent = file.text(0x00281053).empty(), intercept_absent = file.text(0x00281052).empty();
+  slice.no_rescale = slope_absent || intercept_absent;
+  if ((!slope_absent && slope.size() != 1) || (!intercept_absent && intercept.size() != 1))
+    slice.problems.push_back({"bad_rescale", "has a rescale slope or intercept that is no number"});
   if (slope.size() == 1) slice.slope = slope[0];
   if (intercept.size() == 1) slice.intercept = intercept[0];
   if (slice.slope == 0.0) slice.problems.push_back({"bad_rescale", "has a rescale slope of 0"});

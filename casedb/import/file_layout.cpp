@@ -12,6 +12,23 @@ namespace {
 constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = static_cast<std::int64_t>(volume::kMaxVoxels);
 constexpr std::uint64_t kLongestHeader = 1 << 16, kSpareBytes = 1 << 20;
 
+// An exponent of ones is NaN or infinity (IEEE 754).
+bool all_finite(const FileLayout& layout, std::uint64_t need) {
+  std::vector<std::byte> bytes;
+  if (layout.packing == Packing::none)
+    bytes = read_bytes(layout.data_file, layout.data_offset, need).value_or(std::vector<std::byte>());
+  else
+    unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing}, &bytes);
+  const auto size = static_cast<std::size_t>(layout.float_bytes);
+  for (std::size_t at = layout.unpacked_skip; at + size <= bytes.size() && at < need; at += size) {
+    const unsigned high = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 0 : size - 1)]);
+    const unsigned next = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 1 : size - 2)]);
+    const bool ones = (high & 0x7fU) == 0x7fU && (size == 4 ? (next & 0x80U) == 0x80U : (next & 0xf0U) == 0xf0U);
+    if (ones) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 void check_layout(const FileLayout& layout, Problems& problems) {
@@ -42,6 +59,8 @@ void check_layout(const FileLayout& layout, Problems& problems) {
     problems.add("damaged", "the packed voxels cannot be unpacked as the header promises");
   else if (found.state == ByteState::too_few || found.size < need)
     problems.add("truncated", "the file ends before its voxels do");
+  if (problems.empty() && layout.float_bytes > 0 && !all_finite(layout, need))
+    problems.add("not_finite", "voxels hold values that are no numbers");
 }
 
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name,

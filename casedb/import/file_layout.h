@@ -23,6 +23,9 @@ struct FileLayout {
   std::uint64_t packed_limit = UINT64_MAX;
   std::uint64_t unpacked_skip = 0;  // bytes before the voxels once unpacked (a packed NIfTI's header)
   Packing packing = Packing::none;
+  // Where the reader would turn NaN and infinity into 0 unseen (NIfTI): bytes of a stored float, 0 for integers.
+  int float_bytes = 0;
+  bool swapped = false;  // big-endian
   std::vector<base::Problem> warnings;
   std::optional<glm::dmat4> lps_from_voxel;  // where ITK's is not used
 };
@@ -32,7 +35,7 @@ FileLayout nifti_layout(const std::filesystem::path& file, Problems& problems);
 FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems);
 FileLayout metaimage_layout(const std::filesystem::path& file, Problems& problems);
 
-// Sizes in range (`bad_size`), then bytes there are (`truncated`, `damaged`).
+// Sizes in range (`bad_size`), bytes there are (`truncated`, `damaged`), floats that are numbers (`not_finite`).
 void check_layout(const FileLayout& layout, Problems& problems);
 
 // The file beside `header` that it names: a plain name, no link, not elsewhere. `bad_data_file`, `no_data_file`.

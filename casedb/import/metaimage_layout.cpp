@@ -70,6 +70,15 @@ void read_size(const Fields& fields, FileLayout& layout, Problems& problems) {
   if (sizes.size() == 1) problems.add("not_3d", "the file holds no volume");
   layout.bytes_per_voxel = scalar_bytes(field("ElementType"));
   if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
+  // The reader knows none of these three; taking the numbers as they are would give other HU or millimetres.
+  if (const std::string slope = field("ElementToIntensityFunctionSlope");
+      !slope.empty() && numbers_of(slope) != std::vector<double>{1.0})
+    problems.add("bad_rescale", "the voxels are to be scaled, which is not read");
+  if (const std::string offset = field("ElementToIntensityFunctionOffset");
+      !offset.empty() && numbers_of(offset) != std::vector<double>{0.0})
+    problems.add("bad_rescale", "the voxels are to be shifted, which is not read");
+  if (const std::string unit = field("DistanceUnits"); !unit.empty() && unit != "mm" && unit != "?")
+    problems.add("no_geometry", "the voxel size is not in millimetres");
   check_geometry(fields, sizes.size(), problems);
 }
 

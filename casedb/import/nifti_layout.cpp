@@ -27,6 +27,7 @@ class NiftiHeader {
     for (std::size_t i = 0; i < sizeof(T); ++i) raw[i] = bytes_[at + (swapped_ ? sizeof(T) - 1 - i : i)];
     return std::bit_cast<T>(raw);
   }
+  bool swapped() const { return swapped_; }
   std::uint8_t byte(std::size_t at) const { return static_cast<std::uint8_t>(bytes_[at]); }
   bool is_single_file() const { return std::memcmp(bytes_.data() + 344, "n+1", 4) == 0; }
   glm::dvec3 srow_column(std::size_t axis) const {
@@ -77,6 +78,9 @@ void read_size(const NiftiHeader& header, FileLayout& layout, Problems& problems
   if (dimensions == 1) problems.add("not_3d", "the file holds no volume");
   layout.bytes_per_voxel = scalar_bytes(header.number<std::int16_t>(70));
   if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
+  const int datatype = header.number<std::int16_t>(70);
+  layout.float_bytes = datatype == 16 ? 4 : (datatype == 64 ? 8 : 0);
+  layout.swapped = header.swapped();
 }
 
 // Whether qform and sform put a corner of the volume more than half a millimetre apart. The qform's rotation is

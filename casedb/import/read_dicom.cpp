@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "casedb/import/byte_count.h"
 #include "casedb/import/dicom_slice.h"
 #include "casedb/import/problems.h"
 #include "casedb/import/slice_stack.h"
@@ -17,13 +18,27 @@ constexpr int kDeepestFolder = 16;
 struct Found {
   std::vector<DicomSlice> slices;
   std::map<DicomKind, int> left_out;
+  int unreadable = 0;                      // may be slices
+  std::vector<std::string> other_endings;  // of files that are no DICOM; an empty file counts as every ending
   int files = 0;
 };
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
 
 void look_at(const std::filesystem::path& path, Found& found) {
   const DicomFile file = read_dicom_file(path);
   const DicomKind kind = kind_of(file);
   ++found.files;
+  if (kind == DicomKind::not_dicom) {
+    if (!read_bytes(path, 0, 1))
+      ++found.unreadable;
+    else
+      found.other_endings.push_back(file_size_bytes(path) == 0 ? "*" : ending_of(path));
+  }
   if (kind != DicomKind::ct_slice) {
     ++found.left_out[kind];
     return;
@@ -41,7 +56,8 @@ void look_at(const std::filesystem::path& path, Found& found) {
   found.slices.push_back(std::move(slice));
 }
 
-// Files in name order, so that a folder is read the same way on every machine. Links are not followed.
+// Files in name order, so that a folder is read the same way on every machine. Links to files are followed, links
+// to folders are not.
 base::Result<Found> look_through(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::vector<fs::path> files;
@@ -49,9 +65,9 @@ base::Result<Found> look_through(const std::filesystem::path& folder) {
   fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
     std::error_code ignored;
-    if (walk->is_symlink(ignored)) continue;
+    const bool dangling = walk->is_symlink(ignored) && !fs::exists(walk->path(), ignored);
     if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
-    if (walk->is_regular_file(ignored)) files.push_back(walk->path());
+    if (walk->is_regular_file(ignored) || dangling) files.push_back(walk->path());
     if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 50000 files"};
   }
   if (error) return base::Error{"not_readable", "the folder cannot be read"};
@@ -74,6 +90,7 @@ base::Error nothing_found(const Found& found) {
   say(DicomKind::ct_localizer, "localizer", "with a localizer picture, which is no slice");
   say(DicomKind::other_modality, "not_ct", "of DICOM that are no CT image");
   say(DicomKind::no_image, "no_image", "of DICOM without an image");
+  if (found.unreadable > 0) problems.add("not_readable", "files in the folder cannot be read");
   if (found.files == 0) problems.add("empty_folder", "the folder holds no file");
   if (problems.empty()) problems.add("no_dicom", "no file in the folder is DICOM");
   return problems.error();
@@ -135,6 +152,15 @@ base::Result<Source> volume_of(const Found& found, Series slices) {
     if (found.left_out.contains(kind))
       problems.add(kind == DicomKind::truncated ? "truncated" : "damaged",
                    "a DICOM file beside the slices is not whole; it may be one of them");
+  if (found.unreadable > 0)
+    problems.add("not_readable", "a file beside the slices cannot be read; it may be one of them");
+  // Junk beside a series is left out; what is named like its slices, or is empty, may be a lost one.
+  const std::string ending = ending_of(slices.front().file);
+  for (const std::string& other : found.other_endings)
+    if (other == "*" || (!ending.empty() && other == ending)) {
+      problems.add("damaged", "a file that looks like one of the slices is not DICOM");
+      break;
+    }
   order_slices(slices, problems);
   const glm::ivec3 size(slices.front().size_px, static_cast<int>(slices.size()));
   const std::size_t slice_voxels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);

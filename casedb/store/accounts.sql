@@ -1,3 +1,3 @@
 -- Every account, oldest first.
-SELECT person_id, role, enabled FROM account
+SELECT person_id, role, password_hash, enabled FROM account
 ORDER BY created_us, person_id

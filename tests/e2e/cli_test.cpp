@@ -101,11 +101,44 @@ TEST(Cli, BadSourcesAreRefusedAndTheLibraryStaysByteIdentical) {
   }
 }
 
+TEST(Cli, ALostSliceIsNeverLeftOutInSilence) {
+  const auto scratch = fixtures::fresh_folder("cli_lost_slice");
+  const auto import = [&](const std::string& folder) {
+    return run(
+        kProgram + " import " + (scratch / folder).string() + " --json --library " + (scratch / "library").string(),
+        scratch);
+  };
+  const auto copy = [&](const std::string& folder) {
+    std::filesystem::copy(kData + "/ct-abdomen-contrast-dicom", scratch / folder);
+    std::filesystem::permissions(scratch / folder, std::filesystem::perms::owner_all);
+    for (const auto& entry : std::filesystem::directory_iterator(scratch / folder))
+      std::filesystem::permissions(entry.path(), std::filesystem::perms::owner_all);
+    return scratch / folder;
+  };
+  write(copy("empty") / "1-35.dcm", "");
+  expect_refused(import("empty"), "damaged");
+  write(copy("short") / "1-01.dcm", std::string(100, '\0'));
+  expect_refused(import("short"), "damaged");
+  const auto linked = copy("linked");
+  std::filesystem::rename(linked / "1-35.dcm", scratch / "elsewhere");
+  std::filesystem::create_symlink(scratch / "elsewhere", linked / "1-35.dcm");
+  write(linked / "README.txt", "junk beside a series is left out");
+  const auto followed = import("linked");
+  ASSERT_EQ(followed.exit_code, 0) << followed.err;
+  EXPECT_EQ(Json::parse(followed.out).at("slices_used"), 35);
+  std::filesystem::remove(scratch / "elsewhere");
+  expect_refused(import("linked"), "not_readable");
+}
+
 TEST(Cli, AFullDiskIsFourAndChangesNothing) {
   const auto scratch = fixtures::fresh_folder("cli_full_disk");
   const std::string library = (scratch / "library").string(), small = kData + "/dicom-samples/CT_small.dcm";
   ASSERT_EQ(run(kProgram + " import " + small + " --library " + library, scratch).exit_code, 0);
   const std::string before = fixtures::fingerprint(library);
+  // So full that SQLite could not even begin: nothing is left beside the databases.
+  const auto fuller = run("ulimit -f 8; " + kProgram + " case list --library " + library, scratch);
+  EXPECT_EQ(fuller.exit_code, 4) << fuller.out << fuller.err;
+  EXPECT_EQ(fixtures::fingerprint(library), before);
   // A file-size limit stops writes as a full disk does, and needs no rights; 2000 blocks of 512 bytes.
   const auto ran =
       run("ulimit -f 2000; " + kProgram + " import " + kData + "/ct-neck/neck.nrrd --library " + library, scratch);

@@ -116,6 +116,13 @@ TEST_F(LoginTest, ASessionEndsByTheClock) {
   EXPECT_EQ(header_of(browser.get("/attempts"), "Location"), "/login");
 }
 
+TEST_F(LoginTest, ANewPasswordEndsTheSessionsOfTheOldOne) {
+  browser.log_in_as(Role::mentor);
+  EXPECT_EQ(browser.get("/attempts").status, 200);
+  for (casedb::Account& account : fake.questions.accounts) account.password_mark = "changed";
+  EXPECT_EQ(browser.get("/attempts").status, 303);
+}
+
 TEST_F(LoginTest, ADisabledOrErasedAccountIsOutAtOnceAndStaysOut) {
   browser.log_in_as(Role::mentor);
   for (casedb::Account& account : fake.questions.accounts) account.enabled = account.login_name != "mentor";

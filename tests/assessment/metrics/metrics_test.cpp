@@ -92,6 +92,17 @@ TEST(PathTip, OnePoseIsZeroAndAGapIsNotBridged) {
   EXPECT_NEAR(number(gap, "gap_share"), 0.5, 0.01);
 }
 
+TEST(PathTip, OnlyGapsAreNullNotZero) {
+  auto sparse = straight([](double t) { return ramp(t, 10.0); }, 6.0, 1.0);
+  for (const char* id : {"path_tip", "skin_punctures", "withdrawals_partial", "withdrawals_full"})
+    EXPECT_EQ(value(sparse, id).reason, "only_gaps") << id;
+  // Rows exactly a quarter of a second apart are no gap, wherever the clock starts.
+  auto quarter = straight([](double t) { return ramp(t, 10.0); }, 6.0, 4.0);
+  for (auto& pose : quarter.poses) pose.t_s += 0.1;
+  quarter.endpoint->t_s += 0.1;
+  EXPECT_EQ(number(quarter, "gap_share"), 0.0);
+}
+
 TEST(PathTip, NoiseBarelyAddsToIt) {
   base::Rng rng(1);
   auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);

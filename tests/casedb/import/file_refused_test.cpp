@@ -142,6 +142,28 @@ TEST_F(FileRefused, NumbersThatAreNone) {
   EXPECT_EQ(refusal(write("a.mha", meta + bytes())), "not_finite");
   values[100] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(refusal(write("a.mha", meta + bytes())), "not_finite");
+  // ITK's NIfTI reader would make 0 HU of them, which is water.
+  const auto nifti = [&] {
+    return Nifti({8, 8, 8}, straight()).put<std::int16_t>(70, 16).put<std::int16_t>(72, 32).bytes(bytes());
+  };
+  EXPECT_EQ(refusal(write("a.nii", nifti())), "not_finite");
+  EXPECT_EQ(refusal(write("a.nii.gz", gzip(nifti()))), "not_finite");
+  values[100] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal(write("a.nii", nifti())), "not_finite");
+  values[100] = 3.0e38F;
+  EXPECT_EQ(refusal(write("a.nii", nifti())), "");
+}
+
+TEST_F(FileRefused, MetaImageFieldsThatWouldChangeTheNumbers) {
+  const std::string v = voxels();
+  const auto added = [&](const std::string& line) {
+    return refusal(write("a.mha", with(kMeta, "ElementDataFile", line + "\nElementDataFile") + v));
+  };
+  EXPECT_EQ(added("ElementToIntensityFunctionSlope = 2"), "bad_rescale");
+  EXPECT_EQ(added("ElementToIntensityFunctionOffset = 10"), "bad_rescale");
+  EXPECT_EQ(added("DistanceUnits = cm"), "no_geometry");
+  EXPECT_EQ(added("ElementToIntensityFunctionSlope = 1\nElementToIntensityFunctionOffset = 0\nDistanceUnits = mm"),
+            "");
 }
 
 TEST_F(FileRefused, SizesOutOfRange) {
