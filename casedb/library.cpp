@@ -26,13 +26,16 @@ const base::Error kNetwork{"network_file_system",
                            "a library cannot lie on a network file system; use a disk of this machine"};
 
 // SQLite's side files need room even to read, and stay behind where it ends. What cannot be opened is not touched.
-void require_room(const fs::path& folder) {
-  constexpr std::uint64_t kRoom = 512 * 1024;
+void require_room(fs::path folder) {
+  // 32 KiB of shared index a database, and the first pages of its log.
+  constexpr std::uint64_t kRoom = 128 * 1024, kRoomOfOneFile = 64 * 1024;
   std::error_code error;
+  for (folder = fs::absolute(folder); !fs::exists(folder) && folder.has_relative_path();)
+    folder = folder.parent_path();
   const fs::space_info space = fs::space(folder, error);
   rlimit limit{};
   const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  if ((!error && space.available < kRoom) || (limited && limit.rlim_cur < kRoom))
+  if ((!error && space.available < kRoom) || (limited && limit.rlim_cur < kRoomOfOneFile))
     throw base::Failure("disk", "the disk is full");
 }
 
@@ -150,6 +153,7 @@ base::Result<Library> Library::open_or_create(const fs::path& folder) {
       if (fs::exists(folder) && !fs::is_directory(folder))
         return base::Error{"not_a_library", "there is a file where the library's folder should be"};
       if (fs::exists(folder / kDatabase)) return open(folder);
+      require_room(folder);
       NewFolders made(folder);
       {
         const FolderLock lock(folder);

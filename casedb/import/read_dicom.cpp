@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 
 #include "casedb/import/byte_count.h"
 #include "casedb/import/dicom_slice.h"
@@ -57,17 +58,19 @@ void look_at(const std::filesystem::path& path, Found& found) {
 }
 
 // Files in name order, so that a folder is read the same way on every machine. Links to files are followed, links
-// to folders are not.
+// to folders are not; a file that is reached twice counts once.
 base::Result<Found> look_through(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::vector<fs::path> files;
+  std::set<fs::path> reached;
   std::error_code error;
   fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
     std::error_code ignored;
     const bool dangling = walk->is_symlink(ignored) && !fs::exists(walk->path(), ignored);
     if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
-    if (walk->is_regular_file(ignored) || dangling) files.push_back(walk->path());
+    if (!walk->is_regular_file(ignored) && !dangling) continue;
+    if (reached.insert(fs::weakly_canonical(walk->path(), ignored)).second) files.push_back(walk->path());
     if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 50000 files"};
   }
   if (error) return base::Error{"not_readable", "the folder cannot be read"};
