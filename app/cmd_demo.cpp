@@ -28,11 +28,21 @@ std::filesystem::path default_library() {
   return std::filesystem::path(home) / ".local" / "share" / "seldinger" / "demo";
 }
 
+volume::Calyces calyces_of(const Arguments& arguments) {
+  const std::string kind = arguments.text("--calyces", "normal");
+  if (kind == "normal") return volume::Calyces::normal;
+  if (kind == "dilated") return volume::Calyces::dilated;
+  if (kind == "opacified") return volume::Calyces::opacified;
+  throw UsageError("--calyces is normal, dilated or opacified");
+}
+
 // The library with the demo's case: one already there is used again, so that a second run is quick and makes
 // nothing twice. A CT that is refused makes no library.
 base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, const std::filesystem::path& folder,
                                         const Arguments& arguments) {
   const bool own = arguments.has("--ct");
+  const volume::Calyces calyces = calyces_of(arguments);
+  if (own && arguments.has("--calyces")) throw UsageError("--calyces is of the built-in case, not of a CT");
   std::optional<casedb::NewCase> imported;
   if (own) {
     auto read = import_case(arguments.text("--ct"), {}, "Demo CT", "import");
@@ -44,9 +54,9 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   casedb::Library& library = opened.emplace(std::move(*made));
   if (!own)
     for (const casedb::CaseRow& row : casedb::list_cases(library))
-      if (row.origin == phantom_origin()) return row;
+      if (row.origin == phantom_origin(calyces)) return row;
   if (!own) {
-    auto read = import_phantom();
+    auto read = import_phantom(calyces);
     if (!read) return read.error();
     imported.emplace(std::move(*read));
   } else {

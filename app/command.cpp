@@ -54,6 +54,7 @@ constexpr Option kBenchOptions[] = {{"--stage", "a,b", "import, mpr, step; defau
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
+    {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};

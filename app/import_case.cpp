@@ -64,18 +64,26 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   return made;
 }
 
-std::string phantom_origin() {
-  return std::string("phantom:") + volume::kPhantomVersion;
+std::string phantom_origin(volume::Calyces calyces) {
+  const char* kind = calyces == volume::Calyces::dilated     ? ":dilated"
+                     : calyces == volume::Calyces::opacified ? ":opacified"
+                                                             : "";
+  return std::string("phantom:") + volume::kPhantomVersion + kind;
 }
 
-base::Result<casedb::NewCase> import_phantom() {
+base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces) {
   progress("making the built-in torso");
-  volume::Phantom phantom = volume::make_phantom();
+  volume::PhantomOptions options;
+  options.calyces = calyces;
+  volume::Phantom phantom = volume::make_phantom(options);
   const TemporaryFolder folder;
   const auto written =
       casedb::write_dicom_series(phantom.volume, {"Seldinger built-in torso phantom"}, folder.path());
   if (!written) return written.error();
-  auto imported = import_case(folder.path(), {}, "Built-in torso", phantom_origin());
+  const std::string title = calyces == volume::Calyces::dilated     ? "Built-in torso, dilated calyces"
+                            : calyces == volume::Calyces::opacified ? "Built-in torso, opacified calyces"
+                                                                    : "Built-in torso";
+  auto imported = import_case(folder.path(), {}, title, phantom_origin(calyces));
   if (imported) imported->labels = std::move(phantom.labels);
   return imported;
 }

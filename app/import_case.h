@@ -7,6 +7,7 @@
 
 #include "casedb/store.h"
 #include "sim/base/result.h"
+#include "sim/volume/phantom.h"
 
 namespace seldinger::app {
 
@@ -16,7 +17,8 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::string& origin);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
-base::Result<casedb::NewCase> import_phantom();
-std::string phantom_origin();
+base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);
+// What a case of it has as its origin: one for each version of the phantom and each kind of calyces.
+std::string phantom_origin(volume::Calyces calyces);
 
 }  // namespace seldinger::app

@@ -140,6 +140,11 @@ TEST(Demo, TheBuiltInCaseNeedsNoData) {
   EXPECT_EQ(answer.at("attempts").size(), 3U);
   EXPECT_EQ(answer.at("accounts").size(), 4U);
   EXPECT_EQ(ran.err.find("error"), std::string::npos);
+  const auto dilated = run(
+      kProgram + " demo --no-serve --json --calyces dilated --library " + (scratch / "library").string(), scratch);
+  ASSERT_EQ(dilated.exit_code, 0) << dilated.err;
+  EXPECT_NE(Json::parse(dilated.out).at("case_id"), answer.at("case_id")) << "another kind is another case";
+  EXPECT_EQ(Json::parse(dilated.out).at("title"), "Built-in torso, dilated calyces");
 }
 
 }  // namespace
