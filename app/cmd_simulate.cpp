@@ -42,6 +42,7 @@ int run_simulate(const Arguments& arguments) {
       std::printf("attempt %s  %s  seed %llu\n", attempts.back().attempt_id.c_str(),
                   attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
       print_metrics(attempts.back().metrics);
+      std::fflush(stdout);  // it is stored: whoever reads along may know
     }
   }
   if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);

@@ -65,16 +65,18 @@ TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
   std::vector<std::string> acknowledged;
   for (int round = 0; round < 60; ++round) {
     const auto out = scratch / "acknowledged.txt";
+    std::filesystem::remove(out);
     const int pid = ::fork();
     if (pid == 0) {
       std::freopen(out.c_str(), "w", stdout);
-      std::setvbuf(stdout, nullptr, _IOLBF, 0);
-      ::execl("/usr/bin/stdbuf", "stdbuf", "-oL", kProgram.c_str(), "simulate", "--library",
-              (scratch / "library").c_str(), "--case", case_id.c_str(), "--operator", "expert", "--seed", "1",
-              "--count", "1000", nullptr);
+      ::execl(kProgram.c_str(), "seldinger", "simulate", "--library", (scratch / "library").c_str(), "--case",
+              case_id.c_str(), "--operator", "expert", "--seed", "1", "--count", "1000", nullptr);
       ::_exit(127);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(400 + round * 17 % 300));
+    // Once it writes, it is killed at another moment of its work each round.
+    for (int wait = 0; wait < 3000 && fixtures::whole_file(out).empty(); ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(round * 17 % 300));
     ::kill(pid, SIGKILL);
     int status = 0;
     ::waitpid(pid, &status, 0);
