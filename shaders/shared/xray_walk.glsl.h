@@ -3,7 +3,7 @@
 //
 // Nothing is accumulated but the sums: a block's base comes from the ray's line in double, a place within the block
 // from the count of its layers by one fma in float, so positions keep 1e-6 voxel over any length.
-#include "xray.glsl.h"
+#include "xray_layer.glsl.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
