@@ -1,4 +1,4 @@
-// What the GPU itself spends between two points, by a timer query (GL_TIME_ELAPSED).
+// What the GPU itself spends between two points, by a timer query (GL_TIMESTAMP; GL_TIME_ELAPSED answers 0 for compute shaders on llvmpipe).
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class Timer {
 
  private:
   std::shared_ptr<Handles> handles_;
-  unsigned int name_ = 0;
+  unsigned int names_[2] = {0, 0};
 };
 
 }  // namespace seldinger::gpu
