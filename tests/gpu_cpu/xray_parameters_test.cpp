@@ -1,4 +1,5 @@
-// The block that the X-ray shaders read has the offsets that C++ writes, and the formulas they share hold in double.
+// The block that the X-ray shaders read has the offsets that C++ writes, and the formulas they share hold in
+// double.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -61,9 +62,9 @@ TEST(XrayLayer, ExactSharesAreTheLengthsInEachVoxel) {
     };
     const double low_y = std::floor(std::min(y, y + length * slope_y));
     const double low_z = std::floor(std::min(z, z + length * slope_z));
-    const glm::dvec4 shares = shaders::xray_exact_shares(
-        length, std::min(y, y + length * slope_y) - low_y, std::min(z, z + length * slope_z) - low_z, far(slope_y),
-        far(slope_z), (slope_y >= 0.0) == (slope_z >= 0.0));
+    const glm::dvec4 shares = shaders::xray_exact_shares(length, std::min(y, y + length * slope_y) - low_y,
+                                                         std::min(z, z + length * slope_z) - low_z, far(slope_y),
+                                                         far(slope_z), (slope_y >= 0.0) == (slope_z >= 0.0));
     glm::dvec4 walked(0.0);
     for (int i = 0; i < kSteps; ++i) {
       const double at = length * (i + 0.5) / kSteps;
