@@ -63,12 +63,13 @@ void main() {
     double base_x = double(block * kXrayBlock);
     double base_y = pixel.y + (base_x - pixel.x) * slope_y;
     double base_z = pixel.z + (base_x - pixel.x) * slope_z;
-    double floor_y = floor(base_y);
-    double floor_z = floor(base_z);
-    int low_y = int(floor_y);
-    int low_z = int(floor_z);
-    float y = min(float(base_y - floor_y), 0.99999994);
-    float z = min(float(base_z - floor_z), 0.99999994);
+    // From the nearest face: a ray that hardly crosses one keeps all digits of how far it is from it.
+    double face_y = floor(base_y + 0.5lf);
+    double face_z = floor(base_z + 0.5lf);
+    int low_y = int(face_y);
+    int low_z = int(face_z);
+    float y = float(base_y - face_y);
+    float z = float(base_z - face_z);
     float in_block = float(max(x_in - base_x, 0.0lf));
     float out_block = float(min(x_out - base_x, double(kXrayBlock)));
 
@@ -103,20 +104,12 @@ void main() {
 #ifdef XRAY_SLAB
       vec4 share = xray_slab_shares(length_x, lowest_y - voxel_y, lowest_z - voxel_z);
 #else
-      vec4 share = xray_exact_shares(length_x, lowest_y - voxel_y, lowest_z - voxel_z, layers_per_y,
-                                     layers_per_z, together);
+      vec4 share = xray_exact_shares(length_x, (voxel_y + 1.0) - lowest_y, (voxel_z + 1.0) - lowest_z,
+                                     layers_per_y, layers_per_z, together);
 #endif
       ivec2 at = ivec2(low_y, low_z) + ivec2(voxel_y, voxel_z);
-#ifdef XRAY_PAIRS
-      int layer_all = block * kXrayBlock + layer;
-      at = clamp(at + 1, ivec2(0), ivec2(parameters.size_y, parameters.size_z));
-      uvec2 v01 = texelFetch(voxels, ivec3(at.x, max(at.y - 1, 0), layer_all), 0).xy;
-      uvec2 v23 = texelFetch(voxels, ivec3(at.x, min(at.y, parameters.size_z - 1), layer_all), 0).xy;
-      ivec4 value = ivec4(v01, v23);
-#else
       ivec4 value = ivec4(
           textureGather(voxels, vec3((vec2(at) + 1.0) * per_size, float(block * kXrayBlock + layer))).wzxy);
-#endif
 #ifndef XRAY_TOTAL
       water_block += dot(vec4(min(value, 1000)), share);
 #endif
