@@ -57,8 +57,8 @@ void main() {
   bool runs = of_x && x_in < x_out;
   int block = runs ? int(x_in) / kXrayBlock : 0;
   int block_end = runs ? (int(ceil(x_out)) + kXrayBlock - 1) / kXrayBlock : 0;
-  float all = 0.0;
   float water = 0.0;
+  float mineral = 0.0;
   for (; block < block_end; ++block) {
     double base_x = double(block * kXrayBlock);
     double base_y = pixel.y + (base_x - pixel.x) * slope_y;
@@ -83,8 +83,10 @@ void main() {
     uint wanted = 1u | (next.x ? 2u : 0u) | (next.y ? 4u : 0u) | (next.x && next.y ? 8u : 0u);
     bool full = (texelFetch(cells, ivec3(cell, block), 0).x & wanted) != 0u;
 
-    float all_block = 0.0;
+    vec2 base_corner = vec2(low_y + 1, low_z + 1);
+    float base_layer = float(block * kXrayBlock);
     float water_block = 0.0;
+    float mineral_block = 0.0;
     int layer = int(in_block);
     int layer_end = full ? int(ceil(out_block)) : 0;
     for (; layer < layer_end; ++layer) {
@@ -107,16 +109,21 @@ void main() {
       vec4 share = xray_exact_shares(length_x, (voxel_y + 1.0) - lowest_y, (voxel_z + 1.0) - lowest_z,
                                      layers_per_y, layers_per_z, together);
 #endif
-      ivec2 at = ivec2(low_y, low_z) + ivec2(voxel_y, voxel_z);
-      ivec4 value = ivec4(
-          textureGather(voxels, vec3((vec2(at) + 1.0) * per_size, float(block * kXrayBlock + layer))).wzxy);
-#ifndef XRAY_TOTAL
+      // All four at once, at the corner that they share; beyond the box the sampler repeats its border, so that
+      // rounding reads nothing outside.
+      vec2 corner = (base_corner + vec2(voxel_y, voxel_z)) * per_size;
+      ivec4 value = ivec4(textureGather(voxels, vec3(corner, base_layer + float(layer))).wzxy);
+#ifdef XRAY_TOTAL
+      water_block += dot(vec4(value), share);
+#else
       water_block += dot(vec4(min(value, 1000)), share);
+      mineral_block += dot(vec4(max(value - 1000, 0)), share);
 #endif
-      all_block += dot(vec4(value), share);
     }
-    all += all_block;
     water += water_block;
+#ifndef XRAY_TOTAL
+    mineral += mineral_block;
+#endif
   }
 
   if (of_x && column < parameters.width_px && row < parameters.height_px) {
@@ -124,11 +131,9 @@ void main() {
     float mm = 0.001 * sqrt(dot(parameters.metric.xyz, step * step) +
                             dot(parameters.metric_mixed.xyz, vec3(dy, dz, dy * dz)));
     int at = row * parameters.width_px + column;
-#ifdef XRAY_TOTAL
-    water_mm[at] = mm * all;
-#else
     water_mm[at] = mm * water;
-    mineral_mm[at] = mm * (all - water);
+#ifndef XRAY_TOTAL
+    mineral_mm[at] = mm * mineral;
 #endif
   }
 }

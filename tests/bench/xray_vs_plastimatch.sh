@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # tests/bench/xray_vs_plastimatch.sh [RUNS]
-# Our X-ray projectors and `plastimatch drr` on one volume, in one geometry, with equal threads, in one run; medians of
-# RUNS (5). Prints both times, the ratio, and the difference of the two pictures (nepers; relative where more than 0.05
+# Our X-ray projectors and `plastimatch drr` on one volume, in one geometry, with equal threads, in one run. RUNS (5)
+# rounds, each of the peer's pictures and then ours, so that what else the machine does falls on both; medians over the
+# rounds. Prints both times, the ratio, and the difference of the two pictures (nepers; relative where more than 0.05
 # are absorbed): exact and exact must agree to rounding, slab and uniform are different interpolations. Volume and
 # geometry: README.md beside this file. Installs plastimatch from Debian when it is missing.
 set -euo pipefail
@@ -46,22 +47,31 @@ printf 'machine: %s, %s cores, load %s\n' \
 for threads in 1 2; do
   [ "$threads" -le "$(nproc)" ] || continue
   words="$threads thread"; [ "$threads" = 1 ] || words+=s
-  declare -A peer_ms=()
+  for ((round = 0; round < runs; ++round)); do
+    for geometry in G1 G2; do
+      for method in exact uniform; do
+        echo "$(time_peer "$method" "$threads" "$geometry")" >>"$folder/plastimatch-$threads-$method-$geometry"
+      done
+    done
+    LP_NUM_THREADS=$threads on_cores "$threads" "$peer" ours "$threads" 1 "$folder" >"$folder/ours-$threads"
+    while read -r method _ geometry backend ms _; do
+      echo "$ms" >>"$folder/ours-$threads-$method-$geometry-$backend"
+    done <"$folder/ours-$threads"
+  done
   for geometry in G1 G2; do
     for method in exact uniform; do
-      peer_ms[$method$geometry]=$(for ((i = 0; i < runs; ++i)); do
-        time_peer "$method" "$threads" "$geometry"
-      done | median)
-      printf 'plastimatch %s %s %s %s ms\n' "$method" "$words" "$geometry" "${peer_ms[$method$geometry]}"
+      printf 'plastimatch %s %s %s %s ms\n' "$method" "$words" "$geometry" \
+        "$(median <"$folder/plastimatch-$threads-$method-$geometry")"
     done
   done
-  for picture in "$folder"/*.pfm; do mv "$picture" "${picture/_.0000/_0000}" 2>/dev/null || true; done
-  LP_NUM_THREADS=$threads on_cores "$threads" "$peer" ours "$threads" "$runs" "$folder" |
-    while read -r method _ geometry backend ms largest mean; do
-      against=$method; [ "$method" = exact ] || against=uniform
-      printf 'ours %s %s %s %s %s ms; difference from %s: largest %s nepers, mean %s\n' \
-        "$method" "$words" "$geometry" "$backend" "$ms" "$against" "$largest" "$mean"
-      printf 'ratio %s %s %s %s %.1f\n' "$method" "$words" "$geometry" "$backend" \
-        "$(awk -v a="${peer_ms[$against$geometry]}" -v b="$ms" 'BEGIN {print a / b}')"
-    done
+  # The last round's pictures: all rounds' are the same.
+  while read -r method _ geometry backend _ largest mean; do
+    against=$method; [ "$method" = exact ] || against=uniform
+    peer_ms=$(median <"$folder/plastimatch-$threads-$against-$geometry")
+    ms=$(median <"$folder/ours-$threads-$method-$geometry-$backend")
+    printf 'ours %s %s %s %s %s ms; difference from %s: largest %s nepers, mean %s\n' \
+      "$method" "$words" "$geometry" "$backend" "$ms" "$against" "$largest" "$mean"
+    printf 'ratio %s %s %s %s %.1f\n' "$method" "$words" "$geometry" "$backend" \
+      "$(awk -v a="$peer_ms" -v b="$ms" 'BEGIN {print a / b}')"
+  done <"$folder/ours-$threads"
 done
