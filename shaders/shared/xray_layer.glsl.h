@@ -11,7 +11,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONSTANT int kXrayBlock = 16;  // layers walked between two re-basings, and voxels along a cell's side
+SHARED_CONSTANT int kXrayBlock = 32;  // layers walked between two re-basings, and voxels along a cell's side
 
 // Layers to the next face for a ray that keeps its y or z. Finite, so that nothing times it is not a number, and
 // times the smallest distance from a face that float tells from none it is still beyond any piece.
