@@ -64,8 +64,7 @@ struct Avx2 {
   }
   static void add_to(double* sum, F a) {
     _mm256_store_pd(sum, _mm256_add_pd(_mm256_load_pd(sum), _mm256_cvtps_pd(_mm256_castps256_ps128(a))));
-    _mm256_store_pd(sum + 4,
-                    _mm256_add_pd(_mm256_load_pd(sum + 4), _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1))));
+    _mm256_store_pd(sum + 4, _mm256_add_pd(_mm256_load_pd(sum + 4), _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1))));
   }
 };
 

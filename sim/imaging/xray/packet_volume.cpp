@@ -40,10 +40,10 @@ PacketVolume::PacketVolume(const volume::Volume& volume) {
   stride = {1, size.x, size.x * size.y};
   // A ray's index may round one voxel beyond a face, at weight 0 or nearly; it must still be ours to read.
   margin = 2 * (std::ptrdiff_t{1} + size.x + std::ptrdiff_t{size.x} * size.y) + 64;
-  values.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
-                        static_cast<std::size_t>(size.z) +
-                    2 * static_cast<std::size_t>(margin),
-                0);
+  values.assign(
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z) +
+          2 * static_cast<std::size_t>(margin),
+      0);
   constexpr int kCell = 1 << kCellShift;
   cells = (size + (kCell - 1)) / kCell;
   const glm::ivec3 n = cells + 1;

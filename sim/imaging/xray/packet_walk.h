@@ -73,8 +73,7 @@ void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
       const F length = V::sub(to, from);
       const F value = clipped ? V::gather(values, at, V::less(from, to)) : V::gather(values, at);
       sum = V::add(sum, V::mul(value, length));
-      if constexpr (mineral)
-        sum_mineral = V::add(sum_mineral, V::mul(V::positive(V::sub(value, water)), length));
+      if constexpr (mineral) sum_mineral = V::add(sum_mineral, V::mul(V::positive(V::sub(value, water)), length));
     };
     if (!clipped || V::any(V::less(low, high))) {
       add(offset, low, first);
@@ -95,8 +94,8 @@ void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
   if constexpr (mineral) V::add_to(packet.mineral, sum_mineral);
 }
 
-// A block's slabs by one bilinear sample each, in the middle of the ray's piece. With `pairs` the first minor axis is
-// x, whose neighbours lie side by side.
+// A block's slabs by one bilinear sample each, in the middle of the ray's piece. With `pairs` the first minor axis
+// is x, whose neighbours lie side by side.
 template <class V, bool mineral, bool pairs>
 void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, const int (&size)[2], int slabs) {
   using F = typename V::F;
@@ -130,8 +129,7 @@ void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
       I at = offset;
       F weight[2];
       for (int i = 0; i < 2; ++i) {
-        const F place =
-            V::min(V::max(V::add(part[i], V::mul(slope[i], middle)), lowest[i]), highest[i]);
+        const F place = V::min(V::max(V::add(part[i], V::mul(slope[i], middle)), lowest[i]), highest[i]);
         const F whole = V::min(V::floor(place), last[i]);
         weight[i] = V::sub(place, whole);
         at = V::add(at, V::mul(V::to_int(whole), stride[i]));
@@ -351,7 +349,8 @@ void project_tile(const PacketJob& job, int first_column, int first_row) {
       project_packet<V>(job, column, row, water_mm, mineral_mm);
       for (int l = 0; l < W; ++l) {
         if (c + l % kWide >= columns || r + l / kWide >= rows) continue;
-        const std::ptrdiff_t pixel = std::ptrdiff_t{first_row + r + l / kWide} * view.width_px + first_column + c + l % kWide;
+        const std::ptrdiff_t pixel =
+            std::ptrdiff_t{first_row + r + l / kWide} * view.width_px + first_column + c + l % kWide;
         job.water_mm[pixel] = static_cast<float>(water_mm[l]);
         if (job.mineral_mm != nullptr) job.mineral_mm[pixel] = static_cast<float>(mineral_mm[l]);
       }

@@ -48,41 +48,43 @@ struct Rectangle {
   int left = 0, top = 0, right = 0, bottom = 0;  // pixels; right and bottom excluded
 };
 
-// Pixels whose rays can meet the kept box: where its corners project. All of them where a corner is not in front of
-// the source.
-Rectangle shadow(const PacketVolume& kept, const volume::Volume& volume, const XrayGeometry& g) {
-  const Rectangle all{0, 0, g.width_px, g.height_px};
-  const glm::dvec3 normal = glm::cross(g.u, g.v);
-  double low_c = std::numeric_limits<double>::infinity(), high_c = -low_c, low_r = low_c, high_r = -low_c;
+// Pixels whose rays can meet the kept box: where its corners are seen. All of them where a corner is not seen.
+Rectangle shadow(const PacketVolume& kept, const volume::Volume& volume, const XrayGeometry& geometry) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const glm::dvec2 size(geometry.width_px, geometry.height_px);
+  glm::dvec2 low(kInfinite), high(-kInfinite);
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 face = glm::dvec3(kept.low) - 0.5 +
                             glm::dvec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1) * glm::dvec3(kept.size);
-    const glm::dvec3 p(volume.lps_from_voxel * glm::dvec4(face, 1.0));
-    const glm::dvec3 ray = g.source_lps_mm ? p - *g.source_lps_mm : g.direction;
-    const glm::dvec3 from = g.source_lps_mm ? *g.source_lps_mm : p;
-    const double depth = glm::dot(ray, normal), distance = glm::dot(g.detector_center_lps_mm - from, normal);
-    if (!(depth * distance > 1e-9 * distance * distance)) {
-      if (g.source_lps_mm) return all;
-    }
-    const glm::dvec3 hit = from + ray * (distance / depth) - g.detector_center_lps_mm;
-    const double c = glm::dot(hit, g.u) / g.pixel_mm + 0.5 * (g.width_px - 1);
-    const double r = glm::dot(hit, g.v) / g.pixel_mm + 0.5 * (g.height_px - 1);
-    low_c = std::min(low_c, c);
-    high_c = std::max(high_c, c);
-    low_r = std::min(low_r, r);
-    high_r = std::max(high_r, r);
+    const auto pixel = pixel_of(geometry, glm::dvec3(volume.lps_from_voxel * glm::dvec4(face, 1.0)));
+    if (!pixel) return {0, 0, geometry.width_px, geometry.height_px};
+    low = glm::min(low, *pixel);
+    high = glm::max(high, *pixel);
   }
-  const auto clip = [](double x, int size) { return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size))); };
-  return {clip(std::floor(low_c) - 1.0, g.width_px), clip(std::floor(low_r) - 1.0, g.height_px),
-          clip(std::ceil(high_c) + 2.0, g.width_px), clip(std::ceil(high_r) + 2.0, g.height_px)};
+  const glm::ivec2 first(glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size));
+  const glm::ivec2 end(glm::clamp(glm::ceil(high) + 2.0, glm::dvec2(0.0), size));
+  return {first.x, first.y, end.x, end.y};
+}
+
+// Calls work(i) for 0 ≤ i < count, on so many threads.
+template <typename Work>
+void in_threads(int count, int wanted, const Work& work) {
+  if (wanted <= 0) wanted = static_cast<int>(std::thread::hardware_concurrency());
+  std::atomic<int> next{0};
+  const auto run = [&] {
+    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) work(i);
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < std::min(wanted, count); ++i) others.emplace_back(run);
+  run();
 }
 
 }  // namespace
 
 Instructions best_instructions() noexcept {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512vl"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
     return Instructions::avx512;
   if (__builtin_cpu_supports("avx2")) return Instructions::avx2;
 #endif
@@ -104,34 +106,40 @@ std::size_t XrayCpu::bytes() const noexcept {
          parts_->kept.occupied_before.size() * sizeof(std::int32_t);
 }
 
-PathLengths XrayCpu::project(const XrayGeometry& geometry, ProjectionMethod method, const CpuOptions& options) const {
+PathLengths XrayCpu::project(const XrayGeometry& geometry, ProjectionMethod method,
+                             const CpuOptions& options) const {
   CHECK(check_geometry(geometry).has_value());
-  CHECK(method != ProjectionMethod::trilinear);
-  const std::size_t pixels = static_cast<std::size_t>(geometry.width_px) * static_cast<std::size_t>(geometry.height_px);
+  const std::size_t pixels =
+      static_cast<std::size_t>(geometry.width_px) * static_cast<std::size_t>(geometry.height_px);
   const bool mineral = options.basis == Basis::water_and_mineral;
   PathLengths lengths{geometry.width_px, geometry.height_px, std::vector<float>(pixels), {}, {}};
   if (mineral) lengths.mineral_mm.resize(pixels);
   const PacketVolume& kept = parts_->kept;
+  const volume::Volume& volume = parts_->volume;
   if (kept.size.x == 0) return lengths;
-  const PacketView view = packet_view(parts_->volume, kept, geometry);
+  if (method == ProjectionMethod::trilinear) {
+    in_threads(geometry.height_px, options.threads, [&](int row) {
+      for (int column = 0; column < geometry.width_px; ++column) {
+        const RaySegment ray = ray_of(geometry, volume, column, row);
+        const RayLengths one = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm, method);
+        const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(geometry.width_px) +
+                              static_cast<std::size_t>(column);
+        lengths.water_mm[i] = static_cast<float>(mineral ? one.water_mm : one.total_mm());
+        if (mineral) lengths.mineral_mm[i] = static_cast<float>(one.mineral_mm);
+      }
+    });
+    return lengths;
+  }
+  const PacketView view = packet_view(volume, kept, geometry);
   const PacketJob job{&kept, &view, lengths.water_mm.data(), mineral ? lengths.mineral_mm.data() : nullptr,
                       method == ProjectionMethod::slab};
   const TileFunction tile = tile_function(options.instructions);
-  const Rectangle part = shadow(kept, parts_->volume, geometry);
+  const Rectangle part = shadow(kept, volume, geometry);
   const int left = part.left / kTilePx, top = part.top / kTilePx;
   const int columns = std::max(0, (part.right + kTilePx - 1) / kTilePx - left);
   const int rows = std::max(0, (part.bottom + kTilePx - 1) / kTilePx - top);
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next.fetch_add(1); i < columns * rows; i = next.fetch_add(1))
-      tile(job, (left + i % columns) * kTilePx, (top + i / columns) * kTilePx);
-  };
-  const int wanted = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
-  const int threads = std::clamp(wanted, 1, std::max(1, columns * rows));
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(work);
-  work();
-  others.clear();  // joins
+  in_threads(columns * rows, options.threads,
+             [&](int i) { tile(job, (left + i % columns) * kTilePx, (top + i / columns) * kTilePx); });
   return lengths;
 }
 
