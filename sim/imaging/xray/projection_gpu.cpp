@@ -47,7 +47,7 @@ static_assert(offsetof(XrayParameters, wins_ties_y) == 224);
 static_assert(sizeof(XrayParameters) == 240);
 
 constexpr int kGroupPx = 8;  // local_size_x and _y of the shader
-constexpr int kTiles = 8;     // tiles along a side of the picture in which main axes are looked for
+constexpr int kTiles = 8;    // tiles along a side of the picture in which main axes are looked for
 constexpr int kVoxelsUnit = 0, kCellsUnit = 1;
 constexpr int kParametersBinding = 0, kWaterBinding = 1, kMineralBinding = 2;
 
