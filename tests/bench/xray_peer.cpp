@@ -1,5 +1,5 @@
 // What xray_vs_plastimatch.sh calls:
-//   xray_peer volume FILE.mha              writes the timing volume
+//   xray_peer volume FILE.mha              writes the projectors' phantom
 //   xray_peer ours THREADS RUNS FOLDER     times our projectors on it; compares each picture with the peer's, found
 //   as
 //                                          FOLDER/<exact|uniform>_<G1|G2>_0000.pfm
@@ -19,7 +19,7 @@
 
 #include "sim/base/failure.h"
 #include "sim/imaging/xray/projection.h"
-#include "tests/bench/timing_volume.h"
+#include "sim/volume/projector_phantom.h"
 
 namespace seldinger::bench {
 namespace {
@@ -48,7 +48,7 @@ XrayGeometry geometry(int number) {
 }
 
 int write_volume(const std::string& path) {
-  const volume::Volume volume = timing_volume();
+  const volume::Volume volume = volume::make_projector_phantom();
   const glm::dvec3 first_mm(volume.lps_from_voxel[3]);
   std::ofstream file(path, std::ios::binary);
   file << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
@@ -98,7 +98,7 @@ std::string difference(const PathLengths& ours, const std::vector<float>& peers)
 }
 
 int time_ours(int threads, int runs, const std::string& folder) {
-  const volume::Volume volume = timing_volume();
+  const volume::Volume volume = volume::make_projector_phantom();
   const auto measure = [&](ProjectionMethod method, const std::string& backend, auto project) {
     const bool exact = method == ProjectionMethod::exact;
     for (const int number : {1, 2}) {
