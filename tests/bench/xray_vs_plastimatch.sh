@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # tests/bench/xray_vs_plastimatch.sh [RUNS]
-# Our X-ray projectors and `plastimatch drr` on one volume, in one geometry, with equal threads, in one run. RUNS (5)
-# rounds, each of the peer's pictures and then ours, so that what else the machine does falls on both; medians over the
-# rounds. Prints both times, the ratio, and the difference of the two pictures (nepers; relative where more than 0.05
-# are absorbed): exact and exact must agree to rounding, slab and uniform are different interpolations. Volume and
-# geometry: README.md beside this file. Installs plastimatch from Debian when it is missing.
+# Our X-ray projectors and `plastimatch drr` on one volume, in one geometry, with equal threads, in one run: RUNS (5)
+# rounds, each of the peer's pictures and then ours, so that what else the machine does falls on both. Tells of each the
+# least time, as other work only adds, the ratio, and the difference of the two pictures (nepers; relative where more
+# than 0.05 are absorbed): exact and exact must agree to rounding, slab and uniform are different interpolations.
+# Volume and geometry: README.md beside this file. Installs plastimatch from Debian when it is missing.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 runs=${1:-5}
@@ -31,7 +31,7 @@ on_cores() { # THREADS COMMAND...
   if [ "$threads" = 1 ]; then taskset -c 0 "$@"; else "$@"; fi
 }
 
-median() { sort -n | awk '{v[NR] = $1} END {print v[int((NR + 1) / 2)]}'; }
+least() { sort -n | head -1; }
 
 declare -A pixels=([G1]="512 512" [G2]="624 420") size_mm=([G1]="600 600" [G2]="400 269.2307692307692")
 
@@ -61,17 +61,18 @@ for threads in 1 2; do
   for geometry in G1 G2; do
     for method in exact uniform; do
       printf 'plastimatch %s %s %s %s ms\n' "$method" "$words" "$geometry" \
-        "$(median <"$folder/plastimatch-$threads-$method-$geometry")"
+        "$(least <"$folder/plastimatch-$threads-$method-$geometry")"
     done
   done
   # The last round's pictures: all rounds' are the same.
   while read -r method _ geometry backend _ largest mean; do
     against=$method; [ "$method" = exact ] || against=uniform
-    peer_ms=$(median <"$folder/plastimatch-$threads-$against-$geometry")
-    ms=$(median <"$folder/ours-$threads-$method-$geometry-$backend")
+    peer_ms=$(least <"$folder/plastimatch-$threads-$against-$geometry")
+    ms=$(least <"$folder/ours-$threads-$method-$geometry-$backend")
     printf 'ours %s %s %s %s %s ms; difference from %s: largest %s nepers, mean %s\n' \
       "$method" "$words" "$geometry" "$backend" "$ms" "$against" "$largest" "$mean"
     printf 'ratio %s %s %s %s %.1f\n' "$method" "$words" "$geometry" "$backend" \
       "$(awk -v a="$peer_ms" -v b="$ms" 'BEGIN {print a / b}')"
   done <"$folder/ours-$threads"
 done
+printf 'load at the end %s\n' "$(cut -d' ' -f1 /proc/loadavg)"
