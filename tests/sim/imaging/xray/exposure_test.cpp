@@ -177,7 +177,7 @@ TEST(OpenField, HoldsThePixelsWhoseCentresAreOpen) {
   };
   expect(open_field(512, 512, {1.0, 1.0}), 0, 512, 0, 512);
   expect(open_field(512, 512, {0.5, 0.25}), 128, 384, 192, 320);
-  expect(open_field(5, 4, {0.05, 0.05}), 2, 3, 2, 2);   // the middle pixel; between the middle ones none
+  expect(open_field(5, 4, {0.05, 0.05}), 2, 3, 1, 3);   // never nothing
   expect(open_field(10, 10, {0.5, 0.49}), 2, 8, 3, 7);  // a centre on the border is open
 }
 

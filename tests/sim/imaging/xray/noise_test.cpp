@@ -124,6 +124,23 @@ TEST(Noise, BitsAreTheSameEverywhere) {
   EXPECT_EQ(base::hash_bytes(std::as_bytes(std::span(counts))), 14190267365307160282U);
 }
 
+// Rounding may leave the sum of all probabilities below the largest u: no count may run away there.
+TEST(Noise, NoCountRunsAway) {
+  for (const float mean : {0.01F, 0.1F, 1.0F, 8.0F}) {
+    float largest = 0.0F;
+    for (std::uint64_t frame = 0; frame < 30; ++frame)
+      for (const float count : counts_of(mean, 99, frame)) largest = std::max(largest, count);
+    // 3e7 draws; 2e-10 of probability lies beyond.
+    double beyond = 1.0;
+    float bound = -1.0F;
+    for (double k = 0.0, l = static_cast<double>(mean); beyond > 2e-10; k += 1.0) {
+      beyond -= std::exp(k * std::log(l) - l - std::lgamma(k + 1.0));
+      bound = static_cast<float>(k);
+    }
+    EXPECT_LE(largest, bound) << mean;
+  }
+}
+
 TEST(Noise, NothingAndNaN) {
   const float means[] = {0.0F, -1.0F, NAN, INFINITY, 1e30F};
   float counts[5];
