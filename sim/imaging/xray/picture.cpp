@@ -125,7 +125,12 @@ LogWindow window_of(const std::vector<float>& log_signal, int width_px, const Op
     }
     return 0.0;
   };
-  const double low = percentile(0.01), high = percentile(0.99);
+  // Not much further from the middle than soft tissue and bone go, so that the falling edge of a flank, or metal,
+  // does not take the contrast from the rest.
+  constexpr double kFarthestBelow = 2.0, kFarthestAbove = 1.5;
+  const double middle = percentile(0.5);
+  const double low = std::max(percentile(0.01), middle - kFarthestBelow);
+  const double high = std::min(percentile(0.99), middle + kFarthestAbove);
   constexpr double kLeastWidth = 0.5;  // so that a flat field is not stretched to noise
   return {0.5 * (low + high), std::max(high - low, kLeastWidth)};
 }

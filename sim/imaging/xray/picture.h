@@ -44,8 +44,8 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
 // and 0.045 at it; beyond, sampled.
 std::vector<float> blur_weights(double sigma_px);
 
-// The window from 1 % to 99 % of the content of the open field; what is nearly open beam does not count unless it
-// is most of the field.
+// The window from 1 % to 99 % of the content of the open field, but no further than 2 below and 1.5 above its
+// median; what is nearly open beam does not count unless it is most of the field.
 LogWindow window_of(const std::vector<float>& log_signal, int width_px, const OpenField& open);
 
 // Linear from 0 at the window's lower end to 255 at its upper.

@@ -255,6 +255,11 @@ TEST(Picture, WindowSpansTheContentButNotTheOpenBeam) {
   const LogWindow window = chain.of(lengths, settings).window;
   EXPECT_NEAR(window.center + 0.5 * window.width, beam.log_share(132.0, 0.0), 0.06);
   EXPECT_NEAR(window.center - 0.5 * window.width, beam.log_share(227.0, 0.0), 0.06);
+  for (std::size_t i = 0; i < lengths.water_mm.size(); ++i)
+    if (i / 256 < 40) lengths.mineral_mm[i] = 300.0F;  // metal takes no contrast from the rest
+  const LogWindow metal = chain.of(lengths, settings).window;
+  EXPECT_LT(metal.width, 3.5 + 0.01);
+  EXPECT_LT(std::abs(metal.center - window.center), 1.0);
   const LogWindow air = chain.of(flat(256, 0.0), settings).window;  // an open field is its own content
   EXPECT_NEAR(air.center, 0.0, 0.02);
   EXPECT_GE(air.width, 0.5);
