@@ -8,17 +8,14 @@
 namespace seldinger::imaging {
 
 // The panel adds up the energy of the photons that interact in its screen (fluorescence is taken as stopped again).
-// 0.6 mm of needles packed to 75 %: Zhao, Ristic and Rowlands, Med. Phys. 31 (2004) 2594, describe screens of 0.15
-// to 0.6 mm at about 75 %, with Swank factors about 0.9 beyond the spread of photon energies. The spread of light
-// is a Gaussian with an MTF of 0.6 at 1 lp/mm, as of fluoroscopic panels (Granfors and Aufrichtig, Med. Phys. 27
-// (2000) 1324).
+// Screens of 0.15 to 0.6 mm and their Swank factor beyond the spread of photon energies, 0.91 to 0.93: Zhao, Ristic
+// and Rowlands, Med. Phys. 31 (2004) 2594. Assumptions: needles packed to 75 %; spread of light as a Gaussian with
+// an MTF of 0.6 at 1 lp/mm; a read-out noise of two quanta a pixel, panels being limited by quantum noise.
 struct Detector {
   double csi_mm = 0.6, packing = 0.75;
-  double swank = 0.9;
+  double swank = 0.92;
   double blur_sigma_mm = 0.16;
-  // Read-out noise of one pixel, as the standard deviation in quanta: an assumption; amorphous silicon panels are
-  // limited by quantum noise down to a few quanta a pixel.
-  double electronic_quanta = 2.0;
+  double electronic_quanta = 2.0;  // standard deviation
 };
 
 // One spectrum seen by one detector. Signals are shares of the signal in the open beam, as logarithms, which
@@ -54,7 +51,7 @@ class BeamSignal {
   float log_share_in_float(float water_mm, float mineral_mm, float iron_mm) const;
   std::vector<Bin> bins_;             // by energy
   std::vector<float> float_bins_[4];  // the members of bins_
-  std::vector<float> table_;  // [mineral][water] of log share
+  std::vector<float> table_;          // [mineral][water] of log share
   double kv_, open_quanta_, open_kerma_mgy_, kerma_per_share_;
 };
 

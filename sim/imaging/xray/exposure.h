@@ -12,14 +12,15 @@
 
 namespace seldinger::imaging {
 
-// Air kerma at the panel that automatic exposure keeps, per pulse, in the measuring field: flat panels in pulsed
-// fluoroscopy ask for some 10 to 50 nGy (Nickoloff, Radiographics 31 (2011) 591, of the same order).
+// Air kerma at the panel that automatic exposure keeps, per pulse, in the measuring field: chosen in the middle of
+// the 10 to 50 nGy that are usual in pulsed fluoroscopy with flat panels.
 constexpr double kPanelKermaNgy = 30.0;
 // The measuring field: this share of the field's half width and half height about its middle.
 constexpr double kMeasuringShare = 0.5;
 constexpr double kMinTubeMa = 2.0;
 
-// The beams of one machine by tube voltage, built when first asked for. Generators set whole kilovolts.
+// The beams of one machine by tube voltage, built when first asked for (some 2 ms each). Generators set whole
+// kilovolts. For one thread at a time.
 class Beams {
  public:
   explicit Beams(const cases::Fluoroscope& fluoroscope, const Detector& detector = {});

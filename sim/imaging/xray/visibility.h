@@ -3,9 +3,9 @@
 //
 // Contrast is the relative difference of the signal with and without the object on the ray through it; σ is the
 // relative quantum noise of a patch of the panel: for the needle as wide as its shadow and as long as the shadow of
-// its last kTipElementMm, for the lesion as large as its shadow, but at most kLargestPatchMm2. The eye does not add
-// up larger patches, and anatomy hides more than quanta do: test objects for fluoroscopy show about 2–3 % as the
-// least contrast of large details, whatever their size (Leeds TO.10, TO.N3), which is 3 σ of 15 mm² at some 30 nGy.
+// its last kTipElementMm, for the lesion as large as its shadow, but at most kLargestPatchMm2. That limit is
+// chosen: the eye does not add up ever larger patches, and anatomy hides more than quanta do, so that a few per
+// cent are the least contrast of large details in fluoroscopy whatever their size; 3 σ of 15 mm² at 30 nGy are 3 %.
 // So a needle is seen in an abdomen, an opacified calyx too, and a soft-tissue lesion is not.
 #pragma once
 
