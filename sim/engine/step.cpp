@@ -17,10 +17,6 @@ glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& last) noexcept {
 
 void move_needle(const cases::Case& scene, const cases::Inputs& inputs, const cases::FireState& fire, bool first,
                  cases::NeedleState& needle) noexcept {
-  // Let go of, the needle stays where it is.
-  const bool held =
-      scene.picture.modality == cases::Modality::xray && inputs.fluoroscope.hand_away && !first && !fire.fired;
-  if (held) return;
   needle.direction = unit_or(inputs.needle.axis, needle.direction);
   if (base::is_finite(inputs.needle.position_lps_mm)) {
     const bool thrown = fire.fired && scene.instrument.kind == cases::InstrumentKind::core;
@@ -56,6 +52,8 @@ void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s, ca
   move_probe(inputs, state.probe);
   if (scene.picture.modality == cases::Modality::xray)
     advance_fluoroscope(scene, inputs, dt_s, state.fluoroscopy);
+  // Let go of, the needle stays where it is, and nobody pulls the trigger.
+  if (scene.picture.modality == cases::Modality::xray && inputs.fluoroscope.hand_away && !first) return;
   move_needle(scene, inputs, state.fire, first, state.needle);
   if (!inputs.fire || state.fire.fired) return;
   // The endpoint is where the tip stands when the trigger falls; a core needle's throw follows in the same tick.
