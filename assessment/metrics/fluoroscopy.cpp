@@ -28,8 +28,7 @@ Measured sum(const Signals& signals, const Part& part) {
 cases::ViewingAngles viewing_angles(const Signals& signals) {
   cases::ViewingAngles views;
   for (const cases::FrameTruth& frame : signals.frames)
-    if (frame.beam && !frame.beam->arm_moving)
-      cases::add_view(frame.beam->lao_deg, frame.beam->cranial_deg, views);
+    if (frame.beam && !frame.beam->arm_moving) cases::add_view(frame.beam->lao_deg, frame.beam->cranial_deg, views);
   return views;
 }
 

@@ -66,7 +66,8 @@ constexpr MetricInfo kRegistry[] = {
      "endpoint.",
      kVidal, &withdrawals_full},
     {"vis_needle", 1, "share", "Needle tip visible", Direction::higher_is_better,
-     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. A fluoroscope's "
+     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. A "
+     "fluoroscope's "
      "picture is live from a pulse until the time to the next is over; a held image is not. Null: no_skin, "
      "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane (of a slice).",
      kVidal, &vis_needle},
@@ -79,8 +80,8 @@ constexpr MetricInfo kRegistry[] = {
      "not_meaningful_out_of_plane.",
      kVidal, &vis_joint},
     {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Direction::lower_is_better,
-     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray.", kDose,
-     &fluoroscopy_time},
+     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray.",
+     kDose, &fluoroscopy_time},
     {"dap", 1, "Gy·cm²", "Dose–area product", Direction::lower_is_better,
      "Sum of the pulses' air kerma times the field's area. No pulse: 0. Null: not_xray.", kDose, &dap},
     {"air_kerma", 1, "mGy", "Air kerma", Direction::lower_is_better,
@@ -95,7 +96,8 @@ constexpr MetricInfo kRegistry[] = {
      "no_exposure.",
      kTechnique, &collimated_share},
     {"views", 1, "count", "Views", Direction::none,
-     "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 are "
+     "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 "
+     "are "
      "told apart. Null: not_xray.",
      kBullsEye, &views},
     {"view_angle_max", 1, "deg", "Widest view angle", Direction::higher_is_better,
@@ -103,12 +105,15 @@ constexpr MetricInfo kRegistry[] = {
      "depth. Null: not_xray, fewer_than_two_views.",
      kBullsEye, &view_angle_max},
     {"hand_in_beam", 1, "s", "Hand in beam", Direction::lower_is_better,
-     "Fluoroscopy time of the pulses in which the hand at the needle's hub (a ball of 45 mm radius; none while it has "
+     "Fluoroscopy time of the pulses in which the hand at the needle's hub (a ball of 45 mm radius; none while it "
+     "has "
      "let go) met the collimated beam. Null: not_xray.",
      kTechnique, &hand_in_beam},
     {"longest_advance_between_exposures", 1, "mm", "Longest unseen advance", Direction::lower_is_better,
-     "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What was "
-     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, no_skin, only_gaps, "
+     "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
+     "was "
+     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, no_skin, "
+     "only_gaps, "
      "never_in_tissue.",
      "advancing between exposures is correct practice under fluoroscopy, as long as it is short",
      &longest_advance_between_exposures},

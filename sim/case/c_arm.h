@@ -1,5 +1,5 @@
-// Where the rays of a C-arm run: the machine's angles as directions in the patient, and back. The same bits on every
-// machine.
+// Where the rays of a C-arm run: the machine's angles as directions in the patient, and back. The same bits on
+// every machine.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -24,8 +24,8 @@ struct CArm {
 // Fixed facts of the machine. Defaults: a typical angiographic C-arm with a 30 × 30 cm flat detector.
 struct Fluoroscope {
   double source_isocentre_mm = 785.0;
-  double sid_min_mm = 900.0, sid_max_mm = 1200.0;  // source to detector
-  double detector_side_mm = 300.0;                 // square
+  double sid_min_mm = 900.0, sid_max_mm = 1200.0;               // source to detector
+  double detector_side_mm = 300.0;                              // square
   std::array<double, 3> field_side_mm = {300.0, 200.0, 150.0};  // by magnification 0, 1, 2
   int picture_px = 512;                                         // square, whatever the field
   double angle_max_deg = 100.0, cranial_max_deg = 45.0;
@@ -69,12 +69,12 @@ constexpr std::array<double, 3> kPulseRateHz = {3.0, 7.5, 15.0};
 
 // What imaging found in the last exposed frame. `frame` 0: none yet.
 struct ExposureReport {
-  std::uint32_t frame = 0;      // of FluoroscopyState::frames when it was exposed
-  double air_kerma_mgy = 0.0;   // this frame's, free in air at the interventional reference point (IEC 60601-2-43:
-                                // 150 mm from the isocentre towards the source)
-  double dap_mgy_cm2 = 0.0;     // this frame's dose–area product
-  Technique next;               // what automatic exposure asks for the next frame
-  bool hand_in_beam = false;    // during this frame
+  std::uint32_t frame = 0;     // of FluoroscopyState::frames when it was exposed
+  double air_kerma_mgy = 0.0;  // this frame's, free in air at the interventional reference point (IEC 60601-2-43:
+                               // 150 mm from the isocentre towards the source)
+  double dap_mgy_cm2 = 0.0;    // this frame's dose–area product
+  Technique next;              // what automatic exposure asks for the next frame
+  bool hand_in_beam = false;   // during this frame
   bool operator==(const ExposureReport&) const = default;
 };
 
@@ -95,9 +95,9 @@ struct FluoroscopyState {
   double wait_s = 0.0;       // until the next pulse may come
   int pulse_rate = 1, magnification = 0;
   Collimator collimator;
-  Technique technique;       // of the next pulse
-  Technique last_technique;  // of the last pulse
-  double frame_s = 0.0;      // what the last pulse stands for
+  Technique technique;         // of the next pulse
+  Technique last_technique;    // of the last pulse
+  double frame_s = 0.0;        // what the last pulse stands for
   std::uint32_t reported = 0;  // the last frame whose report was taken in
   double fluoroscopy_time_s = 0.0, beam_while_moving_s = 0.0, hand_in_beam_s = 0.0;
   double air_kerma_mgy = 0.0, dap_mgy_cm2 = 0.0;

@@ -87,8 +87,8 @@ void get(const std::uint64_t*& at, FluoroscopeInputs& asked, ExposureReport& rep
 }
 
 void put(std::uint64_t*& at, const BeamTruth& beam) {
-  for (const double value : {beam.lao_deg, beam.cranial_deg, beam.kv, beam.ma, beam.air_kerma_mgy,
-                             beam.dap_mgy_cm2, beam.collimated_share, beam.beam_s})
+  for (const double value : {beam.lao_deg, beam.cranial_deg, beam.kv, beam.ma, beam.air_kerma_mgy, beam.dap_mgy_cm2,
+                             beam.collimated_share, beam.beam_s})
     put(at, value);
 }
 BeamTruth get_beam(const std::uint64_t*& at) {
@@ -103,7 +103,8 @@ BeamTruth get_beam(const std::uint64_t*& at) {
 bool uses_fluoroscope(const Recording& recording, std::size_t first_input, std::size_t end_input,
                       std::size_t first_frame, std::size_t end_frame) {
   for (std::size_t i = first_input; i < end_input; ++i)
-    if (!(recording.inputs[i].fluoroscope == FluoroscopeInputs{} && recording.inputs[i].exposure == ExposureReport{}))
+    if (!(recording.inputs[i].fluoroscope == FluoroscopeInputs{} &&
+          recording.inputs[i].exposure == ExposureReport{}))
       return true;
   for (std::size_t i = first_frame; i < end_frame; ++i)
     if (recording.frames[i].beam) return true;
@@ -249,7 +250,8 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (chunks[i].sequence != i) return base::Error{"incomplete", where + " is missing"};
     if (chunks[i].checksum != base::hash_bytes(chunks[i].data))
       return base::Error{"damaged", where + " does not have its checksum"};
-    const auto raw = base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kPoseColumns));
+    const auto raw =
+        base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kPoseColumns));
     Header header;
     if (!raw || raw->size() < sizeof header) return base::Error{"damaged", where + " cannot be read"};
     std::memcpy(&header, raw->data(), sizeof header);
@@ -260,9 +262,9 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       return base::Error{"damaged", where + " cannot be read"};
     const bool fluoroscope = header.fluoroscope == 1;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
-        raw->size() != sizeof header + 8 * (header.inputs * input_columns(fluoroscope) +
-                                            header.poses * kPoseColumns +
-                                            header.frames * frame_columns(fluoroscope)))
+        raw->size() !=
+            sizeof header + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
+                                 header.frames * frame_columns(fluoroscope)))
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s))
       return base::Error{"damaged", where + " belongs to another recording"};

@@ -15,12 +15,10 @@ void add_view(double lao_deg, double cranial_deg, ViewingAngles& views) noexcept
   bool distinct = true;
   for (int i = 0; i < views.count; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const glm::dvec3 there =
-        beam_direction(views.lao_deg[at], views.cranial_deg[at], PatientPosition::supine);
+    const glm::dvec3 there = beam_direction(views.lao_deg[at], views.cranial_deg[at], PatientPosition::supine);
     // arctan of sine over cosine: arccos would lose half the digits of small angles.
     const double sine = glm::length(glm::cross(here, there)), cosine = std::abs(glm::dot(here, there));
-    const double apart_deg =
-        cosine > 0.0 ? base::exact_atan(sine / cosine) * (180.0 / std::numbers::pi) : 90.0;
+    const double apart_deg = cosine > 0.0 ? base::exact_atan(sine / cosine) * (180.0 / std::numbers::pi) : 90.0;
     views.widest_deg = std::max(views.widest_deg, apart_deg);
     distinct = distinct && apart_deg >= kViewApartDeg;
   }

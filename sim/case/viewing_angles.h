@@ -11,9 +11,9 @@ constexpr int kMaxViews = 32;
 constexpr double kViewApartDeg = 5.0;  // nearer to one already there, it is the same view
 
 struct ViewingAngles {
-  int count = 0;                              // of distinct views, at most kMaxViews
-  double widest_deg = 0.0;                    // between two lines of sight, 0 to 90: opposite views show the same
-  std::array<double, kMaxViews> lao_deg{};      // of the first `count`; 0 beyond
+  int count = 0;                            // of distinct views, at most kMaxViews
+  double widest_deg = 0.0;                  // between two lines of sight, 0 to 90: opposite views show the same
+  std::array<double, kMaxViews> lao_deg{};  // of the first `count`; 0 beyond
   std::array<double, kMaxViews> cranial_deg{};
   bool operator==(const ViewingAngles&) const = default;
 };
