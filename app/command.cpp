@@ -16,6 +16,8 @@ constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of me
 constexpr Option kImportOptions[] = {kLibrary,
                                      {"--title", "TEXT", "the case's title; never taken from the source"},
                                      {"--series", "UID|N", "which series, when the folder holds several"},
+                                     {"--modality", "mpr|xray", "what the case is practised with; default mpr"},
+                                     {"--position", "supine|prone", "how the patient lies; default supine"},
                                      kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
@@ -55,6 +57,7 @@ constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
+    {"--modality", "mpr|xray", "slices under a probe, or fluoroscopy; default mpr"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
