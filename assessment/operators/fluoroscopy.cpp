@@ -144,8 +144,6 @@ void FluoroscopyOperator::redirect(const glm::dvec3& beside_mm) {
     stage_ = Stage::skin;
   } else {
     withdraw_to_mm_ = inserted_mm_ * profile_.redirect_depth_share;
-    advance_to_mm_ = inserted_mm_;
-    shift_mm_ = glm::dvec3(0.0);
     steer(beside_mm);
   }
   enter(Phase::withdraw);
@@ -239,7 +237,6 @@ void FluoroscopyOperator::judge_depth(const cases::BeamFrame& frame) {
     enter(Phase::fire);
   } else if (goal_mm < inserted_mm_) {
     withdraw_to_mm_ = std::max(5.0, goal_mm);
-    advance_to_mm_ = withdraw_to_mm_;
     enter(Phase::withdraw);
   } else {
     advance_towards(goal_mm);
@@ -276,8 +273,8 @@ void FluoroscopyOperator::decide(const cases::State& state) {
       if (inserted_mm_ > withdraw_to_mm_) break;
       if (withdraw_to_mm_ < 0.0)
         enter(Phase::lift);
-      else if (advance_to_mm_ > inserted_mm_ + 0.5)
-        enter(Phase::advance);
+      else if (stage_ == Stage::bulls_eye)
+        advance_towards(aim_until_mm());
       else
         begin_look();
       break;
