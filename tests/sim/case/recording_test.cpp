@@ -295,11 +295,11 @@ TEST(StateHash, EveryFieldOfAFluoroscopeInUseCounts) {
   double F::*const numbers[] = {
       &F::wait_s,         &F::frame_s,       &F::fluoroscopy_time_s, &F::beam_while_moving_s,
       &F::hand_in_beam_s, &F::air_kerma_mgy, &F::dap_mgy_cm2,        &F::collimated_s};
-  for (double F::*const number : numbers)
-    EXPECT_TRUE(changes([number](F& f) { f.*number += 1.0; })) << "number " << &number - numbers;
+  for (std::size_t i = 0; i < std::size(numbers); ++i)
+    EXPECT_TRUE(changes([number = numbers[i]](F& f) { f.*number += 1.0; })) << "number " << i;
   bool F::*const flags[] = {&F::arm_moving, &F::beam_on, &F::frame_due, &F::live, &F::hand_away};
-  for (bool F::*const flag : flags)
-    EXPECT_TRUE(changes([flag](F& f) { f.*flag = !(f.*flag); })) << "flag " << &flag - flags;
+  for (std::size_t i = 0; i < std::size(flags); ++i)
+    EXPECT_TRUE(changes([flag = flags[i]](F& f) { f.*flag = !(f.*flag); })) << "flag " << i;
   EXPECT_TRUE(changes([](F& f) { f.arm.lao_deg = 1; }));
   EXPECT_TRUE(changes([](F& f) { f.arm.cranial_deg = 1; }));
   EXPECT_TRUE(changes([](F& f) { f.arm.sid_mm = 1; }));
