@@ -12,10 +12,11 @@ BEGIN
 END;
 
 -- attempt.picture_modality takes 'xray' too. SQLite changes a CHECK only with a new table: the rows go to a copy and
--- back, and the references to them are looked at when all is there again, at the commit.
+-- back, and the references to them are looked at when all is there again, at the commit. The copy is a temporary one,
+-- so that it leaves no hole in the file.
 PRAGMA defer_foreign_keys = ON;
 DROP VIEW attempt_summary;
-CREATE TABLE attempt_before AS SELECT * FROM attempt;
+CREATE TEMPORARY TABLE attempt_before AS SELECT * FROM attempt;
 DROP TABLE attempt;
 
 CREATE TABLE attempt (
@@ -62,8 +63,8 @@ BEGIN
   SELECT RAISE(ABORT, 'an attempt cannot be deleted');
 END;
 
-INSERT INTO attempt SELECT * FROM attempt_before;
-DROP TABLE attempt_before;
+INSERT INTO attempt SELECT * FROM temp.attempt_before;
+DROP TABLE temp.attempt_before;
 
 -- An attempt with what every list of attempts shows.
 CREATE VIEW attempt_summary AS
