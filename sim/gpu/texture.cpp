@@ -10,11 +10,34 @@
 
 namespace seldinger::gpu {
 
+namespace {
+
+std::size_t count(glm::ivec3 size) {
+  CHECK(size.x > 0 && size.y > 0 && size.z > 0);
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+}
+
+}  // namespace
+
 Texture::Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t> values)
     : handles_(context.handles()) {
-  CHECK(size.x > 0 && size.y > 0 && size.z > 0);
-  CHECK(values.size() ==
-        static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z));
+  CHECK(values.size() == count(size));
+  upload(size, GL_R16I, GL_RED_INTEGER, GL_SHORT, values.data());
+}
+
+Texture::Texture(const std::shared_ptr<Handles>& handles, glm::ivec3 size, std::span<const std::uint16_t> values,
+                 int numbers)
+    : handles_(handles) {
+  CHECK(numbers == 1 || numbers == 2);
+  CHECK(values.size() == count(size) * static_cast<std::size_t>(numbers));
+  if (numbers == 1)
+    upload(size, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, values.data());
+  else
+    upload(size, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, values.data());
+}
+
+void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type,
+                     const void* values) {
   handles_->make_current();
   GLint largest_side = 0, most_slices = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest_side);
@@ -32,9 +55,8 @@ Texture::Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 2);  // rows of int16 follow each other without padding
-    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R16I, size.x, size.y, size.z, 0, GL_RED_INTEGER, GL_SHORT,
-                 values.data());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 2);  // rows of 16-bit numbers follow each other without padding
+    glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(inner), size.x, size.y, size.z, 0, outer, type, values);
     handles_->check_errors("uploading a volume");
   } catch (...) {
     glDeleteTextures(1, &name_);

@@ -1,16 +1,14 @@
 // The block that MPR's shader reads has the offsets that C++ writes: the GLSL compiler's answer against offsetof.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <string>
 
 #include "shaders/shared/mpr.glsl.h"
 #include "sim/base/embedded.h"
+#include "tests/gpu_cpu/shader_offsets.h"
 
 namespace seldinger::embedded {
 std::span<const base::EmbeddedFile> mpr_shaders();
@@ -19,31 +17,10 @@ std::span<const base::EmbeddedFile> mpr_shaders();
 namespace seldinger::imaging {
 namespace {
 
-// Offsets in the block Parameters as `glslangValidator -q` tells them.
-std::map<std::string, std::size_t> offsets_from_compiler(const std::string& shader_text) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "mpr_parameters";
-  std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / "mpr_slice.comp";
-  std::ofstream(file) << shader_text;
-  const std::string command = std::string(SELDINGER_GLSLANG) + " -l -q '" + file.string() + "'";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::map<std::string, std::size_t> offsets;
-  std::array<char, 4096> line{};
-  while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
-    std::array<char, 64> field{};
-    std::size_t offset = 0;
-    if (std::sscanf(line.data(), "parameters.%63[a-z_]: offset %zu", field.data(), &offset) == 2)
-      offsets[field.data()] = offset;
-  }
-  if (pclose(pipe) != 0) return {};
-  return offsets;
-}
-
 TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
   const auto files = embedded::mpr_shaders();
   ASSERT_EQ(files.size(), 1U);
-  const std::map<std::string, std::size_t> offsets = offsets_from_compiler(std::string(files[0].content));
+  const std::map<std::string, std::size_t> offsets = offsets_from_compiler(files[0]);
   using P = shaders::MprParameters;
   const std::map<std::string, std::size_t> ours{
       {"index_first", offsetof(P, index_first)},

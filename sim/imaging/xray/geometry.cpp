@@ -41,6 +41,19 @@ base::Result<void> check_geometry(const XrayGeometry& g) {
   return {};
 }
 
+std::optional<glm::dvec2> pixel_of(const XrayGeometry& g, const glm::dvec3& p_lps_mm) noexcept {
+  const glm::dvec3 normal = glm::cross(g.u, g.v);
+  const glm::dvec3 ray = g.source_lps_mm ? p_lps_mm - *g.source_lps_mm : g.direction;
+  const glm::dvec3 from = g.source_lps_mm ? *g.source_lps_mm : p_lps_mm;
+  const double depth = glm::dot(ray, normal), distance = glm::dot(g.detector_center_lps_mm - from, normal);
+  if (g.source_lps_mm && !(depth * distance > kLeastSine * distance * distance)) return std::nullopt;
+  const glm::dvec3 hit = from + ray * (distance / depth) - g.detector_center_lps_mm;
+  const glm::dvec2 pixel(glm::dot(hit, g.u) / g.pixel_mm + 0.5 * (g.width_px - 1),
+                         glm::dot(hit, g.v) / g.pixel_mm + 0.5 * (g.height_px - 1));
+  if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return std::nullopt;
+  return pixel;
+}
+
 RaySegment ray_of(const XrayGeometry& g, const volume::Volume& volume, int column, int row) {
   const glm::dvec3 pixel = g.detector_center_lps_mm + g.u * (g.pixel_mm * (column - 0.5 * (g.width_px - 1))) +
                            g.v * (g.pixel_mm * (row - 0.5 * (g.height_px - 1)));

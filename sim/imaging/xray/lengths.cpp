@@ -42,9 +42,14 @@ IndexRay index_ray(const volume::Volume& volume, const glm::dvec3& from_lps_mm, 
 std::vector<double> cuts(const IndexRay& ray, const glm::ivec3& size_voxels, double first) {
   std::vector<double> t = {ray.enter, ray.leave};
   for (int axis = 0; axis < 3; ++axis) {
-    if (ray.along[axis] == 0.0) continue;
-    for (int plane = 0; plane < size_voxels[axis]; ++plane) {
-      const double at = (first + plane - ray.from[axis]) / ray.along[axis];
+    const double from = ray.from[axis], along = ray.along[axis];
+    if (along == 0.0) continue;
+    // Planes that the part inside can meet, one more on each side for rounding.
+    const double one = from + ray.enter * along - first, other = from + ray.leave * along - first;
+    const auto lowest = std::max(0, static_cast<int>(std::floor(std::min(one, other))));
+    const auto highest = std::min(size_voxels[axis] - 1, static_cast<int>(std::ceil(std::max(one, other))));
+    for (int plane = lowest; plane <= highest; ++plane) {
+      const double at = (first + plane - from) / along;
       if (at > ray.enter && at < ray.leave) t.push_back(at);
     }
   }

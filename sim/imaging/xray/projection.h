@@ -10,6 +10,7 @@
 // (GL 4.3 compute). Instruments are laid over afterwards (instruments.h), the same for all.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -68,6 +69,10 @@ struct RaySegment {
 };
 RaySegment ray_of(const XrayGeometry& geometry, const volume::Volume& volume, int column, int row);
 
+// Where a point of space is seen, in pixels (0 = centre of the first); nothing when it does not lie before the
+// source.
+std::optional<glm::dvec2> pixel_of(const XrayGeometry& geometry, const glm::dvec3& p_lps_mm) noexcept;
+
 PathLengths xray_reference(const volume::Volume& volume, const XrayGeometry& geometry, ProjectionMethod method);
 
 enum class Instructions { scalar, avx2, avx512 };
@@ -85,7 +90,7 @@ class XrayCpu {
   explicit XrayCpu(const volume::Volume& volume);  // `volume` must outlive it
   ~XrayCpu();
   XrayCpu(XrayCpu&&) noexcept;
-  // `geometry` in order (check_geometry).
+  // `geometry` in order (check_geometry). trilinear is the reference's, in double, on threads.
   PathLengths project(const XrayGeometry& geometry, ProjectionMethod method, const CpuOptions& options = {}) const;
   std::size_t bytes() const noexcept;
 

@@ -1,0 +1,34 @@
+// Quantum noise: Poisson counts as a pure function of (seed, frame, pixel). The same bits on every machine, in any
+// order and for any number of threads.
+#pragma once
+
+#include <cstdint>
+
+namespace seldinger::imaging {
+
+struct NoiseKey {
+  std::uint32_t first = 0, second = 0;
+};
+NoiseKey noise_key(std::uint64_t seed, std::uint64_t frame) noexcept;
+
+// 32 bits of pixel `pixel`: two rounds of an integer hash, one before and one after the frame's key comes in again.
+constexpr std::uint32_t noise_bits(NoiseKey key, std::uint32_t pixel) noexcept {
+  // Multipliers and shifts: Wellons' search for low-bias 32-bit permutations (hash-prospector, "lowbias32").
+  const auto mix = [](std::uint32_t x) {
+    x = (x ^ (x >> 16)) * 0x7feb352dU;
+    x = (x ^ (x >> 15)) * 0x846ca68bU;
+    return x ^ (x >> 16);
+  };
+  return mix(mix(pixel ^ key.first) + key.second);
+}
+
+// Below this mean, counts are drawn by inversion of the distribution function; above, by Cornish and Fisher's
+// expansion of its quantile (Abramowitz and Stegun 26.2.49) with a correction for whole numbers.
+constexpr float kInversionMean = 16.0F;
+
+// counts[i] for pixel first_pixel + i of expected `means[i]` ≥ 0; NaN stays NaN. With `electronic_quanta` > 0,
+// normal noise of that standard deviation is added and counts are not whole (and may be negative).
+void noisy_counts(const float* means, int count, NoiseKey key, std::uint32_t first_pixel, float electronic_quanta,
+                  float* counts) noexcept;
+
+}  // namespace seldinger::imaging

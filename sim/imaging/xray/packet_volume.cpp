@@ -1,0 +1,87 @@
+#include "sim/imaging/xray/packet_volume.h"
+
+#include <algorithm>
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr int kNothingHu = -1000;  // at and below it nothing attenuates
+
+// The smallest box of voxels above kNothingHu; an empty one has high < low.
+void tight_box(const volume::Volume& volume, glm::ivec3& low, glm::ivec3& high) {
+  const glm::ivec3 size = volume.size_voxels;
+  low = size;
+  high = glm::ivec3(-1);
+  const std::int16_t* row = volume.hu.data();
+  for (int k = 0; k < size.z; ++k)
+    for (int j = 0; j < size.y; ++j, row += size.x) {
+      int first = 0, last = size.x - 1;
+      while (first < size.x && row[first] <= kNothingHu) ++first;
+      if (first == size.x) continue;
+      while (row[last] <= kNothingHu) --last;
+      low = glm::min(low, glm::ivec3(first, j, k));
+      high = glm::max(high, glm::ivec3(last, j, k));
+    }
+}
+
+}  // namespace
+
+PacketVolume::PacketVolume(const volume::Volume& volume) {
+  glm::ivec3 high;
+  tight_box(volume, low, high);
+  if (high.x < low.x) {
+    low = glm::ivec3(0);
+    return;
+  }
+  // One voxel of air around it where there is any: interpolation reaches half a voxel into it.
+  low = glm::max(low - 1, glm::ivec3(0));
+  high = glm::min(high + 1, volume.size_voxels - 1);
+  size = high - low + 1;
+  stride = {1, size.x, size.x * size.y};
+  // A ray's index may round one voxel beyond a face, at weight 0 or nearly; it must still be ours to read.
+  margin = 2 * (std::ptrdiff_t{1} + size.x + std::ptrdiff_t{size.x} * size.y) + 64;
+  values.assign(
+      static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z) +
+          2 * static_cast<std::size_t>(margin),
+      0);
+  constexpr int kCell = 1 << kCellShift;
+  cells = (size + (kCell - 1)) / kCell;
+  const glm::ivec3 n = cells + 1;
+  occupied_before.assign(static_cast<std::size_t>(n.x) * n.y * n.z, 0);
+  const auto before = [&](int i, int j, int k) -> std::int32_t& {
+    return occupied_before[(static_cast<std::size_t>(k) * n.y + j) * n.x + i];
+  };
+  std::uint16_t* out = values.data() + margin;
+  for (int k = 0; k < size.z; ++k)
+    for (int j = 0; j < size.y; ++j, out += size.x) {
+      const std::int16_t* in = volume.hu.data() + volume.index(low.x, low.y + j, low.z + k);
+      for (int i = 0; i < size.x; ++i) out[i] = static_cast<std::uint16_t>(std::max(0, in[i] - kNothingHu));
+      for (int cell = 0; cell < cells.x; ++cell) {
+        const std::uint16_t* from = out + cell * kCell;
+        const std::uint16_t* to = out + std::min(size.x, (cell + 1) * kCell);
+        if (std::any_of(from, to, [](std::uint16_t value) { return value != 0; }))
+          before(cell + 1, (j >> kCellShift) + 1, (k >> kCellShift) + 1) = 1;
+      }
+    }
+  for (int k = 1; k < n.z; ++k)
+    for (int j = 1; j < n.y; ++j)
+      for (int i = 1; i < n.x; ++i)
+        before(i, j, k) += before(i - 1, j, k) + before(i, j - 1, k) + before(i, j, k - 1) -
+                           before(i - 1, j - 1, k) - before(i - 1, j, k - 1) - before(i, j - 1, k - 1) +
+                           before(i - 1, j - 1, k - 1);
+}
+
+bool PacketVolume::any_in(const glm::ivec3& low_voxel, const glm::ivec3& high_voxel) const noexcept {
+  const glm::ivec3 a = glm::max(low_voxel, 0) >> kCellShift;
+  const glm::ivec3 b = (glm::min(high_voxel, size - 1) >> kCellShift) + 1;
+  if (b.x <= a.x || b.y <= a.y || b.z <= a.z) return false;
+  const glm::ivec3 n = cells + 1;
+  const auto before = [&](int i, int j, int k) {
+    return occupied_before[(static_cast<std::size_t>(k) * n.y + j) * n.x + i];
+  };
+  return before(b.x, b.y, b.z) - before(a.x, b.y, b.z) - before(b.x, a.y, b.z) - before(b.x, b.y, a.z) +
+             before(a.x, a.y, b.z) + before(a.x, b.y, a.z) + before(b.x, a.y, a.z) - before(a.x, a.y, a.z) !=
+         0;
+}
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,31 @@
+// What packets of rays read: the part of the volume that attenuates, as max(0, 1000 + HU) in 16 bits, and which
+// cells of it are empty. Inside sim/imaging/xray only.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "sim/volume/volume.h"
+
+namespace seldinger::imaging {
+
+struct PacketVolume {
+  explicit PacketVolume(const volume::Volume& volume);
+
+  static constexpr int kCellShift = 3;  // a cell is 8 × 8 × 8 voxels
+
+  glm::ivec3 low{0};   // first voxel of the kept box in the volume
+  glm::ivec3 size{0};  // of the kept box; 0 when nothing attenuates
+  glm::ivec3 stride{0};
+  std::vector<std::uint16_t> values;  // with `margin` unused values before and after the box
+  std::ptrdiff_t margin = 0;
+  glm::ivec3 cells{0};
+  std::vector<std::int32_t> occupied_before;  // number of occupied cells in [0,i)×[0,j)×[0,k), (cells + 1)³ of them
+
+  const std::uint16_t* first() const noexcept { return values.data() + margin; }
+  // Whether any voxel in the box low … high (inclusive; clipped to the volume) attenuates.
+  bool any_in(const glm::ivec3& low_voxel, const glm::ivec3& high_voxel) const noexcept;
+};
+
+}  // namespace seldinger::imaging

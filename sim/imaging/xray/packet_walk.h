@@ -1,0 +1,361 @@
+// The template of packet.h. Included by packet_*.cpp only, each of which names its vector V: lanes of float F, of
+// 32-bit integers I and masks M.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/imaging/xray/packet.h"
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr int kBlock = 32;           // slabs from one start found in double to the next
+constexpr double kNever = 1e30;      // the next crossing of a ray parallel to the planes
+constexpr double kNowhere = 1e9;     // where an idle lane's segment lies
+constexpr float kWaterValue = 1000;  // a voxel's value at 0 HU
+
+// floor for −2^20 < x < 2^31 − 2^20, in a form that vectorises with the same answer everywhere.
+inline int floor_of(double x) {
+  return static_cast<int>(x + 1048576.0) - 1048576;
+}
+
+// One minor axis of all lanes, mirrored where the ray runs down.
+template <int W>
+struct MinorAxis {
+  alignas(64) double at_zero[W];  // coordinate where the main coordinate is 0
+  alignas(64) double slope[W];    // per slab, ≥ 0
+  alignas(64) double inverse[W];
+  alignas(64) std::int32_t stride[W];  // of the mirrored index
+  alignas(64) std::int32_t mirrored[W];
+  // At the start of the block:
+  alignas(64) std::int32_t index[W];
+  alignas(64) float crossing[W];  // in slabs
+  alignas(64) float inverse_f[W], slope_f[W], part[W];
+};
+
+template <class V>
+struct Packet {
+  static constexpr int W = V::kLanes;
+  MinorAxis<W> minor[2];
+  alignas(64) double enter[W], leave[W];  // main coordinate
+  alignas(64) double mm_per_slab[W];
+  alignas(64) double total[W], mineral[W];
+  alignas(64) std::int32_t base[W], offset[W];
+  alignas(64) float enter_f[W], leave_f[W];
+};
+
+// A block's slabs by exact pieces. With `clipped` some lane begins or ends inside the block.
+template <class V, bool mineral, bool clipped>
+void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, int slabs) {
+  using F = typename V::F;
+  using I = typename V::I;
+  constexpr int W = V::kLanes;
+  const MinorAxis<W>&y = packet.minor[0], &z = packet.minor[1];
+  const F y0 = V::load(y.crossing), z0 = V::load(z.crossing);
+  const F y_inverse = V::load(y.inverse_f), z_inverse = V::load(z.inverse_f);
+  const I y_stride = V::load(y.stride), z_stride = V::load(z.stride);
+  const F one = V::all(1.0F), zero = V::all(0.0F), water = V::all(kWaterValue);
+  const F enter = V::load(packet.enter_f), leave = V::load(packet.leave_f);
+  const I step = V::all(main_stride);
+  I offset = V::load(packet.offset);
+  F ny = zero, nz = zero, ty = y0, tz = z0, sum = zero, sum_mineral = zero, begin = zero;
+  const std::uint16_t* values = volume.first();
+  for (int k = 0; k < slabs; ++k) {
+    const F end = V::add(begin, one);
+    const F low = clipped ? V::max(begin, enter) : begin;
+    const F high = clipped ? V::max(V::min(end, leave), low) : end;
+    const F first = V::min(V::max(V::min(ty, tz), low), high);
+    const F second = V::min(V::max(V::max(ty, tz), low), high);
+    const auto in_y = V::less(ty, end), in_z = V::less(tz, end);
+    const auto third = V::both(in_y, in_z);
+    const auto add = [&](const I& at, const F& from, const F& to) {
+      const F length = V::sub(to, from);
+      const F value = clipped ? V::gather(values, at, V::less(from, to)) : V::gather(values, at);
+      sum = V::add(sum, V::mul(value, length));
+      if constexpr (mineral) sum_mineral = V::add(sum_mineral, V::mul(V::positive(V::sub(value, water)), length));
+    };
+    if (!clipped || V::any(V::less(low, high))) {
+      add(offset, low, first);
+      if (V::any(V::either(in_y, in_z)))
+        add(V::add(offset, V::select(V::less(tz, ty), z_stride, y_stride)), first, second);
+      if (V::any(third)) add(V::add(V::add(offset, y_stride), z_stride), second, high);
+    }
+    offset = V::add(offset, step);
+    offset = V::add_where(in_y, offset, y_stride);
+    offset = V::add_where(in_z, offset, z_stride);
+    ny = V::add_where(in_y, ny, one);
+    nz = V::add_where(in_z, nz, one);
+    ty = V::add(y0, V::mul(ny, y_inverse));
+    tz = V::add(z0, V::mul(nz, z_inverse));
+    begin = end;
+  }
+  V::add_to(packet.total, sum);
+  if constexpr (mineral) V::add_to(packet.mineral, sum_mineral);
+}
+
+// A block's slabs by one bilinear sample each, in the middle of the ray's piece. With `pairs` the first minor axis
+// is x, whose neighbours lie side by side.
+template <class V, bool mineral, bool pairs>
+void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, const int (&size)[2], int slabs) {
+  using F = typename V::F;
+  using I = typename V::I;
+  constexpr int W = V::kLanes;
+  const F zero = V::all(0.0F), one = V::all(1.0F), half = V::all(0.5F), water = V::all(kWaterValue);
+  const F enter = V::load(packet.enter_f), leave = V::load(packet.leave_f);
+  F part[2], slope[2], lowest[2], highest[2], last[2];
+  I stride[2], next[2];
+  for (int i = 0; i < 2; ++i) {
+    const MinorAxis<W>& axis = packet.minor[i];
+    part[i] = V::sub(V::load(axis.part), half);
+    slope[i] = V::load(axis.slope_f);
+    const F index = V::to_float(V::load(axis.index));
+    lowest[i] = V::sub(zero, index);
+    highest[i] = V::sub(V::all(static_cast<float>(size[i] - 1)), index);
+    last[i] = V::sub(V::all(static_cast<float>(std::max(size[i] - 2, 0))), index);
+    stride[i] = V::load(axis.stride);
+    next[i] = size[i] > 1 ? stride[i] : V::all(0);
+  }
+  I offset = V::load(packet.offset);
+  const I step = V::all(main_stride);
+  F sum = zero, sum_mineral = zero, begin = zero;
+  const std::uint16_t* values = volume.first();
+  for (int k = 0; k < slabs; ++k) {
+    const F end = V::add(begin, one);
+    const F low = V::max(begin, enter), high = V::max(V::min(end, leave), low);
+    const auto live = V::less(low, high);
+    if (V::any(live)) {
+      const F middle = V::mul(V::add(low, high), half), length = V::sub(high, low);
+      I at = offset;
+      F weight[2];
+      for (int i = 0; i < 2; ++i) {
+        const F place = V::min(V::max(V::add(part[i], V::mul(slope[i], middle)), lowest[i]), highest[i]);
+        const F whole = V::min(V::floor(place), last[i]);
+        weight[i] = V::sub(place, whole);
+        at = V::add(at, V::mul(V::to_int(whole), stride[i]));
+      }
+      const auto lerp = [&](const F& a, const F& b, const F& t) { return V::add(a, V::mul(V::sub(b, a), t)); };
+      F v00, v10, v01, v11;
+      if constexpr (pairs) {
+        V::gather_pair(values, at, live, v00, v10);
+        V::gather_pair(values, V::add(at, next[1]), live, v01, v11);
+      } else {
+        v00 = V::gather(values, at, live);
+        v10 = V::gather(values, V::add(at, next[0]), live);
+        at = V::add(at, next[1]);
+        v01 = V::gather(values, at, live);
+        v11 = V::gather(values, V::add(at, next[0]), live);
+      }
+      sum = V::add(sum, V::mul(lerp(lerp(v00, v10, weight[0]), lerp(v01, v11, weight[0]), weight[1]), length));
+      if constexpr (mineral) {
+        const auto above = [&](const F& v) { return V::positive(V::sub(v, water)); };
+        sum_mineral = V::add(sum_mineral, V::mul(lerp(lerp(above(v00), above(v10), weight[0]),
+                                                      lerp(above(v01), above(v11), weight[0]), weight[1]),
+                                                 length));
+      }
+    }
+    offset = V::add(offset, step);
+    begin = end;
+  }
+  V::add_to(packet.total, sum);
+  if constexpr (mineral) V::add_to(packet.mineral, sum_mineral);
+}
+
+// Where lanes stand at the start of a block, from double; and the voxels they may meet in it.
+template <class V>
+void start_block(Packet<V>& packet, int block, int main_stride, const int (&size)[2], glm::ivec2& low,
+                 glm::ivec2& high) {
+  constexpr int W = V::kLanes;
+  const auto start = static_cast<double>(block);
+  for (int l = 0; l < W; ++l) {
+    packet.offset[l] = packet.base[l] + block * main_stride;
+    packet.enter_f[l] = static_cast<float>(packet.enter[l] - start);
+    packet.leave_f[l] = static_cast<float>(packet.leave[l] - start);
+  }
+  for (int i = 0; i < 2; ++i) {
+    MinorAxis<W>& axis = packet.minor[i];
+    int least = 1 << 30, most = -(1 << 30);
+    for (int l = 0; l < W; ++l) {
+      const double at = axis.at_zero[l] + start * axis.slope[l];
+      const int index = floor_of(at);
+      const int end = floor_of(at + kBlock * axis.slope[l]);
+      const double part = std::min(1.0, std::max(0.0, at - index));
+      axis.index[l] = index;
+      axis.part[l] = static_cast<float>(part);
+      axis.crossing[l] = static_cast<float>((1.0 - part) * axis.inverse[l]);
+      packet.offset[l] += index * axis.stride[l];
+      const bool idle = packet.enter[l] >= packet.leave[l];
+      const int one = axis.mirrored[l] != 0 ? size[i] - 1 - end : index;
+      const int other = axis.mirrored[l] != 0 ? size[i] - 1 - index : end;
+      least = std::min(least, idle ? 1 << 30 : std::min(one, other));
+      most = std::max(most, idle ? -(1 << 30) : std::max(one, other));
+    }
+    low[i] = least - 1;  // a voxel more on each side: rounding, interpolation
+    high[i] = most + 1;
+  }
+}
+
+template <class V>
+void walk(const PacketJob& job, Packet<V>& packet, int main) {
+  constexpr int W = V::kLanes;
+  const PacketVolume& volume = *job.volume;
+  const int axes[2] = {main == 0 ? 1 : 0, main == 2 ? 1 : 2};
+  const int size[2] = {volume.size[axes[0]], volume.size[axes[1]]};
+  const int main_stride = volume.stride[main];
+  double first = kNowhere, last = -kNowhere;
+  for (int l = 0; l < W; ++l) {
+    if (packet.enter[l] >= packet.leave[l]) continue;
+    first = std::min(first, packet.enter[l]);
+    last = std::max(last, packet.leave[l]);
+  }
+  if (!(first < last)) return;
+  // Blocks begin at multiples of kBlock whatever the packet, so that a ray's arithmetic is its own.
+  for (int block = floor_of(first) / kBlock * kBlock; block < last; block += kBlock) {
+    glm::ivec2 low, high;
+    start_block(packet, block, main_stride, size, low, high);
+    glm::ivec3 low_voxel, high_voxel;
+    low_voxel[main] = block;
+    high_voxel[main] = block + kBlock - 1;
+    for (int i = 0; i < 2; ++i) {
+      low_voxel[axes[i]] = low[i];
+      high_voxel[axes[i]] = high[i];
+    }
+    if (!volume.any_in(low_voxel, high_voxel)) continue;  // adds nothing to any lane
+    bool inside = true;
+    for (int l = 0; l < W; ++l)
+      inside = inside && packet.enter_f[l] <= 0.0F && packet.leave_f[l] >= static_cast<float>(kBlock);
+    const int slabs = std::min(kBlock, floor_of(last) + 1 - block);
+    const bool mineral = job.mineral_mm != nullptr;
+    if (job.slab && main != 0)
+      mineral ? walk_slabs<V, true, true>(volume, packet, main_stride, size, slabs)
+              : walk_slabs<V, false, true>(volume, packet, main_stride, size, slabs);
+    else if (job.slab)
+      mineral ? walk_slabs<V, true, false>(volume, packet, main_stride, size, slabs)
+              : walk_slabs<V, false, false>(volume, packet, main_stride, size, slabs);
+    else if (inside)
+      mineral ? walk_exact<V, true, false>(volume, packet, main_stride, slabs)
+              : walk_exact<V, false, false>(volume, packet, main_stride, slabs);
+    else
+      mineral ? walk_exact<V, true, true>(volume, packet, main_stride, slabs)
+              : walk_exact<V, false, true>(volume, packet, main_stride, slabs);
+  }
+}
+
+template <class V>
+void project_packet(const PacketJob& job, const double (&column)[V::kLanes], const double (&row)[V::kLanes],
+                    double (&water_mm)[V::kLanes], double (&mineral_mm)[V::kLanes]) {
+  constexpr int W = V::kLanes;
+  const PacketView& view = *job.view;
+  const PacketVolume& volume = *job.volume;
+  alignas(64) double from[3][W], along[3][W], enter[W], leave[W], length_mm[W];
+  for (int l = 0; l < W; ++l) {
+    enter[l] = 0.0;
+    leave[l] = 1.0;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from_0 = view.from[axis], from_c = view.from_per_column[axis], from_r = view.from_per_row[axis];
+    const double to_0 = view.to[axis], to_c = view.to_per_column[axis], to_r = view.to_per_row[axis];
+    const double size = volume.size[axis];
+    for (int l = 0; l < W; ++l) {
+      const double a = from_0 + column[l] * from_c + row[l] * from_r;
+      const double b = to_0 + column[l] * to_c + row[l] * to_r;
+      const double d = b - a;
+      from[axis][l] = a;
+      along[axis][l] = d;
+      // The lower face belongs to the box, the upper does not.
+      const bool parallel = d == 0.0, within = (a >= 0.0) & (a < size);
+      const double inverse = 1.0 / (parallel ? 1.0 : d);
+      const double one = (0.0 - a) * inverse, other = (size - a) * inverse;
+      const double near = one < other ? one : other, far = one < other ? other : one;
+      const double t_in = parallel ? (within ? 0.0 : 2.0) : near, t_out = parallel ? 1.0 : far;
+      enter[l] = enter[l] < t_in ? t_in : enter[l];
+      leave[l] = leave[l] < t_out ? leave[l] : t_out;
+    }
+  }
+  bool any = false;
+  for (int l = 0; l < W; ++l) any |= enter[l] < leave[l];
+  for (int l = 0; l < W; ++l) water_mm[l] = mineral_mm[l] = 0.0;
+  if (!any) return;
+  const glm::dmat3& m = view.mm_from_voxel;
+  alignas(64) int main_axis[W];
+  bool used[3] = {false, false, false};
+  for (int l = 0; l < W; ++l) {
+    const double x = along[0][l], y = along[1][l], z = along[2][l];
+    const double mm_x = m[0][0] * x + m[1][0] * y + m[2][0] * z, mm_y = m[0][1] * x + m[1][1] * y + m[2][1] * z,
+                 mm_z = m[0][2] * x + m[1][2] * y + m[2][2] * z;
+    length_mm[l] = std::sqrt(mm_x * mm_x + mm_y * mm_y + mm_z * mm_z);
+    const double size_x = std::abs(x), size_y = std::abs(y), size_z = std::abs(z);
+    main_axis[l] = (size_x >= size_y) & (size_x >= size_z) ? 0 : size_y >= size_z ? 1 : 2;
+  }
+  for (int l = 0; l < W; ++l) used[main_axis[l]] |= enter[l] < leave[l];
+  for (int main = 0; main < 3; ++main) {
+    if (!used[main]) continue;
+    Packet<V> packet;
+    for (int l = 0; l < W; ++l) {
+      const double a = from[main][l], d = along[main][l];
+      const bool live = (main_axis[l] == main) & (enter[l] < leave[l]);
+      const double one = a + enter[l] * d, other = a + leave[l] * d;
+      packet.enter[l] = live ? (one < other ? one : other) : kNowhere;
+      packet.leave[l] = live ? (one < other ? other : one) : -kNowhere;
+      packet.mm_per_slab[l] = live ? length_mm[l] / std::abs(d) : 0.0;
+      packet.total[l] = packet.mineral[l] = 0.0;
+      packet.base[l] = 0;
+    }
+    for (int i = 0; i < 2; ++i) {
+      MinorAxis<W>& axis = packet.minor[i];
+      const int which = i == 0 ? (main == 0 ? 1 : 0) : (main == 2 ? 1 : 2);
+      const double size = volume.size[which];
+      const int stride = volume.stride[which], turned = (volume.size[which] - 1) * stride;
+      for (int l = 0; l < W; ++l) {
+        const bool live = packet.enter[l] < packet.leave[l];
+        const double slope = live ? along[which][l] / along[main][l] : 0.0;
+        const double at_zero = live ? from[which][l] - from[main][l] * slope : 0.0;
+        const bool down = slope < 0.0 && !job.slab;
+        axis.mirrored[l] = down;
+        axis.at_zero[l] = down ? size - at_zero : at_zero;
+        const double steep = down ? -slope : slope;
+        axis.slope[l] = steep;
+        const double inverse = 1.0 / (steep > 1.0 / kNever ? steep : 1.0 / kNever);
+        axis.inverse[l] = inverse;
+        axis.inverse_f[l] = static_cast<float>(inverse);
+        axis.slope_f[l] = static_cast<float>(steep);
+        axis.stride[l] = down ? -stride : stride;
+        packet.base[l] += down ? turned : 0;
+      }
+    }
+    walk(job, packet, main);
+    for (int l = 0; l < W; ++l) {
+      const double scale = packet.mm_per_slab[l] / kWaterValue;
+      water_mm[l] += (packet.total[l] - packet.mineral[l]) * scale;
+      mineral_mm[l] += packet.mineral[l] * scale;
+    }
+  }
+}
+
+template <class V>
+void project_tile(const PacketJob& job, int first_column, int first_row) {
+  constexpr int W = V::kLanes;
+  constexpr int kWide = W >= 8 ? 8 : 1, kHigh = W / kWide;  // neighbours in both directions
+  const PacketView& view = *job.view;
+  const int columns = std::min(kTilePx, view.width_px - first_column);
+  const int rows = std::min(kTilePx, view.height_px - first_row);
+  for (int r = 0; r < rows; r += kHigh)
+    for (int c = 0; c < columns; c += kWide) {
+      double column[W], row[W], water_mm[W], mineral_mm[W];
+      for (int l = 0; l < W; ++l) {
+        column[l] = first_column + c + l % kWide;
+        row[l] = first_row + r + l / kWide;
+      }
+      project_packet<V>(job, column, row, water_mm, mineral_mm);
+      for (int l = 0; l < W; ++l) {
+        if (c + l % kWide >= columns || r + l / kWide >= rows) continue;
+        const std::ptrdiff_t pixel =
+            std::ptrdiff_t{first_row + r + l / kWide} * view.width_px + first_column + c + l % kWide;
+        job.water_mm[pixel] = static_cast<float>(water_mm[l]);
+        if (job.mineral_mm != nullptr) job.mineral_mm[pixel] = static_cast<float>(mineral_mm[l]);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace seldinger::imaging

@@ -1,0 +1,54 @@
+// One fluoroscopy frame: from path lengths to what a person sees. Order: transmission of the spectrum, quantum
+// noise, spread of light in the screen, logarithm, window. Bright is what lets radiation through: bones and needles
+// are dark, as in live fluoroscopy. Behind the collimator's leaves it is black. Not modelled: scatter (as behind an
+// ideal grid), focal spot, lag; read-out noise is added before the spread of light, after which it belongs, and is
+// small.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/imaging/xray/exposure.h"
+
+namespace seldinger::imaging {
+
+// Of log(signal/signal of the open beam), so that it does not depend on tube current or distance.
+struct LogWindow {
+  double center = -3.0, width = 4.0;
+};
+
+struct PictureSettings {
+  std::uint64_t seed = 1, frame = 1;  // of the noise
+  std::optional<LogWindow> window;    // else from the open field's content
+  bool noise = true;
+  int threads = 1;  // the picture has the same bits for any number
+};
+
+struct FluoroscopyPicture {
+  int width_px = 0, height_px = 0;
+  std::vector<unsigned char> grey;  // row-major; NaN becomes 255 so that it is seen
+  std::vector<float> log_signal;    // log(signal/open); 0 outside the open field
+  OpenField open;
+  LogWindow window;
+  std::vector<float> blurred;  // between two passes; kept so that the next frame allocates nothing
+};
+
+// `lengths` span the pulse's whole field (field_side_mm of its magnification) at the panel. `picture`'s buffers are
+// used again.
+void render_picture(const BeamSignal& beam, const Detector& detector, double field_side_mm, const Pulse& pulse,
+                    const PathLengths& lengths, const PictureSettings& settings, FluoroscopyPicture& picture);
+
+// Weights of one side of a separable kernel (middle first, Σ over both sides = 1) whose MTF is a Gaussian's,
+// exp(−2π²σ²f²), exactly at half and whole Nyquist frequency; sampled for σ > 1 pixel.
+std::vector<float> blur_weights(double sigma_px);
+
+// The window from 1 % to 99 % of the content of the open field; what is nearly open beam does not count unless it
+// is most of the field.
+LogWindow window_of(const std::vector<float>& log_signal, int width_px, const OpenField& open);
+
+// Linear from 0 at the window's lower end to 255 at its upper.
+void grey_from_log_signal(const float* log_signal, int count, const LogWindow& window,
+                          unsigned char* grey) noexcept;
+
+}  // namespace seldinger::imaging
