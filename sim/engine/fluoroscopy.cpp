@@ -10,7 +10,7 @@ namespace {
 constexpr double kNoWait_s = 1e-9;
 // More than any machine gives in one pulse: a report beyond is a mistake, and is not added up.
 constexpr double kMaxFrameKermaMgy = 100.0, kMaxFrameDapMgyCm2 = 1e5;
-constexpr double kMinMa = 0.5, kMinPulseMs = 0.5;
+constexpr double kMinMa = 2.0, kMinPulseMs = 0.5;
 
 double share(double asked) noexcept {
   return std::isfinite(asked) ? std::clamp(asked, -1.0, 1.0) : 0.0;

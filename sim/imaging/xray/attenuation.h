@@ -6,7 +6,8 @@
 // is replaced by cortical bone, HU_bone being bone's own CT number at kHuEnergyKev, with no upper end: denser than
 // bone means more mineral, as in enamel, and nothing above 1000 HU is cut off. So
 //   ∫μ(E) ds = water_per_mm·water_mm + mineral_per_mm·mineral_mm (+ iron_per_mm·iron_mm)
-// with the lengths of projection.h and mineral_per_mm = μ_water + (1000/HU_bone)·(μ_bone − μ_water).
+// with the lengths of projection.h and mineral_per_mm = (1000/HU_bone)·(μ_bone − μ_water), which is μ_water at
+// kHuEnergyKev.
 #pragma once
 
 namespace seldinger::imaging {

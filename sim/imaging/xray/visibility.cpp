@@ -1,0 +1,176 @@
+#include "sim/imaging/xray/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "sim/base/vectors.h"
+#include "sim/imaging/mpr/plane.h"
+#include "sim/imaging/mpr/segment_clip.h"
+#include "sim/imaging/xray/instruments.h"
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// The ray through a point, on to the panel.
+struct RayThrough {
+  RaySegment ray;
+  glm::dvec3 hit_lps_mm;
+  double magnification = 1.0;
+  double focus_panel_mm = 1000.0;  // along the panel's normal
+};
+
+std::optional<RayThrough> ray_through(const volume::Volume& volume, const XrayGeometry& g,
+                                      const glm::dvec3& p_lps_mm, double parallel_sid_mm) {
+  if (!base::is_finite(p_lps_mm)) return std::nullopt;
+  const glm::dvec3 normal = glm::cross(g.u, g.v);
+  RayThrough through;
+  if (g.source_lps_mm) {
+    const double depth = glm::dot(p_lps_mm - *g.source_lps_mm, normal);
+    const double distance = glm::dot(g.detector_center_lps_mm - *g.source_lps_mm, normal);
+    if (!(depth * distance > 0.0) || !(std::abs(depth) <= std::abs(distance))) return std::nullopt;
+    through.magnification = distance / depth;
+    through.focus_panel_mm = std::abs(distance);
+    through.hit_lps_mm = *g.source_lps_mm + through.magnification * (p_lps_mm - *g.source_lps_mm);
+    through.ray = {*g.source_lps_mm, through.hit_lps_mm};
+    return through;
+  }
+  const double ahead_mm = glm::dot(g.detector_center_lps_mm - p_lps_mm, normal) / glm::dot(g.direction, normal);
+  if (!(ahead_mm >= 0.0)) return std::nullopt;
+  through.focus_panel_mm = parallel_sid_mm;
+  through.hit_lps_mm = p_lps_mm + ahead_mm * g.direction;
+  const RaySegment first = ray_of(g, volume, 0, 0);  // long enough for every pixel
+  through.ray = {through.hit_lps_mm - (glm::length(first.to_lps_mm - first.from_lps_mm)) * g.direction,
+                 through.hit_lps_mm};
+  return through;
+}
+
+double log_share(const BeamSignal& beam, const RayLengths& volume, const OverlaidLengths& overlaid) {
+  return beam.log_share(volume.water_mm + overlaid.water_mm, volume.mineral_mm + overlaid.mineral_mm,
+                        overlaid.iron_mm);
+}
+
+Contrast contrast_on(const volume::Volume& volume, const RayThrough& through, const BeamSignal& beam, double mas,
+                     const Inserted& with, const Inserted& without, double patch_mm2) {
+  const RaySegment& ray = through.ray;
+  const RayLengths lengths = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm);
+  const double log_with = log_share(beam, lengths, overlaid_lengths(volume, ray, with, ProjectionMethod::exact));
+  const double log_without =
+      log_share(beam, lengths, overlaid_lengths(volume, ray, without, ProjectionMethod::exact));
+  const double quanta = std::exp(log_without) * beam.open_quanta_per_mas_mm2() * mas * patch_mm2 * 1e6 /
+                        (through.focus_panel_mm * through.focus_panel_mm);
+  return {std::abs(std::expm1(log_with - log_without)),
+          quanta > 0.0 ? 1.0 / std::sqrt(quanta) : std::numeric_limits<double>::infinity()};
+}
+
+// Half sides of the open field on the panel.
+std::pair<double, double> open_half_mm(const XrayGeometry& g, const cases::Collimator& collimator) noexcept {
+  return {0.5 * g.pixel_mm * g.width_px * collimator.open_u, 0.5 * g.pixel_mm * g.height_px * collimator.open_v};
+}
+
+bool in_field(const XrayGeometry& g, const cases::Collimator& collimator, const glm::dvec3& hit_lps_mm) noexcept {
+  const auto [half_u_mm, half_v_mm] = open_half_mm(g, collimator);
+  const glm::dvec3 from_center_mm = hit_lps_mm - g.detector_center_lps_mm;
+  return std::abs(glm::dot(from_center_mm, g.u)) <= half_u_mm &&
+         std::abs(glm::dot(from_center_mm, g.v)) <= half_v_mm;
+}
+
+// The part of the shaft whose shadow falls into the field, by s from the tip (0) to the hub (1). Where the shadow
+// of a point lies is a ratio; multiplied by its depth, every border is a plane.
+SegmentPart shaft_in_field(const XrayGeometry& g, const cases::Collimator& collimator,
+                           const NeedlePose& needle) noexcept {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  const glm::dvec3 shaft_mm = -needle.length_mm * needle.direction;
+  const auto [half_u_mm, half_v_mm] = open_half_mm(g, collimator);
+  glm::dvec3 normal = glm::cross(g.u, g.v);
+  const glm::dvec3 from = g.source_lps_mm ? *g.source_lps_mm : g.detector_center_lps_mm;
+  const glm::dvec3 start = needle.tip_lps_mm - from, center = g.detector_center_lps_mm - from;
+  SegmentPart part;
+  if (!g.source_lps_mm) {
+    if (glm::dot(g.direction, normal) < 0.0) normal = -normal;
+    part = clip(part, glm::dot(start, normal), glm::dot(shaft_mm, normal), -kFar, 0.0);
+    const auto shift = [&](const glm::dvec3& p) {
+      return p - g.direction * (glm::dot(p, normal) / glm::dot(g.direction, normal));
+    };
+    part = clip(part, glm::dot(shift(start), g.u), glm::dot(shift(shaft_mm), g.u), -half_u_mm, half_u_mm);
+    return clip(part, glm::dot(shift(start), g.v), glm::dot(shift(shaft_mm), g.v), -half_v_mm, half_v_mm);
+  }
+  if (glm::dot(center, normal) < 0.0) normal = -normal;
+  const double distance = glm::dot(center, normal);
+  const double depth = glm::dot(start, normal), deeper = glm::dot(shaft_mm, normal);
+  part = clip(part, depth, deeper, 1e-6 * distance, distance);
+  for (const auto& [axis, half_mm] : {std::pair{g.u, half_u_mm}, std::pair{g.v, half_v_mm}}) {
+    // |distance·(p·axis)/depth − center·axis| ≤ half
+    const double at = distance * glm::dot(start, axis), along = distance * glm::dot(shaft_mm, axis);
+    const double middle = glm::dot(center, axis);
+    part = clip(part, at - (middle + half_mm) * depth, along - (middle + half_mm) * deeper, -kFar, 0.0);
+    part = clip(part, at - (middle - half_mm) * depth, along - (middle - half_mm) * deeper, 0.0, kFar);
+  }
+  return part;
+}
+
+}  // namespace
+
+std::optional<Contrast> needle_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
+                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
+                                        double behind_tip_mm) {
+  if (!inserted.needle || !is_finite(*inserted.needle)) return std::nullopt;
+  const NeedlePose& needle = *inserted.needle;
+  const auto through =
+      ray_through(volume, geometry, needle.tip_lps_mm - behind_tip_mm * needle.direction, pulse.sid_mm);
+  if (!through) return std::nullopt;
+  const glm::dvec3 along = glm::normalize(through->ray.to_lps_mm - through->ray.from_lps_mm);
+  const double across = glm::length(glm::cross(along, needle.direction));
+  const double width_mm = 2.0 * needle.radius_mm * through->magnification;
+  const double length_mm =
+      std::max(width_mm, std::min(kTipElementMm, needle.length_mm) * across * through->magnification);
+  Inserted without = inserted;
+  without.needle.reset();
+  return contrast_on(volume, *through, beam, pulse.mas(), inserted, without, width_mm * length_mm);
+}
+
+std::optional<Contrast> target_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
+                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted) {
+  if (inserted.lesions.empty()) return std::nullopt;
+  const cases::Lesion& target = inserted.lesions.front();
+  const auto through = ray_through(volume, geometry, target.center_lps_mm, pulse.sid_mm);
+  if (!through) return std::nullopt;
+  Inserted with{std::nullopt, inserted.lesions}, without = with;
+  without.lesions.erase(without.lesions.begin());
+  const double shadow_mm2 =
+      kPi * target.radius_mm * target.radius_mm * through->magnification * through->magnification;
+  return contrast_on(volume, *through, beam, pulse.mas(), with, without, std::min(shadow_mm2, kLargestPatchMm2));
+}
+
+Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry, const BeamSignal& beam,
+                     const Pulse& pulse, const Inserted& inserted) {
+  Visible visible;
+  const auto hit_in_field = [&](const glm::dvec3& p_lps_mm) {
+    const auto through = ray_through(volume, geometry, p_lps_mm, pulse.sid_mm);
+    return through && in_field(geometry, pulse.collimator, through->hit_lps_mm);
+  };
+  if (inserted.needle && is_finite(*inserted.needle)) {
+    const NeedlePose& needle = *inserted.needle;
+    const auto seen_at = [&](double behind_tip_mm) {
+      const auto contrast = needle_contrast(volume, geometry, beam, pulse, inserted, behind_tip_mm);
+      return contrast && contrast->visible();
+    };
+    visible.needle_tip =
+        hit_in_field(needle.tip_lps_mm) && seen_at(0.5 * std::min(kTipElementMm, needle.length_mm));
+    const SegmentPart part = shaft_in_field(geometry, pulse.collimator, needle);
+    if (part.from <= part.to && seen_at(0.5 * (part.from + part.to) * needle.length_mm))
+      visible.needle_length_mm = (part.to - part.from) * needle.length_mm;
+  }
+  if (!inserted.lesions.empty() && hit_in_field(inserted.lesions.front().center_lps_mm)) {
+    const auto contrast = target_contrast(volume, geometry, beam, pulse, inserted);
+    visible.target = contrast && contrast->visible();
+  }
+  visible.joint = visible.needle_tip && visible.target;
+  return visible;
+}
+
+}  // namespace seldinger::imaging

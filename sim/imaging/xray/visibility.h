@@ -1,0 +1,44 @@
+// What an X-ray picture shows (contracts.md): inside the collimated field, contrast ≥ 3 σ. Expected values along
+// one ray per question: no picture is made, and no seed matters.
+//
+// Contrast is the relative difference of the signal with and without the object on the ray through it; σ is the
+// relative quantum noise of a patch of the panel: for the needle as wide as its shadow and as long as the shadow of
+// its last kTipElementMm, for the lesion as large as its shadow, but at most kLargestPatchMm2. The eye does not add
+// up larger patches: test objects for fluoroscopy show about 2–3 % as the least contrast of large details, whatever
+// their size (Leeds TO.10, TO.N3), which is 3 σ of 25 mm² at some 20 to 30 nGy. So a needle is seen in an abdomen,
+// an opacified calyx too, and a soft-tissue lesion is not.
+#pragma once
+
+#include "sim/imaging/mpr/visibility.h"
+#include "sim/imaging/xray/exposure.h"
+#include "sim/imaging/xray/projection.h"
+
+namespace seldinger::imaging {
+
+constexpr double kVisibleSigmas = 3.0;
+constexpr double kTipElementMm = 2.0;
+constexpr double kLargestPatchMm2 = 25.0;  // at the panel
+
+struct Contrast {
+  double relative = 0.0;  // of the signal, ≥ 0; with the object against without it
+  double sigma = 0.0;     // relative noise of the patch; +∞ where nothing arrives
+  bool visible() const noexcept { return relative >= kVisibleSigmas * sigma; }
+};
+
+// In `geometry`, of the whole field, with the pulse's technique and collimator (of a parallel geometry also its
+// sid_mm, for the dose). The target is inserted.lesions[0]; the other lesions and the needle lie in the volume as
+// inserted. A pose that is not finite is not shown; `needle_length_mm` is the length of the shaft inside the field,
+// 0 where the middle of that part is not visible. `geometry` in order (check_geometry).
+Visible xray_visible(const volume::Volume& volume, const XrayGeometry& geometry, const BeamSignal& beam,
+                     const Pulse& pulse, const Inserted& inserted);
+
+// Of the shaft at this distance behind the tip, 0 ≤ behind_tip_mm ≤ length; none when the needle is not there, or
+// the point is not between source and panel.
+std::optional<Contrast> needle_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
+                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted,
+                                        double behind_tip_mm);
+// Of the target on the ray through its centre.
+std::optional<Contrast> target_contrast(const volume::Volume& volume, const XrayGeometry& geometry,
+                                        const BeamSignal& beam, const Pulse& pulse, const Inserted& inserted);
+
+}  // namespace seldinger::imaging
