@@ -97,7 +97,7 @@ cases::Recording run_mpr_attempt(const cases::Case& scene, const assessment::Pun
 cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                                   const assessment::OperatorProfile& profile, std::uint64_t seed) {
   assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position, seed);
-  const FluoroscopyRoom room(scene);
+  FluoroscopyRoom room(scene);
   Attempt attempt(scene);
   const cases::State& state = attempt.state();
   FluoroscopyRoom::Exposed exposed;

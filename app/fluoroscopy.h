@@ -27,10 +27,10 @@ class FluoroscopyRoom {
   };
   // Of the pulse that `state` has due. Metered on a small picture of its own, so that it does not depend on the one
   // that is displayed, if any is.
-  Exposed expose(const cases::State& state) const;
+  Exposed expose(const cases::State& state);
 
-  // The picture that the pulse of `state` gave, as PNG; empty where this version renders none.
-  std::vector<std::byte> picture_png(const cases::State& state) const;
+  // The picture that the pulse of `state` gave, as PNG.
+  std::vector<std::byte> picture_png(const cases::State& state);
 
  private:
   struct Parts;
