@@ -127,9 +127,12 @@ glm::dvec3 FluoroscopyOperator::beside(const cases::BeamFrame& frame, const glm:
   return way - direction_ * glm::dot(way, direction_);
 }
 
-// Turns the needle about its entry so that the tip goes `beside_mm`.
-void FluoroscopyOperator::steer(const glm::dvec3& beside_mm) {
+// Turns the needle about its entry so that the tip goes `beside_mm`; less after many looks: the line through the
+// entry that fits all of them by least squares, in which a deep tip tells more than a shallow one.
+void FluoroscopyOperator::steer(const glm::dvec3& seen_beside_mm) {
   const double lever_mm = std::max(inserted_mm_, 15.0);
+  told_mm2_ += lever_mm * lever_mm;
+  const glm::dvec3 beside_mm = seen_beside_mm * (lever_mm * lever_mm / told_mm2_);
   const double most = kMaxSteerDeg * kRadPerDeg, asked = glm::length(beside_mm) / lever_mm;
   direction_ = glm::normalize(direction_ + beside_mm / lever_mm * std::min(1.0, asked > 0.0 ? most / asked : 1.0));
 }
@@ -137,6 +140,7 @@ void FluoroscopyOperator::steer(const glm::dvec3& beside_mm) {
 // Too far beside to be steered: back, partly or out, and again.
 void FluoroscopyOperator::redirect(const glm::dvec3& beside_mm) {
   ++redirections_;
+  told_mm2_ = 0.0;  // what was seen of the old way says nothing of the new one
   const bool full = chance(profile_.full_withdrawal_share);
   if (full) {
     withdraw_to_mm_ = -kOutsideMm;

@@ -51,7 +51,7 @@ class FluoroscopyOperator {
   void judge_aim(const cases::BeamFrame& frame);
   void judge_depth(const cases::BeamFrame& frame);
   void aim_along_beam(const cases::BeamFrame& frame);
-  void steer(const glm::dvec3& beside_mm);
+  void steer(const glm::dvec3& seen_beside_mm);
   void redirect(const glm::dvec3& beside_mm);
   double aim_until_mm() const noexcept;
   void advance_towards(double goal_mm);
@@ -74,6 +74,7 @@ class FluoroscopyOperator {
   double inserted_mm_ = 0.0;  // the hand's: from the entry along the direction, negative outside
   double expected_depth_mm_ = 0.0, advance_to_mm_ = 0.0, withdraw_to_mm_ = 0.0;
   glm::dvec3 shift_mm_{0.0};  // what the entry is moved by when the needle is lifted
+  double told_mm2_ = 0.0;     // what looks have told of this way's direction: sum of squared depths
   int looks_ = 0, redirections_ = 0, depth_looks_ = 0;
   bool depth_view_ = true, away_ = false, beam_with_motion_ = false, wide_open_ = false;
   bool fix_seen_ = false;

@@ -35,7 +35,7 @@ struct OperatorProfile {
   double look_s = 0.3;                      // pedal down for one look
   double pulse_rate_hz = 3.0;               // 3, 7.5 or 15, or the nearest
   double collimator_open = 0.45;            // of the field's half width and height
-  double depth_turn_deg = 40.0;             // from the bull's-eye view to the depth view
+  double depth_turn_deg = 50.0;             // from the bull's-eye view to the depth view
   double skip_depth_view_share = 0.0;       // probability of going without a depth view
   double hand_in_beam_share = 0.0;          // probability of holding on to the needle during a look
   double beam_while_moving_share = 0.0;     // probability of turning the arm with the pedal down
