@@ -83,6 +83,7 @@ PathLimits path_limits(cases::Modality modality, cases::PatientPosition position
   PathLimits limits;
   limits.position = position;
   if (modality == cases::Modality::xray) {
+    limits.needs_probe = false;
     limits.max_lao_deg = kBullsEyeLaoDeg;
     limits.max_cranial_deg = kBullsEyeCranialDeg;
   }
@@ -112,8 +113,10 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     plan.entry_lps_mm = target + way.outward * way.depth_mm;
     plan.direction = -way.outward;
     plan.depth_mm = way.depth_mm;
-    if (free_path(volume, voxel_from_lps, target, way, limits) &&
-        place_probe(skin, target, way, plan.entry_lps_mm, limits.position, plan.probe))
+    if (!free_path(volume, voxel_from_lps, target, way, limits)) continue;
+    constexpr double kAsideMm = 150.0;
+    plan.probe = {plan.entry_lps_mm + way.outward * kAsideMm, plan.direction, base::perpendiculars(way.outward).u};
+    if (!limits.needs_probe || place_probe(skin, target, way, plan.entry_lps_mm, limits.position, plan.probe))
       return plan;
   }
   return none;

@@ -17,7 +17,7 @@ struct PuncturePlan {
   glm::dvec3 entry_lps_mm{0.0};
   glm::dvec3 direction{0.0};  // unit, entry → target
   double depth_mm = 0.0;      // entry to target
-  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target
+  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target; without one, laid aside
 };
 
 struct PathLimits {
@@ -27,6 +27,7 @@ struct PathLimits {
   double gas_hu = -300.0;     // the skin's threshold
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
   cases::PatientPosition position = cases::PatientPosition::supine;
+  bool needs_probe = true;  // entry and target must be seen in one plane from a place on the skin
   // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
   double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };
