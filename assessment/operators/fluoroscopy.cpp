@@ -22,7 +22,7 @@ constexpr double kTableDoneMm = 1.0;
 constexpr double kEaseSeconds = 0.25;  // a machine is slowed down this long before it stands
 constexpr double kAimShare = 0.6;      // of the expected depth, under the bull's-eye view
 constexpr double kUnclearTimes = 2.0;  // a target that is not seen itself is found so much worse
-constexpr int kMaxLooksOnSkin = 5, kMaxDepthLooks = 8;
+constexpr int kMaxLooksOnSkin = 5, kMaxLastLooks = 6;
 constexpr double kMaxSteerDeg = 6.0;  // in one go, in tissue
 
 double eased(double now, double wanted, double speed, double near_enough) {
@@ -226,7 +226,6 @@ void FluoroscopyOperator::judge_aim(const cases::BeamFrame& frame) {
 void FluoroscopyOperator::judge_depth(const cases::BeamFrame& frame) {
   const auto here = cases::shadow_of(frame, believed_tip());
   const auto ahead = cases::shadow_of(frame, believed_tip() + direction_);
-  ++depth_looks_;
   if (!here || !ahead) {
     enter(Phase::fire);
     return;
@@ -236,8 +235,9 @@ void FluoroscopyOperator::judge_depth(const cases::BeamFrame& frame) {
   const double along2 = std::max(glm::dot(along, along), 0.01);
   const double left_mm = glm::dot(offset_mm, along) / along2;
   const double goal_mm = inserted_mm_ + left_mm - stop_short_mm_;
+  if (std::abs(goal_mm - inserted_mm_) <= profile_.exposure_step_mm) ++last_looks_;
   steer(beside(frame, offset_mm - along * left_mm));
-  if (std::abs(goal_mm - inserted_mm_) <= profile_.accept_miss_mm / 2.0 || depth_looks_ >= kMaxDepthLooks) {
+  if (std::abs(goal_mm - inserted_mm_) <= profile_.accept_miss_mm / 2.0 || last_looks_ >= kMaxLastLooks) {
     enter(Phase::fire);
   } else if (goal_mm < inserted_mm_) {
     withdraw_to_mm_ = std::max(5.0, goal_mm);

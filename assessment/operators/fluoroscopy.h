@@ -75,7 +75,7 @@ class FluoroscopyOperator {
   double expected_depth_mm_ = 0.0, advance_to_mm_ = 0.0, withdraw_to_mm_ = 0.0;
   glm::dvec3 shift_mm_{0.0};  // what the entry is moved by when the needle is lifted
   double told_mm2_ = 0.0;     // what looks have told of this way's direction: sum of squared depths
-  int looks_ = 0, redirections_ = 0, depth_looks_ = 0;
+  int looks_ = 0, redirections_ = 0, last_looks_ = 0;
   bool depth_view_ = true, away_ = false, beam_with_motion_ = false, wide_open_ = false;
   bool fix_seen_ = false;
   PictureFix fix_;

@@ -95,6 +95,16 @@ TEST(FluoroscopyOperator, TheExpertHitsWithTwoViewsAndNoHandInTheBeam) {
   }
 }
 
+TEST(FluoroscopyOperator, TheExpertHitsADeepTargetToo) {
+  cases::Case scene = patient(cases::PatientPosition::supine);
+  scene.lesions[0].center_lps_mm = {8.0, 20.0, 10.0};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const Outcome outcome = attempt(scene, "expert", seed);
+    ASSERT_TRUE(outcome.fired) << seed;
+    EXPECT_LE(outcome.miss_mm, 6.0) << seed;
+  }
+}
+
 TEST(FluoroscopyOperator, TheNoviceIsWorseInTheMean) {
   const cases::Case scene = patient(cases::PatientPosition::supine);
   Outcome sum_expert, sum_novice;
