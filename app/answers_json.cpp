@@ -159,12 +159,14 @@ std::string json_of_users(const std::vector<casedb::Account>& accounts) {
   return text({{"users", list}});
 }
 
-std::string json_of_picture(const std::string& backend, int width_px, int height_px,
-                            const std::optional<imaging::Visible>& visible, double min, double max) {
-  Json json = {{"backend", backend}, {"size_px", Json::array({width_px, height_px})},
-               {"min", min},         {"max", max},
-               {"unit", "HU"},       {"visible", nullptr}};
-  if (visible)
+std::string json_of_picture(const ScenePicture& picture, double min, double max) {
+  Json json = {{"backend", picture.backend},
+               {"size_px", Json::array({picture.plane.width_px, picture.plane.height_px})},
+               {"min", min},
+               {"max", max},
+               {"unit", picture.unit},
+               {"visible", nullptr}};
+  if (const auto& visible = picture.visible)
     json["visible"] = {{"needle_tip", visible->needle_tip},
                        {"needle_length_mm", visible->needle_length_mm},
                        {"target", visible->target},

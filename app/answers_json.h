@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "app/scene_picture.h"
 #include "assessment/metrics/metric.h"
 #include "casedb/store.h"
-#include "sim/imaging/mpr/visibility.h"
 
 namespace seldinger::app {
 
@@ -47,8 +47,7 @@ std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts);
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
                            const std::string& reason);
 std::string json_of_users(const std::vector<casedb::Account>& accounts);
-std::string json_of_picture(const std::string& backend, int width_px, int height_px,
-                            const std::optional<imaging::Visible>& visible, double min, double max);
+std::string json_of_picture(const ScenePicture& picture, double min, double max);
 std::string json_of_facts(const DoctorAnswer& doctor);
 std::string json_of_demo(const DemoAnswer& demo);
 

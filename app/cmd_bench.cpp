@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "app/attempt_loop.h"
+#include "app/bench.h"
 #include "app/command.h"
 #include "app/file.h"
 #include "app/import_case.h"
@@ -23,23 +24,14 @@
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
-namespace {
 
-struct Row {
-  std::string stage, method, setting, backend, device, size;
-  int n = 0;
-  double ms_median = 0.0, ms_min = 0.0, ms_max = 0.0;
-  std::string error, error_unit, reference;
-};
-
-std::string number(double value) {
+std::string bench_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
 }
 
-// Runs `work` n times and fills the times of a row.
-void time_into(Row& row, int n, const std::function<void()>& work) {
+void time_into(BenchRow& row, int n, const std::function<void()>& work) {
   std::vector<double> ms;
   for (int i = 0; i < n; ++i) {
     const auto start = std::chrono::steady_clock::now();
@@ -53,10 +45,14 @@ void time_into(Row& row, int n, const std::function<void()>& work) {
   row.ms_max = ms.back();
 }
 
-std::string size_of(const volume::Volume& volume) {
+std::string bench_size(const volume::Volume& volume) {
   return std::to_string(volume.size_voxels.x) + "x" + std::to_string(volume.size_voxels.y) + "x" +
          std::to_string(volume.size_voxels.z);
 }
+
+namespace {
+
+using Row = BenchRow;
 
 std::string cores() {
   return std::to_string(std::thread::hardware_concurrency()) + " cores";
@@ -87,7 +83,7 @@ base::Result<void> bench_import(const Arguments& arguments, bool quick, std::vec
         refused = source.error();
     });
     if (refused) return *refused;
-    read.size = size_of(volume);
+    read.size = bench_size(volume);
     rows.push_back(read);
   } else {
     volume = volume::make_phantom().volume;
@@ -105,10 +101,10 @@ base::Result<void> bench_import(const Arguments& arguments, bool quick, std::vec
     cases::Mesh mesh;
     Row row{"surface",
             "mask, iso-surface, decimate, smooth",
-            "decimate " + number(share),
+            "decimate " + bench_number(share),
             "cpu",
             cores(),
-            size_of(volume),
+            bench_size(volume),
             0,
             0,
             0,
@@ -118,7 +114,7 @@ base::Result<void> bench_import(const Arguments& arguments, bool quick, std::vec
             "full-resolution iso-surface, not decimated"};
     time_into(row, quick ? 1 : 3, [&] { mesh = std::move(*casedb::skin_surface(volume, options)); });
     row.setting += ", " + std::to_string(mesh.triangles.size()) + " triangles";
-    row.error = number(mean_distance_mm(mesh, index));
+    row.error = bench_number(mean_distance_mm(mesh, index));
     rows.push_back(row);
   }
   rusage usage{};
@@ -168,11 +164,21 @@ void bench_mpr(bool quick, std::vector<Row>& rows) {
     const auto add = [&](const char* backend, const std::string& device,
                          const std::function<imaging::HuImage()>& make) {
       imaging::HuImage picture = make();  // warm
-      Row row{
-          "mpr",         linear ? "linear" : "nearest", "512x512", backend, device, size_of(volume), 0, 0, 0, 0, "",
-          "HU mean abs", "linear, double, plain"};
+      Row row{"mpr",
+              linear ? "linear" : "nearest",
+              "512x512",
+              backend,
+              device,
+              bench_size(volume),
+              0,
+              0,
+              0,
+              0,
+              "",
+              "HU mean abs",
+              "linear, double, plain"};
       time_into(row, quick ? 5 : 41, [&] { picture = make(); });
-      row.error = number(difference(picture, exact).mean);
+      row.error = bench_number(difference(picture, exact).mean);
       rows.push_back(row);
     };
     add("reference", "1 thread", [&] { return imaging::mpr_reference(volume, view, inserted); });
@@ -194,19 +200,20 @@ base::Result<void> bench_step(bool quick, std::vector<Row>& rows) {
   const auto profile = *assessment::named_profile("expert");
   cases::Recording recording;
   Row attempt{"attempt", "expert",   "simulated at 1 kHz with pictures' truth",
-              "cpu",     "1 thread", size_of(scene.volume),
+              "cpu",     "1 thread", bench_size(scene.volume),
               0,         0,          0,
               0,         "",         "",
               ""};
   time_into(attempt, quick ? 1 : 5, [&] { recording = run_attempt(scene, site->plan, profile, 1); });
-  attempt.setting += ", " + number(static_cast<double>(recording.inputs.size()) * recording.dt_s) + " s of attempt";
+  attempt.setting +=
+      ", " + bench_number(static_cast<double>(recording.inputs.size()) * recording.dt_s) + " s of attempt";
   rows.push_back(attempt);
   Row row{"step",
           "skin index, no forces",
           "per tick, " + std::to_string(scene.skin.triangles.size()) + " triangles",
           "cpu",
           "1 thread",
-          size_of(scene.volume),
+          bench_size(scene.volume),
           0,
           0,
           0,
@@ -234,9 +241,9 @@ std::string csv(const std::vector<Row>& rows) {
   };
   for (const Row& row : rows)
     text += row.stage + ',' + quoted(row.method) + ',' + quoted(row.setting) + ',' + row.backend + ',' +
-            quoted(row.device) + ',' + row.size + ',' + std::to_string(row.n) + ',' + number(row.ms_median) + ',' +
-            number(row.ms_min) + ',' + number(row.ms_max) + ',' + row.error + ',' + row.error_unit + ',' +
-            quoted(row.reference) + '\n';
+            quoted(row.device) + ',' + row.size + ',' + std::to_string(row.n) + ',' + bench_number(row.ms_median) +
+            ',' + bench_number(row.ms_min) + ',' + bench_number(row.ms_max) + ',' + row.error + ',' +
+            row.error_unit + ',' + quoted(row.reference) + '\n';
   return text;
 }
 
@@ -246,21 +253,22 @@ int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
   std::vector<std::string> stages;
-  std::string list = arguments.text("--stage", "import,mpr,step");
+  std::string list = arguments.text("--stage", "import,mpr,xray,step");
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     stages.push_back(list.substr(begin, comma - begin));
     begin = comma + 1;
   }
   for (const std::string& stage : stages)
-    if (stage != "import" && stage != "mpr" && stage != "step")
-      throw UsageError("--stage knows import, mpr and step");
+    if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "step")
+      throw UsageError("--stage knows import, mpr, xray and step");
   std::vector<Row> rows;
   for (const std::string& stage : stages) {
     std::fprintf(stderr, "bench %s …\n", stage.c_str());
     base::Result<void> done;
     if (stage == "import") done = bench_import(arguments, quick, rows);
     if (stage == "mpr") bench_mpr(quick, rows);
+    if (stage == "xray") done = bench_xray(arguments, quick, rows);
     if (stage == "step") done = bench_step(quick, rows);
     if (!done) return refuse(done.error());
   }

@@ -19,8 +19,7 @@ namespace {
 using Metrics = std::vector<assessment::MetricValue>;
 
 // What the picture at each row's probe pose shows: the view's kind, depth and size (contracts.md, Attempts).
-void add_frames(const Scene& scene, cases::Recording& recording) {
-  const imaging::MprView& size = *scene.view;
+void add_frames(const Scene& scene, const imaging::MprView& size, cases::Recording& recording) {
   for (const cases::PoseSample& pose : recording.poses) {
     const imaging::MprView view = imaging::view_under_probe(
         pose.probe_origin_lps_mm, glm::normalize(pose.probe_axial), glm::normalize(pose.probe_lateral),
@@ -52,7 +51,8 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
   built.lesions = scene->inserted.lesions;
   built.instrument = scene->instrument;
   built.approach = scene->approach;
-  if (scene->view) add_frames(*scene, *recording);
+  if (scene->view)
+    if (const auto* mpr = std::get_if<imaging::MprView>(&*scene->view)) add_frames(*scene, *mpr, *recording);
   return measure(built, *recording);
 }
 

@@ -10,6 +10,8 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/xray/attenuation.h"
+#include "sim/imaging/xray/projection.h"
 #include "sim/volume/analytic.h"
 
 namespace seldinger::app {
@@ -21,12 +23,21 @@ struct VolumeOfCase {
   std::string case_id;
 };
 
+enum class XrayOutput { line_integral, intensity, display };
+struct XrayView {
+  imaging::XrayGeometry geometry;
+  double energy_kev = imaging::kHuEnergyKev;
+  imaging::ProjectionMethod method = imaging::ProjectionMethod::exact;
+  XrayOutput output = XrayOutput::line_integral;
+};
+using View = std::variant<imaging::MprView, XrayView>;
+
 struct Scene {
   std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume> volume;
   imaging::Inserted inserted;
   cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
   cases::Approach approach = cases::Approach::in_plane;
-  std::optional<imaging::MprView> view;
+  std::optional<View> view;
 };
 
 // All problems at once (`bad_scene`); `unsupported_view` for kinds that this version does not render. Relative

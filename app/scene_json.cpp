@@ -10,8 +10,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kFar = 1e5;      // mm: no scanner is 100 m long
-constexpr int kMaxPixels = 8192;  // per side
+constexpr double kFar = 1e5;        // mm: no scanner is 100 m long
+constexpr double kFarSource = 1e7;  // mm: a source far away stands for parallel rays
+constexpr int kMaxPixels = 8192;    // per side
 constexpr int kMaxShapes = 10'000;
 constexpr std::size_t kMaxClasses = 254;  // a label is one byte; 0 is none
 
@@ -213,17 +214,20 @@ void read_needle(const Json& json, Scene& scene, base::Error& error, std::vector
   reader.unused(unused);
 }
 
+// Axes written with a few decimals are meant to be perpendicular.
+glm::dvec3 perpendicular(Reader& reader, const glm::dvec3& u, const glm::dvec3& v) {
+  if (std::abs(glm::dot(u, v)) <= 1e-3) return glm::normalize(v - u * glm::dot(u, v));
+  reader.bad("v", "is not perpendicular to view.u");
+  return v;
+}
+
 imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std::string>& unused) {
   Reader reader(json, "view", error);
   imaging::MprView view;
   reader.has("kind");
   view.center_lps_mm = reader.point("center_mm");
   view.u = reader.unit("u");
-  view.v = reader.unit("v");
-  if (std::abs(glm::dot(view.u, view.v)) > 1e-3)
-    reader.bad("v", "is not perpendicular to view.u");
-  else  // axes written with a few decimals are meant to be perpendicular
-    view.v = glm::normalize(view.v - view.u * glm::dot(view.u, view.v));
+  view.v = perpendicular(reader, view.u, reader.unit("v"));
   view.pixel_mm = reader.number("pixel_mm", 1e-4, 100.0);
   const auto size = reader.wholes<2>("size_px", kMaxPixels);
   view.width_px = size[0];
@@ -233,6 +237,40 @@ imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std:
                            : imaging::Interpolation::linear;
   view.needle_slab_mm = reader.number("needle_slab_mm", 0.0, 50.0, 0.0);
   reader.unused(unused);
+  return view;
+}
+
+// Degenerate geometry has one judge: imaging's own.
+XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string>& unused) {
+  Reader reader(json, "view", error);
+  XrayView view;
+  reader.has("kind");
+  if (reader.has("source_mm") == reader.has("direction"))
+    reader.bad("", "has not exactly one of source_mm and direction");
+  else if (reader.has("source_mm"))
+    view.geometry.source_lps_mm = reader.point("source_mm", -kFarSource, kFarSource);
+  else
+    view.geometry.direction = reader.unit("direction");
+  view.geometry.detector_center_lps_mm = reader.point("detector_center_mm");
+  view.geometry.u = reader.unit("u");
+  view.geometry.v = perpendicular(reader, view.geometry.u, reader.unit("v"));
+  view.geometry.pixel_mm = reader.number("pixel_mm", 1e-4, 100.0);
+  const auto size = reader.wholes<2>("size_px", kMaxPixels);
+  view.geometry.width_px = size[0];
+  view.geometry.height_px = size[1];
+  view.energy_kev = reader.number("energy_kev", imaging::kMinEnergyKev, imaging::kMaxEnergyKev, view.energy_kev);
+  const std::string method = reader.choice("method", {"exact", "slab", "trilinear"}, "exact");
+  view.method = method == "exact"  ? imaging::ProjectionMethod::exact
+                : method == "slab" ? imaging::ProjectionMethod::slab
+                                   : imaging::ProjectionMethod::trilinear;
+  const std::string output = reader.choice("output", {"line_integral", "intensity", "display"}, "line_integral");
+  view.output = output == "line_integral" ? XrayOutput::line_integral
+                : output == "intensity"   ? XrayOutput::intensity
+                                          : XrayOutput::display;
+  reader.unused(unused);
+  if (!error.findings.empty()) return view;
+  const auto checked = imaging::check_geometry(view.geometry);
+  if (!checked) reader.bad("", "is not a geometry: " + checked.error().text);
   return view;
 }
 
@@ -268,8 +306,10 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
         view.is_object() ? view.value("kind", Json()).is_string() ? view.at("kind").get<std::string>() : "" : "";
     if (kind == "mpr")
       scene.view = read_mpr(view, error, unused);
-    else if (kind == "xray" || kind == "ultrasound")
-      return base::Error{"unsupported_view", "this version renders views of kind mpr only"};
+    else if (kind == "xray")
+      scene.view = read_xray(view, error, unused);
+    else if (kind == "ultrasound")
+      return base::Error{"unsupported_view", "this version renders views of kind mpr and xray"};
     else
       root.bad("view", "has no known kind");
   }

@@ -129,7 +129,7 @@ void write_durably(const fs::path& file, std::span<const std::byte> bytes) {
   sync_descriptor(out.get());
   out.close();
   temporary.rename_to(file);
-  sync_folder(file.parent_path());
+  sync_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
 }
 
 std::vector<std::byte> read_whole(const fs::path& file) {

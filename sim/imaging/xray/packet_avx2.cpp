@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <utility>
 
 #include "sim/imaging/xray/packet.h"
 
@@ -42,25 +43,19 @@ struct Avx2 {
   static F to_float(I a) { return _mm256_cvtepi32_ps(a); }
   static M less(F a, F b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
   static M both(M a, M b) { return _mm256_and_ps(a, b); }
-  static M either(M a, M b) { return _mm256_or_ps(a, b); }
   static bool any(M a) { return _mm256_movemask_ps(a) != 0; }
-  static I select(M m, I yes, I no) { return _mm256_blendv_epi8(no, yes, _mm256_castps_si256(m)); }
+  static F select(M m, F yes, F no) { return _mm256_blendv_ps(no, yes, m); }
   static F add_where(M m, F a, F b) { return _mm256_add_ps(a, _mm256_and_ps(m, b)); }
   static I add_where(M m, I a, I b) { return _mm256_add_epi32(a, _mm256_and_si256(_mm256_castps_si256(m), b)); }
-  // 32 bits from an even address, of which the lower 16 are the voxel.
-  static F value(I both) { return _mm256_cvtepi32_ps(_mm256_and_si256(both, _mm256_set1_epi32(0xffff))); }
-  static F gather(const std::uint16_t* p, I at) {
-    return value(_mm256_i32gather_epi32(reinterpret_cast<const int*>(p), at, 2));
-  }
-  static F gather(const std::uint16_t* p, I at, M m) {
-    return value(_mm256_mask_i32gather_epi32(_mm256_setzero_si256(), reinterpret_cast<const int*>(p), at,
-                                             _mm256_castps_si256(m), 2));
-  }
-  static void gather_pair(const std::uint16_t* p, I at, M m, F& first, F& second) {
-    const I both = _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), reinterpret_cast<const int*>(p), at,
-                                               _mm256_castps_si256(m), 2);
-    first = value(both);
-    second = _mm256_cvtepi32_ps(_mm256_srli_epi32(both, 16));
+  // Two neighbours in 32 bits from an even address.
+  template <bool masked>
+  static void gather_pair(const std::uint16_t* p, I at, M m, I shift, I shift_next, F& here, F& next) {
+    const int* from = reinterpret_cast<const int*>(p);
+    const I both = masked ? _mm256_mask_i32gather_epi32(_mm256_setzero_si256(), from, at, _mm256_castps_si256(m), 2)
+                          : _mm256_i32gather_epi32(from, at, 2);
+    const I low = _mm256_set1_epi32(0xffff);
+    here = _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srlv_epi32(both, shift), low));
+    next = _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srlv_epi32(both, shift_next), low));
   }
   static void add_to(double* sum, F a) {
     _mm256_store_pd(sum, _mm256_add_pd(_mm256_load_pd(sum), _mm256_cvtps_pd(_mm256_castps256_ps128(a))));

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <utility>
 
 #include "sim/imaging/xray/packet.h"
 
@@ -42,21 +43,18 @@ struct Avx512 {
   static F to_float(I a) { return _mm512_cvtepi32_ps(a); }
   static M less(F a, F b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
   static M both(M a, M b) { return _kand_mask16(a, b); }
-  static M either(M a, M b) { return _kor_mask16(a, b); }
   static bool any(M a) { return a != 0; }
-  static I select(M m, I yes, I no) { return _mm512_mask_blend_epi32(m, no, yes); }
+  static F select(M m, F yes, F no) { return _mm512_mask_blend_ps(m, no, yes); }
   static F add_where(M m, F a, F b) { return _mm512_mask_add_ps(a, m, a, b); }
   static I add_where(M m, I a, I b) { return _mm512_mask_add_epi32(a, m, a, b); }
-  // 32 bits from an even address, of which the lower 16 are the voxel.
-  static F value(I both) { return _mm512_cvtepi32_ps(_mm512_and_si512(both, _mm512_set1_epi32(0xffff))); }
-  static F gather(const std::uint16_t* p, I at) { return value(_mm512_i32gather_epi32(at, p, 2)); }
-  static F gather(const std::uint16_t* p, I at, M m) {
-    return value(_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, at, p, 2));
-  }
-  static void gather_pair(const std::uint16_t* p, I at, M m, F& first, F& second) {
-    const I both = _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, at, p, 2);
-    first = value(both);
-    second = _mm512_cvtepi32_ps(_mm512_srli_epi32(both, 16));
+  // Two neighbours in 32 bits from an even address.
+  template <bool masked>
+  static void gather_pair(const std::uint16_t* p, I at, M m, I shift, I shift_next, F& here, F& next) {
+    const I both = masked ? _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), m, at, p, 2)
+                          : _mm512_i32gather_epi32(at, p, 2);
+    const I low = _mm512_set1_epi32(0xffff);
+    here = _mm512_cvtepi32_ps(_mm512_and_si512(_mm512_srlv_epi32(both, shift), low));
+    next = _mm512_cvtepi32_ps(_mm512_and_si512(_mm512_srlv_epi32(both, shift_next), low));
   }
   static void add_to(double* sum, F a) {
     _mm512_store_pd(sum, _mm512_add_pd(_mm512_load_pd(sum), _mm512_cvtps_pd(_mm512_castps512_ps256(a))));

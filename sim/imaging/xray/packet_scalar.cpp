@@ -28,16 +28,14 @@ struct Scalar {
   static F to_float(I a) { return static_cast<F>(a); }
   static M less(F a, F b) { return a < b; }
   static M both(M a, M b) { return a && b; }
-  static M either(M a, M b) { return a || b; }
   static bool any(M a) { return a; }
-  static I select(M m, I yes, I no) { return m ? yes : no; }
+  static F select(M m, F yes, F no) { return m ? yes : no; }
   static F add_where(M m, F a, F b) { return m ? a + b : a; }
   static I add_where(M m, I a, I b) { return m ? a + b : a; }
-  static F gather(const std::uint16_t* p, I at) { return static_cast<F>(p[at]); }
-  static F gather(const std::uint16_t* p, I at, M m) { return m ? static_cast<F>(p[at]) : 0.0F; }
-  static void gather_pair(const std::uint16_t* p, I at, M m, F& first, F& second) {
-    first = gather(p, at, m);
-    second = gather(p, at + 1, m);
+  template <bool masked>
+  static void gather_pair(const std::uint16_t* p, I at, M m, I shift, I shift_next, F& here, F& next) {
+    here = !masked || m ? static_cast<F>(p[at + (shift >> 4)]) : 0.0F;
+    next = !masked || m ? static_cast<F>(p[at + (shift_next >> 4)]) : 0.0F;
   }
   static void add_to(double* sum, F a) { *sum += static_cast<double>(a); }
 };

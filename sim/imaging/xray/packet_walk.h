@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/imaging/xray/packet.h"
 
@@ -41,13 +42,15 @@ struct Packet {
   alignas(64) double enter[W], leave[W];  // main coordinate
   alignas(64) double mm_per_slab[W];
   alignas(64) double total[W], mineral[W];
-  alignas(64) std::int32_t base[W], offset[W];
+  // Where a lane's voxel and its neighbour along the first minor axis are read together: the lower of the two, and
+  // by how many bits to shift for the one and the other.
+  alignas(64) std::int32_t base[W], offset[W], shift[W], shift_next[W];
   alignas(64) float enter_f[W], leave_f[W];
 };
 
 // A block's slabs by exact pieces. With `clipped` some lane begins or ends inside the block.
 template <class V, bool mineral, bool clipped>
-void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, int slabs) {
+void walk_exact(const std::uint16_t* values, Packet<V>& packet, int main_stride, int slabs) {
   using F = typename V::F;
   using I = typename V::I;
   constexpr int W = V::kLanes;
@@ -55,31 +58,38 @@ void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
   const F y0 = V::load(y.crossing), z0 = V::load(z.crossing);
   const F y_inverse = V::load(y.inverse_f), z_inverse = V::load(z.inverse_f);
   const I y_stride = V::load(y.stride), z_stride = V::load(z.stride);
+  const I shift = V::load(packet.shift), shift_next = V::load(packet.shift_next);
   const F one = V::all(1.0F), zero = V::all(0.0F), water = V::all(kWaterValue);
   const F enter = V::load(packet.enter_f), leave = V::load(packet.leave_f);
   const I step = V::all(main_stride);
   I offset = V::load(packet.offset);
   F ny = zero, nz = zero, ty = y0, tz = z0, sum = zero, sum_mineral = zero, begin = zero;
-  const std::uint16_t* values = volume.first();
   for (int k = 0; k < slabs; ++k) {
     const F end = V::add(begin, one);
     const F low = clipped ? V::max(begin, enter) : begin;
     const F high = clipped ? V::max(V::min(end, leave), low) : end;
-    const F first = V::min(V::max(V::min(ty, tz), low), high);
-    const F second = V::min(V::max(V::max(ty, tz), low), high);
     const auto in_y = V::less(ty, end), in_z = V::less(tz, end);
-    const auto third = V::both(in_y, in_z);
-    const auto add = [&](const I& at, const F& from, const F& to) {
-      const F length = V::sub(to, from);
-      const F value = clipped ? V::gather(values, at, V::less(from, to)) : V::gather(values, at);
-      sum = V::add(sum, V::mul(value, length));
-      if constexpr (mineral) sum_mineral = V::add(sum_mineral, V::mul(V::positive(V::sub(value, water)), length));
-    };
-    if (!clipped || V::any(V::less(low, high))) {
-      add(offset, low, first);
-      if (V::any(V::either(in_y, in_z)))
-        add(V::add(offset, V::select(V::less(tz, ty), z_stride, y_stride)), first, second);
-      if (V::any(third)) add(V::add(V::add(offset, y_stride), z_stride), second, high);
+    const auto live = V::less(low, high);
+    if (!clipped || V::any(live)) {
+      const auto add = [&](const F& value, const F& from, const F& to) {
+        const F length = V::sub(to, from);
+        sum = V::add(sum, V::mul(value, length));
+        if constexpr (mineral) sum_mineral = V::add(sum_mineral, V::mul(V::positive(V::sub(value, water)), length));
+      };
+      const F first = V::min(V::max(V::min(ty, tz), low), high);
+      F here, next;
+      V::template gather_pair<clipped>(values, offset, live, shift, shift_next, here, next);
+      add(here, low, first);
+      if (!V::any(in_z)) {
+        add(next, first, high);
+      } else {
+        const F second = V::min(V::max(V::max(ty, tz), low), high);
+        F here_above, next_above;
+        V::template gather_pair<true>(values, V::add(offset, z_stride), V::both(in_z, live), shift, shift_next,
+                                      here_above, next_above);
+        add(V::select(V::less(tz, ty), here_above, next), first, second);
+        add(next_above, second, high);
+      }
     }
     offset = V::add(offset, step);
     offset = V::add_where(in_y, offset, y_stride);
@@ -94,17 +104,16 @@ void walk_exact(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
   if constexpr (mineral) V::add_to(packet.mineral, sum_mineral);
 }
 
-// A block's slabs by one bilinear sample each, in the middle of the ray's piece. With `pairs` the first minor axis
-// is x, whose neighbours lie side by side.
-template <class V, bool mineral, bool pairs>
-void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, const int (&size)[2], int slabs) {
+// A block's slabs by one bilinear sample each, in the middle of the ray's piece.
+template <class V, bool mineral>
+void walk_slabs(const std::uint16_t* values, Packet<V>& packet, int main_stride, const int (&size)[2], int slabs) {
   using F = typename V::F;
   using I = typename V::I;
   constexpr int W = V::kLanes;
   const F zero = V::all(0.0F), one = V::all(1.0F), half = V::all(0.5F), water = V::all(kWaterValue);
   const F enter = V::load(packet.enter_f), leave = V::load(packet.leave_f);
   F part[2], slope[2], lowest[2], highest[2], last[2];
-  I stride[2], next[2];
+  I stride[2];
   for (int i = 0; i < 2; ++i) {
     const MinorAxis<W>& axis = packet.minor[i];
     part[i] = V::sub(V::load(axis.part), half);
@@ -114,12 +123,12 @@ void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
     highest[i] = V::sub(V::all(static_cast<float>(size[i] - 1)), index);
     last[i] = V::sub(V::all(static_cast<float>(std::max(size[i] - 2, 0))), index);
     stride[i] = V::load(axis.stride);
-    next[i] = size[i] > 1 ? stride[i] : V::all(0);
   }
+  const I next = size[1] > 1 ? stride[1] : V::all(0);
+  const I shift = V::load(packet.shift), shift_next = V::load(packet.shift_next);
   I offset = V::load(packet.offset);
   const I step = V::all(main_stride);
   F sum = zero, sum_mineral = zero, begin = zero;
-  const std::uint16_t* values = volume.first();
   for (int k = 0; k < slabs; ++k) {
     const F end = V::add(begin, one);
     const F low = V::max(begin, enter), high = V::max(V::min(end, leave), low);
@@ -136,16 +145,8 @@ void walk_slabs(const PacketVolume& volume, Packet<V>& packet, int main_stride, 
       }
       const auto lerp = [&](const F& a, const F& b, const F& t) { return V::add(a, V::mul(V::sub(b, a), t)); };
       F v00, v10, v01, v11;
-      if constexpr (pairs) {
-        V::gather_pair(values, at, live, v00, v10);
-        V::gather_pair(values, V::add(at, next[1]), live, v01, v11);
-      } else {
-        v00 = V::gather(values, at, live);
-        v10 = V::gather(values, V::add(at, next[0]), live);
-        at = V::add(at, next[1]);
-        v01 = V::gather(values, at, live);
-        v11 = V::gather(values, V::add(at, next[0]), live);
-      }
+      V::template gather_pair<true>(values, at, live, shift, shift_next, v00, v10);
+      V::template gather_pair<true>(values, V::add(at, next), live, shift, shift_next, v01, v11);
       sum = V::add(sum, V::mul(lerp(lerp(v00, v10, weight[0]), lerp(v01, v11, weight[0]), weight[1]), length));
       if constexpr (mineral) {
         const auto above = [&](const F& v) { return V::positive(V::sub(v, water)); };
@@ -201,7 +202,9 @@ void walk(const PacketJob& job, Packet<V>& packet, int main) {
   const PacketVolume& volume = *job.volume;
   const int axes[2] = {main == 0 ? 1 : 0, main == 2 ? 1 : 2};
   const int size[2] = {volume.size[axes[0]], volume.size[axes[1]]};
-  const int main_stride = volume.stride[main];
+  const PacketVolume::Order& order = volume.order_for(main);
+  const std::uint16_t* values = volume.first(order);
+  const int main_stride = order.stride[main];
   double first = kNowhere, last = -kNowhere;
   for (int l = 0; l < W; ++l) {
     if (packet.enter[l] >= packet.leave[l]) continue;
@@ -226,23 +229,20 @@ void walk(const PacketJob& job, Packet<V>& packet, int main) {
       inside = inside && packet.enter_f[l] <= 0.0F && packet.leave_f[l] >= static_cast<float>(kBlock);
     const int slabs = std::min(kBlock, floor_of(last) + 1 - block);
     const bool mineral = job.mineral_mm != nullptr;
-    if (job.slab && main != 0)
-      mineral ? walk_slabs<V, true, true>(volume, packet, main_stride, size, slabs)
-              : walk_slabs<V, false, true>(volume, packet, main_stride, size, slabs);
-    else if (job.slab)
-      mineral ? walk_slabs<V, true, false>(volume, packet, main_stride, size, slabs)
-              : walk_slabs<V, false, false>(volume, packet, main_stride, size, slabs);
+    if (job.slab)
+      mineral ? walk_slabs<V, true>(values, packet, main_stride, size, slabs)
+              : walk_slabs<V, false>(values, packet, main_stride, size, slabs);
     else if (inside)
-      mineral ? walk_exact<V, true, false>(volume, packet, main_stride, slabs)
-              : walk_exact<V, false, false>(volume, packet, main_stride, slabs);
+      mineral ? walk_exact<V, true, false>(values, packet, main_stride, slabs)
+              : walk_exact<V, false, false>(values, packet, main_stride, slabs);
     else
-      mineral ? walk_exact<V, true, true>(volume, packet, main_stride, slabs)
-              : walk_exact<V, false, true>(volume, packet, main_stride, slabs);
+      mineral ? walk_exact<V, true, true>(values, packet, main_stride, slabs)
+              : walk_exact<V, false, true>(values, packet, main_stride, slabs);
   }
 }
 
 template <class V>
-void project_packet(const PacketJob& job, const double (&column)[V::kLanes], const double (&row)[V::kLanes],
+void project_packet(const PacketJob& job, const double (&column)[V::kLanes], double row,
                     double (&water_mm)[V::kLanes], double (&mineral_mm)[V::kLanes]) {
   constexpr int W = V::kLanes;
   const PacketView& view = *job.view;
@@ -257,8 +257,8 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], con
     const double to_0 = view.to[axis], to_c = view.to_per_column[axis], to_r = view.to_per_row[axis];
     const double size = volume.size[axis];
     for (int l = 0; l < W; ++l) {
-      const double a = from_0 + column[l] * from_c + row[l] * from_r;
-      const double b = to_0 + column[l] * to_c + row[l] * to_r;
+      const double a = from_0 + column[l] * from_c + row * from_r;
+      const double b = to_0 + column[l] * to_c + row * to_r;
       const double d = b - a;
       from[axis][l] = a;
       along[axis][l] = d;
@@ -299,13 +299,14 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], con
       packet.leave[l] = live ? (one < other ? other : one) : -kNowhere;
       packet.mm_per_slab[l] = live ? length_mm[l] / std::abs(d) : 0.0;
       packet.total[l] = packet.mineral[l] = 0.0;
-      packet.base[l] = 0;
+      packet.base[l] = packet.shift[l] = 0;
+      packet.shift_next[l] = 16;
     }
     for (int i = 0; i < 2; ++i) {
       MinorAxis<W>& axis = packet.minor[i];
       const int which = i == 0 ? (main == 0 ? 1 : 0) : (main == 2 ? 1 : 2);
       const double size = volume.size[which];
-      const int stride = volume.stride[which], turned = (volume.size[which] - 1) * stride;
+      const int stride = volume.order_for(main).stride[which], turned = (volume.size[which] - 1) * stride;
       for (int l = 0; l < W; ++l) {
         const bool live = packet.enter[l] < packet.leave[l];
         const double slope = live ? along[which][l] / along[main][l] : 0.0;
@@ -321,6 +322,10 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], con
         axis.slope_f[l] = static_cast<float>(steep);
         axis.stride[l] = down ? -stride : stride;
         packet.base[l] += down ? turned : 0;
+        if (i == 0 && down) {
+          --packet.base[l];
+          std::swap(packet.shift[l], packet.shift_next[l]);
+        }
       }
     }
     walk(job, packet, main);
@@ -332,27 +337,22 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], con
   }
 }
 
+// A packet lies along a row: seen from a C-arm its rays then cross slices together.
 template <class V>
 void project_tile(const PacketJob& job, int first_column, int first_row) {
   constexpr int W = V::kLanes;
-  constexpr int kWide = W >= 8 ? 8 : 1, kHigh = W / kWide;  // neighbours in both directions
   const PacketView& view = *job.view;
-  const int columns = std::min(kTilePx, view.width_px - first_column);
-  const int rows = std::min(kTilePx, view.height_px - first_row);
-  for (int r = 0; r < rows; r += kHigh)
-    for (int c = 0; c < columns; c += kWide) {
-      double column[W], row[W], water_mm[W], mineral_mm[W];
-      for (int l = 0; l < W; ++l) {
-        column[l] = first_column + c + l % kWide;
-        row[l] = first_row + r + l / kWide;
-      }
-      project_packet<V>(job, column, row, water_mm, mineral_mm);
-      for (int l = 0; l < W; ++l) {
-        if (c + l % kWide >= columns || r + l / kWide >= rows) continue;
-        const std::ptrdiff_t pixel =
-            std::ptrdiff_t{first_row + r + l / kWide} * view.width_px + first_column + c + l % kWide;
-        job.water_mm[pixel] = static_cast<float>(water_mm[l]);
-        if (job.mineral_mm != nullptr) job.mineral_mm[pixel] = static_cast<float>(mineral_mm[l]);
+  const int end_column = std::min(first_column + kTilePx, view.width_px);
+  const int end_row = std::min(first_row + kTilePx, view.height_px);
+  for (int r = first_row; r < end_row; ++r)
+    for (int c = first_column; c < end_column; c += W) {
+      double column[W], water_mm[W], mineral_mm[W];
+      for (int l = 0; l < W; ++l) column[l] = c + l;
+      project_packet<V>(job, column, r, water_mm, mineral_mm);
+      const std::ptrdiff_t pixel = std::ptrdiff_t{r} * view.width_px + c;
+      for (int l = 0; l < std::min(W, end_column - c); ++l) {
+        job.water_mm[pixel + l] = static_cast<float>(water_mm[l]);
+        if (job.mineral_mm != nullptr) job.mineral_mm[pixel + l] = static_cast<float>(mineral_mm[l]);
       }
     }
 }

@@ -102,8 +102,7 @@ XrayCpu::~XrayCpu() = default;
 XrayCpu::XrayCpu(XrayCpu&&) noexcept = default;
 
 std::size_t XrayCpu::bytes() const noexcept {
-  return parts_->kept.values.size() * sizeof(std::uint16_t) +
-         parts_->kept.occupied_before.size() * sizeof(std::int32_t);
+  return parts_->kept.bytes();
 }
 
 PathLengths XrayCpu::project(const XrayGeometry& geometry, ProjectionMethod method,

@@ -254,10 +254,15 @@ TEST(XrayHardCases, SkippedCellsHoldNothing) {
   const PacketVolume kept(sparse);
   for (int k = 0; k < kept.size.z; ++k)
     for (int j = 0; j < kept.size.y; ++j)
-      for (int i = 0; i < kept.size.x; ++i)
-        if (kept.first()[(k * kept.size.y + j) * kept.size.x + i] != 0) {
+      for (int i = 0; i < kept.size.x; ++i) {
+        const auto& order = kept.order_for((i + j + k) % 3);  // all orders hold the same
+        const int at = i * order.stride.x + j * order.stride.y + k * order.stride.z;
+        ASSERT_EQ(kept.first(order)[at],
+                  std::max(0, 1000 + sparse.at(kept.low.x + i, kept.low.y + j, kept.low.z + k)));
+        if (kept.first(order)[at] != 0) {
           ASSERT_TRUE(kept.any_in({i, j, k}, {i, j, k}));
         }
+      }
   const XrayGeometry g = facing({0.7, 1.0, 0.4}, 110.0, 128);
   for (const ProjectionMethod method : {ProjectionMethod::exact, ProjectionMethod::slab})
     EXPECT_LE(errors_of(XrayCpu(sparse).project(g, method), xray_reference(sparse, g, method)).max_nepers, 1e-5);

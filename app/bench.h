@@ -1,0 +1,31 @@
+// What bench stages share: rows of time against error. Figures, not tests.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/arguments.h"
+#include "sim/base/result.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::app {
+
+// A row of results.csv (contracts.md, bench).
+struct BenchRow {
+  std::string stage, method, setting, backend, device, size;
+  int n = 0;
+  double ms_median = 0.0, ms_min = 0.0, ms_max = 0.0;
+  std::string error, error_unit, reference;
+};
+
+std::string bench_number(double value);
+std::string bench_size(const volume::Volume& volume);
+
+// Runs `work` n times and fills the times of a row.
+void time_into(BenchRow& row, int n, const std::function<void()>& work);
+
+// Stage xray: projectors, the fluoroscopy chain; on `--volume FILE` or the projector phantom, and on `--ct SOURCE`.
+base::Result<void> bench_xray(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
+
+}  // namespace seldinger::app

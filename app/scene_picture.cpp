@@ -1,0 +1,112 @@
+#include "app/scene_picture.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "app/frame_truth.h"
+#include "sim/base/failure.h"
+#include "sim/gpu/context.h"
+#include "sim/imaging/xray/instruments.h"
+#include "sim/imaging/xray/picture.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kWindowCenterHu = 40.0, kWindowWidthHu = 400.0;  // the usual soft-tissue window
+
+// Runs `on_gpu(context)` where `backend` or the machine says so, else `on_cpu()`; `backend` becomes what ran.
+template <typename OnGpu, typename OnCpu>
+auto on_best(std::string& backend, const OnGpu& on_gpu, const OnCpu& on_cpu) {
+  const bool asked = backend == "gpu";
+  try {
+    gpu::Context context;
+    // On software GL the CPU's own code is faster.
+    if (asked || !context.software()) {
+      auto made = on_gpu(context);
+      backend = "gpu";
+      return made;
+    }
+  } catch (const base::Failure& failure) {
+    if (asked || failure.code() != "gl") throw;
+    std::fputs("note: no GL 4.3 here; the CPU renders\n", stderr);
+  }
+  backend = "cpu";
+  return on_cpu();
+}
+
+void render_mpr(const volume::Volume& volume, const imaging::MprView& view, const imaging::Inserted& inserted,
+                ScenePicture& picture) {
+  picture.plane = {view.center_lps_mm, view.u, view.v, view.pixel_mm, view.width_px, view.height_px};
+  picture.unit = "HU";
+  if (picture.backend == "reference")
+    picture.values = imaging::mpr_reference(volume, view, inserted);
+  else if (picture.backend == "cpu")
+    picture.values = imaging::mpr_cpu(volume, view, inserted);
+  else
+    picture.values = on_best(
+        picture.backend,
+        [&](gpu::Context& context) { return imaging::MprGpu(context, volume).render(view, inserted); },
+        [&] { return imaging::mpr_cpu(volume, view, inserted); });
+  picture.grey = imaging::grey_from_hu(picture.values, kWindowCenterHu, kWindowWidthHu);
+  picture.visible = imaging::mpr_visible(view, inserted.needle, target_of(inserted.lesions));
+}
+
+imaging::PathLengths path_lengths(const volume::Volume& volume, const XrayView& view, std::string& backend) {
+  if (backend == "reference") return imaging::xray_reference(volume, view.geometry, view.method);
+  const auto on_cpu = [&] { return imaging::XrayCpu(volume).project(view.geometry, view.method); };
+  if (backend == "cpu" || view.method == imaging::ProjectionMethod::trilinear) {
+    if (backend == "gpu") std::fputs("note: the trilinear method is the CPU's\n", stderr);
+    backend = "cpu";
+    return on_cpu();
+  }
+  return on_best(
+      backend,
+      [&](gpu::Context& context) { return imaging::XrayGpu(context, volume).project(view.geometry, view.method); },
+      on_cpu);
+}
+
+void render_xray(const volume::Volume& volume, const XrayView& view, const imaging::Inserted& inserted,
+                 ScenePicture& picture) {
+  const imaging::XrayGeometry& g = view.geometry;
+  picture.plane = {g.detector_center_lps_mm, g.u, g.v, g.pixel_mm, g.width_px, g.height_px};
+  imaging::PathLengths lengths = path_lengths(volume, view, picture.backend);
+  imaging::overlay_instruments(volume, g, inserted, view.method, lengths);
+  const imaging::Attenuation mu = imaging::attenuation_at(view.energy_kev);
+  std::vector<float> log_signal(lengths.water_mm.size());
+  picture.values.resize(log_signal.size());
+  for (std::size_t i = 0; i < log_signal.size(); ++i) {
+    const double line_integral =
+        mu.water_per_mm * static_cast<double>(lengths.water_mm[i]) +
+        mu.mineral_per_mm * static_cast<double>(lengths.mineral_mm[i]) +
+        (lengths.iron_mm.empty() ? 0.0 : mu.iron_per_mm * static_cast<double>(lengths.iron_mm[i]));
+    log_signal[i] = static_cast<float>(-line_integral);
+    picture.values[i] =
+        static_cast<float>(view.output == XrayOutput::intensity ? std::exp(-line_integral) : line_integral);
+  }
+  const imaging::LogWindow window =
+      imaging::window_of(log_signal, g.width_px, imaging::open_field(g.width_px, g.height_px, {}));
+  picture.grey.resize(log_signal.size());
+  imaging::grey_from_log_signal(log_signal.data(), static_cast<int>(log_signal.size()), window,
+                                picture.grey.data());
+  picture.unit = "1";
+  if (view.output == XrayOutput::display) {
+    picture.unit = "grey";
+    picture.values.assign(picture.grey.begin(), picture.grey.end());
+  } else if (view.output == XrayOutput::line_integral) {
+    for (unsigned char& grey : picture.grey) grey = static_cast<unsigned char>(255 - grey);  // much is bright
+  }
+}
+
+}  // namespace
+
+ScenePicture render_scene(const volume::Volume& volume, const Scene& scene, const std::string& backend) {
+  ScenePicture picture;
+  picture.backend = backend;
+  if (const auto* mpr = std::get_if<imaging::MprView>(&*scene.view))
+    render_mpr(volume, *mpr, scene.inserted, picture);
+  else
+    render_xray(volume, std::get<XrayView>(*scene.view), scene.inserted, picture);
+  return picture;
+}
+
+}  // namespace seldinger::app
