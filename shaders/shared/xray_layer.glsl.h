@@ -11,7 +11,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONSTANT int kXrayBlock = 16;  // layers walked between two re-basings, and voxels along a cell's side
+SHARED_CONSTANT int kXrayBlock = 32;  // layers walked between two re-basings, and voxels along a cell's side
 
 // Layers to the next face for a ray that keeps its y or z. Finite, so that nothing times it is not a number, and
 // times the smallest distance from a face that float tells from none it is still beyond any piece.
@@ -42,16 +42,19 @@ struct XrayParameters {
 };
 
 // Shares of a piece of `length` (in layers) that lie in the four voxels (low y low z, high y low z, low y high z,
-// high y high z). `at_y`: the piece's lowest y above the low voxel's face; `layers_per_y`: 1/|slope|, at most
-// kXrayFar; `together`: both minor axes rise, or both fall.
+// high y high z). `to_face_y`: from the piece's lowest y to the face between low and high, > 0; `layers_per_y`:
+// 1/|slope|, at most kXrayFar; `together`: both minor axes rise, or both fall. None is negative, rounding included.
 // Ties need no rule: two crossings at one place leave a piece of no length between them.
-SHARED real4 xray_exact_shares(real length, real at_y, real at_z, real layers_per_y, real layers_per_z,
+SHARED real4 xray_exact_shares(real length, real to_face_y, real to_face_z, real layers_per_y, real layers_per_z,
                                bool together) {
-  real low_y = min(length, (real(1.0) - at_y) * layers_per_y);
-  real low_z = min(length, (real(1.0) - at_z) * layers_per_z);
-  real low_low = together ? min(low_y, low_z) : max(real(0.0), low_y + low_z - length);
-  real high_low = low_z - low_low;
-  return real4(low_low, high_low, low_y - low_low, length - low_y - high_low);
+  real low_y = min(length, to_face_y * layers_per_y);
+  real low_z = min(length, to_face_z * layers_per_z);
+  real y = together ? low_y : length - low_y;  // of the side of y on which the ray is while z is low
+  real both = min(y, low_z);
+  real z_alone = low_z - both;
+  real y_alone = y - both;
+  real neither = length - max(y, low_z);
+  return together ? real4(both, z_alone, y_alone, neither) : real4(z_alone, both, neither, y_alone);
 }
 
 // Joseph: the four centres around the piece's middle; at_y, at_z in [0,1] from the low centre to the high one.

@@ -1,11 +1,16 @@
 // The walk of one ray along its main axis; xray_exact.comp and xray_slab.comp differ in how they share out a layer's
 // piece (XRAY_SLAB), and in whether water and mineral are summed apart (XRAY_TOTAL: not).
 //
-// Nothing is accumulated but the sums: a block's base comes from the ray's line in double, a place within the block
-// from the count of its layers by one fma in float, so positions keep 1e-6 voxel over any length.
+// Nothing is accumulated but the sums, and those block by block: a block's base comes from the ray's line in double, a
+// place within the block from the count of its layers by one fma in float, so positions keep 4e-6 voxel over any
+// length, and 1e-7 of their distance from a face that they hardly cross.
+//
+// Measured on llvmpipe (Mesa 22.3, one thread, 512×512×62, milliseconds of processor time G1/G2 of tests/bench): this
+// 114/297. Pairs of voxels fetched as one 32-bit texel, two texelFetch a layer, 190/400. Groups of 16×16 3 % more than
+// 8×8. Blocks of 16 layers 5 % more than 32, of 8 layers 12 %. Vectors of 128, 256 or 512 bits make no difference.
 #include "xray_layer.glsl.h"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform usampler2DArray voxels;  // HU + 1000, at least 0; one layer a layer of the main axis
 layout(binding = 1) uniform usampler2DArray cells;   // which of a cell and its higher neighbours hold anything
@@ -57,18 +62,19 @@ void main() {
   bool runs = of_x && x_in < x_out;
   int block = runs ? int(x_in) / kXrayBlock : 0;
   int block_end = runs ? (int(ceil(x_out)) + kXrayBlock - 1) / kXrayBlock : 0;
-  float all = 0.0;
   float water = 0.0;
+  float mineral = 0.0;
   for (; block < block_end; ++block) {
     double base_x = double(block * kXrayBlock);
     double base_y = pixel.y + (base_x - pixel.x) * slope_y;
     double base_z = pixel.z + (base_x - pixel.x) * slope_z;
-    double floor_y = floor(base_y);
-    double floor_z = floor(base_z);
-    int low_y = int(floor_y);
-    int low_z = int(floor_z);
-    float y = min(float(base_y - floor_y), 0.99999994);
-    float z = min(float(base_z - floor_z), 0.99999994);
+    // From the nearest face: a ray that hardly crosses one keeps all digits of how far it is from it.
+    double face_y = floor(base_y + 0.5lf);
+    double face_z = floor(base_z + 0.5lf);
+    int low_y = int(face_y);
+    int low_z = int(face_z);
+    float y = float(base_y - face_y);
+    float z = float(base_z - face_z);
     float in_block = float(max(x_in - base_x, 0.0lf));
     float out_block = float(min(x_out - base_x, double(kXrayBlock)));
 
@@ -82,8 +88,10 @@ void main() {
     uint wanted = 1u | (next.x ? 2u : 0u) | (next.y ? 4u : 0u) | (next.x && next.y ? 8u : 0u);
     bool full = (texelFetch(cells, ivec3(cell, block), 0).x & wanted) != 0u;
 
-    float all_block = 0.0;
+    vec2 base_corner = vec2(low_y + 1, low_z + 1);
+    float base_layer = float(block * kXrayBlock);
     float water_block = 0.0;
+    float mineral_block = 0.0;
     int layer = int(in_block);
     int layer_end = full ? int(ceil(out_block)) : 0;
     for (; layer < layer_end; ++layer) {
@@ -103,27 +111,24 @@ void main() {
 #ifdef XRAY_SLAB
       vec4 share = xray_slab_shares(length_x, lowest_y - voxel_y, lowest_z - voxel_z);
 #else
-      vec4 share = xray_exact_shares(length_x, lowest_y - voxel_y, lowest_z - voxel_z, layers_per_y,
-                                     layers_per_z, together);
+      vec4 share = xray_exact_shares(length_x, (voxel_y + 1.0) - lowest_y, (voxel_z + 1.0) - lowest_z,
+                                     layers_per_y, layers_per_z, together);
 #endif
-      ivec2 at = ivec2(low_y, low_z) + ivec2(voxel_y, voxel_z);
-#ifdef XRAY_PAIRS
-      int layer_all = block * kXrayBlock + layer;
-      at = clamp(at + 1, ivec2(0), ivec2(parameters.size_y, parameters.size_z));
-      uvec2 v01 = texelFetch(voxels, ivec3(at.x, max(at.y - 1, 0), layer_all), 0).xy;
-      uvec2 v23 = texelFetch(voxels, ivec3(at.x, min(at.y, parameters.size_z - 1), layer_all), 0).xy;
-      ivec4 value = ivec4(v01, v23);
+      // All four at once, at the corner that they share; beyond the box the sampler repeats its border, so that
+      // rounding reads nothing outside.
+      vec2 corner = (base_corner + vec2(voxel_y, voxel_z)) * per_size;
+      ivec4 value = ivec4(textureGather(voxels, vec3(corner, base_layer + float(layer))).wzxy);
+#ifdef XRAY_TOTAL
+      water_block += dot(vec4(value), share);
 #else
-      ivec4 value = ivec4(
-          textureGather(voxels, vec3((vec2(at) + 1.0) * per_size, float(block * kXrayBlock + layer))).wzxy);
-#endif
-#ifndef XRAY_TOTAL
       water_block += dot(vec4(min(value, 1000)), share);
+      mineral_block += dot(vec4(max(value - 1000, 0)), share);
 #endif
-      all_block += dot(vec4(value), share);
     }
-    all += all_block;
     water += water_block;
+#ifndef XRAY_TOTAL
+    mineral += mineral_block;
+#endif
   }
 
   if (of_x && column < parameters.width_px && row < parameters.height_px) {
@@ -131,11 +136,9 @@ void main() {
     float mm = 0.001 * sqrt(dot(parameters.metric.xyz, step * step) +
                             dot(parameters.metric_mixed.xyz, vec3(dy, dz, dy * dz)));
     int at = row * parameters.width_px + column;
-#ifdef XRAY_TOTAL
-    water_mm[at] = mm * all;
-#else
     water_mm[at] = mm * water;
-    mineral_mm[at] = mm * (all - water);
+#ifndef XRAY_TOTAL
+    mineral_mm[at] = mm * mineral;
 #endif
   }
 }

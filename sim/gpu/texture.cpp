@@ -36,9 +36,8 @@ Texture::Texture(const std::shared_ptr<Handles>& handles, glm::ivec3 size, std::
     upload(size, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, values.data());
 }
 
-void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type,
-                     const void* values) {
-  handles_->make_current();
+void Texture::check_size(const std::shared_ptr<Handles>& handles, glm::ivec3 size) {
+  handles->make_current();
   GLint largest_side = 0, most_slices = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest_side);
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_slices);
@@ -46,6 +45,11 @@ void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, un
     throw base::Failure("gl", "the volume exceeds the largest texture of this OpenGL, " +
                                   std::to_string(most_slices) + " slices of " + std::to_string(largest_side) +
                                   " voxels along a side");
+}
+
+void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type,
+                     const void* values) {
+  check_size(handles_, size);
   glGenTextures(1, &name_);
   try {
     glBindTexture(GL_TEXTURE_2D_ARRAY, name_);

@@ -27,6 +27,9 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
+  // Throws base::Failure("gl") when no texture can have this size.
+  static void check_size(const std::shared_ptr<Handles>& handles, glm::ivec3 size);
+
   void bind(int unit) const;  // layout(binding = unit) in the shader; reads beyond a border repeat it
 
  private:

@@ -1,4 +1,5 @@
-// What the GPU itself spends between two points, by a timer query (GL_TIMESTAMP; GL_TIME_ELAPSED answers 0 for compute shaders on llvmpipe).
+// What the GPU itself spends between two points, by timer queries: time stamps, as GL_TIME_ELAPSED answers 0 for
+// compute shaders on llvmpipe.
 #pragma once
 
 #include <memory>

@@ -52,6 +52,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"sodium.h", {"casedb/credentials"}},
     {"png.h", {"app/png"}},
     {"zstd.h", {"sim/base/codec"}},
+    {"xraylib", {"tests/"}},
 };
 
 std::vector<fs::path> sources() {

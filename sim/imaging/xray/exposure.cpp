@@ -108,7 +108,7 @@ cases::Technique AutomaticExposure::next(const cases::Technique& used, double pa
 OpenField open_field(int width_px, int height_px, const cases::Collimator& collimator) noexcept {
   const auto cut = [](int pixels, double open) {
     const double closed = 0.5 * pixels * (1.0 - std::clamp(open, 0.0, 1.0));
-    return std::clamp(static_cast<int>(std::ceil(closed - 0.5)), 0, pixels / 2);
+    return std::clamp(static_cast<int>(std::ceil(closed - 0.5)), 0, (pixels - 1) / 2);  // never nothing
   };
   const int columns = cut(width_px, collimator.open_u), rows = cut(height_px, collimator.open_v);
   return {columns, width_px - columns, rows, height_px - rows};

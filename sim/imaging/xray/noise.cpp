@@ -1,9 +1,7 @@
 #include "sim/imaging/xray/noise.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 #include "sim/base/hash.h"
 #include "sim/imaging/xray/float_math.h"
@@ -31,25 +29,43 @@ inline float count_from_normal(float mean, float z, float electronic_variance) n
   }
 }
 
-float normal_quantile(float x) noexcept {
-  return std::abs(x) <= kQuantileMiddle ? normal_quantile_middle(x) : normal_quantile_tail(x);
+constexpr int kChunk = 256;
+
+// counts[i] = the least k with P(X ≤ k) > u[i], for count ≤ kChunk means below kInversionMean: the sum of the
+// probabilities of 0, 1, 2, … for all pixels at a time. Terms below kLeastTerm end it, so that a sum that rounding
+// keeps below u does not run on; chances below that do not occur.
+[[gnu::target_clones("avx2", "default")]] void invert(const float* means, const float* u, int count,
+                                                      float* counts) noexcept {
+  constexpr int kMostTerms = 50;  // P(X ≥ 50) < 1e-10 for a mean of 16
+  constexpr float kLeastTerm = 1e-8F;
+  float term[kChunk], below[kChunk];
+  for (int i = 0; i < count; ++i) {
+    term[i] = float_exp(-means[i]);
+    below[i] = term[i];
+    counts[i] = 0.0F;
+  }
+  float left = static_cast<float>(count);
+  for (int k = 1; k < kMostTerms && left > 0.0F; ++k) {
+    const float reciprocal = 1.0F / static_cast<float>(k);
+    for (int i = 0; i < count; ++i) {
+      term[i] *= means[i] * reciprocal;
+      const float step = (below[i] <= u[i] ? 1.0F : 0.0F) * (term[i] > kLeastTerm ? 1.0F : 0.0F);
+      counts[i] += step;
+      below[i] += term[i];
+    }
+    if (k % 8 != 0) continue;
+    left = 0.0F;
+    for (int i = 0; i < count; ++i) left += below[i] <= u[i] && term[i] > kLeastTerm ? 1.0F : 0.0F;
+  }
 }
 
-// The least k with P(X ≤ k) > u. Tail probabilities below 2⁻²⁴ do not occur.
-float count_by_inversion(float mean, float u) noexcept {
-  constexpr auto kReciprocals = [] {
-    std::array<float, 101> values{};
-    for (std::size_t k = 1; k < values.size(); ++k) values[k] = 1.0F / static_cast<float>(k);
-    return values;
-  }();
-  float probability = float_exp(-mean), below = probability;
-  std::size_t k = 0;
-  while (below <= u && k < 100) {
-    ++k;
-    probability *= mean * kReciprocals[k];
-    below += probability;
+// Standard normals of these pixels.
+[[gnu::target_clones("avx2", "default")]] void normals(const std::uint32_t* pixels, int count, NoiseKey key,
+                                                       float* x, float* z) noexcept {
+  for (int i = 0; i < count; ++i) {
+    x[i] = symmetric(noise_bits(key, pixels[i]));
+    z[i] = normal_quantile_middle(x[i]);
   }
-  return static_cast<float>(k);
 }
 
 // Every pixel as if its mean were great and its normal in the middle, in plain loops over a few hundred pixels,
@@ -78,10 +94,14 @@ template <bool electronic>
   draw_most<true>(means, count, key, first_pixel, electronic_variance, x, counts);
 }
 
-// The few others once more.
+// The few others once more: normals in the tail, small means, and what is no mean.
 template <bool electronic>
 void draw_others(const float* means, int count, NoiseKey key, std::uint32_t first_pixel, float electronic_quanta,
                  const float* x, float* counts) noexcept {
+  int small = 0;
+  int index[kChunk];
+  std::uint32_t pixels[kChunk];
+  float small_mean[kChunk], u[kChunk], small_count[kChunk];
   for (int i = 0; i < count; ++i) {
     const float mean = means[i];
     if (mean >= kInversionMean && std::abs(x[i]) <= kQuantileMiddle) continue;
@@ -91,13 +111,24 @@ void draw_others(const float* means, int count, NoiseKey key, std::uint32_t firs
     } else if (!(mean >= 0.0F)) {
       counts[i] = mean < 0.0F ? 0.0F : mean;  // NaN is handed on
     } else {
-      counts[i] = count_by_inversion(mean, 0.5F + 0.5F * x[i]);
-      if constexpr (electronic)
-        counts[i] +=
-            electronic_quanta * normal_quantile(symmetric(noise_bits({key.second, key.first},
-                                                                     first_pixel + static_cast<std::uint32_t>(i))));
+      index[small] = i;
+      pixels[small] = first_pixel + static_cast<std::uint32_t>(i);
+      small_mean[small] = mean;
+      u[small] = 0.5F + 0.5F * x[i];
+      ++small;
     }
   }
+  if (small == 0) return;
+  invert(small_mean, u, small, small_count);
+  if constexpr (electronic) {
+    float other_x[kChunk], z[kChunk];
+    normals(pixels, small, {key.second, key.first}, other_x, z);
+    for (int at = 0; at < small; ++at) {
+      if (std::abs(other_x[at]) > kQuantileMiddle) z[at] = normal_quantile_tail(other_x[at]);
+      small_count[at] += electronic_quanta * z[at];
+    }
+  }
+  for (int at = 0; at < small; ++at) counts[index[at]] = small_count[at];
 }
 
 }  // namespace
@@ -109,7 +140,6 @@ NoiseKey noise_key(std::uint64_t seed, std::uint64_t frame) noexcept {
 
 void noisy_counts(const float* means, int count, NoiseKey key, std::uint32_t first_pixel, float electronic_quanta,
                   float* counts) noexcept {
-  constexpr int kChunk = 256;
   float x[kChunk];
   for (int done = 0; done < count; done += kChunk) {
     const int part = std::min(kChunk, count - done);

@@ -10,7 +10,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <utility>
 
 #include "sim/imaging/xray/packet.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "sim/imaging/xray/packet.h"
 
@@ -16,9 +15,14 @@ constexpr double kNever = 1e30;      // the next crossing of a ray parallel to t
 constexpr double kNowhere = 1e9;     // where an idle lane's segment lies
 constexpr float kWaterValue = 1000;  // a voxel's value at 0 HU
 
-// floor for −2^20 < x < 2^31 − 2^20, in a form that vectorises with the same answer everywhere.
-inline int floor_of(double x) {
-  return static_cast<int>(x + 1048576.0) - 1048576;
+// The loops over lanes below are plain, so that the compiler turns each into a few vector instructions: one kind of
+// number each, and choices by value.
+
+// floor for |x| < 2^51.
+inline double floor_of(double x) {
+  constexpr double kWhole = 6755399441055744.0;  // 1.5 · 2^52: adding it rounds to whole numbers
+  const double near = (x + kWhole) - kWhole;
+  return near > x ? near - 1.0 : near;
 }
 
 // One minor axis of all lanes, mirrored where the ray runs down.
@@ -28,8 +32,10 @@ struct MinorAxis {
   alignas(64) double slope[W];    // per slab, ≥ 0
   alignas(64) double inverse[W];
   alignas(64) std::int32_t stride[W];  // of the mirrored index
-  alignas(64) std::int32_t mirrored[W];
+  double size = 0.0;                   // of the kept box
+  alignas(64) double mirrored[W];      // 1 or 0
   // At the start of the block:
+  alignas(64) double whole[W];
   alignas(64) std::int32_t index[W];
   alignas(64) float crossing[W];  // in slabs
   alignas(64) float inverse_f[W], slope_f[W], part[W];
@@ -39,6 +45,7 @@ template <class V>
 struct Packet {
   static constexpr int W = V::kLanes;
   MinorAxis<W> minor[2];
+  int first_live = W, last_live = -1;
   alignas(64) double enter[W], leave[W];  // main coordinate
   alignas(64) double mm_per_slab[W];
   alignas(64) double total[W], mineral[W];
@@ -50,7 +57,8 @@ struct Packet {
 
 // A block's slabs by exact pieces. With `clipped` some lane begins or ends inside the block.
 template <class V, bool mineral, bool clipped>
-void walk_exact(const std::uint16_t* values, Packet<V>& packet, int main_stride, int slabs) {
+__attribute__((noinline)) void walk_exact(const std::uint16_t* values, Packet<V>& packet, int main_stride,
+                                          int slabs) {
   using F = typename V::F;
   using I = typename V::I;
   constexpr int W = V::kLanes;
@@ -106,7 +114,8 @@ void walk_exact(const std::uint16_t* values, Packet<V>& packet, int main_stride,
 
 // A block's slabs by one bilinear sample each, in the middle of the ray's piece.
 template <class V, bool mineral>
-void walk_slabs(const std::uint16_t* values, Packet<V>& packet, int main_stride, const int (&size)[2], int slabs) {
+__attribute__((noinline)) void walk_slabs(const std::uint16_t* values, Packet<V>& packet, int main_stride,
+                                          const int (&size)[2], int slabs) {
   using F = typename V::F;
   using I = typename V::I;
   constexpr int W = V::kLanes;
@@ -162,38 +171,42 @@ void walk_slabs(const std::uint16_t* values, Packet<V>& packet, int main_stride,
   if constexpr (mineral) V::add_to(packet.mineral, sum_mineral);
 }
 
-// Where lanes stand at the start of a block, from double; and the voxels they may meet in it.
+// Where lanes stand at the start of a block, from double.
 template <class V>
-void start_block(Packet<V>& packet, int block, int main_stride, const int (&size)[2], glm::ivec2& low,
-                 glm::ivec2& high) {
+void start_block(Packet<V>& packet, int block, int main_stride) {
   constexpr int W = V::kLanes;
   const auto start = static_cast<double>(block);
-  for (int l = 0; l < W; ++l) {
-    packet.offset[l] = packet.base[l] + block * main_stride;
-    packet.enter_f[l] = static_cast<float>(packet.enter[l] - start);
-    packet.leave_f[l] = static_cast<float>(packet.leave[l] - start);
-  }
-  for (int i = 0; i < 2; ++i) {
-    MinorAxis<W>& axis = packet.minor[i];
-    int least = 1 << 30, most = -(1 << 30);
+  for (int l = 0; l < W; ++l) packet.enter_f[l] = static_cast<float>(packet.enter[l] - start);
+  for (int l = 0; l < W; ++l) packet.leave_f[l] = static_cast<float>(packet.leave[l] - start);
+  for (int l = 0; l < W; ++l) packet.offset[l] = packet.base[l] + block * main_stride;
+  for (MinorAxis<W>& axis : packet.minor) {
     for (int l = 0; l < W; ++l) {
       const double at = axis.at_zero[l] + start * axis.slope[l];
-      const int index = floor_of(at);
-      const int end = floor_of(at + kBlock * axis.slope[l]);
-      const double part = std::min(1.0, std::max(0.0, at - index));
-      axis.index[l] = index;
+      const double whole = floor_of(at);
+      const double part = at - whole;
+      axis.whole[l] = whole;
       axis.part[l] = static_cast<float>(part);
       axis.crossing[l] = static_cast<float>((1.0 - part) * axis.inverse[l]);
-      packet.offset[l] += index * axis.stride[l];
-      const bool idle = packet.enter[l] >= packet.leave[l];
-      const int one = axis.mirrored[l] != 0 ? size[i] - 1 - end : index;
-      const int other = axis.mirrored[l] != 0 ? size[i] - 1 - index : end;
-      least = std::min(least, idle ? 1 << 30 : std::min(one, other));
-      most = std::max(most, idle ? -(1 << 30) : std::max(one, other));
     }
-    low[i] = least - 1;  // a voxel more on each side: rounding, interpolation
-    high[i] = most + 1;
+    for (int l = 0; l < W; ++l) axis.index[l] = static_cast<std::int32_t>(axis.whole[l]);
+    for (int l = 0; l < W; ++l) packet.offset[l] += axis.index[l] * axis.stride[l];
   }
+}
+
+// The voxels of a minor axis that live lanes may meet in a block, a voxel more on each side for rounding and
+// interpolation. Rays of a row lie in one plane, so the outermost live ones bound the others.
+template <int W>
+void reach(const MinorAxis<W>& axis, int first_live, int last_live, int block, int& low, int& high) {
+  double least = kNowhere, most = -kNowhere;
+  for (const int lane : {first_live, last_live})
+    for (const int end : {block, block + kBlock}) {
+      const double at = axis.at_zero[lane] + end * axis.slope[lane];
+      const double place = axis.mirrored[lane] > 0.0 ? axis.size - at : at;
+      least = std::min(least, place);
+      most = std::max(most, place);
+    }
+  low = static_cast<int>(floor_of(least)) - 1;
+  high = static_cast<int>(floor_of(most)) + 1;
 }
 
 template <class V>
@@ -210,24 +223,23 @@ void walk(const PacketJob& job, Packet<V>& packet, int main) {
     if (packet.enter[l] >= packet.leave[l]) continue;
     first = std::min(first, packet.enter[l]);
     last = std::max(last, packet.leave[l]);
+    packet.first_live = std::min(packet.first_live, l);
+    packet.last_live = l;
   }
   if (!(first < last)) return;
   // Blocks begin at multiples of kBlock whatever the packet, so that a ray's arithmetic is its own.
-  for (int block = floor_of(first) / kBlock * kBlock; block < last; block += kBlock) {
-    glm::ivec2 low, high;
-    start_block(packet, block, main_stride, size, low, high);
+  for (int block = static_cast<int>(floor_of(first)) / kBlock * kBlock; block < last; block += kBlock) {
     glm::ivec3 low_voxel, high_voxel;
     low_voxel[main] = block;
     high_voxel[main] = block + kBlock - 1;
-    for (int i = 0; i < 2; ++i) {
-      low_voxel[axes[i]] = low[i];
-      high_voxel[axes[i]] = high[i];
-    }
+    for (int i = 0; i < 2; ++i)
+      reach(packet.minor[i], packet.first_live, packet.last_live, block, low_voxel[axes[i]], high_voxel[axes[i]]);
     if (!volume.any_in(low_voxel, high_voxel)) continue;  // adds nothing to any lane
+    start_block(packet, block, main_stride);
     bool inside = true;
     for (int l = 0; l < W; ++l)
       inside = inside && packet.enter_f[l] <= 0.0F && packet.leave_f[l] >= static_cast<float>(kBlock);
-    const int slabs = std::min(kBlock, floor_of(last) + 1 - block);
+    const int slabs = std::min(kBlock, static_cast<int>(floor_of(last)) + 1 - block);
     const bool mineral = job.mineral_mm != nullptr;
     if (job.slab)
       mineral ? walk_slabs<V, true>(values, packet, main_stride, size, slabs)
@@ -247,7 +259,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
   constexpr int W = V::kLanes;
   const PacketView& view = *job.view;
   const PacketVolume& volume = *job.volume;
-  alignas(64) double from[3][W], along[3][W], enter[W], leave[W], length_mm[W];
+  alignas(64) double from[3][W], along[3][W], enter[W], leave[W], length_mm[W], per_main[W];
   for (int l = 0; l < W; ++l) {
     enter[l] = 0.0;
     leave[l] = 1.0;
@@ -277,7 +289,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
   for (int l = 0; l < W; ++l) water_mm[l] = mineral_mm[l] = 0.0;
   if (!any) return;
   const glm::dmat3& m = view.mm_from_voxel;
-  alignas(64) int main_axis[W];
+  alignas(64) double main_axis[W];
   bool used[3] = {false, false, false};
   for (int l = 0; l < W; ++l) {
     const double x = along[0][l], y = along[1][l], z = along[2][l];
@@ -285,46 +297,55 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
                  mm_z = m[0][2] * x + m[1][2] * y + m[2][2] * z;
     length_mm[l] = std::sqrt(mm_x * mm_x + mm_y * mm_y + mm_z * mm_z);
     const double size_x = std::abs(x), size_y = std::abs(y), size_z = std::abs(z);
-    main_axis[l] = (size_x >= size_y) & (size_x >= size_z) ? 0 : size_y >= size_z ? 1 : 2;
+    const double rest = size_y >= size_z ? 1.0 : 2.0;
+    main_axis[l] = (size_x >= size_y) & (size_x >= size_z) ? 0.0 : rest;
   }
-  for (int l = 0; l < W; ++l) used[main_axis[l]] |= enter[l] < leave[l];
+  for (int l = 0; l < W; ++l) used[static_cast<int>(main_axis[l])] |= enter[l] < leave[l];
   for (int main = 0; main < 3; ++main) {
     if (!used[main]) continue;
+    const double axis_number = main;
     Packet<V> packet;
     for (int l = 0; l < W; ++l) {
       const double a = from[main][l], d = along[main][l];
-      const bool live = (main_axis[l] == main) & (enter[l] < leave[l]);
+      const bool live = (main_axis[l] == axis_number) & (enter[l] < leave[l]);
       const double one = a + enter[l] * d, other = a + leave[l] * d;
       packet.enter[l] = live ? (one < other ? one : other) : kNowhere;
       packet.leave[l] = live ? (one < other ? other : one) : -kNowhere;
-      packet.mm_per_slab[l] = live ? length_mm[l] / std::abs(d) : 0.0;
+      per_main[l] = live ? 1.0 / (d == 0.0 ? 1.0 : d) : 0.0;
+      packet.mm_per_slab[l] = length_mm[l] * std::abs(per_main[l]);
       packet.total[l] = packet.mineral[l] = 0.0;
+    }
+    for (int l = 0; l < W; ++l) {
       packet.base[l] = packet.shift[l] = 0;
       packet.shift_next[l] = 16;
     }
     for (int i = 0; i < 2; ++i) {
       MinorAxis<W>& axis = packet.minor[i];
       const int which = i == 0 ? (main == 0 ? 1 : 0) : (main == 2 ? 1 : 2);
-      const double size = volume.size[which];
-      const int stride = volume.order_for(main).stride[which], turned = (volume.size[which] - 1) * stride;
+      const double size = volume.size[which], mirroring = job.slab ? 0.0 : 1.0;
+      const int stride = volume.order_for(main).stride[which], last = volume.size[which] - 1;
+      axis.size = size;
       for (int l = 0; l < W; ++l) {
-        const bool live = packet.enter[l] < packet.leave[l];
-        const double slope = live ? along[which][l] / along[main][l] : 0.0;
-        const double at_zero = live ? from[which][l] - from[main][l] * slope : 0.0;
-        const bool down = slope < 0.0 && !job.slab;
-        axis.mirrored[l] = down;
-        axis.at_zero[l] = down ? size - at_zero : at_zero;
-        const double steep = down ? -slope : slope;
-        axis.slope[l] = steep;
+        const double slope = along[which][l] * per_main[l];
+        const double at_zero = from[which][l] - from[main][l] * slope;
+        const double mirrored = slope < 0.0 ? mirroring : 0.0;
+        const double steep = mirrored > 0.0 ? -slope : slope;
         const double inverse = 1.0 / (steep > 1.0 / kNever ? steep : 1.0 / kNever);
+        axis.mirrored[l] = mirrored;
+        axis.at_zero[l] = mirrored > 0.0 ? size - at_zero : at_zero;
+        axis.slope[l] = steep;
         axis.inverse[l] = inverse;
         axis.inverse_f[l] = static_cast<float>(inverse);
         axis.slope_f[l] = static_cast<float>(steep);
-        axis.stride[l] = down ? -stride : stride;
-        packet.base[l] += down ? turned : 0;
-        if (i == 0 && down) {
-          --packet.base[l];
-          std::swap(packet.shift[l], packet.shift_next[l]);
+      }
+      for (int l = 0; l < W; ++l) {
+        const auto mirrored = static_cast<std::int32_t>(axis.mirrored[l]);
+        axis.stride[l] = stride - 2 * mirrored * stride;
+        packet.base[l] += mirrored * last * stride;
+        if (i == 0) {  // neighbours are read from the lower on
+          packet.base[l] -= mirrored;
+          packet.shift[l] = 16 * mirrored;
+          packet.shift_next[l] = 16 - 16 * mirrored;
         }
       }
     }

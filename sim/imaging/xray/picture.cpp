@@ -67,11 +67,22 @@ std::vector<float> blur_weights(double sigma_px) {
   CHECK(sigma_px >= 0.0 && sigma_px < 100.0);
   if (sigma_px == 0.0) return {1.0F};
   if (sigma_px <= 1.0) {
-    // H(f) = w₀ + 2w₁cos 2πf + 2w₂cos 4πf, f in 1/pixel.
-    const double half = base::exact_exp(-2.0 * kPi * kPi * sigma_px * sigma_px * 0.0625);
-    const double whole = base::exact_exp(-2.0 * kPi * kPi * sigma_px * sigma_px * 0.25);
-    const double w1 = (1.0 - whole) / 4.0, w2 = (1.0 - 2.0 * w1 - half) / 4.0;
-    return {static_cast<float>(1.0 - 2.0 * (w1 + w2)), static_cast<float>(w1), static_cast<float>(w2)};
+    // Least squares of H(f) = w₀ + 2Σwₖcos 2πkf, H(0) = 1, against the Gaussian's MTF, at the middles of kPoints
+    // parts.
+    constexpr int kRadius = 3, kPoints = 256;
+    std::array<double, kRadius + 1> fitted{};
+    double missing = 1.0;
+    for (std::size_t k = 0; k <= kRadius; ++k) {
+      for (int i = 0; i < kPoints; ++i) {
+        const double f = 0.5 * (i + 0.5) / kPoints;
+        fitted[k] += base::exact_exp(-2.0 * kPi * kPi * sigma_px * sigma_px * f * f) *
+                     base::exact_cos(2.0 * kPi * static_cast<double>(k) * f) / kPoints;
+      }
+      missing -= (k == 0 ? 1.0 : 2.0) * fitted[k];
+    }
+    std::vector<float> result;
+    for (const double weight : fitted) result.push_back(static_cast<float>(weight + missing / (2 * kRadius + 1)));
+    return result;
   }
   std::vector<double> weights;
   double sum = 0.0;
@@ -114,7 +125,12 @@ LogWindow window_of(const std::vector<float>& log_signal, int width_px, const Op
     }
     return 0.0;
   };
-  const double low = percentile(0.01), high = percentile(0.99);
+  // Not much further from the middle than soft tissue and bone go, so that the falling edge of a flank, or metal,
+  // does not take the contrast from the rest.
+  constexpr double kFarthestBelow = 2.0, kFarthestAbove = 1.5;
+  const double middle = percentile(0.5);
+  const double low = std::max(percentile(0.01), middle - kFarthestBelow);
+  const double high = std::min(percentile(0.99), middle + kFarthestAbove);
   constexpr double kLeastWidth = 0.5;  // so that a flat field is not stretched to noise
   return {0.5 * (low + high), std::max(high - low, kLeastWidth)};
 }

@@ -40,11 +40,12 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
                     const PathLengths& lengths, const PictureSettings& settings, FluoroscopyPicture& picture);
 
 // Weights of one side of a separable kernel (middle first, Σ over both sides = 1) whose MTF is a Gaussian's,
-// exp(−2π²σ²f²), exactly at half and whole Nyquist frequency; sampled for σ > 1 pixel.
+// exp(−2π²σ²f²): for σ ≤ 1 pixel by least squares with seven weights, within 0.02 to 80 % of the Nyquist frequency
+// and 0.045 at it; beyond, sampled.
 std::vector<float> blur_weights(double sigma_px);
 
-// The window from 1 % to 99 % of the content of the open field; what is nearly open beam does not count unless it
-// is most of the field.
+// The window from 1 % to 99 % of the content of the open field, but no further than 2 below and 1.5 above its
+// median; what is nearly open beam does not count unless it is most of the field.
 LogWindow window_of(const std::vector<float>& log_signal, int width_px, const OpenField& open);
 
 // Linear from 0 at the window's lower end to 255 at its upper.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -44,8 +46,8 @@ static_assert(offsetof(XrayParameters, size_x) == 208);
 static_assert(offsetof(XrayParameters, wins_ties_y) == 224);
 static_assert(sizeof(XrayParameters) == 240);
 
-constexpr int kGroupPx = 16;  // local_size_x and _y of the shader
-constexpr int kTiles = 8;     // tiles along a side of the picture in which main axes are looked for
+constexpr int kGroupPx = 8;  // local_size_x and _y of the shader
+constexpr int kTiles = 8;    // tiles along a side of the picture in which main axes are looked for
 constexpr int kVoxelsUnit = 0, kCellsUnit = 1;
 constexpr int kParametersBinding = 0, kWaterBinding = 1, kMineralBinding = 2;
 
@@ -166,9 +168,17 @@ std::unique_ptr<Layers> layers_of(const std::shared_ptr<gpu::Handles>& handles, 
                                   glm::ivec3(cells.y, cells.z, cells.x), cells_of(voxels, size, cells));
 }
 
+// The leading 24 bits by cutting off the others: what remains of a conversion to float and back, g++ 12 at -O2
+// takes for nothing.
+double leading(double value) {
+  constexpr std::uint64_t kKept = ~((std::uint64_t{1} << 29) - 1);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kKept);
+}
+
 void split(const glm::dvec3& value, glm::vec4& high, glm::vec4& rest) {
-  high = glm::vec4(glm::dvec4(value, 0.0));
-  rest = glm::vec4(glm::dvec4(value - glm::dvec3(high), 0.0));
+  const glm::dvec3 kept(leading(value.x), leading(value.y), leading(value.z));
+  high = glm::vec4(glm::dvec4(kept, 0.0));
+  rest = glm::vec4(glm::dvec4(value - kept, 0.0));
 }
 
 // The rays of a picture in voxel faces of the box: pixel and direction are affine in column and row.
@@ -287,8 +297,12 @@ struct XrayGpu::Parts {
         water(context, gpu::BufferUse::storage, sizeof(float)),
         mineral(context, gpu::BufferUse::storage, sizeof(float)),
         timer(context) {
-    // Now and not in the first picture: what does not fit is told here. The other axes come when rays need them.
-    if (!tissue.empty()) layers_along(1);
+    // What does not fit is told here. The layers themselves come when the first rays need them: of one main axis
+    // mostly, of three for wide cones.
+    for (const Axes& axes : kAxes) {
+      const glm::ivec3 size = turned(glm::max(box.size(), glm::ivec3(0)), axes);
+      gpu::Texture::check_size(handles, {size.y, size.z, size.x});
+    }
   }
 
   Layers& layers_along(int axis) {

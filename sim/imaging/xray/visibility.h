@@ -4,9 +4,9 @@
 // Contrast is the relative difference of the signal with and without the object on the ray through it; σ is the
 // relative quantum noise of a patch of the panel: for the needle as wide as its shadow and as long as the shadow of
 // its last kTipElementMm, for the lesion as large as its shadow, but at most kLargestPatchMm2. The eye does not add
-// up larger patches: test objects for fluoroscopy show about 2–3 % as the least contrast of large details, whatever
-// their size (Leeds TO.10, TO.N3), which is 3 σ of 25 mm² at some 20 to 30 nGy. So a needle is seen in an abdomen,
-// an opacified calyx too, and a soft-tissue lesion is not.
+// up larger patches, and anatomy hides more than quanta do: test objects for fluoroscopy show about 2–3 % as the
+// least contrast of large details, whatever their size (Leeds TO.10, TO.N3), which is 3 σ of 15 mm² at some 30 nGy.
+// So a needle is seen in an abdomen, an opacified calyx too, and a soft-tissue lesion is not.
 #pragma once
 
 #include "sim/imaging/mpr/visibility.h"
@@ -17,7 +17,7 @@ namespace seldinger::imaging {
 
 constexpr double kVisibleSigmas = 3.0;
 constexpr double kTipElementMm = 2.0;
-constexpr double kLargestPatchMm2 = 25.0;  // at the panel
+constexpr double kLargestPatchMm2 = 15.0;  // at the panel
 
 struct Contrast {
   double relative = 0.0;  // of the signal, ≥ 0; with the object against without it
