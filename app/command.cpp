@@ -49,11 +49,12 @@ constexpr Option kScoreOptions[] = {kLibrary,
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
-constexpr Option kBenchOptions[] = {{"--stage", "a,b", "import, mpr, xray, step; default all"},
-                                    {"--quick", nullptr, "fewer repetitions"},
-                                    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
-                                    {"--volume", "FILE", "xray: in place of the projector phantom"},
-                                    {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kBenchOptions[] = {
+    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--quick", nullptr, "fewer repetitions"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--volume", "FILE", "xray: in place of the projector phantom"},
+    {"--out", "DIR", "where results.csv goes"}};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},

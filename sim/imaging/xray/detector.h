@@ -54,7 +54,7 @@ class BeamSignal {
   float log_share_in_float(float water_mm, float mineral_mm, float iron_mm) const;
   std::vector<Bin> bins_;             // by energy
   std::vector<float> float_bins_[4];  // the members of bins_
-  std::vector<float> table_;  // [mineral][water] of log share
+  std::vector<float> table_;          // [mineral][water] of log share
   double kv_, open_quanta_, open_kerma_mgy_, kerma_per_share_;
 };
 

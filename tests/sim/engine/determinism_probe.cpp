@@ -1,6 +1,6 @@
-// Prints the chained state hash of every tick of two simulated attempts at a sphere-shaped patient, under a probe and
-// under X-ray. Built several times with other compiler options (CMakeLists.txt); determinism_test compares what the
-// builds print.
+// Prints the chained state hash of every tick of two simulated attempts at a sphere-shaped patient, under a probe
+// and under X-ray. Built several times with other compiler options (CMakeLists.txt); determinism_test compares what
+// the builds print.
 #include <cstdio>
 #include <glm/geometric.hpp>
 
