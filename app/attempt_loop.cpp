@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/fluoroscopy.h"
 #include "app/frame_truth.h"
 #include "app/png.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
 #include "assessment/signals.h"
 #include "sim/devices/virtual_device.h"
@@ -38,44 +40,94 @@ imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose
   return view;
 }
 
+// One attempt as it goes: hands through the arms into step, and what recordings keep of it.
+class Attempt {
+ public:
+  explicit Attempt(const cases::Case& scene) : scene_(scene) {
+    recording_.step_version = engine::kStepVersion;
+    recording_.dt_s = engine::kTickSeconds;
+  }
+  const cases::State& state() const noexcept { return state_; }
+
+  void tick(const cases::Inputs& hands) {
+    cases::Inputs inputs = hands;
+    inputs.needle = needle_arm_.advance(hands.needle, recording_.dt_s);
+    inputs.probe = probe_arm_.advance(hands.probe, recording_.dt_s);
+    engine::step(scene_, inputs, recording_.dt_s, state_);
+    hash_ = cases::state_hash(state_, hash_);
+    recording_.inputs.push_back(inputs);
+    recording_.hashes.push_back(static_cast<std::uint32_t>(hash_));
+    if ((state_.tick - 1) % kPoseTicks == 0) recording_.poses.push_back(pose_of(state_));
+    if (state_.fire.fired && !recording_.endpoint)
+      recording_.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction};
+  }
+  void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
+  cases::Recording take() { return std::move(recording_); }
+
+ private:
+  const cases::Case& scene_;
+  cases::Recording recording_;
+  devices::VirtualDevice needle_arm_, probe_arm_;
+  cases::State state_;
+  std::uint64_t hash_ = 0;
+};
+
+cases::Recording run_mpr_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                                 const assessment::OperatorProfile& profile, std::uint64_t seed) {
+  assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
+  Attempt attempt(scene);
+  const cases::State& state = attempt.state();
+  cases::FrameTruth frame;
+  bool new_frame = false;
+  long long frames = 0;
+  while (!person.done() && state.t_s < kMaxAttemptSeconds) {
+    attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds));
+    const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
+    new_frame = due >= frames;
+    if (!new_frame) continue;
+    frames = due + 1;
+    frame = frame_truth(state.t_s, view_of(scene, pose_of(state)),
+                        needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), scene.lesions);
+    frame.live = !state.probe.frozen;
+    attempt.picture(frame);
+  }
+  return attempt.take();
+}
+
+cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                                  const assessment::OperatorProfile& profile, std::uint64_t seed) {
+  assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position, seed);
+  FluoroscopyRoom room(scene);
+  Attempt attempt(scene);
+  const cases::State& state = attempt.state();
+  FluoroscopyRoom::Exposed exposed;
+  bool new_frame = false, live = false;
+  while (!person.done() && state.t_s < kMaxAttemptSeconds) {
+    cases::Inputs hands = person.act(state, new_frame ? &exposed.fix : nullptr, engine::kTickSeconds);
+    hands.exposure = exposed.report;
+    attempt.tick(hands);
+    new_frame = state.fluoroscopy.frame_due;
+    if (new_frame) {
+      exposed = room.expose(state);
+      attempt.picture(exposed.truth);
+    } else if (live && !state.fluoroscopy.live) {
+      cases::FrameTruth held = exposed.truth;  // the last image stays, and shows nothing that happens
+      held.t_s = state.t_s;
+      held.live = false;
+      held.beam.reset();
+      attempt.picture(held);
+    }
+    live = state.fluoroscopy.live;
+  }
+  return attempt.take();
+}
+
 }  // namespace
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                              const assessment::OperatorProfile& profile, std::uint64_t seed) {
-  const double dt_s = engine::kTickSeconds;
-  cases::Recording recording;
-  recording.step_version = engine::kStepVersion;
-  recording.dt_s = dt_s;
-  assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
-  devices::VirtualDevice needle_arm, probe_arm;
-  cases::State state;
-  cases::FrameTruth frame;
-  bool new_frame = false;
-  std::uint64_t hash = 0;
-  long long frames = 0;
-  while (!person.done() && state.t_s < kMaxAttemptSeconds) {
-    const cases::Inputs hands = person.act(state, new_frame ? &frame : nullptr, dt_s);
-    cases::Inputs inputs = hands;
-    inputs.needle = needle_arm.advance(hands.needle, dt_s);
-    inputs.probe = probe_arm.advance(hands.probe, dt_s);
-    engine::step(scene, inputs, dt_s, state);
-    hash = cases::state_hash(state, hash);
-    recording.inputs.push_back(inputs);
-    recording.hashes.push_back(static_cast<std::uint32_t>(hash));
-    if ((state.tick - 1) % kPoseTicks == 0) recording.poses.push_back(pose_of(state));
-    const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
-    new_frame = due >= frames;
-    if (new_frame) {
-      frames = due + 1;
-      frame = frame_truth(state.t_s, view_of(scene, pose_of(state)),
-                          needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), scene.lesions);
-      frame.live = !state.probe.frozen;
-      recording.frames.push_back(frame);
-    }
-    if (state.fire.fired && !recording.endpoint)
-      recording.endpoint = cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction};
-  }
-  return recording;
+  return scene.picture.modality == cases::Modality::xray ? run_xray_attempt(scene, plan, profile, seed)
+                                                         : run_mpr_attempt(scene, plan, profile, seed);
 }
 
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
@@ -91,8 +143,25 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
   return assessment::measure_all(*signals);
 }
 
+namespace {
+
+// The last image before the trigger: the inputs, stepped through again until its pulse.
+std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
+  cases::State state, exposed;
+  for (const cases::Inputs& inputs : recording.inputs) {
+    if (state.fire.fired) break;
+    engine::step(scene, inputs, recording.dt_s, state);
+    if (state.fluoroscopy.frame_due) exposed = state;
+  }
+  if (!exposed.fluoroscopy.frame_due) return {};
+  return FluoroscopyRoom(scene).picture_png(exposed);
+}
+
+}  // namespace
+
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
   CHECK(!recording.poses.empty());
+  if (scene.picture.modality == cases::Modality::xray) return xray_picture_at_endpoint(scene, recording);
   cases::PoseSample pose = recording.poses.back();
   if (recording.endpoint)
     for (const cases::PoseSample& one : recording.poses)

@@ -1,4 +1,5 @@
 // Turns the loop of one simulated attempt: operator → virtual device → step → pictures → operator, and records it.
+// By the case's modality the picture is a slice under the probe, or the fluoroscope's.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
                                                            const cases::Recording& recording);
 
-// What the picture under the probe showed when the trigger fell (or last), as PNG.
+// The picture when the trigger fell (or last), as PNG: the slice under the probe, or the fluoroscope's last image.
+// Empty where there is none.
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
 
 // Replays the inputs by this step version.

@@ -1,5 +1,7 @@
 #include "app/case_build.h"
 
+#include <glm/mat4x4.hpp>
+
 namespace seldinger::app {
 
 base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
@@ -18,6 +20,10 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.instrument = instrument;
   scene.picture = picture;
   scene.approach = approach;
+  scene.position = row.position;
+  // The table is set so that the machine turns about the middle of what there is.
+  const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
+  scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
   return scene;
 }
 

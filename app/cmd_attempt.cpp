@@ -48,9 +48,10 @@ int run_attempt_show(const Arguments& arguments) {
     std::fputs(json_of_attempt(*attempt).c_str(), stdout);
     return kDone;
   }
-  std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\noperator %s, seed %llu\n",
+  std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\nguidance %s\noperator %s, seed %llu\n",
               attempt->attempt_id.c_str(), reports::utc_text(attempt->started_us).c_str(), attempt->case_id.c_str(),
-              attempt->case_title.c_str(), attempt->lesion_id.c_str(), attempt->operator_name.c_str(),
+              attempt->case_title.c_str(), attempt->lesion_id.c_str(),
+              casedb::name_of(attempt->picture.modality).c_str(), attempt->operator_name.c_str(),
               static_cast<unsigned long long>(attempt->seed));
   print_metrics(attempt->metrics);
   return kDone;

@@ -36,9 +36,11 @@ int run_case_show(const Arguments& arguments) {
     return kDone;
   }
   std::printf(
-      "case     %s\ntitle    %s\nstate    %s\nvoxels   %d x %d x %d, %.4g x %.4g x %.4g mm\nHU       %d to %d\n",
-      row->case_id.c_str(), row->title.c_str(), row->state.c_str(), row->size_voxels.x, row->size_voxels.y,
-      row->size_voxels.z, row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max);
+      "case     %s\ntitle    %s\nstate    %s\nguidance %s, patient %s\nvoxels   %d x %d x %d, %.4g x %.4g x %.4g "
+      "mm\nHU       %d to %d\n",
+      row->case_id.c_str(), row->title.c_str(), row->state.c_str(), casedb::name_of(row->modality).c_str(),
+      casedb::name_of(row->position).c_str(), row->size_voxels.x, row->size_voxels.y, row->size_voxels.z,
+      row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max);
   for (const auto& [name, value] : row->attributes) std::printf("%s: %s\n", name.c_str(), value.c_str());
   for (const base::Problem& warning : row->warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());

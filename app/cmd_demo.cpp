@@ -36,12 +36,19 @@ volume::Calyces calyces_of(const Arguments& arguments) {
   throw UsageError("--calyces is normal, dilated or opacified");
 }
 
+cases::Modality modality_of(const Arguments& arguments) {
+  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
+  if (!modality) throw UsageError("--modality is mpr or xray");
+  return *modality;
+}
+
 // The library with the demo's case: one already there is used again, so that a second run is quick and makes
 // nothing twice. A CT that is refused makes no library.
 base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, const std::filesystem::path& folder,
                                         const Arguments& arguments) {
   const bool own = arguments.has("--ct");
   const volume::Calyces calyces = calyces_of(arguments);
+  const cases::Modality modality = modality_of(arguments);
   if (own && arguments.has("--calyces")) throw UsageError("--calyces is of the built-in case, not of a CT");
   std::optional<casedb::NewCase> imported;
   if (own) {
@@ -54,7 +61,7 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   casedb::Library& library = opened.emplace(std::move(*made));
   if (!own)
     for (const casedb::CaseRow& row : casedb::list_cases(library))
-      if (row.origin == phantom_origin(calyces)) return row;
+      if (row.origin == phantom_origin(calyces) && row.modality == modality) return row;
   if (!own) {
     auto read = import_phantom(calyces);
     if (!read) return read.error();
@@ -62,8 +69,10 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   } else {
     const std::string volume_sha256 = casedb::sha256_hex(volume::bytes_from_volume(imported->volume));
     for (const casedb::CaseRow& row : casedb::list_cases(library))
-      if (row.volume_sha256 == volume_sha256) return row;
+      if (row.volume_sha256 == volume_sha256 && row.modality == modality) return row;
   }
+  imported->modality = modality;
+  if (modality == cases::Modality::xray) imported->title += ", fluoroscopy";
   return casedb::find_case(library, casedb::add_case(library, *imported));
 }
 
@@ -74,7 +83,8 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   if (!volume) return volume.error();
   const auto skin = casedb::load_skin(library, row);
   if (!skin) return skin.error();
-  const auto site = assessment::find_lesion_site(*volume, cases::MeshIndex(*skin));
+  const auto site = assessment::find_lesion_site(*volume, cases::MeshIndex(*skin),
+                                                 assessment::lesion_rule(row.modality, row.position));
   if (!site) return site.error();
   const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);
   if (!lesion_id) return lesion_id.error();
@@ -149,6 +159,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
   std::printf("  unit\n");
   for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
     const assessment::MetricValue& first = answer.attempts.front().metrics[i];
+    if (first.reason == "not_xray") continue;  // of all three
     std::printf("%-20s", first.id.c_str());
     for (const SimulatedAttempt& attempt : answer.attempts)
       for (const assessment::MetricValue& metric : attempt.metrics)
@@ -180,7 +191,7 @@ int run_demo(const Arguments& arguments) {
   auto lesion = demo_lesion(*library, answer.found);
   if (!lesion) return refuse(lesion.error());
   answer.lesion = std::move(*lesion);
-  answer.lesion_rule = assessment::describe(assessment::LesionRule{});
+  answer.lesion_rule = assessment::describe(assessment::lesion_rule(answer.found.modality, answer.found.position));
   if (const auto skin = casedb::load_skin(*library, answer.found))
     answer.lesion_depth_mm = -cases::MeshIndex(*skin).closest_skin(answer.lesion.lesion.center_lps_mm).distance_mm;
   if (const auto made = demo_accounts(*library, answer); !made) return refuse(made.error());

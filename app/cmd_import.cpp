@@ -10,10 +10,16 @@ namespace seldinger::app {
 
 int run_import(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
+  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
+  if (!modality) throw UsageError("--modality is mpr or xray");
+  const auto position = casedb::position_from(arguments.text("--position", "supine"));
+  if (!position) throw UsageError("--position is supine or prone");
   std::optional<std::string> series;
   if (arguments.has("--series")) series = arguments.text("--series");
   auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import");
   if (!imported) return refuse(imported.error());
+  imported->modality = *modality;
+  imported->position = *position;
   auto library = casedb::Library::open_or_create(folder);
   if (!library) return refuse(library.error());
   const std::string case_id = casedb::add_case(*library, *imported);

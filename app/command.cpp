@@ -16,6 +16,8 @@ constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of me
 constexpr Option kImportOptions[] = {kLibrary,
                                      {"--title", "TEXT", "the case's title; never taken from the source"},
                                      {"--series", "UID|N", "which series, when the folder holds several"},
+                                     {"--modality", "mpr|xray", "what the case is practised with; default mpr"},
+                                     {"--position", "supine|prone", "how the patient lies; default supine"},
                                      kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
@@ -47,15 +49,17 @@ constexpr Option kScoreOptions[] = {kLibrary,
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
-constexpr Option kBenchOptions[] = {{"--stage", "a,b", "import, mpr, xray, step; default all"},
-                                    {"--quick", nullptr, "fewer repetitions"},
-                                    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
-                                    {"--volume", "FILE", "xray: in place of the projector phantom"},
-                                    {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kBenchOptions[] = {
+    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--quick", nullptr, "fewer repetitions"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--volume", "FILE", "xray: in place of the projector phantom"},
+    {"--out", "DIR", "where results.csv goes"}};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
+    {"--modality", "mpr|xray", "slices under a probe, or fluoroscopy; default mpr"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};

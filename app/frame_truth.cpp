@@ -8,7 +8,10 @@ std::optional<glm::dvec3> target_of(const std::vector<cases::Lesion>& lesions) n
 
 cases::FrameTruth frame_truth(double t_s, const imaging::MprView& view, const imaging::NeedlePose& needle,
                               const std::vector<cases::Lesion>& lesions) noexcept {
-  const imaging::Visible visible = imaging::mpr_visible(view, needle, target_of(lesions));
+  return frame_truth(t_s, imaging::mpr_visible(view, needle, target_of(lesions)));
+}
+
+cases::FrameTruth frame_truth(double t_s, const imaging::Visible& visible) noexcept {
   cases::FrameTruth truth;
   truth.t_s = t_s;
   truth.needle_tip = visible.needle_tip;

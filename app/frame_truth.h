@@ -8,6 +8,8 @@
 
 namespace seldinger::app {
 
+cases::FrameTruth frame_truth(double t_s, const imaging::Visible& visible) noexcept;
+
 cases::FrameTruth frame_truth(double t_s, const imaging::MprView& view, const imaging::NeedlePose& needle,
                               const std::vector<cases::Lesion>& lesions) noexcept;
 

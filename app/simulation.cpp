@@ -22,9 +22,12 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
                                                       : "the case has no lesion of that id"};
   cases::Instrument instrument;
   instrument.kind = kind;
-  auto scene = build_case(library, *row, found->lesion, instrument, cases::Picture{}, cases::Approach::in_plane);
+  cases::Picture picture;
+  picture.modality = row->modality;
+  auto scene = build_case(library, *row, found->lesion, instrument, picture, cases::Approach::in_plane);
   if (!scene) return scene.error();
-  const auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm);
+  const auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm,
+                                              assessment::path_limits(row->modality, row->position));
   if (!plan) return plan.error();
   return Simulation(library, *row, *found, std::move(*scene), *plan);
 }

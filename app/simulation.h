@@ -23,9 +23,6 @@ class Simulation {
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                          const std::optional<std::string>& person_id);
 
-  const cases::Case& scene() const noexcept { return scene_; }
-  const assessment::PuncturePlan& plan() const noexcept { return plan_; }
-
  private:
   Simulation(casedb::Library& library, casedb::CaseRow row, casedb::LesionRow lesion, cases::Case scene,
              assessment::PuncturePlan plan)

@@ -21,6 +21,12 @@ enum class Role { trainee, mentor, researcher, director, admin };
 std::string name_of(Role role);
 std::optional<Role> role_from(const std::string& name);
 
+// As the database and the command line write them: mpr, xray; supine, prone.
+std::string name_of(cases::Modality modality);
+std::optional<cases::Modality> modality_from(const std::string& name);
+std::string name_of(cases::PatientPosition position);
+std::optional<cases::PatientPosition> position_from(const std::string& name);
+
 // --- cases ------------------------------------------------------------------------------------------------------
 struct NewCase {
   std::string title;   // never from the source
@@ -31,6 +37,8 @@ struct NewCase {
   std::vector<std::pair<std::string, std::string>> attributes;  // the allow-list, name → value
   std::vector<base::Problem> warnings;
   int slices_used = 0;
+  cases::Modality modality = cases::Modality::mpr;  // what it is practised with
+  cases::PatientPosition position = cases::PatientPosition::supine;
 };
 
 struct CaseRow {
@@ -43,6 +51,8 @@ struct CaseRow {
   std::string volume_sha256, skin_sha256, labels_sha256 /* may be empty */;
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<base::Problem> warnings;
+  cases::Modality modality = cases::Modality::mpr;
+  cases::PatientPosition position = cases::PatientPosition::supine;
 };
 
 struct LesionRow {

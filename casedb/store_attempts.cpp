@@ -20,17 +20,12 @@ std::uint64_t bits_from_stored(std::int64_t value) noexcept {
   return std::bit_cast<std::uint64_t>(value);
 }
 
-const char* name_of(cases::InstrumentKind kind) {
+const char* kind_name(cases::InstrumentKind kind) {
   return kind == cases::InstrumentKind::core ? "core" : "access";
 }
-const char* name_of(cases::Approach approach) {
+const char* approach_name(cases::Approach approach) {
   return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
 }
-const char* name_of(cases::Modality modality) {
-  CHECK(modality == cases::Modality::mpr);
-  return "mpr";
-}
-
 void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::string& attempt_id,
                     std::size_t recording_chunks, const std::optional<std::string>& picture_sha256) {
   Statement insert = question(database, "add_attempt");
@@ -38,9 +33,9 @@ void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::stri
   insert.bind("person_id", attempt.person_id).bind("operator_name", attempt.operator_name);
   insert.bind("seed", stored_bits(attempt.seed)).bind("program_version", attempt.program_version);
   insert.bind("step_version", std::int64_t{attempt.recording.step_version});
-  insert.bind("approach", name_of(attempt.approach));
+  insert.bind("approach", approach_name(attempt.approach));
   const cases::Instrument& instrument = attempt.instrument;
-  insert.bind("instrument_kind", name_of(instrument.kind)).bind("instrument_length_mm", instrument.length_mm);
+  insert.bind("instrument_kind", kind_name(instrument.kind)).bind("instrument_length_mm", instrument.length_mm);
   insert.bind("instrument_radius_mm", instrument.radius_mm);
   insert.bind("instrument_inner_radius_mm", instrument.inner_radius_mm).bind("instrument_hu", instrument.hu);
   insert.bind("instrument_throw_mm", instrument.throw_mm).bind("instrument_notch_mm", instrument.notch_mm);
@@ -89,7 +84,7 @@ AttemptRow read_attempt(const Statement& from) {
   row.picture_sha256 = from.text("picture_sha256");
   if (!from.is_null("person_id")) row.person_id = from.text("person_id");
   row.seed = bits_from_stored(from.integer("seed"));
-  row.instrument.kind = from.text("instrument_kind") == name_of(cases::InstrumentKind::core)
+  row.instrument.kind = from.text("instrument_kind") == kind_name(cases::InstrumentKind::core)
                             ? cases::InstrumentKind::core
                             : cases::InstrumentKind::access;
   row.instrument.length_mm = from.real("instrument_length_mm");
@@ -99,12 +94,13 @@ AttemptRow read_attempt(const Statement& from) {
   row.instrument.throw_mm = from.real("instrument_throw_mm");
   row.instrument.notch_mm = from.real("instrument_notch_mm");
   row.instrument.dead_tip_mm = from.real("instrument_dead_tip_mm");
-  row.picture.modality = cases::Modality::mpr;  // the only one the schema takes
+  row.picture.modality = *modality_from(from.text("picture_modality"));  // the schema takes no others
   row.picture.depth_mm = from.real("picture_depth_mm");
   row.picture.width_mm = from.real("picture_width_mm");
   row.picture.rate_hz = from.real("picture_rate_hz");
-  row.approach = from.text("approach") == name_of(cases::Approach::out_of_plane) ? cases::Approach::out_of_plane
-                                                                                 : cases::Approach::in_plane;
+  row.approach = from.text("approach") == approach_name(cases::Approach::out_of_plane)
+                     ? cases::Approach::out_of_plane
+                     : cases::Approach::in_plane;
   row.lesion.center_lps_mm = {from.real("center_x_lps_mm"), from.real("center_y_lps_mm"),
                               from.real("center_z_lps_mm")};
   row.lesion.radius_mm = from.real("radius_mm");

@@ -37,6 +37,7 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   }
   insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
   insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
+  insert.bind("modality", name_of(new_case.modality)).bind("patient_position", name_of(new_case.position));
   insert.bind("labels_sha256", labels_sha256).run();
 
   Statement attribute = question(database, "add_case_attribute");
@@ -75,6 +76,9 @@ CaseRow read_case(const Statement& from) {
   row.volume_sha256 = from.text("volume_sha256");
   row.skin_sha256 = from.text("skin_sha256");
   row.labels_sha256 = from.text("labels_sha256");
+  // The schema takes no others.
+  row.modality = *modality_from(from.text("modality"));
+  row.position = *position_from(from.text("patient_position"));
   return row;
 }
 
@@ -111,6 +115,26 @@ bool sound_lesion(const CaseRow& row, const cases::Lesion& lesion) {
 }
 
 }  // namespace
+
+std::string name_of(cases::Modality modality) {
+  return modality == cases::Modality::xray ? "xray" : "mpr";
+}
+
+std::optional<cases::Modality> modality_from(const std::string& name) {
+  if (name == "mpr") return cases::Modality::mpr;
+  if (name == "xray") return cases::Modality::xray;
+  return std::nullopt;
+}
+
+std::string name_of(cases::PatientPosition position) {
+  return position == cases::PatientPosition::prone ? "prone" : "supine";
+}
+
+std::optional<cases::PatientPosition> position_from(const std::string& name) {
+  if (name == "supine") return cases::PatientPosition::supine;
+  if (name == "prone") return cases::PatientPosition::prone;
+  return std::nullopt;
+}
 
 std::string add_case(Library& library, const NewCase& new_case) {
   const volume::Volume& volume = new_case.volume;

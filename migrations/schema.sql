@@ -26,7 +26,7 @@ CREATE TABLE attempt (
   instrument_throw_mm REAL NOT NULL,
   instrument_notch_mm REAL NOT NULL,
   instrument_dead_tip_mm REAL NOT NULL,
-  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr')),
+  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr', 'xray')),
   picture_depth_mm REAL NOT NULL,
   picture_width_mm REAL NOT NULL,
   picture_rate_hz REAL NOT NULL,
@@ -125,7 +125,8 @@ CREATE TABLE training_case (
   volume_sha256 TEXT NOT NULL CHECK (length(volume_sha256) = 64),
   skin_sha256 TEXT NOT NULL CHECK (length(skin_sha256) = 64),
   labels_sha256 TEXT CHECK (length(labels_sha256) = 64) -- null: no labels
-) STRICT;
+, modality TEXT NOT NULL DEFAULT 'mpr' CHECK (modality IN ('mpr', 'xray')), patient_position TEXT NOT NULL DEFAULT 'supine'
+  CHECK (patient_position IN ('supine', 'prone'))) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
@@ -185,4 +186,9 @@ BEFORE UPDATE OF case_id, origin, created_us, size_x_voxels, size_y_voxels, size
 ON training_case
 BEGIN
   SELECT RAISE(ABORT, 'the data of a case cannot be changed');
+END;
+
+CREATE TRIGGER training_case_keeps_its_guidance BEFORE UPDATE OF modality, patient_position ON training_case
+BEGIN
+  SELECT RAISE(ABORT, 'the guidance of a case cannot be changed');
 END;

@@ -35,11 +35,16 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n");
 }
 
+// What a fluoroscope spends says nothing where there was none: pages leave it out.
+bool applies(const casedb::MetricValue& metric) {
+  return metric.value.has_value() || metric.reason != "not_xray";
+}
+
 void add_definitions(Html& html, const casedb::AttemptRow& row) {
   Html items;
   for (const casedb::MetricValue& metric : row.metrics) {
     const std::string definition = metric_definition(metric.id);
-    if (definition.empty()) continue;
+    if (definition.empty() || !applies(metric)) continue;
     items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
   }
   if (items.empty()) return;
@@ -53,7 +58,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
   for (const std::string& group : metric_groups()) {
     Html rows;
     for (const casedb::MetricValue& metric : row.metrics) {
-      if (metric_group(metric.id) != group) continue;
+      if (metric_group(metric.id) != group || !applies(metric)) continue;
       rows.raw("<tr><th scope=\"row\">")
           .text(metric_label(metric.id))
           .raw(" <span class=\"id\">")
@@ -84,19 +89,25 @@ void add_picture(Html& html, const casedb::AttemptRow& row) {
   } else {
     const casedb::MetricValue* hit = find_metric(row.metrics, "hit");
     const std::string outcome = hit == nullptr ? "" : value_text(*hit);
+    const bool xray = row.picture.modality == cases::Modality::xray;
     html.raw("<figure><img src=\"/attempts/")
         .text(row.attempt_id)
-        .raw("/picture.png\" alt=\"Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .raw("/picture.png\" alt=\"")
+        .text(xray ? "The fluoroscope's last image before the trigger fell, with the needle in it"
+                   : "Grey CT plane under the probe when the trigger fell, with the needle in it")
         .text(outcome == "Yes"  ? "; the target was hit"
               : outcome == "No" ? "; the target was missed"
                                 : "")
-        .raw(
-            "\">\n<figcaption>MPR under the probe at the moment of firing: probe at the upper edge, depth "
-            "downwards, ")
-        .text(number_text(row.picture.width_mm, 0))
-        .raw(" mm wide, ")
-        .text(number_text(row.picture.depth_mm, 0))
-        .raw(" mm deep.</figcaption></figure>\n");
+        .raw("\">\n<figcaption>");
+    if (xray)
+      html.raw("The last image before the moment of firing.");
+    else
+      html.raw("MPR under the probe at the moment of firing: probe at the upper edge, depth downwards, ")
+          .text(number_text(row.picture.width_mm, 0))
+          .raw(" mm wide, ")
+          .text(number_text(row.picture.depth_mm, 0))
+          .raw(" mm deep.");
+    html.raw("</figcaption></figure>\n");
   }
   html.raw("</section>\n");
 }
@@ -113,7 +124,7 @@ void add_details(Html& html, const AttemptView& attempt) {
   add_detail(html, "Operator", attempt.operator_label);
   if (!row.person_id.has_value()) add_detail(html, "Seed", std::to_string(row.seed));
   add_detail(html, "Instrument", instrument_text(row.instrument) + ", " + instrument_size_text(row.instrument));
-  add_detail(html, "Approach", approach_text(row.approach));
+  if (row.picture.modality != cases::Modality::xray) add_detail(html, "Approach", approach_text(row.approach));
   add_detail(html, "Target", lesion_text(row.lesion));
   add_detail(html, "Picture", picture_text(row.picture));
   add_detail(html, "Started", utc_text(row.started_us));

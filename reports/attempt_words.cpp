@@ -25,6 +25,7 @@ std::string lesion_text(const cases::Lesion& lesion) {
 }
 
 std::string picture_text(const cases::Picture& picture) {
+  if (picture.modality == cases::Modality::xray) return "Fluoroscopy";
   return "MPR (a plane of the CT under the probe), " + number_text(picture.width_mm, 0) + " mm wide, " +
          number_text(picture.depth_mm, 0) + " mm deep";
 }

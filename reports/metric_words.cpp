@@ -34,6 +34,15 @@ constexpr std::array kPlaces = {
     Place{"withdrawals_partial", "Needle"},
     Place{"withdrawals_full", "Needle"},
     Place{"path_tip", "Needle"},
+    Place{"fluoroscopy_time", "Radiation"},
+    Place{"dap", "Radiation"},
+    Place{"air_kerma", "Radiation"},
+    Place{"hand_in_beam", "Radiation"},
+    Place{"beam_while_moving", "Radiation"},
+    Place{"collimated_share", "Radiation"},
+    Place{"views", "Radiation"},
+    Place{"view_angle_max", "Radiation"},
+    Place{"longest_advance_between_exposures", "Radiation"},
     Place{"gap_share", "Recording"},
 };
 
@@ -102,6 +111,7 @@ std::string value_text(const casedb::MetricValue& metric) {
   if (unit == "%") return number_text(value, 0) + " %";
   if (unit == "mm^2" || unit == "mm2") return number_text(value, 0) + " mm²";
   if (unit == "deg") return number_text(value, 1) + "°";
+  if (unit == "Gy·cm²") return number_text(value, 3) + " Gy·cm²";
   if (unit == "N") return number_text(value, 2) + " N";
   return number_text(value, 1) + " " + unit;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "assessment/metrics/endpoint.h"
+#include "assessment/metrics/fluoroscopy.h"
 #include "assessment/metrics/path.h"
 #include "assessment/metrics/punctures.h"
 #include "assessment/metrics/time.h"
@@ -13,6 +14,13 @@ namespace {
 
 constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";
 constexpr const char* kJohnson = "Johnson et al., BJR 85 (2012) 555, doi 10.1259/bjr/47436030";
+
+constexpr const char* kDose =
+    "IEC 60601-2-43 (what an interventional machine must tell); SIR's guidelines for patient radiation dose "
+    "management, J. Vasc. Interv. Radiol. 20 (2009) S263";
+constexpr const char* kTechnique =
+    "ICRP Publication 117, Ann. ICRP 40 (6), 2010: radiological protection in fluoroscopically guided procedures";
+constexpr const char* kBullsEye = "bull's-eye puncture with depth view; Miller et al., J. Urol. 178 (2007)";
 
 constexpr MetricInfo kRegistry[] = {
     {"hit", 1, "bool", "Target hit", Direction::higher_is_better,
@@ -58,8 +66,10 @@ constexpr MetricInfo kRegistry[] = {
      "endpoint.",
      kVidal, &withdrawals_full},
     {"vis_needle", 1, "share", "Needle tip visible", Direction::higher_is_better,
-     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. Null: "
-     "no_skin, under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane.",
+     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. A "
+     "fluoroscope's "
+     "picture is live from a pulse until the time to the next is over; a held image is not. Null: no_skin, "
+     "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane (of a slice).",
      kVidal, &vis_needle},
     {"vis_target", 1, "share", "Target visible", Direction::higher_is_better,
      "As vis_needle, for the target. Null: no_skin, under_1_s_in_tissue_with_a_live_picture, no_target.", kVidal,
@@ -69,6 +79,44 @@ constexpr MetricInfo kRegistry[] = {
      "no_target, "
      "not_meaningful_out_of_plane.",
      kVidal, &vis_joint},
+    {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Direction::lower_is_better,
+     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray.",
+     kDose, &fluoroscopy_time},
+    {"dap", 1, "Gy·cm²", "Dose–area product", Direction::lower_is_better,
+     "Sum of the pulses' air kerma times the field's area. No pulse: 0. Null: not_xray.", kDose, &dap},
+    {"air_kerma", 1, "mGy", "Air kerma", Direction::lower_is_better,
+     "Sum of the pulses' air kerma, free in air at the interventional reference point, 150 mm from the isocentre "
+     "towards the tube. No pulse: 0. Null: not_xray.",
+     kDose, &air_kerma},
+    {"beam_while_moving", 1, "s", "Beam while moving", Direction::lower_is_better,
+     "Fluoroscopy time of the pulses fired while arm, detector or table moved. Null: not_xray.", kTechnique,
+     &beam_while_moving},
+    {"collimated_share", 1, "share", "Field collimated", Direction::higher_is_better,
+     "Share of the whole field that the collimator shut off, averaged over the fluoroscopy time. Null: not_xray, "
+     "no_exposure.",
+     kTechnique, &collimated_share},
+    {"views", 1, "count", "Views", Direction::none,
+     "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 "
+     "are "
+     "told apart. Null: not_xray.",
+     kBullsEye, &views},
+    {"view_angle_max", 1, "deg", "Widest view angle", Direction::higher_is_better,
+     "Widest angle between the lines of sight of two pulses fired at rest, 0 to 90°: opposite views tell the same "
+     "depth. Null: not_xray, fewer_than_two_views.",
+     kBullsEye, &view_angle_max},
+    {"hand_in_beam", 1, "s", "Hand in beam", Direction::lower_is_better,
+     "Fluoroscopy time of the pulses in which the hand at the needle's hub (a ball of 45 mm radius; none while it "
+     "has "
+     "let go) met the collimated beam. Null: not_xray.",
+     kTechnique, &hand_in_beam},
+    {"longest_advance_between_exposures", 1, "mm", "Longest unseen advance", Direction::lower_is_better,
+     "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
+     "was "
+     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, no_skin, "
+     "only_gaps, "
+     "never_in_tissue.",
+     "advancing between exposures is correct practice under fluoroscopy, as long as it is short",
+     &longest_advance_between_exposures},
     {"gap_share", 1, "share", "Tracking gaps", Direction::lower_is_better,
      "Share of the time in gaps of over 0.25 s between poses; gaps belong to no other metric's denominator. Null: "
      "too_short.",

@@ -41,7 +41,9 @@ Shares integrate(const Signals& signals) {
 }
 
 Measured share(const Signals& signals, double Shares::*part, bool of_needle) {
-  if (of_needle && signals.setting.approach == cases::Approach::out_of_plane)
+  // A projection has no plane to be out of.
+  if (of_needle && signals.setting.modality != cases::Modality::xray &&
+      signals.setting.approach == cases::Approach::out_of_plane)
     return Measured::none("not_meaningful_out_of_plane");
   if (!of_needle && !signals.setting.target) return Measured::none("no_target");
   if (part == &Shares::joint_s && !signals.setting.target) return Measured::none("no_target");

@@ -29,12 +29,23 @@ std::vector<glm::dvec3> ball(double radius_mm, double step_mm) {
 
 }  // namespace
 
+LesionRule lesion_rule(cases::Modality modality, cases::PatientPosition position) {
+  constexpr double kContrastAgentHu =
+      500.0;  // iodine in a calyx or a cavity; far above what a CT calls soft tissue
+  LesionRule rule;
+  rule.modality = modality;
+  rule.position = position;
+  if (modality == cases::Modality::xray) rule.contrast_hu = kContrastAgentHu;
+  return rule;
+}
+
 std::string describe(const LesionRule& rule) {
   std::ostringstream text;
   text << "a sphere of " << 2 * rule.radius_mm << " mm diameter, " << rule.min_depth_mm << "–" << rule.max_depth_mm
        << " mm below the skin, where soft tissue (mean " << rule.min_mean_hu << "–" << rule.max_mean_hu
        << " HU) is most homogeneous within " << rule.homogeneous_radius_mm
-       << " mm, on a straight path free of bone and gas";
+       << " mm, on a straight path free of bone and gas"
+       << (rule.modality == cases::Modality::xray ? ", filled with contrast agent" : "");
   return text.str();
 }
 
@@ -81,7 +92,7 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
       }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.sd_hu < b.sd_hu; });
-  PathLimits limits;
+  PathLimits limits = path_limits(rule.modality, rule.position);
   limits.min_depth_mm = rule.min_depth_mm;
   limits.max_depth_mm = rule.max_depth_mm;
   for (const Candidate& candidate : candidates) {

@@ -16,7 +16,13 @@ struct LesionRule {
   double min_mean_hu = 30.0, max_mean_hu = 180.0;   // parenchyma with or without contrast agent
   double contrast_hu = -45.0;                       // the lesion against its surroundings
   double grid_mm = 6.0;
+  cases::Modality modality = cases::Modality::mpr;
+  cases::PatientPosition position = cases::PatientPosition::supine;
 };
+
+// The rule of a case. Under xray soft tissue shows no soft lesion: there it is one filled with contrast agent, on a
+// path along which the machine can look.
+LesionRule lesion_rule(cases::Modality modality, cases::PatientPosition position);
 
 struct LesionSite {
   cases::Lesion lesion;

@@ -9,14 +9,19 @@
 
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
+#include "sim/case/c_arm.h"
 
 namespace seldinger::assessment {
 namespace {
 
 constexpr int kDirections = 600;
-constexpr double kMaxPosterior = 0.3;  // the table is behind a supine patient (LPS +y)
+constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
 constexpr double kProbeMinMm = 20.0;   // between probe's middle and entry: room for a hand
 constexpr double kProbeMaxDepthMm = 120.0;
+
+double tableward(const glm::dvec3& outward, cases::PatientPosition position) {
+  return position == cases::PatientPosition::prone ? -outward.y : outward.y;
+}
 
 struct Way {
   glm::dvec3 outward;
@@ -47,7 +52,7 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
 
 // Where a probe sees entry and target in its plane: on skin, some way beside the entry.
 bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way, const glm::dvec3& entry,
-                 cases::ToolPose& probe) {
+                 cases::PatientPosition position, cases::ToolPose& probe) {
   const auto [u, v] = base::perpendiculars(way.outward);
   double best = 0.0;
   for (const double tilt_deg : {50.0, 40.0, 60.0, 30.0})
@@ -55,7 +60,7 @@ bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const W
       const double azimuth = k * std::numbers::pi / 6.0, tilt = tilt_deg * std::numbers::pi / 180.0;
       const glm::dvec3 side = u * base::exact_cos(azimuth) + v * base::exact_sin(azimuth);
       const glm::dvec3 outward = way.outward * base::exact_cos(tilt) + side * base::exact_sin(tilt);
-      if (outward.y > kMaxPosterior) continue;
+      if (tableward(outward, position) > kMaxTableward) continue;
       const auto hit = skin.first_hit(target, outward, kProbeMaxDepthMm);
       if (!hit || hit->cut || hit->distance_mm < 5.0) continue;
       const glm::dvec3 origin = target + outward * hit->distance_mm;
@@ -74,6 +79,17 @@ bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const W
 
 }  // namespace
 
+PathLimits path_limits(cases::Modality modality, cases::PatientPosition position) {
+  PathLimits limits;
+  limits.position = position;
+  if (modality == cases::Modality::xray) {
+    limits.needs_probe = false;
+    limits.max_lao_deg = kBullsEyeLaoDeg;
+    limits.max_cranial_deg = kBullsEyeCranialDeg;
+  }
+  return limits;
+}
+
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target, const PathLimits& limits) {
   const base::Error none{"no_path", "no straight path from the skin to the target is free of bone and gas"};
@@ -82,7 +98,10 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
   std::vector<Way> ways;
   for (int i = 0; i < kDirections; ++i) {
     const glm::dvec3 outward = spread_direction(i);
-    if (outward.y > kMaxPosterior) continue;
+    if (tableward(outward, limits.position) > kMaxTableward) continue;
+    const cases::BeamAngles along = cases::angles_of_beam(outward, limits.position);
+    if (std::abs(along.lao_deg) > limits.max_lao_deg || std::abs(along.cranial_deg) > limits.max_cranial_deg)
+      continue;
     const auto hit = skin.first_hit(target, outward, limits.max_depth_mm);
     if (!hit || hit->cut || hit->distance_mm < limits.min_depth_mm) continue;
     ways.push_back({outward, hit->distance_mm});
@@ -94,8 +113,10 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     plan.entry_lps_mm = target + way.outward * way.depth_mm;
     plan.direction = -way.outward;
     plan.depth_mm = way.depth_mm;
-    if (free_path(volume, voxel_from_lps, target, way, limits) &&
-        place_probe(skin, target, way, plan.entry_lps_mm, plan.probe))
+    if (!free_path(volume, voxel_from_lps, target, way, limits)) continue;
+    constexpr double kAsideMm = 150.0;
+    plan.probe = {plan.entry_lps_mm + way.outward * kAsideMm, plan.direction, base::perpendiculars(way.outward).u};
+    if (!limits.needs_probe || place_probe(skin, target, way, plan.entry_lps_mm, limits.position, plan.probe))
       return plan;
   }
   return none;

@@ -4,8 +4,10 @@
 #include <glm/vec3.hpp>
 
 #include "sim/base/result.h"
+#include "sim/case/case.h"
 #include "sim/case/inputs.h"
 #include "sim/case/mesh_index.h"
+#include "sim/case/patient_position.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::assessment {
@@ -15,7 +17,7 @@ struct PuncturePlan {
   glm::dvec3 entry_lps_mm{0.0};
   glm::dvec3 direction{0.0};  // unit, entry → target
   double depth_mm = 0.0;      // entry to target
-  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target
+  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target; without one, laid aside
 };
 
 struct PathLimits {
@@ -24,10 +26,20 @@ struct PathLimits {
   double bone_hu = 350.0;     // five noise SD above a contrast-filled vessel of 200 HU
   double gas_hu = -300.0;     // the skin's threshold
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
+  cases::PatientPosition position = cases::PatientPosition::supine;
+  bool needs_probe = true;  // entry and target must be seen in one plane from a place on the skin
+  // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
+  double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };
 
-// The shortest straight path to the target that starts on skin (not a cut cap, not the supine patient's back), is
-// free of bone and gas, and can be seen. The same for the same scene. Refused: `no_path`.
+// Limits of a path for a bull's-eye view: arm and detector stay clear of table and patient.
+constexpr double kBullsEyeLaoDeg = 55.0, kBullsEyeCranialDeg = 35.0;
+
+// The limits of a case: under xray, those of a bull's-eye view.
+PathLimits path_limits(cases::Modality modality, cases::PatientPosition position);
+
+// The shortest straight path to the target that starts on skin (not a cut cap, not the side on the table), is free
+// of bone and gas, and can be seen. The same for the same scene. Refused: `no_path`.
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target_lps_mm, const PathLimits& limits = {});
 

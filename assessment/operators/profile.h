@@ -26,6 +26,20 @@ struct OperatorProfile {
   double redirect_depth_share = 0.4;   // withdrawn to this share of the depth before a new aim
   double full_withdrawal_share = 0.0;  // probability that a redirection leaves the skin
   double blind_advance_share = 0.0;    // probability of going on when the tip is not in the picture
+
+  // Guided by fluoroscopy.
+  double fix_error_mm = 0.6;                // 1 σ per axis, on the detector, of a place read off a picture
+  double depth_error_mm = 4.0;              // 1 σ of the depth expected before a depth view
+  double arm_error_deg = 1.0;               // 1 σ of each angle of the bull's-eye view
+  double exposure_step_mm = 8.0;            // advance between exposures
+  double look_s = 0.3;                      // pedal down for one look
+  double pulse_rate_hz = 3.0;               // 3, 7.5 or 15, or the nearest
+  double collimator_open = 0.45;            // of the field's half width and height
+  double depth_turn_deg = 50.0;             // from the bull's-eye view to the depth view
+  double skip_depth_view_share = 0.0;       // probability of going without a depth view
+  double hand_in_beam_share = 0.0;          // probability of holding on to the needle during a look
+  double beam_while_moving_share = 0.0;     // probability of turning the arm with the pedal down
+  double beam_while_advancing_share = 0.0;  // probability of advancing with the pedal down
 };
 
 // novice, intermediate, expert; nothing otherwise.

@@ -29,7 +29,19 @@ base::Result<OperatorProfile> profile_from_json(const std::string& text) {
                           {"max_redirections", &redirections, 0.0, 20.0},
                           {"redirect_depth_share", &profile.redirect_depth_share, 0.0, 0.9},
                           {"full_withdrawal_share", &profile.full_withdrawal_share, 0.0, 1.0},
-                          {"blind_advance_share", &profile.blind_advance_share, 0.0, 1.0}};
+                          {"blind_advance_share", &profile.blind_advance_share, 0.0, 1.0},
+                          {"fix_error_mm", &profile.fix_error_mm, 0.0, 50.0},
+                          {"depth_error_mm", &profile.depth_error_mm, 0.0, 100.0},
+                          {"arm_error_deg", &profile.arm_error_deg, 0.0, 30.0},
+                          {"exposure_step_mm", &profile.exposure_step_mm, 1.0, 200.0},
+                          {"look_s", &profile.look_s, 0.0, 20.0},
+                          {"pulse_rate_hz", &profile.pulse_rate_hz, 3.0, 15.0},
+                          {"collimator_open", &profile.collimator_open, 0.05, 1.0},
+                          {"depth_turn_deg", &profile.depth_turn_deg, 5.0, 90.0},
+                          {"skip_depth_view_share", &profile.skip_depth_view_share, 0.0, 1.0},
+                          {"hand_in_beam_share", &profile.hand_in_beam_share, 0.0, 1.0},
+                          {"beam_while_moving_share", &profile.beam_while_moving_share, 0.0, 1.0},
+                          {"beam_while_advancing_share", &profile.beam_while_advancing_share, 0.0, 1.0}};
   base::Error error{"bad_operator", "", {}};
   for (const auto& [key, value] : json.items()) {
     if (key == "name" && value.is_string() && value.get<std::string>().size() <= 64) {

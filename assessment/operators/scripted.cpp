@@ -12,23 +12,13 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr double kStartMm = 60.0;  // the needle waits this far outside the entry
-constexpr double kTremorLowHz = 8.0, kTremorHighHz = 12.0;
-constexpr double kSwayLowHz = 0.1, kSwayHighHz = 0.5;
 constexpr double kDriftLowHz = 0.03, kDriftHighHz = 0.15;
-constexpr double kHeldByTissue = 0.3;    // share of the hand's sway that reaches a tip in tissue
 constexpr double kSweepMm = 15.0;        // the probe's first search, out of plane
 constexpr double kRealignSeconds = 0.6;  // time constant of bringing the tip back into the picture
 constexpr double kLearnedShare = 0.4;    // of the error about the target left after one look at a miss
-constexpr double kHoldSeconds = 0.4;     // after the trigger
 constexpr double kOutsideMm = 8.0;       // a full withdrawal ends this far outside
 
 }  // namespace
-
-double ScriptedOperator::Wander::at(double t_s) const noexcept {
-  double sum = 0.0;
-  for (int i = 0; i < 3; ++i) sum += base::exact_sin(phase_rad[i] + rate_rad_s[i] * t_s);
-  return sum / 1.224744871391589;  // √(3/2): unit variance
-}
 
 ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const PuncturePlan& plan,
                                    const cases::Instrument& instrument, std::uint64_t seed)
@@ -45,21 +35,12 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   const glm::dvec3 beside = error(profile.target_error_mm / 2);
   entry_ = plan.entry_lps_mm + beside - plan.direction * glm::dot(beside, plan.direction);
   scan_s_ = profile.scan_s * (0.7 + 0.6 * rng_.uniform());
-  for (Wander& wander : tremor_) wander = make_wander(kTremorLowHz, kTremorHighHz);
-  for (Wander& wander : sway_) wander = make_wander(kSwayLowHz, kSwayHighHz);
-  drift_ = make_wander(kDriftLowHz, kDriftHighHz);
-  tilt_ = make_wander(kDriftLowHz, kDriftHighHz);
+  for (Wander& wander : tremor_) wander = make_wander(rng_, kTremorLowHz, kTremorHighHz);
+  for (Wander& wander : sway_) wander = make_wander(rng_, kSwayLowHz, kSwayHighHz);
+  drift_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
+  tilt_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   inserted_mm_ = -kStartMm;
   aim();
-}
-
-ScriptedOperator::Wander ScriptedOperator::make_wander(double low_hz, double high_hz) {
-  Wander wander;
-  for (int i = 0; i < 3; ++i) {
-    wander.phase_rad[i] = 2.0 * std::numbers::pi * rng_.uniform();
-    wander.rate_rad_s[i] = 2.0 * std::numbers::pi * (low_hz + (high_hz - low_hz) * rng_.uniform());
-  }
-  return wander;
 }
 
 // Towards where the target is believed to be; each new aim is better than the last.
@@ -117,7 +98,7 @@ void ScriptedOperator::decide(const cases::State& state) {
       enter(withdraw_to_mm_ < 0.0 ? Phase::approach : Phase::advance);
       break;
     case Phase::fire:
-      if (since_s >= kHoldSeconds) enter(Phase::done);
+      if (since_s >= kTriggerHoldSeconds) enter(Phase::done);
       break;
     case Phase::done:
       break;

@@ -7,6 +7,7 @@
 
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
+#include "assessment/operators/wander.h"
 #include "sim/base/rng.h"
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
@@ -28,13 +29,6 @@ class ScriptedOperator {
  private:
   enum class Phase { scan, approach, advance, look, withdraw, fire, done };
 
-  // A slow wander of unit size: three incommensurate frequencies with random phases.
-  struct Wander {
-    double phase_rad[3] = {}, rate_rad_s[3] = {};
-    double at(double t_s) const noexcept;
-  };
-
-  Wander make_wander(double low_hz, double high_hz);
   void aim();
   bool tip_seen() const noexcept;
   void decide(const cases::State& state);

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/case/fluoroscope.h"
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
+#include "sim/case/patient_position.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::cases {
@@ -32,9 +34,10 @@ struct Lesion {
 };
 
 enum class Approach { in_plane, out_of_plane };
-enum class Modality { mpr };
+enum class Modality { mpr, xray };
 
-// The picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
+// mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
+// xray: the fluoroscope's own; depth, width and rate say nothing.
 struct Picture {
   Modality modality = Modality::mpr;
   double depth_mm = 150.0;
@@ -49,7 +52,9 @@ struct Case {
   std::vector<Lesion> lesions;  // [0] is the target
   Instrument instrument;
   Picture picture;
-  Approach approach = Approach::in_plane;
+  Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
+  PatientPosition position = PatientPosition::supine;
+  Fluoroscope fluoroscope;  // used under xray only
 };
 
 }  // namespace seldinger::cases

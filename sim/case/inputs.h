@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sim/case/fluoroscope.h"
+
 namespace seldinger::cases {
 
 // Pose of a hand-held tool. Needle: position = tip, axis = hub → tip. Probe: position = centre of the face, axis =
@@ -19,6 +21,8 @@ struct Inputs {
   ToolPose probe;
   bool fire = false;    // trigger is down
   bool freeze = false;  // picture is frozen
+  FluoroscopeInputs fluoroscope;
+  ExposureReport exposure;  // of the last exposed frame, by imaging; each frame's counts once
 };
 
 }  // namespace seldinger::cases

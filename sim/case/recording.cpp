@@ -11,19 +11,30 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2, kFormatWithoutFluoroscope = 1;
 constexpr double kChunkSeconds = 2.0;
 constexpr std::uint32_t kMaxRows = 1'000'000;  // per chunk: bounds what damaged bytes can make us allocate
 
 struct Header {
   std::uint32_t magic = kMagic, format = kFormat;
-  std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0, reserved = 0;
+  std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0, fluoroscope = 0;
   double dt_s = 0.0;
   double endpoint[7] = {};
 };
 static_assert(sizeof(Header) == 96);
 
-constexpr std::size_t kInputColumns = 20, kPoseColumns = 16, kFrameColumns = 3;
+constexpr std::size_t kPoseColumns = 16;
+constexpr std::size_t kMaxInputColumns = 37;
+std::size_t input_columns(bool fluoroscope) {
+  return fluoroscope ? kMaxInputColumns : 20;
+}
+std::size_t frame_columns(bool fluoroscope) {
+  return fluoroscope ? 11 : 3;
+}
+
+// Bits of a row's one word of yes and no.
+enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
+enum FrameBit : unsigned { kLive = 1, kNeedleTip = 2, kTarget = 4, kBeam = 8, kArmMoving = 16, kHand = 32 };
 
 void put(std::uint64_t*& at, double value) {
   *at++ = std::bit_cast<std::uint64_t>(value);
@@ -49,6 +60,55 @@ ToolPose get_pose(const std::uint64_t*& at) {
   pose.axis = get_point(at);
   pose.side = get_point(at);
   return pose;
+}
+
+void put(std::uint64_t*& at, const FluoroscopeInputs& asked, const ExposureReport& report) {
+  for (const double speed : {asked.lao_speed, asked.cranial_speed, asked.sid_speed}) put(at, speed);
+  put(at, asked.table_speed);
+  for (const double value : {asked.collimator.open_u, asked.collimator.open_v, asked.kv, asked.ma}) put(at, value);
+  *at++ = std::uint64_t{static_cast<std::uint32_t>(asked.magnification)} << 32U |
+          std::uint64_t{static_cast<std::uint32_t>(asked.pulse_rate)};
+  *at++ = report.frame;
+  for (const double value :
+       {report.air_kerma_mgy, report.dap_mgy_cm2, report.next.kv, report.next.ma, report.next.pulse_ms})
+    put(at, value);
+}
+void get(const std::uint64_t*& at, FluoroscopeInputs& asked, ExposureReport& report) {
+  for (double* speed : {&asked.lao_speed, &asked.cranial_speed, &asked.sid_speed}) *speed = get(at);
+  asked.table_speed = get_point(at);
+  for (double* value : {&asked.collimator.open_u, &asked.collimator.open_v, &asked.kv, &asked.ma}) *value = get(at);
+  const std::uint64_t settings = *at++;
+  asked.magnification = static_cast<int>(static_cast<std::uint32_t>(settings >> 32U));
+  asked.pulse_rate = static_cast<int>(static_cast<std::uint32_t>(settings));
+  report.frame = static_cast<std::uint32_t>(*at++);
+  for (double* value :
+       {&report.air_kerma_mgy, &report.dap_mgy_cm2, &report.next.kv, &report.next.ma, &report.next.pulse_ms})
+    *value = get(at);
+}
+
+void put(std::uint64_t*& at, const BeamTruth& beam) {
+  for (const double value : {beam.lao_deg, beam.cranial_deg, beam.kv, beam.ma, beam.air_kerma_mgy, beam.dap_mgy_cm2,
+                             beam.collimated_share, beam.beam_s})
+    put(at, value);
+}
+BeamTruth get_beam(const std::uint64_t*& at) {
+  BeamTruth beam;
+  for (double* value : {&beam.lao_deg, &beam.cranial_deg, &beam.kv, &beam.ma, &beam.air_kerma_mgy,
+                        &beam.dap_mgy_cm2, &beam.collimated_share, &beam.beam_s})
+    *value = get(at);
+  return beam;
+}
+
+// Whether a chunk holds anything of a fluoroscope.
+bool uses_fluoroscope(const Recording& recording, std::size_t first_input, std::size_t end_input,
+                      std::size_t first_frame, std::size_t end_frame) {
+  for (std::size_t i = first_input; i < end_input; ++i)
+    if (!(recording.inputs[i].fluoroscope == FluoroscopeInputs{} &&
+          recording.inputs[i].exposure == ExposureReport{}))
+      return true;
+  for (std::size_t i = first_frame; i < end_frame; ++i)
+    if (recording.frames[i].beam) return true;
+  return false;
 }
 
 // Rows of 64-bit words, written column by column as XOR with the row before and byte plane by byte plane: what
@@ -100,19 +160,25 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
       header.endpoint[4 + axis] = endpoint.direction[axis];
     }
   }
+  const bool fluoroscope = uses_fluoroscope(recording, first_input, end_input, first_frame, end_frame);
+  header.fluoroscope = fluoroscope ? 1 : 0;
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
 
-  std::vector<std::uint64_t> rows(header.inputs * kInputColumns);
+  std::vector<std::uint64_t> rows(header.inputs * input_columns(fluoroscope));
   std::uint64_t* at = rows.data();
   for (std::size_t i = first_input; i < end_input; ++i) {
     const Inputs& inputs = recording.inputs[i];
+    const FluoroscopeInputs& asked = inputs.fluoroscope;
     put(at, inputs.needle);
     put(at, inputs.probe);
-    *at++ = (inputs.fire ? 1U : 0U) | (inputs.freeze ? 2U : 0U);
+    *at++ = (inputs.fire ? kFire : 0U) | (inputs.freeze ? kFreeze : 0U) | (asked.pedal ? kPedal : 0U) |
+            (fluoroscope && asked.automatic_exposure ? kAutomatic : 0U) | (asked.hand_away ? kHandAway : 0U) |
+            (inputs.exposure.hand_in_beam ? kHandInBeam : 0U);
     *at++ = recording.hashes[i];
+    if (fluoroscope) put(at, asked, inputs.exposure);
   }
-  append_table(raw, rows, kInputColumns);
+  append_table(raw, rows, input_columns(fluoroscope));
 
   rows.assign(header.poses * kPoseColumns, 0);
   at = rows.data();
@@ -127,15 +193,18 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
   }
   append_table(raw, rows, kPoseColumns);
 
-  rows.assign(header.frames * kFrameColumns, 0);
+  rows.assign(header.frames * frame_columns(fluoroscope), 0);
   at = rows.data();
   for (std::size_t i = first_frame; i < end_frame; ++i) {
     const FrameTruth& frame = recording.frames[i];
     put(at, frame.t_s);
     put(at, frame.needle_length_mm);
-    *at++ = (frame.live ? 1U : 0U) | (frame.needle_tip ? 2U : 0U) | (frame.target ? 4U : 0U);
+    const BeamTruth beam = frame.beam.value_or(BeamTruth{});
+    *at++ = (frame.live ? kLive : 0U) | (frame.needle_tip ? kNeedleTip : 0U) | (frame.target ? kTarget : 0U) |
+            (frame.beam ? kBeam : 0U) | (beam.arm_moving ? kArmMoving : 0U) | (beam.hand_in_beam ? kHand : 0U);
+    if (fluoroscope) put(at, beam);
   }
-  append_table(raw, rows, kFrameColumns);
+  append_table(raw, rows, frame_columns(fluoroscope));
 
   RecordingChunk chunk;
   chunk.sequence = sequence;
@@ -181,15 +250,21 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (chunks[i].sequence != i) return base::Error{"incomplete", where + " is missing"};
     if (chunks[i].checksum != base::hash_bytes(chunks[i].data))
       return base::Error{"damaged", where + " does not have its checksum"};
-    const auto raw = base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kInputColumns + kPoseColumns));
+    const auto raw =
+        base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kPoseColumns));
     Header header;
     if (!raw || raw->size() < sizeof header) return base::Error{"damaged", where + " cannot be read"};
     std::memcpy(&header, raw->data(), sizeof header);
     if (header.magic != kMagic) return base::Error{"damaged", where + " cannot be read"};
-    if (header.format != kFormat) return base::Error{"recording_version", where + " has an unknown format"};
+    if (header.format != kFormat && header.format != kFormatWithoutFluoroscope)
+      return base::Error{"recording_version", where + " has an unknown format"};
+    if (header.fluoroscope > (header.format == kFormat ? 1U : 0U))
+      return base::Error{"damaged", where + " cannot be read"};
+    const bool fluoroscope = header.fluoroscope == 1;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
-        raw->size() != sizeof header + 8 * (header.inputs * kInputColumns + header.poses * kPoseColumns +
-                                            header.frames * kFrameColumns))
+        raw->size() !=
+            sizeof header + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
+                                 header.frames * frame_columns(fluoroscope)))
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s))
       return base::Error{"damaged", where + " belongs to another recording"};
@@ -202,16 +277,22 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
                                     {header.endpoint[1], header.endpoint[2], header.endpoint[3]},
                                     {header.endpoint[4], header.endpoint[5], header.endpoint[6]}};
     const std::byte* from = raw->data() + sizeof header;
-    const auto inputs = table_at(from, header.inputs, kInputColumns);
+    const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope));
     const std::uint64_t* at = inputs.data();
     for (std::uint32_t row = 0; row < header.inputs; ++row) {
       Inputs& in = recording.inputs.emplace_back();
       in.needle = get_pose(at);
       in.probe = get_pose(at);
       const std::uint64_t bits = *at++;
-      in.fire = (bits & 1U) != 0;
-      in.freeze = (bits & 2U) != 0;
+      in.fire = (bits & kFire) != 0;
+      in.freeze = (bits & kFreeze) != 0;
       recording.hashes.push_back(static_cast<std::uint32_t>(*at++));
+      if (!fluoroscope) continue;
+      in.fluoroscope.pedal = (bits & kPedal) != 0;
+      in.fluoroscope.automatic_exposure = (bits & kAutomatic) != 0;
+      in.fluoroscope.hand_away = (bits & kHandAway) != 0;
+      in.exposure.hand_in_beam = (bits & kHandInBeam) != 0;
+      get(at, in.fluoroscope, in.exposure);
     }
     const auto poses = table_at(from, header.poses, kPoseColumns);
     at = poses.data();
@@ -224,16 +305,22 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       pose.probe_axial = get_point(at);
       pose.probe_lateral = get_point(at);
     }
-    const auto frames = table_at(from, header.frames, kFrameColumns);
+    const auto frames = table_at(from, header.frames, frame_columns(fluoroscope));
     at = frames.data();
     for (std::uint32_t row = 0; row < header.frames; ++row) {
       FrameTruth& frame = recording.frames.emplace_back();
       frame.t_s = get(at);
       frame.needle_length_mm = get(at);
       const std::uint64_t bits = *at++;
-      frame.live = (bits & 1U) != 0;
-      frame.needle_tip = (bits & 2U) != 0;
-      frame.target = (bits & 4U) != 0;
+      frame.live = (bits & kLive) != 0;
+      frame.needle_tip = (bits & kNeedleTip) != 0;
+      frame.target = (bits & kTarget) != 0;
+      if (!fluoroscope) continue;
+      const BeamTruth beam = get_beam(at);
+      if ((bits & kBeam) == 0) continue;
+      frame.beam = beam;
+      frame.beam->arm_moving = (bits & kArmMoving) != 0;
+      frame.beam->hand_in_beam = (bits & kHand) != 0;
     }
   }
   return recording;

@@ -25,13 +25,25 @@ struct PoseSample {
   bool operator==(const PoseSample&) const = default;
 };
 
+// How one pulse of a fluoroscope was made.
+struct BeamTruth {
+  double lao_deg = 0.0, cranial_deg = 0.0;
+  double kv = 0.0, ma = 0.0;
+  double air_kerma_mgy = 0.0, dap_mgy_cm2 = 0.0;
+  double collimated_share = 0.0;  // of the whole field, shut off
+  double beam_s = 0.0;            // what the pulse stands for: 1/rate
+  bool arm_moving = false, hand_in_beam = false;
+  bool operator==(const BeamTruth&) const = default;
+};
+
 // What one picture showed (contracts.md, "What a picture shows").
 struct FrameTruth {
   double t_s = 0.0;
-  bool live = true;  // not frozen
+  bool live = true;  // not frozen, no last image held
   bool needle_tip = false;
   bool target = false;
   double needle_length_mm = 0.0;
+  std::optional<BeamTruth> beam{};  // of a fluoroscope's pulse; none for a held image and other modalities
   bool joint() const noexcept { return needle_tip && target; }
 };
 
@@ -48,7 +60,7 @@ struct Recording {
   std::vector<Inputs> inputs;         // one per tick
   std::vector<std::uint32_t> hashes;  // low word of the chained state hash after each tick; same length as inputs
   std::vector<PoseSample> poses;      // 100 Hz
-  std::vector<FrameTruth> frames;     // the picture's rate
+  std::vector<FrameTruth> frames;     // the picture's rate; a fluoroscope's: each pulse, and when its time is over
   std::optional<Endpoint> endpoint;
 };
 
@@ -59,7 +71,9 @@ struct RecordingChunk {
   std::vector<std::byte> data;
 };
 
-// Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint.
+// Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Format 2:
+// a chunk in which the fluoroscope was used holds its inputs, exposures and beams too. Format 1, which had none, is
+// read as well.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 // Refused: `damaged` (checksum, codec), `incomplete` (a sequence number is missing), `recording_version`.

@@ -3,6 +3,32 @@
 #include "sim/base/hash.h"
 
 namespace seldinger::cases {
+namespace {
+
+std::uint64_t hash_of(const FluoroscopyState& state, std::uint64_t previous) noexcept {
+  std::uint64_t hash = previous;
+  const auto add = [&hash](auto... values) { ((hash = base::hash_combine(hash, values)), ...); };
+  const auto add_technique = [&add](const Technique& technique) {
+    add(technique.kv, technique.ma, technique.pulse_ms);
+  };
+  add(state.arm.lao_deg, state.arm.cranial_deg, state.arm.sid_mm);
+  add(state.arm.isocentre_lps_mm.x, state.arm.isocentre_lps_mm.y, state.arm.isocentre_lps_mm.z);
+  add(state.wait_s, state.collimator.open_u, state.collimator.open_v, state.frame_s);
+  add_technique(state.technique);
+  add_technique(state.last_technique);
+  add(state.fluoroscopy_time_s, state.beam_while_moving_s, state.hand_in_beam_s);
+  add(state.air_kerma_mgy, state.dap_mgy_cm2, state.collimated_s, state.views.widest_deg);
+  for (int i = 0; i < state.views.count; ++i)
+    add(state.views.lao_deg[static_cast<std::size_t>(i)], state.views.cranial_deg[static_cast<std::size_t>(i)]);
+  add(std::uint64_t{state.frames} << 32U | state.reported);
+  add(static_cast<std::uint64_t>(state.pulse_rate) << 32U | static_cast<std::uint64_t>(state.magnification) << 16U |
+      static_cast<std::uint64_t>(state.views.count));
+  add(std::uint64_t{(state.arm_moving ? 1U : 0U) | (state.beam_on ? 2U : 0U) | (state.frame_due ? 4U : 0U) |
+                    (state.live ? 8U : 0U) | (state.hand_away ? 16U : 0U)});
+  return hash;
+}
+
+}  // namespace
 
 std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   std::uint64_t hash = previous;
@@ -30,8 +56,9 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   add_point(state.fire.tip_lps_mm);
   add_point(state.fire.direction);
   add_integer((state.needle.skin.geometric_inside ? 1U : 0U) | (state.needle.skin.in_body ? 2U : 0U) |
-              (state.probe.frozen ? 4U : 0U) | (state.fire.fired ? 8U : 0U));
-  return hash;
+              (state.probe.frozen ? 4U : 0U) | (state.fire.fired ? 8U : 0U) |
+              (state.fluoroscopy.in_use ? 16U : 0U));
+  return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;
 }
 
 }  // namespace seldinger::cases

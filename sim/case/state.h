@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sim/case/fluoroscope.h"
 #include "sim/case/inputs.h"
 #include "sim/case/skin_passage.h"
 
@@ -36,6 +37,7 @@ struct State {
   NeedleState needle;
   ProbeState probe;
   FireState fire;
+  FluoroscopyState fluoroscopy;
 };
 
 // Hash of every field, chained to the hash of the tick before; the same on every machine.

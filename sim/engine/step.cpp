@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "sim/base/vectors.h"
+#include "sim/engine/fluoroscopy.h"
 
 namespace seldinger::engine {
 namespace {
@@ -49,6 +50,9 @@ void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s, ca
   ++state.tick;
   state.t_s = static_cast<double>(state.tick) * dt_s;
   move_probe(inputs, state.probe);
+  if (scene.picture.modality == cases::Modality::xray) advance_fluoroscope(scene, inputs, dt_s, state.fluoroscopy);
+  // Let go of, the needle stays where it is, and nobody pulls the trigger.
+  if (scene.picture.modality == cases::Modality::xray && inputs.fluoroscope.hand_away && !first) return;
   move_needle(scene, inputs, state.fire, first, state.needle);
   if (!inputs.fire || state.fire.fired) return;
   // The endpoint is where the tip stands when the trigger falls; a core needle's throw follows in the same tick.

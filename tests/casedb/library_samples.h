@@ -153,7 +153,8 @@ inline std::string difference(const cases::Recording& a, const cases::Recording&
     return "sizes or hashes";
   for (std::size_t i = 0; i < a.inputs.size(); ++i)
     if (!same_pose(a.inputs[i].needle, b.inputs[i].needle) || !same_pose(a.inputs[i].probe, b.inputs[i].probe) ||
-        a.inputs[i].fire != b.inputs[i].fire || a.inputs[i].freeze != b.inputs[i].freeze)
+        a.inputs[i].fire != b.inputs[i].fire || a.inputs[i].freeze != b.inputs[i].freeze ||
+        a.inputs[i].fluoroscope != b.inputs[i].fluoroscope || a.inputs[i].exposure != b.inputs[i].exposure)
       return "inputs of tick " + std::to_string(i);
   for (std::size_t i = 0; i < a.poses.size(); ++i) {
     const cases::PoseSample &p = a.poses[i], &q = b.poses[i];
@@ -166,7 +167,7 @@ inline std::string difference(const cases::Recording& a, const cases::Recording&
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
     const cases::FrameTruth &p = a.frames[i], &q = b.frames[i];
     if (!same_bits(p.t_s, q.t_s) || p.live != q.live || p.needle_tip != q.needle_tip || p.target != q.target ||
-        !same_bits(p.needle_length_mm, q.needle_length_mm))
+        !same_bits(p.needle_length_mm, q.needle_length_mm) || p.beam != q.beam)
       return "frame " + std::to_string(i);
   }
   if (a.endpoint.has_value() != b.endpoint.has_value()) return "endpoint";

@@ -43,6 +43,57 @@ TEST_F(SchemaTest, SchemaSqlOfIdentitiesIsTheSumOfTheMigrations) {
   expect_written(library_.identities(), "migrations/identities/schema.sql");
 }
 
+// A library as the first schema had it, with cases, attempts, recordings and scores, walks to the newest: nothing
+// is lost, references hold, and what could not be changed still cannot.
+TEST_F(SchemaTest, ALibraryOfTheFirstSchemaKeepsEverything) {
+  const Schema newest = library_schema();
+  const auto file = folder_ / "old.sqlite";
+  const std::string case_id(36, 'c'), lesion_id(36, 'l');
+  constexpr int kAttempts = 300;  // more than a page of each table
+  {
+    Sqlite old(file, Sqlite::Mode::create);
+    ASSERT_TRUE(migrate(old, {newest.application_id, newest.steps.first(1)}).has_value());
+    std::string matrix;
+    for (int i = 0; i < 12; ++i) matrix += i % 5 == 0 ? ", 1" : ", 0";
+    old.run("INSERT INTO training_case VALUES ('" + case_id + "', 'T', 'draft', 'import', 5, 3, 3, 3, 1, 1, 1" +
+            matrix + ", -1000, 100, 3, '" + std::string(64, 'v') + "', '" + std::string(64, 's') + "', NULL)");
+    old.run("INSERT INTO lesion VALUES ('" + lesion_id + "', '" + case_id + "', 1, 1, 1, 0.5, 20, 6)");
+    for (int i = 0; i < kAttempts; ++i) {
+      const std::string number = std::to_string(i);
+      const std::string attempt_id = std::string(36 - number.size(), 'a') + number;
+      old.run(
+          "INSERT INTO attempt VALUES ('" + attempt_id + "', '" + case_id + "', '" + lesion_id +
+          "', NULL, 'novice', -7, '0.1.0', 1, 'in_plane', 'access', 200, 0.36, 0, 3000, 22, 18, 4, 'mpr', 150.25, "
+          "150, 30, " +
+          number + ", 4.5, 'complete', 1, NULL)");
+      old.run("INSERT INTO recording_chunk VALUES ('" + attempt_id + "', 0, -9, x'00ff')");
+      old.run("INSERT INTO metric_value VALUES ('" + attempt_id + "', 'hit', 1, 0, 1.0, 'bool', '')");
+    }
+  }
+  Sqlite database(file);
+  const auto migrated = migrate(database, newest);
+  ASSERT_TRUE(migrated.has_value()) << migrated.error().text;
+  EXPECT_EQ(
+      database.integer("SELECT count(*) FROM attempt_summary WHERE picture_modality = 'mpr' AND seed = -7 AND "
+                       "picture_depth_mm = 150.25 AND case_title = 'T'"),
+      kAttempts);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM recording_chunk JOIN attempt USING (attempt_id)"), kAttempts);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM metric_value JOIN attempt USING (attempt_id)"), kAttempts);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM training_case WHERE modality = 'mpr' AND "
+                             "patient_position = 'supine'"),
+            1);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM pragma_foreign_key_check"), 0);
+  EXPECT_EQ(database.text("PRAGMA integrity_check"), "ok");
+  EXPECT_EQ(sum_of(database), sum_of(library_.database())) << "as if made new";
+  for (const char* change : {"UPDATE attempt SET seed = 1", "DELETE FROM attempt",
+                             "UPDATE metric_value SET value = 0", "UPDATE attempt SET picture_modality = 'us'"})
+    EXPECT_TRUE(refused_by_constraint([&] { database.run(change); })) << change;
+  EXPECT_TRUE(refused_by_constraint([&] {
+    database.run("INSERT INTO recording_chunk VALUES ('" + std::string(36, 'x') + "', 0, 0, x'00')");
+  })) << "references are looked at again";
+  EXPECT_TRUE(std::filesystem::exists(file.string() + ".v1-backup"));
+}
+
 TEST_F(SchemaTest, EveryTableIsStrict) {
   for (Sqlite* database : {&library_.database(), &library_.identities()}) {
     EXPECT_EQ(database->integer("SELECT count(*) FROM pragma_table_list WHERE type = 'table' AND strict = 0 AND "

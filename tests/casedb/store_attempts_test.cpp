@@ -80,6 +80,20 @@ TEST_F(StoreAttemptsTest, RecordingsComeBackBitForBit) {
   }
 }
 
+TEST_F(StoreAttemptsTest, AnAttemptUnderXrayComesBackBitForBit) {
+  NewAttempt attempt = sample();
+  attempt.picture = {cases::Modality::xray, 0.0, 0.0, 0.0};
+  attempt.recording.inputs[7].fluoroscope.pedal = true;
+  attempt.recording.inputs[8].exposure = {1, 0.1, 2.0, {70.5, 30.5, 7.5}, true};
+  attempt.recording.frames[3].beam = cases::BeamTruth{-12.5, 3.5, 81.0, 40.0, 0.03, 4.5, 0.25, 0.2, true, true};
+  const std::string attempt_id = add(attempt);
+  EXPECT_EQ(find_attempt(library_, attempt_id).value().picture.modality, cases::Modality::xray);
+  const auto loaded = load_recording(library_, attempt_id);
+  ASSERT_TRUE(loaded.has_value());
+  EXPECT_EQ(difference(attempt.recording, *loaded), "");
+  EXPECT_TRUE(loaded->inputs[7].fluoroscope.pedal);
+}
+
 TEST_F(StoreAttemptsTest, AScoreOfNothingIsNotZero) {
   const AttemptRow row = find_attempt(library_, add(sample())).value();
   ASSERT_EQ(row.metrics.size(), 4U);  // in the order given

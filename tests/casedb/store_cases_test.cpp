@@ -13,6 +13,30 @@ class StoreCasesTest : public testing::Test {
   Library library_ = open_library(folder_);
 };
 
+TEST_F(StoreCasesTest, KeepsWhatItIsPractisedWithAndHowThePatientLies) {
+  EXPECT_EQ(find_case(library_, add_case(library_, sample_case())).value().modality, cases::Modality::mpr);
+  NewCase prone = sample_case();
+  prone.modality = cases::Modality::xray;
+  prone.position = cases::PatientPosition::prone;
+  const std::string case_id = add_case(library_, prone);
+  const CaseRow row = find_case(library_, case_id).value();
+  EXPECT_EQ(row.modality, cases::Modality::xray);
+  EXPECT_EQ(row.position, cases::PatientPosition::prone);
+  for (const char* change : {"modality = 'mpr'", "patient_position = 'supine'"})
+    EXPECT_TRUE(refused_by_constraint([&] {
+      library_.database().run(std::string("UPDATE training_case SET ") + change);
+    })) << change;
+}
+
+TEST_F(StoreCasesTest, NamesOfModalitiesAndPositionsComeBack) {
+  for (const auto modality : {cases::Modality::mpr, cases::Modality::xray})
+    EXPECT_EQ(modality_from(name_of(modality)), modality);
+  for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone})
+    EXPECT_EQ(position_from(name_of(position)), position);
+  EXPECT_FALSE(modality_from("XRAY").has_value());
+  EXPECT_FALSE(position_from("").has_value());
+}
+
 TEST_F(StoreCasesTest, ACaseComesBackAsItWentIn) {
   const NewCase sample = sample_case();
   const std::string case_id = add_case(library_, sample);

@@ -111,6 +111,31 @@ TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
     EXPECT_THAT(html, Not(HasSubstr(zero)));
 }
 
+TEST(AttemptPage, OfFluoroscopySpeaksOfItAndShowsWhatItCost) {
+  AttemptView view = sample_attempt();
+  view.row.picture.modality = cases::Modality::xray;
+  view.row.metrics.push_back({"fluoroscopy_time", 1, 12.25, "s", ""});
+  view.row.metrics.push_back({"dap", 1, 0.0421, "Gy·cm²", ""});
+  view.row.metrics.push_back({"view_angle_max", 1, std::nullopt, "deg", "fewer_than_two_views"});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<caption>Radiation</caption>"));
+  EXPECT_THAT(html, HasSubstr("0.042 Gy·cm²"));
+  EXPECT_THAT(html, HasSubstr("fewer than two views"));
+  EXPECT_THAT(html, HasSubstr("The last image before the moment of firing."));
+  EXPECT_THAT(html, HasSubstr("<bdi>Fluoroscopy</bdi>"));
+  EXPECT_THAT(html, Not(HasSubstr("MPR")));
+  EXPECT_THAT(html, Not(HasSubstr("In plane"))) << "a projection has no plane to be in";
+}
+
+TEST(AttemptPage, OfASliceLeavesOutWhatAFluoroscopeSpends) {
+  AttemptView view = sample_attempt();
+  view.row.metrics.push_back({"dap", 1, std::nullopt, "Gy·cm²", "not_xray"});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, Not(HasSubstr("Radiation")));
+  EXPECT_THAT(html, Not(HasSubstr("not xray")));
+  EXPECT_THAT(html, HasSubstr("In plane"));
+}
+
 TEST(AttemptPage, WithoutMetricsOrPictureSaysSo) {
   AttemptView view = sample_attempt();
   view.row.metrics.clear();

@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstring>
+#include <functional>
+
+#include "sim/base/codec.h"
+#include "sim/base/hash.h"
 #include "sim/base/rng.h"
 #include "sim/case/state.h"
 
@@ -37,6 +43,38 @@ Recording random_recording(std::size_t ticks, std::uint64_t seed) {
   return recording;
 }
 
+// As random_recording, of an attempt guided by fluoroscopy; `from` is the first tick in which it is used.
+Recording random_xray_recording(std::size_t ticks, std::uint64_t seed, std::size_t from = 0) {
+  Recording recording = random_recording(ticks, seed);
+  base::Rng rng(seed + 1);
+  for (std::size_t i = from; i < ticks; ++i) {
+    Inputs& inputs = recording.inputs[i];
+    FluoroscopeInputs& asked = inputs.fluoroscope;
+    asked = {i % 2 == 0,
+             rng.normal(),
+             rng.normal(),
+             rng.normal(),
+             random_vector(rng),
+             {rng.uniform(), rng.uniform()},
+             i % 5 == 0 ? -3 : static_cast<int>(i % 3),
+             static_cast<int>(i % 4) - 1,
+             i % 7 != 0,
+             rng.normal(),
+             rng.normal(),
+             i % 11 == 0};
+    inputs.exposure = {static_cast<std::uint32_t>(rng.bits()),
+                       rng.normal(),
+                       rng.normal(),
+                       {rng.normal(), rng.normal(), rng.normal()},
+                       i % 13 == 0};
+  }
+  for (std::size_t i = 0; i < recording.frames.size(); ++i)
+    if (i % 4 != 3 && recording.frames[i].t_s >= static_cast<double>(from) * 0.001)
+      recording.frames[i].beam = BeamTruth{rng.normal(), rng.normal(),  rng.normal(),  rng.normal(), rng.normal(),
+                                           rng.normal(), rng.uniform(), rng.uniform(), i % 3 == 0,   i % 5 == 0};
+  return recording;
+}
+
 void expect_same(const Recording& a, const Recording& b) {
   EXPECT_EQ(a.step_version, b.step_version);
   EXPECT_EQ(a.dt_s, b.dt_s);
@@ -50,6 +88,8 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.inputs[i].probe.side, b.inputs[i].probe.side);
     EXPECT_EQ(a.inputs[i].fire, b.inputs[i].fire);
     EXPECT_EQ(a.inputs[i].freeze, b.inputs[i].freeze);
+    EXPECT_EQ(a.inputs[i].fluoroscope, b.inputs[i].fluoroscope);
+    EXPECT_EQ(a.inputs[i].exposure, b.inputs[i].exposure);
   }
   EXPECT_EQ(a.hashes, b.hashes);
   EXPECT_EQ(a.poses, b.poses);
@@ -61,6 +101,7 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.frames[i].needle_tip, b.frames[i].needle_tip);
     EXPECT_EQ(a.frames[i].target, b.frames[i].target);
     EXPECT_EQ(a.frames[i].needle_length_mm, b.frames[i].needle_length_mm);
+    EXPECT_EQ(a.frames[i].beam, b.frames[i].beam);
   }
 }
 
@@ -75,8 +116,116 @@ TEST(Recording, ComesBackBitForBit) {
   }
 }
 
+TEST(Recording, OfAFluoroscopeComesBackBitForBit) {
+  // In the last chunk only; in all; and its use begins in the middle of one.
+  for (const std::size_t from : {std::size_t{0}, std::size_t{3000}, std::size_t{6001}}) {
+    const Recording recording = random_xray_recording(6500, 20 + from, from);
+    const auto back = recording_from_chunks(chunks_from_recording(recording));
+    ASSERT_TRUE(back.has_value()) << from;
+    expect_same(recording, *back);
+  }
+}
+
+TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
+  const auto size = [](const Recording& recording) {
+    std::size_t bytes = 0;
+    for (const auto& chunk : chunks_from_recording(recording))
+      bytes += base::decompress(chunk.data, 1U << 24)->size();
+    return bytes;
+  };
+  // The columns of format 1: 96 bytes of head, 20, 16 and 3 words a row.
+  const Recording recording = random_recording(2000, 3);
+  EXPECT_EQ(size(recording), 96 + 8 * (2000 * 20 + 200 * 16 + recording.frames.size() * 3));
+}
+
+// The layout that format 1 had, by its description: head, then three tables, column by column, byte plane by byte
+// plane, each row as XOR with the one before.
+std::vector<std::byte> table_of_format_1(const std::vector<std::vector<std::uint64_t>>& rows) {
+  std::vector<std::byte> out;
+  for (std::size_t column = 0; !rows.empty() && column < rows[0].size(); ++column)
+    for (unsigned plane = 0; plane < 64; plane += 8)
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        const std::uint64_t before = row > 0 ? rows[row - 1][column] : 0;
+        out.push_back(static_cast<std::byte>((rows[row][column] ^ before) >> plane));
+      }
+  return out;
+}
+
+RecordingChunk chunk_of_format_1(const Recording& recording, std::uint32_t format = 1, std::uint32_t reserved = 0) {
+  const auto word = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const auto add = [&](std::vector<std::uint64_t>& row, const glm::dvec3& p) {
+    for (int axis = 0; axis < 3; ++axis) row.push_back(word(p[axis]));
+  };
+  std::vector<std::vector<std::uint64_t>> inputs, poses, frames;
+  for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
+    const Inputs& in = recording.inputs[i];
+    std::vector<std::uint64_t>& row = inputs.emplace_back();
+    for (const ToolPose& pose : {in.needle, in.probe})
+      for (const glm::dvec3& p : {pose.position_lps_mm, pose.axis, pose.side}) add(row, p);
+    row.push_back((in.fire ? 1U : 0U) + (in.freeze ? 2U : 0U));
+    row.push_back(recording.hashes[i]);
+  }
+  for (const PoseSample& pose : recording.poses) {
+    std::vector<std::uint64_t>& row = poses.emplace_back();
+    row.push_back(word(pose.t_s));
+    for (const glm::dvec3& p :
+         {pose.tip_lps_mm, pose.needle_direction, pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral})
+      add(row, p);
+  }
+  for (const FrameTruth& frame : recording.frames)
+    frames.push_back({word(frame.t_s), word(frame.needle_length_mm),
+                      (frame.live ? 1U : 0U) + (frame.needle_tip ? 2U : 0U) + (frame.target ? 4U : 0U)});
+  const std::uint32_t head[8] = {0x524c4453,
+                                 format,
+                                 recording.step_version,
+                                 static_cast<std::uint32_t>(inputs.size()),
+                                 static_cast<std::uint32_t>(poses.size()),
+                                 static_cast<std::uint32_t>(frames.size()),
+                                 1,
+                                 reserved};
+  const Endpoint& end = *recording.endpoint;
+  const double rest[8] = {recording.dt_s,   end.t_s,         end.tip_lps_mm.x, end.tip_lps_mm.y,
+                          end.tip_lps_mm.z, end.direction.x, end.direction.y,  end.direction.z};
+  std::vector<std::byte> raw(sizeof head + sizeof rest);
+  std::memcpy(raw.data(), head, sizeof head);
+  std::memcpy(raw.data() + sizeof head, rest, sizeof rest);
+  for (const auto& table : {inputs, poses, frames}) {
+    const auto bytes = table_of_format_1(table);
+    raw.insert(raw.end(), bytes.begin(), bytes.end());
+  }
+  RecordingChunk chunk;
+  chunk.data = base::compress(raw);
+  chunk.checksum = base::hash_bytes(chunk.data);
+  return chunk;
+}
+
+TEST(Recording, OfFormat1IsRead) {
+  const Recording recording = random_recording(1500, 12);
+  const auto back = recording_from_chunks(std::vector{chunk_of_format_1(recording)});
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+  for (const Inputs& inputs : back->inputs) ASSERT_EQ(inputs.fluoroscope, FluoroscopeInputs{});
+}
+
+TEST(Recording, OfAnotherFormatIsRefused) {
+  const Recording recording = random_recording(100, 13);
+  for (const std::uint32_t format : {0U, 3U, 77U})
+    EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
+              "recording_version");
+  EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")
+      << "format 1 had no fluoroscope";
+  EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 2, 1)}).error().code, "damaged")
+      << "its columns are missing";
+  EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 2, 2)}).error().code, "damaged");
+  EXPECT_TRUE(recording_from_chunks(std::vector{chunk_of_format_1(recording, 2, 0)}).has_value());
+}
+
 TEST(Recording, EveryDamagedChunkIsRefused) {
-  const auto chunks = chunks_from_recording(random_recording(4500, 9));
+  auto chunks = chunks_from_recording(random_recording(2500, 9));
+  for (RecordingChunk& chunk : chunks_from_recording(random_xray_recording(1500, 9))) {
+    chunk.sequence = 2;
+    chunks.push_back(std::move(chunk));
+  }
   ASSERT_EQ(chunks.size(), 3U);
   for (std::size_t c = 0; c < chunks.size(); ++c)
     for (std::size_t i = 0; i < chunks[c].data.size(); i += chunks[c].data.size() / 50 + 1) {
@@ -113,6 +262,68 @@ TEST(Recording, SlowMotionIsSmall) {
   std::size_t bytes = 0;
   for (const auto& chunk : chunks_from_recording(recording)) bytes += chunk.data.size();
   EXPECT_LT(bytes, 20'000U) << "under one byte a tick";
+}
+
+TEST(Recording, AHeldPedalIsSmall) {
+  Recording recording;
+  recording.step_version = 1;
+  for (int i = 0; i < 20'000; ++i) {
+    Inputs inputs;
+    inputs.needle.position_lps_mm = {std::floor(i * 0.032) / 32.0, 10.0, -5.0};
+    inputs.fluoroscope.pedal = i > 2000;
+    inputs.fluoroscope.collimator = {0.45, 0.45};
+    inputs.exposure = {static_cast<std::uint32_t>(i / 133), 0.031 + i / 133 * 1e-4, 2.0, {71.3, 44.1, 8.0}, false};
+    recording.inputs.push_back(inputs);
+    recording.hashes.push_back(0);
+  }
+  std::size_t bytes = 0;
+  for (const auto& chunk : chunks_from_recording(recording)) bytes += chunk.data.size();
+  EXPECT_LT(bytes, 25'000U) << "a fluoroscope adds little to a tick";
+}
+
+TEST(StateHash, EveryFieldOfAFluoroscopeInUseCounts) {
+  State state;
+  state.fluoroscopy.in_use = true;
+  const std::uint64_t before = state_hash(state, 0);
+  EXPECT_NE(before, state_hash(State{}, 0));
+  const auto changes = [&](const std::function<void(FluoroscopyState&)>& change) {
+    State other = state;
+    change(other.fluoroscopy);
+    return state_hash(other, 0) != before;
+  };
+  using F = FluoroscopyState;
+  double F::*const numbers[] = {
+      &F::wait_s,         &F::frame_s,       &F::fluoroscopy_time_s, &F::beam_while_moving_s,
+      &F::hand_in_beam_s, &F::air_kerma_mgy, &F::dap_mgy_cm2,        &F::collimated_s};
+  for (std::size_t i = 0; i < std::size(numbers); ++i)
+    EXPECT_TRUE(changes([number = numbers[i]](F& f) { f.*number += 1.0; })) << "number " << i;
+  bool F::*const flags[] = {&F::arm_moving, &F::beam_on, &F::frame_due, &F::live, &F::hand_away};
+  for (std::size_t i = 0; i < std::size(flags); ++i)
+    EXPECT_TRUE(changes([flag = flags[i]](F& f) { f.*flag = !(f.*flag); })) << "flag " << i;
+  EXPECT_TRUE(changes([](F& f) { f.arm.lao_deg = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.arm.cranial_deg = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.arm.sid_mm = 1; }));
+  for (int axis = 0; axis < 3; ++axis) EXPECT_TRUE(changes([axis](F& f) { f.arm.isocentre_lps_mm[axis] = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.frames = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.reported = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.pulse_rate = 2; }));
+  EXPECT_TRUE(changes([](F& f) { f.magnification = 2; }));
+  EXPECT_TRUE(changes([](F& f) { f.collimator.open_u = 0.5; }));
+  EXPECT_TRUE(changes([](F& f) { f.collimator.open_v = 0.5; }));
+  for (Technique F::*const technique : {&F::technique, &F::last_technique}) {
+    EXPECT_TRUE(changes([technique](F& f) { (f.*technique).kv = 1; }));
+    EXPECT_TRUE(changes([technique](F& f) { (f.*technique).ma = 1; }));
+    EXPECT_TRUE(changes([technique](F& f) { (f.*technique).pulse_ms = 1; }));
+  }
+  EXPECT_TRUE(changes([](F& f) { f.views.count = 1; }));
+  EXPECT_TRUE(changes([](F& f) { f.views.widest_deg = 1; }));
+  state.fluoroscopy.views.count = 2;
+  const std::uint64_t with_views = state_hash(state, 0);
+  state.fluoroscopy.views.lao_deg[1] = 1;
+  EXPECT_NE(state_hash(state, 0), with_views);
+  state.fluoroscopy.views.lao_deg[1] = 0;
+  state.fluoroscopy.views.cranial_deg[1] = 1;
+  EXPECT_NE(state_hash(state, 0), with_views);
 }
 
 TEST(StateHash, EveryFieldCounts) {

@@ -1,0 +1,135 @@
+#include "app/fluoroscopy.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "app/frame_truth.h"
+#include "app/png.h"
+#include "sim/base/check.h"
+#include "sim/case/c_arm.h"
+#include "sim/imaging/xray/c_arm.h"
+#include "sim/imaging/xray/exposure.h"
+#include "sim/imaging/xray/instruments.h"
+#include "sim/imaging/xray/picture.h"
+#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/visibility.h"
+
+namespace seldinger::app {
+namespace {
+
+// Metering and visibility need no more pixels than these, and are quick with them.
+constexpr int kMeterPx = 64;
+
+imaging::Inserted inserted_of(const cases::Case& scene, const cases::NeedleState& needle) {
+  const cases::Instrument& instrument = scene.instrument;
+  imaging::Inserted inserted;
+  inserted.lesions = scene.lesions;
+  inserted.needle = imaging::NeedlePose{needle.tip_lps_mm,    needle.direction,           instrument.length_mm,
+                                        instrument.radius_mm, instrument.inner_radius_mm, instrument.hu};
+  return inserted;
+}
+
+imaging::Pulse pulse_of(const cases::FluoroscopyState& machine) {
+  return {machine.last_technique, machine.arm.sid_mm, machine.magnification, machine.collimator};
+}
+
+}  // namespace
+
+struct FluoroscopyRoom::Parts {
+  explicit Parts(const cases::Case& case_of_room)
+      : scene(case_of_room), projector(scene.volume), beams(scene.fluoroscope), automatic(scene.fluoroscope) {}
+
+  const cases::Case& scene;
+  imaging::XrayCpu projector;
+  imaging::Beams beams;
+  imaging::AutomaticExposure automatic;
+  // The patient without instruments, where the arm stood last.
+  std::optional<cases::CArm> metered_arm;
+  int metered_magnification = 0;
+  imaging::PathLengths metered;
+
+  imaging::XrayGeometry geometry(const cases::FluoroscopyState& machine, int size_px) const {
+    return imaging::c_arm_geometry(scene.fluoroscope, machine.arm, machine.magnification, size_px, scene.position);
+  }
+
+  const imaging::PathLengths& meter_lengths(const cases::FluoroscopyState& machine,
+                                            const imaging::XrayGeometry& at) {
+    if (!metered_arm || !(*metered_arm == machine.arm) || metered_magnification != machine.magnification) {
+      imaging::CpuOptions options;
+      options.threads = 1;  // it takes less than starting another
+      metered = projector.project(at, imaging::ProjectionMethod::exact, options);
+      metered_arm = machine.arm;
+      metered_magnification = machine.magnification;
+    }
+    return metered;
+  }
+};
+
+FluoroscopyRoom::FluoroscopyRoom(const cases::Case& scene) : parts_(std::make_unique<Parts>(scene)) {}
+FluoroscopyRoom::~FluoroscopyRoom() = default;
+
+FluoroscopyRoom::Exposed FluoroscopyRoom::expose(const cases::State& state) {
+  const cases::Case& scene = parts_->scene;
+  const cases::FluoroscopyState& machine = state.fluoroscopy;
+  CHECK(machine.frame_due);
+  const cases::BeamFrame frame = cases::beam_frame(scene.fluoroscope, machine.arm, scene.position);
+  const imaging::XrayGeometry geometry = parts_->geometry(machine, kMeterPx);
+  const imaging::Inserted inserted = inserted_of(scene, state.needle);
+  const imaging::Pulse pulse = pulse_of(machine);
+
+  Exposed exposed;
+  imaging::PathLengths lengths = parts_->meter_lengths(machine, geometry);
+  imaging::overlay_instruments(scene.volume, geometry, inserted, imaging::ProjectionMethod::exact, lengths);
+  // Step decides between this and what is set by hand.
+  exposed.report = imaging::meter(parts_->beams, parts_->automatic, pulse, lengths, cases::FluoroscopeInputs{});
+  exposed.report.frame = machine.frames;
+  exposed.report.hand_in_beam =
+      !machine.hand_away &&
+      imaging::meets_beam(
+          frame, cases::field_side_mm(scene.fluoroscope, machine.magnification), machine.collimator,
+          imaging::hand_at_needle(state.needle.tip_lps_mm, state.needle.direction, scene.instrument.length_mm),
+          imaging::kHandRadiusMm);
+
+  const imaging::Visible visible =
+      imaging::xray_visible(scene.volume, geometry, parts_->beams.at(machine.last_technique.kv), pulse, inserted);
+  exposed.truth = frame_truth(state.t_s, visible);
+  exposed.truth.beam = cases::BeamTruth{machine.arm.lao_deg,
+                                        machine.arm.cranial_deg,
+                                        machine.last_technique.kv,
+                                        machine.last_technique.ma,
+                                        exposed.report.air_kerma_mgy,
+                                        exposed.report.dap_mgy_cm2,
+                                        machine.collimator.shut_share(),
+                                        machine.frame_s,
+                                        machine.arm_moving,
+                                        exposed.report.hand_in_beam};
+
+  const auto place = [&](const glm::dvec3& point_lps_mm, glm::dvec2& place_mm) {
+    const auto shadow = cases::shadow_of(frame, point_lps_mm);
+    if (!shadow) return false;
+    place_mm = shadow->detector_mm;
+    return cases::inside_field(scene.fluoroscope, machine.magnification, machine.collimator, place_mm);
+  };
+  exposed.fix.tip = place(state.needle.tip_lps_mm, exposed.fix.tip_mm);
+  if (const auto target = target_of(scene.lesions)) exposed.fix.target = place(*target, exposed.fix.target_mm);
+  exposed.fix.target_clear = visible.target;
+  return exposed;
+}
+
+std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state) {
+  const cases::Case& scene = parts_->scene;
+  const cases::FluoroscopyState& machine = state.fluoroscopy;
+  const imaging::XrayGeometry geometry = parts_->geometry(machine, scene.fluoroscope.picture_px);
+  imaging::PathLengths lengths = parts_->projector.project(geometry, imaging::ProjectionMethod::exact);
+  imaging::overlay_instruments(scene.volume, geometry, inserted_of(scene, state.needle),
+                               imaging::ProjectionMethod::exact, lengths);
+  imaging::PictureSettings settings;
+  settings.frame = machine.frames;
+  imaging::FluoroscopyPicture picture;
+  imaging::render_picture(parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
+                          cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine),
+                          lengths, settings, picture);
+  return png_from_grey(picture.grey, picture.width_px, picture.height_px);
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,40 @@
+// The fluoroscopy room of a case: what each pulse of the machine costs and shows. The one place where attempts meet
+// X-ray imaging. Holds what a projection needs and answers for a State; the next tick takes the report in as an
+// input, so that a replay needs no imaging.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "assessment/operators/fluoroscopy.h"
+#include "sim/case/case.h"
+#include "sim/case/recording.h"
+#include "sim/case/state.h"
+
+namespace seldinger::app {
+
+class FluoroscopyRoom {
+ public:
+  // `scene` must outlive it.
+  explicit FluoroscopyRoom(const cases::Case& scene);
+  ~FluoroscopyRoom();
+
+  struct Exposed {
+    cases::ExposureReport report;
+    cases::FrameTruth truth;     // with the beam
+    assessment::PictureFix fix;  // where a person would see tip and target
+  };
+  // Of the pulse that `state` has due. Metered on a small picture of its own, so that it does not depend on the one
+  // that is displayed, if any is.
+  Exposed expose(const cases::State& state);
+
+  // The picture that the pulse of `state` gave, as PNG.
+  std::vector<std::byte> picture_png(const cases::State& state);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace seldinger::app
