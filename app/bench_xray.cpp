@@ -7,6 +7,7 @@
 #include "app/bench.h"
 #include "casedb/import/import.h"
 #include "sim/base/failure.h"
+#include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection.h"
 #include "sim/volume/projector_phantom.h"
@@ -83,34 +84,6 @@ double mean_relative(const PathLengths& lengths, const std::vector<double>& refe
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
-// A picture of one pixel for `by` × `by`, brought back to full size: the quality that is traded for time.
-XrayGeometry coarser(XrayGeometry g, int by) {
-  g.pixel_mm *= by;
-  g.width_px /= by;
-  g.height_px /= by;
-  return g;
-}
-
-PathLengths enlarged(const PathLengths& small, int by) {
-  PathLengths large{small.width_px * by, small.height_px * by, {}, {}, {}};
-  const auto at = [&](int column, int row) {
-    return small.water_mm[static_cast<std::size_t>(std::clamp(row, 0, small.height_px - 1)) *
-                              static_cast<std::size_t>(small.width_px) +
-                          static_cast<std::size_t>(std::clamp(column, 0, small.width_px - 1))];
-  };
-  for (int row = 0; row < large.height_px; ++row)
-    for (int column = 0; column < large.width_px; ++column) {
-      const float x = (static_cast<float>(column) + 0.5F) / static_cast<float>(by) - 0.5F;
-      const float y = (static_cast<float>(row) + 0.5F) / static_cast<float>(by) - 0.5F;
-      const float left = std::floor(x), top = std::floor(y), fx = x - left, fy = y - top;
-      const int c = static_cast<int>(left), r = static_cast<int>(top);
-      const float upper = at(c, r) + fx * (at(c + 1, r) - at(c, r));
-      const float lower = at(c, r + 1) + fx * (at(c + 1, r + 1) - at(c, r + 1));
-      large.water_mm.push_back(upper + fy * (lower - upper));
-    }
-  return large;
-}
-
 const char* name_of(ProjectionMethod method) {
   return method == ProjectionMethod::exact ? "exact" : method == ProjectionMethod::slab ? "slab" : "trilinear";
 }
@@ -150,14 +123,14 @@ class Stage {
               [&] { return cpu.project(scenery.geometry, method, options); });
         }
       for (const int by : {2, 4}) {
-        const XrayGeometry small = coarser(scenery.geometry, by);
+        const XrayGeometry small = imaging::coarser(scenery.geometry, by);
         add(
             scenery, name_of(method), std::string(name_of(instructions_[0])) + " 1/" + std::to_string(by), "cpu",
             threads_text(1),
             [&] {
               return cpu.project(small, method, {Basis::total, instructions_[0], 1});
             },
-            [&](const PathLengths& lengths) { return enlarged(lengths, by); });
+            [&](const PathLengths& lengths) { return imaging::enlarged(lengths, by); });
       }
       if (context_) {
         imaging::XrayGpu gpu(*context_, *scenery.volume);

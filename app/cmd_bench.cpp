@@ -17,6 +17,7 @@
 #include "assessment/operators/lesion_site.h"
 #include "casedb/import/import.h"
 #include "casedb/import/surface.h"
+#include "reports/frontier_page.h"
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
@@ -247,6 +248,20 @@ std::string csv(const std::vector<Row>& rows) {
   return text;
 }
 
+// Stages that chart one against the other: rows with an error, one chart for each scene, one thread and GL alone.
+std::string frontier(const std::vector<Row>& rows) {
+  std::vector<reports::FrontierPoint> points;
+  for (const Row& row : rows) {
+    if (row.error.empty() || row.device == "2 threads" || row.method == "fluoroscopy chain") continue;
+    const std::string scene = row.stage == "xray" ? row.setting.substr(0, row.setting.find(' ')) : row.size;
+    const std::string detail = row.setting.size() > scene.size() ? row.setting.substr(scene.size()) : "";
+    const std::string where = row.backend == "gpu" ? " gpu" : "";
+    points.push_back({row.stage + ", " + scene + ", " + row.error_unit, row.method, row.method + detail + where,
+                      row.ms_median, std::strtod(row.error.c_str(), nullptr), row.error_unit, row.reference});
+  }
+  return reports::frontier_page("Time against error", points);
+}
+
 }  // namespace
 
 int run_bench(const Arguments& arguments) {
@@ -277,6 +292,7 @@ int run_bench(const Arguments& arguments) {
   if (error) throw base::Failure("disk", "the output folder cannot be made");
   const std::string text = csv(rows);
   write_file(out / "results.csv", text);
+  write_file(out / "frontier.html", frontier(rows));
   std::fputs(text.c_str(), stdout);
   return kDone;
 }

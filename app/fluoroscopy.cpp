@@ -10,6 +10,7 @@
 #include "sim/imaging/xray/c_arm.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
+#include "sim/imaging/xray/live_picture.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection.h"
 #include "sim/imaging/xray/visibility.h"
@@ -37,10 +38,15 @@ imaging::Pulse pulse_of(const cases::FluoroscopyState& machine) {
 
 struct FluoroscopyRoom::Parts {
   explicit Parts(const cases::Case& case_of_room)
-      : scene(case_of_room), projector(scene.volume), beams(scene.fluoroscope), automatic(scene.fluoroscope) {}
+      : scene(case_of_room),
+        projector(scene.volume),
+        live(scene.volume, projector),
+        beams(scene.fluoroscope),
+        automatic(scene.fluoroscope) {}
 
   const cases::Case& scene;
   imaging::XrayCpu projector;
+  imaging::LivePicture live;
   imaging::Beams beams;
   imaging::AutomaticExposure automatic;
   // The patient without instruments, where the arm stood last.
@@ -119,16 +125,12 @@ FluoroscopyRoom::Exposed FluoroscopyRoom::expose(const cases::State& state) {
 std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state) {
   const cases::Case& scene = parts_->scene;
   const cases::FluoroscopyState& machine = state.fluoroscopy;
-  const imaging::XrayGeometry geometry = parts_->geometry(machine, scene.fluoroscope.picture_px);
-  imaging::PathLengths lengths = parts_->projector.project(geometry, imaging::ProjectionMethod::exact);
-  imaging::overlay_instruments(scene.volume, geometry, inserted_of(scene, state.needle),
-                               imaging::ProjectionMethod::exact, lengths);
   imaging::PictureSettings settings;
   settings.frame = machine.frames;
-  imaging::FluoroscopyPicture picture;
-  imaging::render_picture(parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
-                          cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine),
-                          lengths, settings, picture);
+  const imaging::FluoroscopyPicture& picture = parts_->live.expose(
+      parts_->geometry(machine, scene.fluoroscope.picture_px), machine.arm_moving, inserted_of(scene, state.needle),
+      parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
+      cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine), settings);
   return png_from_grey(picture.grey, picture.width_px, picture.height_px);
 }
 

@@ -32,6 +32,7 @@ struct XrayGeometry {
   glm::dvec3 v{0.0, 1.0, 0.0};  // unit, down a column, perpendicular to u
   double pixel_mm = 1.0;
   int width_px = 0, height_px = 0;
+  bool operator==(const XrayGeometry&) const = default;
 };
 
 // Refused: `bad_geometry` (not finite, no size, axes not orthonormal, source in the detector's plane, rays along

@@ -1,0 +1,29 @@
+#include "sim/imaging/xray/live_picture.h"
+
+#include "sim/imaging/xray/coarse.h"
+
+namespace seldinger::imaging {
+
+const FluoroscopyPicture& LivePicture::expose(const XrayGeometry& geometry, bool arm_moves,
+                                              const Inserted& inserted, const BeamSignal& beam,
+                                              const Detector& detector, double field_side_mm, const Pulse& pulse,
+                                              const PictureSettings& settings) {
+  // Coarse lengths do for a moving arm, and not for one at rest.
+  if (!geometry_ || !(*geometry_ == geometry) || (coarse_ && !arm_moves)) {
+    const CpuOptions options{.threads = settings.threads};
+    patient_ =
+        arm_moves
+            ? enlarged(projector_.project(coarser(geometry, kMovingCoarseness), ProjectionMethod::exact, options),
+                       kMovingCoarseness)
+            : projector_.project(geometry, ProjectionMethod::exact, options);
+    geometry_ = geometry;
+    coarse_ = arm_moves;
+    ++integrations_;
+  }
+  lengths_ = patient_;
+  overlay_instruments(volume_, geometry, inserted, ProjectionMethod::exact, lengths_);
+  render_picture(beam, detector, field_side_mm, pulse, lengths_, settings, picture_);
+  return picture_;
+}
+
+}  // namespace seldinger::imaging
