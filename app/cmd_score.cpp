@@ -11,6 +11,7 @@
 #include "app/poses_csv.h"
 #include "app/scene.h"
 #include "app/simulation.h"
+#include "app/xray_sight.h"
 #include "casedb/import/surface.h"
 
 namespace seldinger::app {
@@ -29,6 +30,25 @@ void add_frames(const Scene& scene, const imaging::MprView& size, cases::Recordi
     needle.direction = glm::normalize(pose.needle_direction);
     needle.length_mm = scene.instrument.length_mm;
     recording.frames.push_back(frame_truth(pose.t_s, view, needle, scene.inserted.lesions));
+  }
+}
+
+// As a fixed X-ray view shows it at each row: seen, but with no beam to account for.
+void add_frames(const Scene& scene, const XrayView& view, const volume::Volume& volume,
+                cases::Recording& recording) {
+  XraySight sight(volume, view);
+  imaging::Inserted inserted = scene.inserted;
+  if (!inserted.needle)
+    inserted.needle = imaging::NeedlePose{{},
+                                          {0.0, 0.0, 1.0},
+                                          scene.instrument.length_mm,
+                                          scene.instrument.radius_mm,
+                                          scene.instrument.inner_radius_mm,
+                                          scene.instrument.hu};
+  for (const cases::PoseSample& pose : recording.poses) {
+    inserted.needle->tip_lps_mm = pose.tip_lps_mm;
+    inserted.needle->direction = glm::normalize(pose.needle_direction);
+    recording.frames.push_back(frame_truth(pose.t_s, sight.see(inserted)));
   }
 }
 
@@ -51,8 +71,14 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
   built.lesions = scene->inserted.lesions;
   built.instrument = scene->instrument;
   built.approach = scene->approach;
-  if (scene->view)
-    if (const auto* mpr = std::get_if<imaging::MprView>(&*scene->view)) add_frames(*scene, *mpr, *recording);
+  if (scene->view) {
+    if (const auto* xray = std::get_if<XrayView>(&*scene->view)) {
+      built.picture.modality = cases::Modality::xray;
+      add_frames(*scene, *xray, *volume, *recording);
+    } else {
+      add_frames(*scene, std::get<imaging::MprView>(*scene->view), *recording);
+    }
+  }
   return measure(built, *recording);
 }
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
 
 #include "app/frame_truth.h"
+#include "app/xray_sight.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
-#include "sim/imaging/xray/visibility.h"
 
 namespace seldinger::app {
 namespace {
@@ -68,32 +67,13 @@ imaging::PathLengths path_lengths(const volume::Volume& volume, const XrayView& 
       on_cpu);
 }
 
-// With the technique that automatic exposure of a usual machine would settle on.
-imaging::Visible xray_visible(const volume::Volume& volume, const XrayView& view,
-                              const imaging::Inserted& inserted) {
-  constexpr int kMeterPx = 64, kSettled = 4;
-  imaging::XrayGeometry small = view.geometry;
-  small.pixel_mm *= std::max(1.0, static_cast<double>(std::max(small.width_px, small.height_px)) / kMeterPx);
-  small.width_px = std::min(small.width_px, kMeterPx);
-  small.height_px = std::min(small.height_px, kMeterPx);
-  const imaging::PathLengths field = imaging::XrayCpu(volume).project(small, imaging::ProjectionMethod::exact);
-  const cases::Fluoroscope machine;
-  imaging::Beams beams(machine);
-  const imaging::AutomaticExposure automatic(machine);
-  imaging::Pulse pulse;
-  if (view.geometry.source_lps_mm)
-    pulse.sid_mm = glm::length(view.geometry.detector_center_lps_mm - *view.geometry.source_lps_mm);
-  for (int i = 0; i < kSettled; ++i) pulse.technique = imaging::meter(beams, automatic, pulse, field, {}).next;
-  return imaging::xray_visible(volume, view.geometry, beams.at(pulse.technique.kv), pulse, inserted);
-}
-
 void render_xray(const volume::Volume& volume, const XrayView& view, const imaging::Inserted& inserted,
                  ScenePicture& picture) {
   const imaging::XrayGeometry& g = view.geometry;
   picture.plane = {g.detector_center_lps_mm, g.u, g.v, g.pixel_mm, g.width_px, g.height_px};
   imaging::PathLengths lengths = path_lengths(volume, view, picture.backend);
   imaging::overlay_instruments(volume, g, inserted, view.method, lengths);
-  picture.visible = xray_visible(volume, view, inserted);
+  picture.visible = XraySight(volume, view).see(inserted);
   const imaging::Attenuation mu = imaging::attenuation_at(view.energy_kev);
   std::vector<float> log_signal(lengths.water_mm.size());
   picture.values.resize(log_signal.size());

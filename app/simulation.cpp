@@ -1,6 +1,7 @@
 #include "app/simulation.h"
 
 #include <chrono>
+#include <algorithm>
 #include <cstdio>
 
 #include "app/attempt_loop.h"
@@ -59,11 +60,14 @@ base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorPro
 }
 
 void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
+  std::size_t longest = 0;
+  for (const assessment::MetricValue& metric : metrics) longest = std::max(longest, metric.id.size());
+  const int width = static_cast<int>(longest);
   for (const assessment::MetricValue& metric : metrics) {
     if (metric.value)
-      std::printf("  %-20s %10.3f %s\n", metric.id.c_str(), *metric.value, metric.unit.c_str());
+      std::printf("  %-*s %10.3f %s\n", width, metric.id.c_str(), *metric.value, metric.unit.c_str());
     else
-      std::printf("  %-20s %10s (%s)\n", metric.id.c_str(), "–", metric.reason.c_str());
+      std::printf("  %-*s          – (%s)\n", width, metric.id.c_str(), metric.reason.c_str());
   }
 }
 

@@ -11,17 +11,21 @@ namespace {
 
 constexpr double kMgyPerGy = 1000.0;
 
-bool under_xray(const Signals& signals) {
-  return signals.setting.modality == cases::Modality::xray;
+// Why there is no answer at all, or null. Poses from a file tell what a picture would have shown, not what the beam
+// did.
+const char* reason_for_none(const Signals& signals) {
+  if (signals.setting.modality != cases::Modality::xray) return "not_xray";
+  for (const cases::FrameTruth& frame : signals.frames)
+    if (frame.live && !frame.beam) return "beam_not_recorded";
+  return nullptr;
 }
 
 // Sum over the pulses.
 template <typename Part>
 Measured sum(const Signals& signals, const Part& part) {
-  if (!under_xray(signals)) return Measured::none("not_xray");
+  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   double total = 0.0;
-  for (const cases::FrameTruth& frame : signals.frames)
-    if (frame.beam) total += part(*frame.beam);
+  for (const cases::FrameTruth& frame : signals.frames) total += part(*frame.beam);
   return Measured::of(total);
 }
 
@@ -64,19 +68,19 @@ Measured collimated_share(const Signals& signals) {
 }
 
 Measured views(const Signals& signals) {
-  if (!under_xray(signals)) return Measured::none("not_xray");
+  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   return Measured::of(viewing_angles(signals).count);
 }
 
 Measured view_angle_max(const Signals& signals) {
-  if (!under_xray(signals)) return Measured::none("not_xray");
+  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   const cases::ViewingAngles angles = viewing_angles(signals);
   if (angles.count < 2) return Measured::none("fewer_than_two_views");
   return Measured::of(angles.widest_deg);
 }
 
 Measured longest_advance_between_exposures(const Signals& signals) {
-  if (!under_xray(signals)) return Measured::none("not_xray");
+  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   if (signals.setting.skin->empty()) return Measured::none("no_skin");
   if (signals.only_gaps()) return Measured::none("only_gaps");
   bool in_tissue = false;

@@ -80,39 +80,43 @@ constexpr MetricInfo kRegistry[] = {
      "not_meaningful_out_of_plane.",
      kVidal, &vis_joint},
     {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Direction::lower_is_better,
-     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray.",
+     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray, "
+     "beam_not_recorded.",
      kDose, &fluoroscopy_time},
     {"dap", 1, "Gy·cm²", "Dose–area product", Direction::lower_is_better,
-     "Sum of the pulses' air kerma times the field's area. No pulse: 0. Null: not_xray.", kDose, &dap},
+     "Sum of the pulses' air kerma times the field's area. No pulse: 0. Null: not_xray, beam_not_recorded.", kDose,
+     &dap},
     {"air_kerma", 1, "mGy", "Air kerma", Direction::lower_is_better,
      "Sum of the pulses' air kerma, free in air at the interventional reference point, 150 mm from the isocentre "
-     "towards the tube. No pulse: 0. Null: not_xray.",
+     "towards the tube. No pulse: 0. Null: not_xray, beam_not_recorded.",
      kDose, &air_kerma},
     {"beam_while_moving", 1, "s", "Beam while moving", Direction::lower_is_better,
-     "Fluoroscopy time of the pulses fired while arm, detector or table moved. Null: not_xray.", kTechnique,
-     &beam_while_moving},
+     "Fluoroscopy time of the pulses fired while arm, detector or table moved. Null: not_xray, beam_not_recorded.",
+     kTechnique, &beam_while_moving},
     {"collimated_share", 1, "share", "Field collimated", Direction::higher_is_better,
      "Share of the whole field that the collimator shut off, averaged over the fluoroscopy time. Null: not_xray, "
+     "beam_not_recorded, "
      "no_exposure.",
      kTechnique, &collimated_share},
     {"views", 1, "count", "Views", Direction::none,
      "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 "
      "are "
-     "told apart. Null: not_xray.",
+     "told apart. Null: not_xray, beam_not_recorded.",
      kBullsEye, &views},
     {"view_angle_max", 1, "deg", "Widest view angle", Direction::higher_is_better,
      "Widest angle between the lines of sight of two pulses fired at rest, 0 to 90°: opposite views tell the same "
-     "depth. Null: not_xray, fewer_than_two_views.",
+     "depth. Null: not_xray, beam_not_recorded, fewer_than_two_views.",
      kBullsEye, &view_angle_max},
     {"hand_in_beam", 1, "s", "Hand in beam", Direction::lower_is_better,
      "Fluoroscopy time of the pulses in which the hand at the needle's hub (a ball of 45 mm radius; none while it "
      "has "
-     "let go) met the collimated beam. Null: not_xray.",
+     "let go) met the collimated beam. Null: not_xray, beam_not_recorded.",
      kTechnique, &hand_in_beam},
     {"longest_advance_between_exposures", 1, "mm", "Longest unseen advance", Direction::lower_is_better,
      "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
      "was "
-     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, no_skin, "
+     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, "
+     "beam_not_recorded, no_skin, "
      "only_gaps, "
      "never_in_tissue.",
      "advancing between exposures is correct practice under fluoroscopy, as long as it is short",

@@ -277,6 +277,28 @@ std::string poses(double end_y_mm, double plane_z_mm) {
   return csv.str();
 }
 
+// In a fixed X-ray view: an opaque target is seen all the way, the needle too; what the beam did is not known.
+TEST(Cli, ScoreOfAPoseFileInAnXrayView) {
+  const auto scratch = fixtures::fresh_folder("cli_score_xray");
+  write(scratch / "scene.json",
+        std::string("{") + kBall + R"(, "needle": {"tip_mm": [0, 0, 0], "direction": [0, 1, 0]},
+    "lesions": [{"center_mm": [0, 0, 0], "radius_mm": 8, "hu": 600}],
+    "view": {"kind": "xray", "source_mm": [700, 0, 0], "detector_center_mm": [-300, 0, 0], "u": [0, 1, 0],
+             "v": [0, 0, -1], "pixel_mm": 1, "size_px": [256, 256]}})");
+  write(scratch / "poses.csv", poses(0.0, 0.0));
+  const auto ran = run(kProgram + " score --poses " + (scratch / "poses.csv").string() + " --scene " +
+                           (scratch / "scene.json").string() + " --json",
+                       scratch);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  std::map<std::string, Json> metrics;
+  for (const Json& metric : Json::parse(ran.out).at("metrics")) metrics[metric.at("id")] = metric;
+  EXPECT_EQ(metrics.at("hit").at("value"), 1.0);
+  EXPECT_EQ(metrics.at("vis_target").at("value"), 1.0);
+  EXPECT_EQ(metrics.at("vis_needle").at("value"), 1.0);
+  EXPECT_TRUE(metrics.at("dap").at("value").is_null());
+  EXPECT_EQ(metrics.at("dap").at("reason"), "beam_not_recorded");
+}
+
 TEST(Cli, ScoreOfAPoseFileIsItsClosedForm) {
   const auto scratch = fixtures::fresh_folder("cli_score");
   write(scratch / "scene.json",

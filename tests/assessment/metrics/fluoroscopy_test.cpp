@@ -142,6 +142,16 @@ TEST(FluoroscopyMetrics, ViewsAndTheAngleBetweenThem) {
   EXPECT_NEAR(number(recording, "view_angle_max"), 35.0, 1e-9);
 }
 
+// Poses from a file: what a view shows is known, what the beam did is not.
+TEST(FluoroscopyMetrics, AreNullWhereTheBeamWasNotRecorded) {
+  auto recording = way([](double t) { return 10.0 * t; }, 2.0);
+  cases::FrameTruth frame;
+  frame.t_s = 1.0;
+  recording.frames.push_back(frame);
+  for (const char* id : {"fluoroscopy_time", "dap", "views", "hand_in_beam", "longest_advance_between_exposures"})
+    EXPECT_EQ(value(recording, id).reason, "beam_not_recorded") << id;
+}
+
 TEST(LongestAdvance, IsFromPulseToPulse) {
   // 10 mm/s into the body from t = 0; pulses at 1, 1.5 and 4 s, the trigger at 6 s.
   auto recording = way([](double t) { return 10.0 * t; }, 6.0);
