@@ -291,7 +291,8 @@ TEST(Cli, ScoreOfAPoseFileInAnXrayView) {
                        scratch);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   std::map<std::string, Json> metrics;
-  for (const Json& metric : Json::parse(ran.out).at("metrics")) metrics[metric.at("id")] = metric;
+  const Json answer = Json::parse(ran.out);
+  for (const Json& metric : answer.at("metrics")) metrics[metric.at("id")] = metric;
   EXPECT_EQ(metrics.at("hit").at("value"), 1.0);
   EXPECT_EQ(metrics.at("vis_target").at("value"), 1.0);
   EXPECT_EQ(metrics.at("vis_needle").at("value"), 1.0);

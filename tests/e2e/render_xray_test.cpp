@@ -143,6 +143,37 @@ TEST(RenderXray, EnergyFollowsTheTables) {
   }
 }
 
+// The pictures of docs/scenes, made from the real abdomen: what they show is told, and CPU and GPU agree.
+TEST(RenderXray, DocumentedScenesOfTheRealAbdomen) {
+  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes";
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    SCOPED_TRACE(entry.path().filename());
+    std::ifstream stream(entry.path());
+    Json scene = Json::parse(stream);
+    // Made absolute, since the copy lies elsewhere.
+    scene["volume"] = (folder / scene.at("volume").get<std::string>()).lexically_normal().string();
+    scene["view"]["output"] = "line_integral";
+    const Picture cpu = render(scene, "--backend cpu", 512 * 512), gpu = render(scene, "--backend gpu", 512 * 512);
+    ASSERT_EQ(cpu.ran.exit_code, 0) << cpu.ran.err;
+    ASSERT_EQ(gpu.ran.exit_code, 0) << gpu.ran.err;
+    const bool needle = scene.contains("needle");
+    EXPECT_EQ(Json::parse(cpu.ran.out).at("visible").at("joint"), needle);
+    double worst = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < cpu.values.size(); ++i) {
+      const double difference = std::abs(static_cast<double>(cpu.values[i]) - static_cast<double>(gpu.values[i]));
+      ASSERT_TRUE(difference >= 0.0);
+      worst = std::max(worst, difference);
+      most = std::max(most, static_cast<double>(cpu.values[i]));
+    }
+    EXPECT_LE(worst, 2e-4);
+    EXPECT_GT(most, 4.0) << "a body absorbs";
+    EXPECT_LT(most, 20.0);
+    ++scenes;
+  }
+  EXPECT_EQ(scenes, 3);
+}
+
 TEST(RenderXray, DegenerateViewsAreRefused) {
   const auto refused = [](const Json& scene, const char* word) {
     const Picture picture = render(scene);
