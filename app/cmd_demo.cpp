@@ -1,5 +1,6 @@
 // demo: the main job, end to end.
 #include <cmath>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -150,17 +151,21 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
               folder.c_str(), answer.found.case_id.c_str(), answer.found.title.c_str());
   for (const base::Problem& warning : answer.found.warnings)
     std::printf("         warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  int width = 0;
+  if (!answer.attempts.empty())
+    for (const assessment::MetricValue& metric : answer.attempts.front().metrics)
+      width = std::max(width, static_cast<int>(metric.id.size()));
   std::printf(
       "Lesion   %.0f mm across at (%.1f, %.1f, %.1f) mm LPS, %.0f HU, its centre %.0f mm below the skin\n"
-      "         rule: %s\n\n%-20s",
+      "         rule: %s\n\n%-*s",
       2.0 * lesion.radius_mm, lesion.center_lps_mm.x, lesion.center_lps_mm.y, lesion.center_lps_mm.z, lesion.hu,
-      answer.lesion_depth_mm, answer.lesion_rule.c_str(), "Metric");
+      answer.lesion_depth_mm, answer.lesion_rule.c_str(), width, "Metric");
   for (const SimulatedAttempt& attempt : answer.attempts) std::printf(" %12s", attempt.operator_name.c_str());
   std::printf("  unit\n");
   for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
     const assessment::MetricValue& first = answer.attempts.front().metrics[i];
     if (first.reason == "not_xray") continue;  // of all three
-    std::printf("%-20s", first.id.c_str());
+    std::printf("%-*s", width, first.id.c_str());
     for (const SimulatedAttempt& attempt : answer.attempts)
       for (const assessment::MetricValue& metric : attempt.metrics)
         if (metric.id == first.id) print_value(metric);
