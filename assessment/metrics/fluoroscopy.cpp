@@ -25,7 +25,8 @@ template <typename Part>
 Measured sum(const Signals& signals, const Part& part) {
   if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   double total = 0.0;
-  for (const cases::FrameTruth& frame : signals.frames) total += part(*frame.beam);
+  for (const cases::FrameTruth& frame : signals.frames)
+    if (frame.beam) total += part(*frame.beam);
   return Measured::of(total);
 }
 
