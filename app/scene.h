@@ -29,6 +29,7 @@ struct XrayView {
   double energy_kev = imaging::kHuEnergyKev;
   imaging::ProjectionMethod method = imaging::ProjectionMethod::exact;
   XrayOutput output = XrayOutput::line_integral;
+  int supersampling = 1;  // rays a pixel in each direction
 };
 using View = std::variant<imaging::MprView, XrayView>;
 

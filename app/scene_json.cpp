@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -267,6 +268,10 @@ XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string
   view.output = output == "line_integral" ? XrayOutput::line_integral
                 : output == "intensity"   ? XrayOutput::intensity
                                           : XrayOutput::display;
+  const double rays = reader.number("supersampling", 1.0, 8.0, 1.0);
+  view.supersampling = static_cast<int>(rays);
+  if (view.supersampling != rays || view.supersampling * std::max(size[0], size[1]) > kMaxPixels)
+    reader.bad("supersampling", "is not a whole number that keeps the picture within 8192 rays a side");
   reader.unused(unused);
   if (!error.findings.empty()) return view;
   const auto checked = imaging::check_geometry(view.geometry);

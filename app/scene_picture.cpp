@@ -8,6 +8,7 @@
 #include "app/xray_sight.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 
@@ -53,17 +54,17 @@ void render_mpr(const volume::Volume& volume, const imaging::MprView& view, cons
   picture.visible = imaging::mpr_visible(view, inserted.needle, target_of(inserted.lesions));
 }
 
-imaging::PathLengths path_lengths(const volume::Volume& volume, const XrayView& view, std::string& backend) {
-  if (backend == "reference") return imaging::xray_reference(volume, view.geometry, view.method);
-  const auto on_cpu = [&] { return imaging::XrayCpu(volume).project(view.geometry, view.method); };
-  if (backend == "cpu" || view.method == imaging::ProjectionMethod::trilinear) {
+imaging::PathLengths path_lengths(const volume::Volume& volume, const imaging::XrayGeometry& geometry,
+                                  imaging::ProjectionMethod method, std::string& backend) {
+  if (backend == "reference") return imaging::xray_reference(volume, geometry, method);
+  const auto on_cpu = [&] { return imaging::XrayCpu(volume).project(geometry, method); };
+  if (backend == "cpu" || method == imaging::ProjectionMethod::trilinear) {
     if (backend == "gpu") std::fputs("note: the trilinear method is the CPU's\n", stderr);
     backend = "cpu";
     return on_cpu();
   }
   return on_best(
-      backend,
-      [&](gpu::Context& context) { return imaging::XrayGpu(context, volume).project(view.geometry, view.method); },
+      backend, [&](gpu::Context& context) { return imaging::XrayGpu(context, volume).project(geometry, method); },
       on_cpu);
 }
 
@@ -71,8 +72,10 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
                  ScenePicture& picture) {
   const imaging::XrayGeometry& g = view.geometry;
   picture.plane = {g.detector_center_lps_mm, g.u, g.v, g.pixel_mm, g.width_px, g.height_px};
-  imaging::PathLengths lengths = path_lengths(volume, view, picture.backend);
-  imaging::overlay_instruments(volume, g, inserted, view.method, lengths);
+  const imaging::XrayGeometry rays = imaging::finer(g, view.supersampling);
+  imaging::PathLengths lengths = path_lengths(volume, rays, view.method, picture.backend);
+  imaging::overlay_instruments(volume, rays, inserted, view.method, lengths);
+  if (view.supersampling > 1) lengths = imaging::averaged(lengths, view.supersampling);
   picture.visible = XraySight(volume, view).see(inserted);
   const imaging::Attenuation mu = imaging::attenuation_at(view.energy_kev);
   std::vector<float> log_signal(lengths.water_mm.size());

@@ -143,6 +143,30 @@ TEST(RenderXray, EnergyFollowsTheTables) {
   }
 }
 
+TEST(RenderXray, SupersamplingIsTheMeanOverThePixel) {
+  Json scene = water_scene();
+  scene["view"]["supersampling"] = 3;
+  const Picture picture = render(scene);
+  ASSERT_EQ(picture.ran.exit_code, 0) << picture.ran.err;
+  EXPECT_NEAR(picture.at(32, 32), kWaterPerMm * 100.0, 1e-4);
+  scene["view"]["supersampling"] = 2.5;
+  EXPECT_EQ(render(scene).ran.exit_code, 3);
+}
+
+// No GL: asked for it fails loudly, otherwise the CPU takes over. Never an image from nowhere.
+TEST(RenderXray, WithoutGlTheGpuFailsAndTheCpuServes) {
+  const auto scratch = fixtures::fresh_folder("render_xray_no_gl");
+  std::ofstream(scratch / "scene.json") << water_scene();
+  const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " + kProgram + " render " +
+                              (scratch / "scene.json").string() + " --out " + (scratch / "p.mha").string();
+  const auto asked = run(command + " --backend gpu", scratch);
+  EXPECT_EQ(asked.exit_code, 4) << asked.err;
+  EXPECT_EQ(asked.err.rfind("error: gl: ", 0), 0U) << asked.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "p.mha"));
+  EXPECT_EQ(run(command, scratch).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "p.mha"));
+}
+
 // The pictures of docs/scenes, made from the real abdomen: what they show is told, and CPU and GPU agree.
 TEST(RenderXray, DocumentedScenesOfTheRealAbdomen) {
   const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes";

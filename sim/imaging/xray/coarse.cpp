@@ -39,6 +39,21 @@ std::vector<float> enlarged_plane(const std::vector<float>& coarse, int width_px
   return fine;
 }
 
+std::vector<float> averaged_plane(const std::vector<float>& fine, int width_px, int height_px, int by) {
+  std::vector<float> means(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
+  for (int row = 0; row < height_px; ++row)
+    for (int column = 0; column < width_px; ++column) {
+      double sum = 0.0;
+      for (int r = 0; r < by; ++r)
+        for (int c = 0; c < by; ++c)
+          sum += static_cast<double>(
+              fine[static_cast<std::size_t>(std::ptrdiff_t{row * by + r} * width_px * by + column * by + c)]);
+      means[static_cast<std::size_t>(std::ptrdiff_t{row} * width_px + column)] =
+          static_cast<float>(sum / (static_cast<double>(by) * by));
+    }
+  return means;
+}
+
 }  // namespace
 
 XrayGeometry coarser(XrayGeometry geometry, int by) {
@@ -56,6 +71,26 @@ PathLengths enlarged(const PathLengths& coarse, int by) {
   if (!coarse.mineral_mm.empty())
     fine.mineral_mm = enlarged_plane(coarse.mineral_mm, coarse.width_px, coarse.height_px, by);
   return fine;
+}
+
+XrayGeometry finer(XrayGeometry geometry, int by) {
+  CHECK(by > 0);
+  geometry.pixel_mm /= by;
+  geometry.width_px *= by;
+  geometry.height_px *= by;
+  return geometry;
+}
+
+PathLengths averaged(const PathLengths& fine, int by) {
+  CHECK(by > 0 && fine.width_px % by == 0 && fine.height_px % by == 0);
+  PathLengths means{fine.width_px / by, fine.height_px / by, {}, {}, {}};
+  const auto plane = [&](const std::vector<float>& of) {
+    return of.empty() ? std::vector<float>() : averaged_plane(of, means.width_px, means.height_px, by);
+  };
+  means.water_mm = plane(fine.water_mm);
+  means.mineral_mm = plane(fine.mineral_mm);
+  means.iron_mm = plane(fine.iron_mm);
+  return means;
 }
 
 }  // namespace seldinger::imaging

@@ -3,6 +3,7 @@
 #include <functional>
 #include <limits>
 
+#include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/packet_volume.h"
 #include "tests/sim/imaging/xray/xray_scene.h"
 
@@ -242,6 +243,35 @@ TEST(XrayHardCases, C20ThinVolumesAndOddPictures) {
                       xray_reference(slice, wide, ProjectionMethod::exact))
                 .max_nepers,
             1e-4);
+}
+
+// A plane wave of 2.4 periods a pixel: one ray a pixel sees slow stripes that are not there, the mean of 8 × 8 rays
+// hardly any.
+TEST(XrayHardCases, C23FastPatternsDoNotTurnIntoStripes) {
+  volume::Volume wave = centered({960, 4, 96}, {0.05, 1.0, 0.5}, 0);
+  const double pixel_mm = 1.2, period_mm = pixel_mm / 2.4;
+  for (int k = 0; k < 96; ++k)
+    for (int j = 0; j < 4; ++j)
+      for (int i = 0; i < 960; ++i)
+        wave.hu[wave.index(i, j, k)] = static_cast<std::int16_t>(
+            std::lround(800.0 * std::sin(2.0 * 3.14159265358979 * (i * 0.05) / period_mm)));
+  XrayGeometry g = parallel({0, 1, 0}, 1.0, 30);
+  g.pixel_mm = pixel_mm;
+  const auto stripes = [](const PathLengths& lengths) {
+    double mean = 0.0, square = 0.0;
+    for (int column = 2; column < 28; ++column)
+      mean += total_mm(lengths, static_cast<std::size_t>(15 * 30 + column)) / 26.0;
+    for (int column = 2; column < 28; ++column) {
+      const double off = total_mm(lengths, static_cast<std::size_t>(15 * 30 + column)) - mean;
+      square += off * off / 26.0;
+    }
+    return std::sqrt(square);
+  };
+  const XrayCpu cpu(wave);
+  const double alone = stripes(cpu.project(g, ProjectionMethod::exact));
+  const double together = stripes(averaged(cpu.project(finer(g, 8), ProjectionMethod::exact), 8));
+  EXPECT_GT(alone, 1.0);
+  EXPECT_LT(together, 0.2 * alone) << alone;
 }
 
 // The cells that are skipped are exactly the empty ones: a volume with isolated voxels in air.
