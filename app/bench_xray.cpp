@@ -67,6 +67,33 @@ std::vector<double> reference_lengths(const Scenery& scenery, ProjectionMethod m
   return lengths_mm;
 }
 
+// Of the sampled rays that meet the volume: how many of all pixels, and voxels crossed by one in the mean.
+std::string rays_and_voxels(const Scenery& scenery) {
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*scenery.volume);
+  double hit = 0.0, all = 0.0, voxels = 0.0;
+  for (int row = kCompareEvery / 2; row < scenery.geometry.height_px; row += kCompareEvery)
+    for (int column = kCompareEvery / 2; column < scenery.geometry.width_px; column += kCompareEvery) {
+      const imaging::RaySegment ray = imaging::ray_of(scenery.geometry, *scenery.volume, column, row);
+      const glm::dvec3 from = glm::dvec3(voxel_from_lps * glm::dvec4(ray.from_lps_mm, 1.0)) + 0.5;
+      const glm::dvec3 along = glm::dmat3(voxel_from_lps) * (ray.to_lps_mm - ray.from_lps_mm);
+      double enter = 0.0, leave = 1.0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double one = -from[axis] / along[axis],
+                     other = (scenery.volume->size_voxels[axis] - from[axis]) / along[axis];
+        enter = std::max(enter, std::min(one, other));
+        leave = std::min(leave, std::max(one, other));
+      }
+      all += 1.0;
+      if (!(leave > enter)) continue;
+      hit += 1.0;
+      const glm::dvec3 crossed = glm::abs(along) * (leave - enter);
+      voxels += 1.0 + crossed.x + crossed.y + crossed.z;
+    }
+  const double pixels = static_cast<double>(scenery.geometry.width_px) * scenery.geometry.height_px;
+  return bench_number(std::round(hit / all * pixels)) + " rays hit, " + bench_number(std::round(voxels / hit)) +
+         " voxels a ray";
+}
+
 // Mean relative error where the line integral at 80 keV is above 0.05 nepers (2.7 mm of water).
 double mean_relative(const PathLengths& lengths, const std::vector<double>& reference_mm) {
   double sum = 0.0;
@@ -111,6 +138,7 @@ class Stage {
   }
 
   void run(const Scenery& scenery) {
+    std::fprintf(stderr, "%s: %s\n", scenery.name.c_str(), rays_and_voxels(scenery).c_str());
     const imaging::XrayCpu cpu(*scenery.volume);
     for (const ProjectionMethod method : {ProjectionMethod::exact, ProjectionMethod::slab}) {
       const bool exact = method == ProjectionMethod::exact;
@@ -144,7 +172,7 @@ class Stage {
             ms.push_back(gpu.last_gpu_ms());
           }
           std::sort(ms.begin(), ms.end());
-          row.setting += " gpu timer";
+          row.setting += " gpu timer, " + rays_and_voxels(scenery);
           row.n = 100;
           row.ms_median = ms[50];
           row.ms_min = ms.front();
