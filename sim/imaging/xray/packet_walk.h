@@ -194,7 +194,8 @@ void start_block(Packet<V>& packet, int block, int main_stride) {
 }
 
 // The voxels of a minor axis that live lanes may meet in a block, a voxel more on each side for rounding and
-// interpolation. Rays of a row lie in one plane, so the outermost live ones bound the others.
+// interpolation. Rays of a row that run the same way along the main axis are a fan: where they meet a plane moves
+// one way from lane to lane, so the outermost live ones bound the others.
 template <int W>
 void reach(const MinorAxis<W>& axis, int first_live, int last_live, int block, int& low, int& high) {
   double least = kNowhere, most = -kNowhere;
@@ -289,25 +290,29 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
   for (int l = 0; l < W; ++l) water_mm[l] = mineral_mm[l] = 0.0;
   if (!any) return;
   const glm::dmat3& m = view.mm_from_voxel;
-  alignas(64) double main_axis[W];
-  bool used[3] = {false, false, false};
+  // Lanes that run the same way along the same main axis walk together: 0–2 upwards, 3–5 downwards.
+  constexpr int kWays = 6;
+  alignas(64) double way[W];
+  bool used[kWays] = {};
   for (int l = 0; l < W; ++l) {
     const double x = along[0][l], y = along[1][l], z = along[2][l];
     const double mm_x = m[0][0] * x + m[1][0] * y + m[2][0] * z, mm_y = m[0][1] * x + m[1][1] * y + m[2][1] * z,
                  mm_z = m[0][2] * x + m[1][2] * y + m[2][2] * z;
     length_mm[l] = std::sqrt(mm_x * mm_x + mm_y * mm_y + mm_z * mm_z);
     const double size_x = std::abs(x), size_y = std::abs(y), size_z = std::abs(z);
-    const double rest = size_y >= size_z ? 1.0 : 2.0;
-    main_axis[l] = (size_x >= size_y) & (size_x >= size_z) ? 0.0 : rest;
+    const double y_way = y < 0.0 ? 4.0 : 1.0, z_way = z < 0.0 ? 5.0 : 2.0, x_way = x < 0.0 ? 3.0 : 0.0;
+    const double rest = size_y >= size_z ? y_way : z_way;
+    way[l] = (size_x >= size_y) & (size_x >= size_z) ? x_way : rest;
   }
-  for (int l = 0; l < W; ++l) used[static_cast<int>(main_axis[l])] |= enter[l] < leave[l];
-  for (int main = 0; main < 3; ++main) {
-    if (!used[main]) continue;
-    const double axis_number = main;
+  for (int l = 0; l < W; ++l) used[static_cast<int>(way[l])] |= enter[l] < leave[l];
+  for (int one_way = 0; one_way < kWays; ++one_way) {
+    if (!used[one_way]) continue;
+    const int main = one_way % 3;
+    const double way_number = one_way;
     Packet<V> packet;
     for (int l = 0; l < W; ++l) {
       const double a = from[main][l], d = along[main][l];
-      const bool live = (main_axis[l] == axis_number) & (enter[l] < leave[l]);
+      const bool live = (way[l] == way_number) & (enter[l] < leave[l]);
       const double one = a + enter[l] * d, other = a + leave[l] * d;
       packet.enter[l] = live ? (one < other ? one : other) : kNowhere;
       packet.leave[l] = live ? (one < other ? other : one) : -kNowhere;

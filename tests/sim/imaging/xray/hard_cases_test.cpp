@@ -1,5 +1,8 @@
-// Rays on which projectors fail: each case says what must come out. Run on the double reference and on the packets
-// of every instruction set; tests/gpu_cpu runs the GPU on the same kinds.
+// Rays on which projectors fail: each case says what must come out. Beside this file: 15 (no hardware filtering
+// anywhere), 18 and 19 (rescale, NaN: tests/casedb/import), 21 (thick absorption: detector_test), 22 (degenerate
+// geometry: projection_test), 24 (tiles: projection_test), 25 (a fiducial: projection_test, c_arm tests), 26 (no
+// GL: tests/e2e/render_xray_test). Run on the double reference and on the packets of every instruction set;
+// tests/gpu_cpu runs the GPU on the same kinds.
 #include <functional>
 #include <limits>
 
@@ -123,6 +126,27 @@ TEST(XrayHardCases, C8SourceAndDetectorInsideTheVolume) {
     expect({-100.0, 0.0, 0.0}, {-30.0, 3.0, 2.0}, 0.0);  // volume behind the detector
   }
   EXPECT_EQ(lengths_between(water, {1, 2, 3}, {1, 2, 3}).total_mm(), 0.0);
+}
+
+// Fans so wide that rays of one row run both ways along an axis, in a volume most of which is skipped.
+TEST(XrayHardCases, C8WideFansFromASourceInside) {
+  volume::Volume sparse = centered({60, 50, 40}, {2, 2, 2}, -1000);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const auto at = [&](std::uint64_t k, int n) { return static_cast<int>(base::uniform_at(6, 3 * i + k) * n); };
+    for (int k = 0; k < 27; ++k)
+      sparse.hu[sparse.index(at(0, 57) + k % 3, at(1, 47) + k / 3 % 3, at(2, 37) + k / 9)] = 3000;
+  }
+  const XrayCpu cpu(sparse);
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    const auto u = [&](std::uint64_t k) { return 2.0 * base::uniform_at(23, 8 * i + k) - 1.0; };
+    XrayGeometry g = facing(glm::normalize(glm::dvec3(u(0), u(1), u(2))), 300.0, 24);
+    g.source_lps_mm = 30.0 * glm::dvec3(u(3), u(4), u(5));
+    g.detector_center_lps_mm = *g.source_lps_mm + (5.0 + 20.0 * (1.0 + u(6))) * glm::cross(g.u, g.v);
+    for (const ProjectionMethod method : {ProjectionMethod::exact, ProjectionMethod::slab})
+      ASSERT_LE(errors_of(cpu.project(g, method), xray_reference(sparse, g, method)).max_nepers,
+                method == ProjectionMethod::exact ? 1e-4 : 5e-2)
+          << i;
+  }
 }
 
 TEST(XrayHardCases, C9AnisotropicMirroredAndShearedVoxels) {
