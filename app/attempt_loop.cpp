@@ -154,7 +154,7 @@ std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const 
     if (state.fluoroscopy.frame_due) exposed = state;
   }
   if (!exposed.fluoroscopy.frame_due) return {};
-  return FluoroscopyRoom(scene).picture_png(exposed);
+  return FluoroscopyRoom(scene).picture_png(exposed, recording.hashes.back());
 }
 
 }  // namespace

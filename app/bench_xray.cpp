@@ -8,6 +8,7 @@
 #include "casedb/import/import.h"
 #include "sim/base/failure.h"
 #include "sim/imaging/xray/coarse.h"
+#include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection.h"
 #include "sim/volume/projector_phantom.h"
@@ -125,7 +126,7 @@ std::string threads_text(int threads) {
 
 class Stage {
  public:
-  Stage(bool quick, std::vector<BenchRow>& rows) : n_(quick ? 5 : 15), rows_(rows) {
+  Stage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 15), rows_(rows) {
     for (const Instructions one : {Instructions::avx512, Instructions::avx2, Instructions::scalar})
       if (one <= imaging::best_instructions()) instructions_.push_back(one);
     threads_ = {1};
@@ -147,22 +148,31 @@ class Stage {
       for (const Instructions instructions : instructions_)
         for (const int threads : threads_) {
           const imaging::CpuOptions options{Basis::total, instructions, threads};
-          add(scenery, name_of(method), name_of(instructions), "cpu", threads_text(threads),
+          add(scenery, name_of(method), name_of(instructions), "cpu", threads_text(threads), n_,
               [&] { return cpu.project(scenery.geometry, method, options); });
         }
       for (const int by : {2, 4}) {
         const XrayGeometry small = imaging::coarser(scenery.geometry, by);
         add(
             scenery, name_of(method), std::string(name_of(instructions_[0])) + " 1/" + std::to_string(by), "cpu",
-            threads_text(1),
+            threads_text(1), n_,
             [&] {
               return cpu.project(small, method, {Basis::total, instructions_[0], 1});
             },
             [&](const PathLengths& lengths) { return imaging::enlarged(lengths, by); });
       }
+      if (!quick_) {
+        add(scenery, name_of(method), "plain", "reference", threads_text(1), 1,
+            [&] { return imaging::xray_reference(*scenery.volume, scenery.geometry, method); });
+        if (!exact)
+          add(scenery, "trilinear", "plain", "cpu", threads_text(2), 1, [&] {
+            return cpu.project(scenery.geometry, ProjectionMethod::trilinear,
+                               {Basis::total, Instructions::scalar, 2});
+          });
+      }
       if (context_) {
         imaging::XrayGpu gpu(*context_, *scenery.volume);
-        add(scenery, name_of(method), "", "gpu", context_->renderer(),
+        add(scenery, name_of(method), "", "gpu", context_->renderer(), n_,
             [&] { return gpu.project(scenery.geometry, method, Basis::total); });
         if (!context_->software()) {
           BenchRow row = rows_.back();
@@ -187,9 +197,10 @@ class Stage {
  private:
   void add(
       const Scenery& scenery, const std::string& method, const std::string& quality, const char* backend,
-      const std::string& device, const std::function<PathLengths()>& project,
+      const std::string& device, int n, const std::function<PathLengths()>& project,
       const std::function<PathLengths(const PathLengths&)>& finish = [](const PathLengths& p) { return p; }) {
-    PathLengths lengths = project();  // warm
+    PathLengths lengths;
+    if (n > 1) lengths = project();  // warm
     BenchRow row{"xray",
                  method,
                  scenery.name + (quality.empty() ? "" : " " + quality),
@@ -203,19 +214,26 @@ class Stage {
                  "",
                  "mean relative",
                  reference_name_};
-    time_into(row, n_, [&] { lengths = project(); });
+    time_into(row, n, [&] { lengths = project(); });
     row.error = bench_number(mean_relative(finish(lengths), reference_));
     rows_.push_back(row);
   }
 
-  // Projector with both lengths, spectrum, noise, blur and window, beside the projector alone: in turns, so that
-  // both see the same machine.
+  // Projector with both lengths, needle and lesion, spectrum, noise, blur and window, beside the projector alone:
+  // in turns, so that both see the same machine.
   void chain(const Scenery& scenery, const imaging::XrayCpu& cpu) {
     cases::Fluoroscope machine;
     imaging::Beams beams(machine);
     const imaging::Pulse pulse;
     const imaging::BeamSignal& beam = beams.at(pulse.technique.kv);
     imaging::FluoroscopyPicture picture;
+    // An 18-gauge needle with its tip in a lesion at the volume's middle.
+    const volume::Volume& patient = *scenery.volume;
+    const glm::dvec3 middle(patient.lps_from_voxel * glm::dvec4(0.5 * glm::dvec3(patient.size_voxels - 1), 1.0));
+    imaging::Inserted inserted;
+    inserted.needle =
+        imaging::NeedlePose{middle, glm::normalize(glm::dvec3(0.6, 0.5, -0.62)), 150.0, 0.635, 0.42, 3000.0};
+    inserted.lesions.push_back({middle, 6.0, 300.0});
     for (const Instructions instructions : instructions_)
       for (const int threads : threads_) {
         imaging::PictureSettings settings;
@@ -241,8 +259,9 @@ class Stage {
             (void)cpu.project(scenery.geometry, ProjectionMethod::exact, {Basis::total, instructions, threads});
           });
           time_into(whole, 1, [&] {
-            const PathLengths lengths = cpu.project(scenery.geometry, ProjectionMethod::exact,
-                                                    {Basis::water_and_mineral, instructions, threads});
+            PathLengths lengths = cpu.project(scenery.geometry, ProjectionMethod::exact,
+                                              {Basis::water_and_mineral, instructions, threads});
+            imaging::overlay_instruments(patient, scenery.geometry, inserted, ProjectionMethod::exact, lengths);
             settings.frame = static_cast<std::uint64_t>(i);
             imaging::render_picture(beam, beams.detector(), scenery.geometry.pixel_mm * scenery.geometry.width_px,
                                     pulse, lengths, settings, picture);
@@ -262,6 +281,7 @@ class Stage {
       }
   }
 
+  bool quick_;
   int n_;
   std::vector<BenchRow>& rows_;
   std::vector<Instructions> instructions_;

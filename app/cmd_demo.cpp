@@ -1,6 +1,6 @@
 // demo: the main job, end to end.
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>

@@ -29,7 +29,7 @@ constexpr Option kLesionOptions[] = {kLibrary,
                                      {"--hu", "H", "its HU"},
                                      kJson};
 constexpr Option kRenderOptions[] = {
-    {"--out", "FILE", ".mha: float32 in HU; .png: what a person sees"},
+    {"--out", "FILE", ".mha: float32 in the picture's unit (HU, line integral, …); .png: what a person sees"},
     {"--backend", "gpu|cpu|reference", "default gpu where GL 4.3 has hardware, else cpu"},
     kLibrary,
     kJson};

@@ -122,10 +122,11 @@ FluoroscopyRoom::Exposed FluoroscopyRoom::expose(const cases::State& state) {
   return exposed;
 }
 
-std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state) {
+std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state, std::uint64_t seed) {
   const cases::Case& scene = parts_->scene;
   const cases::FluoroscopyState& machine = state.fluoroscopy;
   imaging::PictureSettings settings;
+  settings.seed = seed;
   settings.frame = machine.frames;
   const imaging::FluoroscopyPicture& picture = parts_->live.expose(
       parts_->geometry(machine, scene.fluoroscope.picture_px), machine.arm_moving, inserted_of(scene, state.needle),

@@ -29,8 +29,8 @@ class FluoroscopyRoom {
   // that is displayed, if any is.
   Exposed expose(const cases::State& state);
 
-  // The picture that the pulse of `state` gave, as PNG.
-  std::vector<std::byte> picture_png(const cases::State& state);
+  // The picture that the pulse of `state` gave, as PNG. `seed` is the noise's: another attempt's is another's.
+  std::vector<std::byte> picture_png(const cases::State& state, std::uint64_t seed);
 
  private:
   struct Parts;

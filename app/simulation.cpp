@@ -1,7 +1,7 @@
 #include "app/simulation.h"
 
-#include <chrono>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 
 #include "app/attempt_loop.h"

@@ -9,4 +9,5 @@ if(SELDINGER_SANITIZE)
   target_compile_options(seldinger_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                     -fno-omit-frame-pointer)
   target_link_options(seldinger_options INTERFACE -fsanitize=address,undefined)
+  target_compile_definitions(seldinger_options INTERFACE _GLIBCXX_ASSERTIONS) # empty optionals, indices out of range
 endif()

@@ -35,6 +35,8 @@ constexpr std::array kPlaces = {
     Place{"withdrawals_full", "Needle"},
     Place{"path_tip", "Needle"},
     Place{"fluoroscopy_time", "Radiation"},
+    Place{"pulses", "Radiation"},
+    Place{"pulse_rate_max", "Radiation"},
     Place{"dap", "Radiation"},
     Place{"air_kerma", "Radiation"},
     Place{"hand_in_beam", "Radiation"},

@@ -63,7 +63,33 @@ void add_ticks(Html& html, const Axes& axes) {
   }
 }
 
-void add_table(Html& html, std::span<const DistancePoint> points, std::span<const Span> visible, double t0_s) {
+bool within(std::span<const Span> spans, double t_s) {
+  return std::any_of(spans.begin(), spans.end(),
+                     [&](const Span& span) { return span.from_s <= t_s && t_s <= span.to_s; });
+}
+
+// Where `holds` says so of a frame; a frame lasts until the next one, the last as long as the one before it.
+template <typename Predicate>
+std::vector<Span> spans_where(std::span<const cases::FrameTruth> frames, Predicate holds) {
+  std::vector<Span> spans;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!holds(frames[i])) continue;
+    const double from_s = frames[i].t_s;
+    const double last_s = i > 0 ? from_s - frames[i - 1].t_s : 0.0;
+    const double to_s = i + 1 < frames.size() ? frames[i + 1].t_s : from_s + last_s;
+    if (!std::isfinite(from_s) || !std::isfinite(to_s) || to_s < from_s) continue;
+    if (!spans.empty() && spans.back().to_s == from_s) {
+      spans.back().to_s = to_s;
+    } else {
+      spans.push_back({from_s, to_s});
+    }
+  }
+  return spans;
+}
+
+// A frozen or held picture shows nothing: between looks nobody can say whether the tip would have been seen.
+void add_table(Html& html, std::span<const DistancePoint> points, std::span<const Span> visible,
+               std::span<const Span> live, double t0_s) {
   html.raw(
       "<details><summary>The chart as a table</summary>\n<table>\n<caption>Distance of the tip from the "
       "target’"
@@ -71,15 +97,14 @@ void add_table(Html& html, std::span<const DistancePoint> points, std::span<cons
       "<th scope=\"col\" class=\"number\">Distance</th><th scope=\"col\">Tip in the "
       "picture</th></tr></thead>\n<tbody>\n");
   for (const DistancePoint& point : points) {
-    const bool seen = std::any_of(visible.begin(), visible.end(), [&](const Span& span) {
-      return span.from_s <= point.t_s && point.t_s <= span.to_s;
-    });
     html.raw("<tr><th scope=\"row\" class=\"number\">")
         .text(number_text(point.t_s - t0_s, 1))
         .raw(" s</th><td class=\"number\">")
         .text(number_text(point.distance_mm, 1))
         .raw(" mm</td><td>")
-        .text(seen ? "Yes" : "No")
+        .text(within(visible, point.t_s) ? "Yes"
+              : within(live, point.t_s)  ? "No"
+                                         : "No live picture")
         .raw("</td></tr>\n");
   }
   html.raw("</tbody>\n</table>\n</details>\n");
@@ -103,20 +128,7 @@ std::vector<DistancePoint> distance_over_time(std::span<const cases::PoseSample>
 }
 
 std::vector<Span> tip_visible_spans(std::span<const cases::FrameTruth> frames) {
-  std::vector<Span> spans;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].live || !frames[i].needle_tip) continue;
-    const double from_s = frames[i].t_s;
-    const double last_s = i > 0 ? from_s - frames[i - 1].t_s : 0.0;
-    const double to_s = i + 1 < frames.size() ? frames[i + 1].t_s : from_s + last_s;
-    if (!std::isfinite(from_s) || !std::isfinite(to_s) || to_s < from_s) continue;
-    if (!spans.empty() && spans.back().to_s == from_s) {
-      spans.back().to_s = to_s;
-    } else {
-      spans.push_back({from_s, to_s});
-    }
-  }
-  return spans;
+  return spans_where(frames, [](const cases::FrameTruth& frame) { return frame.live && frame.needle_tip; });
 }
 
 Html time_chart(const cases::Recording& recording, const cases::Lesion& lesion) {
@@ -181,7 +193,8 @@ Html time_chart(const cases::Recording& recording, const cases::Lesion& lesion) 
   if (recording.endpoint.has_value()) html.raw(" Dashed: the moment of firing.");
   html.raw("</figcaption>\n");
   const std::vector<DistancePoint> rows = distance_over_time(recording.poses, lesion, kTableRows);
-  add_table(html, rows, visible, axes.t0_s);
+  add_table(html, rows, visible, spans_where(recording.frames, [](const auto& frame) { return frame.live; }),
+            axes.t0_s);
   html.raw("</figure>\n");
   return html;
 }

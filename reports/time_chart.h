@@ -23,7 +23,7 @@ std::vector<DistancePoint> distance_over_time(std::span<const cases::PoseSample>
 struct Span {
   double from_s = 0.0, to_s = 0.0;
 };
-// When a live picture showed the tip. A frame lasts until the next one, the last as long as the one before it.
+// When a live picture showed the tip.
 std::vector<Span> tip_visible_spans(std::span<const cases::FrameTruth> frames);
 
 // Empty when the recording holds fewer than two usable samples.

@@ -43,6 +43,19 @@ Measured fluoroscopy_time(const Signals& signals) {
   return sum(signals, [](const cases::BeamTruth& beam) { return beam.beam_s; });
 }
 
+Measured pulses(const Signals& signals) {
+  return sum(signals, [](const cases::BeamTruth&) { return 1.0; });
+}
+
+Measured pulse_rate_max(const Signals& signals) {
+  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
+  double shortest_s = 0.0;
+  for (const cases::FrameTruth& frame : signals.frames)
+    if (frame.beam && frame.beam->beam_s > 0.0)
+      shortest_s = shortest_s > 0.0 ? std::min(shortest_s, frame.beam->beam_s) : frame.beam->beam_s;
+  return shortest_s > 0.0 ? Measured::of(1.0 / shortest_s) : Measured::none("no_exposure");
+}
+
 Measured dap(const Signals& signals) {
   return sum(signals, [](const cases::BeamTruth& beam) { return beam.dap_mgy_cm2 / kMgyPerGy; });
 }

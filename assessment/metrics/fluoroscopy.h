@@ -5,6 +5,8 @@
 
 namespace seldinger::assessment {
 
+Measured pulses(const Signals& signals);
+Measured pulse_rate_max(const Signals& signals);
 Measured fluoroscopy_time(const Signals& signals);
 Measured dap(const Signals& signals);
 Measured air_kerma(const Signals& signals);

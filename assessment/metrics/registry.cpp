@@ -83,6 +83,11 @@ constexpr MetricInfo kRegistry[] = {
      "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray, "
      "beam_not_recorded.",
      kDose, &fluoroscopy_time},
+    {"pulses", 1, "count", "Pulses", Direction::lower_is_better,
+     "X-ray pulses fired. Null: not_xray, beam_not_recorded.", kDose, &pulses},
+    {"pulse_rate_max", 1, "1/s", "Fastest pulse rate", Direction::lower_is_better,
+     "Highest rate at which pulses were fired. Null: not_xray, beam_not_recorded, no_exposure.", kTechnique,
+     &pulse_rate_max},
     {"dap", 1, "Gy·cm²", "Dose–area product", Direction::lower_is_better,
      "Sum of the pulses' air kerma times the field's area. No pulse: 0. Null: not_xray, beam_not_recorded.", kDose,
      &dap},
@@ -112,7 +117,7 @@ constexpr MetricInfo kRegistry[] = {
      "has "
      "let go) met the collimated beam. Null: not_xray, beam_not_recorded.",
      kTechnique, &hand_in_beam},
-    {"longest_advance_between_exposures", 1, "mm", "Longest unseen advance", Direction::lower_is_better,
+    {"longest_advance_between_exposures", 1, "mm", "Advance between exposures", Direction::lower_is_better,
      "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
      "was "
      "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged. Null: not_xray, "

@@ -64,6 +64,14 @@ base::Result<Source> read_source(const std::filesystem::path& source, const std:
                                                              : base::Error{"unknown_format", "no file or folder"};
     if (result && *std::min_element(result->volume.hu.begin(), result->volume.hu.end()) > kTissueHu)
       result->warnings.push_back({"no_air", "nothing in the volume is air: are its values HU?"});
+    if (result) {
+      const auto& hu = result->volume.hu;
+      const auto at_limit = std::count(hu.begin(), hu.end(), std::int16_t{32767});
+      if (at_limit > 0)
+        result->warnings.push_back({"hu_at_limit", std::to_string(at_limit) +
+                                                       " voxels are at 32767 HU, the most "
+                                                       "that is kept: the source may hold more"});
+    }
     return result;
   } catch (const std::bad_alloc&) {
     return base::Error{"bad_size", "there is not enough memory for the volume"};

@@ -31,7 +31,7 @@ struct Fluoroscope {
   double angle_max_deg = 100.0, cranial_max_deg = 45.0;
   double arm_speed_deg_s = 25.0, table_speed_mm_s = 100.0, sid_speed_mm_s = 100.0;
   double table_travel_mm = 400.0;  // of the isocentre from its start, along each axis
-  double kv_min = 50.0, kv_max = 120.0, ma_max = 250.0, pulse_ms = 8.0;
+  double kv_min = 50.0, kv_max = 120.0, ma_min = 2.0, ma_max = 250.0, pulse_ms = 8.0;
   double filter_al_mm = 3.0, filter_cu_mm = 0.1;  // in the beam, beside the tube's own
   CArm start;                                     // how it stands when the case begins
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNoWait_s = 1e-9;
 // More than any machine gives in one pulse: a report beyond is a mistake, and is not added up.
 constexpr double kMaxFrameKermaMgy = 100.0, kMaxFrameDapMgyCm2 = 1e5;
-constexpr double kMinMa = 2.0, kMinPulseMs = 0.5;
+constexpr double kMinPulseMs = 0.5;
 
 double share(double asked) noexcept {
   return std::isfinite(asked) ? std::clamp(asked, -1.0, 1.0) : 0.0;
@@ -46,7 +46,7 @@ double clamped_or(double asked, double low, double high, double last) noexcept {
 cases::Technique within(const cases::Fluoroscope& machine, const cases::Technique& asked,
                         const cases::Technique& last) noexcept {
   return {clamped_or(asked.kv, machine.kv_min, machine.kv_max, last.kv),
-          clamped_or(asked.ma, kMinMa, machine.ma_max, last.ma),
+          clamped_or(asked.ma, machine.ma_min, machine.ma_max, last.ma),
           clamped_or(asked.pulse_ms, kMinPulseMs, machine.pulse_ms, last.pulse_ms)};
 }
 

@@ -28,7 +28,7 @@ double kv_on_line(const cases::Fluoroscope& f, double s) noexcept {
   return f.kv_min + s * (f.kv_max - f.kv_min);
 }
 double ma_on_line(const cases::Fluoroscope& f, double s) noexcept {
-  return kMinTubeMa * exact_exp(std::min(1.0, s / kCurrentEnds) * exact_log(f.ma_max / kMinTubeMa));
+  return f.ma_min * exact_exp(std::min(1.0, s / kCurrentEnds) * exact_log(f.ma_max / f.ma_min));
 }
 
 // AutomaticExposure's table.
@@ -102,7 +102,7 @@ cases::Technique AutomaticExposure::next(const cases::Technique& used, double pa
   const double s = falling_zero(
       0.0, 1.0, [&](double at) { return ma_for(kv_on_line(fluoroscope_, at)) - ma_on_line(fluoroscope_, at); });
   const double kv = std::clamp(std::round(kv_on_line(fluoroscope_, s)), fluoroscope_.kv_min, fluoroscope_.kv_max);
-  return {kv, std::clamp(ma_for(kv), kMinTubeMa, fluoroscope_.ma_max), fluoroscope_.pulse_ms};
+  return {kv, std::clamp(ma_for(kv), fluoroscope_.ma_min, fluoroscope_.ma_max), fluoroscope_.pulse_ms};
 }
 
 OpenField open_field(int width_px, int height_px, const cases::Collimator& collimator) noexcept {
@@ -157,7 +157,7 @@ cases::ExposureReport meter(Beams& beams, const AutomaticExposure& automatic, co
   if (asked.automatic_exposure)
     report.next = automatic.next(pulse.technique, panel_kerma_ngy(beams, pulse, field), pulse.sid_mm);
   else
-    report.next = {std::clamp(std::round(asked.kv), f.kv_min, f.kv_max), std::clamp(asked.ma, kMinTubeMa, f.ma_max),
+    report.next = {std::clamp(std::round(asked.kv), f.kv_min, f.kv_max), std::clamp(asked.ma, f.ma_min, f.ma_max),
                    f.pulse_ms};
   return report;
 }

@@ -17,7 +17,6 @@ namespace seldinger::imaging {
 constexpr double kPanelKermaNgy = 30.0;
 // The measuring field: this share of the field's half width and half height about its middle.
 constexpr double kMeasuringShare = 0.5;
-constexpr double kMinTubeMa = 2.0;
 
 // The beams of one machine by tube voltage, built when first asked for (some 2 ms each). Generators set whole
 // kilovolts. For one thread at a time.
@@ -35,7 +34,7 @@ class Beams {
   std::map<int, std::unique_ptr<BeamSignal>> by_kv_;
 };
 
-// Follows one line from (kv_min, kMinTubeMa) to (kv_max, ma_max): the voltage rises evenly along it, the current by
+// Follows one line from (kv_min, ma_min) to (kv_max, ma_max): the voltage rises evenly along it, the current by
 // a constant factor until ma_max at 60 % of the line, the voltage alone after that. From what reached the panel it
 // takes the thickness of water that would have let through as much, and finds the point of the line that gives
 // kPanelKermaNgy behind that water; so it arrives in one step behind water and in a few behind anything.

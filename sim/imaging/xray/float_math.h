@@ -1,5 +1,5 @@
-// exp, log and the normal quantile in float, of + − × ÷ √ and integer bits only: the same bits on every machine,
-// and plain enough for the compiler to run four or more at a time.
+// exp, log (NaN stays NaN) and the normal quantile in float, of + − × ÷ √ and integer bits only: the same bits on
+// every machine, and plain enough for the compiler to run four or more at a time.
 #pragma once
 
 #include <bit>
@@ -11,7 +11,7 @@ namespace seldinger::imaging {
 // Relative error < 2e-7 for −87 ≤ x ≤ 87; clamped outside. Polynomial of Moshier's Cephes (expf).
 inline float float_exp(float x) noexcept {
   constexpr float kShift = 12582912.0F;  // 1.5·2²³: adding it rounds to a whole number
-  const float clamped = x < -87.0F ? -87.0F : (x > 87.0F ? 87.0F : x);
+  const float clamped = x > -87.0F ? (x < 87.0F ? x : 87.0F) : -87.0F;  // and NaN, answered below
   const float whole = (clamped * 1.44269504F + kShift) - kShift;
   const float r = (clamped - whole * 0.693359375F) + whole * 2.12194440e-4F;
   float p = 1.9875691500e-4F;
@@ -22,7 +22,7 @@ inline float float_exp(float x) noexcept {
   p = p * r + 5.0000001201e-1F;
   p = p * (r * r) + r + 1.0F;
   const std::int32_t exponent = (static_cast<std::int32_t>(whole) + 127) << 23;
-  return p * std::bit_cast<float>(exponent);
+  return x == x ? p * std::bit_cast<float>(exponent) : x;
 }
 
 // x > 0 and normal. Absolute error < 2e-7·max(1, |log x|). Polynomial of Cephes (logf).
@@ -42,7 +42,8 @@ inline float float_log(float x) noexcept {
   p = p * m - 2.4999993993e-1F;
   p = p * m + 3.3333331174e-1F;
   const float z = m * m;
-  return (m + (p * m * z - 2.12194440e-4F * e - 0.5F * z)) + 0.693359375F * e;
+  const float log = (m + (p * m * z - 2.12194440e-4F * e - 0.5F * z)) + 0.693359375F * e;
+  return x == x ? log : x;
 }
 
 // Giles, "Approximating the erfinv function", GPU Computing Gems 2 (2011) 109: relative error < 4e-7. x = 2u − 1 in

@@ -2,41 +2,15 @@
 
 #include <algorithm>
 
+#include "sim/imaging/xray/attenuating_box.h"
+
 namespace seldinger::imaging {
-namespace {
-
-constexpr int kNothingHu = -1000;  // at and below it nothing attenuates
-
-// The smallest box of voxels above kNothingHu; an empty one has high < low.
-void tight_box(const volume::Volume& volume, glm::ivec3& low, glm::ivec3& high) {
-  const glm::ivec3 size = volume.size_voxels;
-  low = size;
-  high = glm::ivec3(-1);
-  const std::int16_t* row = volume.hu.data();
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j, row += size.x) {
-      int first = 0, last = size.x - 1;
-      while (first < size.x && row[first] <= kNothingHu) ++first;
-      if (first == size.x) continue;
-      while (row[last] <= kNothingHu) --last;
-      low = glm::min(low, glm::ivec3(first, j, k));
-      high = glm::max(high, glm::ivec3(last, j, k));
-    }
-}
-
-}  // namespace
-
 PacketVolume::PacketVolume(const volume::Volume& volume) {
-  glm::ivec3 high;
-  tight_box(volume, low, high);
-  if (high.x < low.x) {
-    low = glm::ivec3(0);
-    return;
-  }
-  // One voxel of air around it where there is any: interpolation reaches half a voxel into it.
-  low = glm::max(low - 1, glm::ivec3(0));
-  high = glm::min(high + 1, volume.size_voxels - 1);
-  size = high - low + 1;
+  const VoxelBox tight = attenuating_box(volume);
+  if (tight.empty()) return;
+  const VoxelBox box = grown(tight, volume.size_voxels);
+  low = box.low;
+  size = box.size();
   x_fastest_.stride = {1, size.x, size.x * size.y};
   // A ray's index may round one voxel beyond a face, at weight 0 or nearly; it must still be ours to read.
   margin = 2 * (std::ptrdiff_t{1} + std::max(size.x, size.y) + std::ptrdiff_t{size.x} * size.y) + 64;

@@ -132,6 +132,10 @@ LogWindow window_of(const std::vector<float>& log_signal, int width_px, const Op
   const double low = std::max(percentile(0.01), middle - kFarthestBelow);
   const double high = std::min(percentile(0.99), middle + kFarthestAbove);
   constexpr double kLeastWidth = 0.5;  // so that a flat field is not stretched to noise
+  if (mostly_open) {                   // open beam is white
+    const double width = std::max(-low, kLeastWidth);
+    return {-0.5 * width, width};
+  }
   return {0.5 * (low + high), std::max(high - low, kLeastWidth)};
 }
 

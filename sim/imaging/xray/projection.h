@@ -101,8 +101,8 @@ class XrayCpu {
 };
 
 // On the context's thread; may outlive the context. Throws base::Failure("gl") when the volume exceeds the largest
-// texture (GL_MAX_ARRAY_TEXTURE_LAYERS, 2048 or more, along any axis) or memory. Holds the part that is not air, two
-// bytes a voxel for each main axis along which rays have run so far.
+// texture (GL_MAX_ARRAY_TEXTURE_LAYERS, 2048 or more, along any axis) or memory. Holds the part that is not air,
+// two bytes a voxel for each main axis along which rays have run so far.
 class XrayGpu {
  public:
   XrayGpu(gpu::Context& context, const volume::Volume& volume);  // `volume` must outlive it

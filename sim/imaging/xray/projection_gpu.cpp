@@ -23,6 +23,7 @@
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
 #include "sim/gpu/timer.h"
+#include "sim/imaging/xray/attenuating_box.h"
 #include "sim/imaging/xray/projection.h"
 
 namespace seldinger::embedded {
@@ -58,33 +59,6 @@ std::string_view shader(std::string_view name) {
   return found->content;
 }
 
-// A box of voxels: low ≤ index < high.
-struct Box {
-  glm::ivec3 low, high;
-  glm::ivec3 size() const { return high - low; }
-  bool empty() const { return high.x <= low.x || high.y <= low.y || high.z <= low.z; }
-};
-
-constexpr int kAirHu = -1000;  // and below: nothing that attenuates
-
-// Of the voxels that are not air.
-Box box_of_tissue(const volume::Volume& volume) {
-  Box box{volume.size_voxels, glm::ivec3(0)};
-  const glm::ivec3 size = volume.size_voxels;
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j) {
-      const auto begin = volume.hu.begin() + static_cast<std::ptrdiff_t>(volume.index(0, j, k));
-      const auto end = begin + size.x;
-      const auto tissue = [](std::int16_t hu) { return hu > kAirHu; };
-      const auto first = std::find_if(begin, end, tissue);
-      if (first == end) continue;
-      const auto last = std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(first), tissue);
-      box.low = glm::min(box.low, glm::ivec3(first - begin, j, k));
-      box.high = glm::max(box.high, glm::ivec3(last.base() - begin, j + 1, k + 1));
-    }
-  return box;
-}
-
 // The axes of one walk: main, and the two minor ones in order.
 using Axes = std::array<int, 3>;
 constexpr std::array<Axes, 3> kAxes = {{{0, 1, 2}, {1, 0, 2}, {2, 0, 1}}};
@@ -104,7 +78,7 @@ struct Layers {
 };
 
 // HU + 1000, at least 0: what attenuates, in thousandths of water. A layer of the main axis is a slice.
-std::vector<std::uint16_t> voxels_of(const volume::Volume& volume, const Box& box, const Axes& axes) {
+std::vector<std::uint16_t> voxels_of(const volume::Volume& volume, const VoxelBox& box, const Axes& axes) {
   const glm::ivec3 size = turned(box.size(), axes);
   std::array<std::ptrdiff_t, 3> stride{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -119,7 +93,7 @@ std::vector<std::uint16_t> voxels_of(const volume::Volume& volume, const Box& bo
     for (int z = 0; z < size.z; ++z) {
       const std::int16_t* row = first + x * stride[0] + z * stride[2];
       for (int y = 0; y < size.y; ++y)
-        values.push_back(static_cast<std::uint16_t>(std::max(0, row[y * stride[1]] - kAirHu)));
+        values.push_back(static_cast<std::uint16_t>(std::max(0, row[y * stride[1]] - kNothingHu)));
     }
   return values;
 }
@@ -161,7 +135,7 @@ std::vector<std::uint16_t> cells_of(std::span<const std::uint16_t> voxels, glm::
 }
 
 std::unique_ptr<Layers> layers_of(const std::shared_ptr<gpu::Handles>& handles, const volume::Volume& volume,
-                                  const Box& box, const Axes& axes) {
+                                  const VoxelBox& box, const Axes& axes) {
   const glm::ivec3 size = turned(box.size(), axes), cells = (size + (kXrayBlock - 1)) / kXrayBlock;
   const std::vector<std::uint16_t> voxels = voxels_of(volume, box, axes);
   return std::make_unique<Layers>(handles, glm::ivec3(size.y, size.z, size.x), voxels,
@@ -193,7 +167,7 @@ struct Rays {
   }
 };
 
-Rays rays_of(const XrayGeometry& geometry, const volume::Volume& volume, const Box& box) {
+Rays rays_of(const XrayGeometry& geometry, const volume::Volume& volume, const VoxelBox& box) {
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   const auto place = [&](const glm::dvec3& lps_mm) {
     return glm::dvec3(voxel_from_lps * glm::dvec4(lps_mm, 1.0)) + 0.5 - glm::dvec3(box.low);
@@ -244,8 +218,8 @@ std::array<std::optional<Patch>, 3> patches_of(const Rays& rays) {
   return patches;
 }
 
-XrayParameters parameters_from(const Rays& rays, const glm::dmat4& lps_from_voxel, const Box& texture,
-                               const Box& clip, const Axes& axes, const Patch& patch, bool only) {
+XrayParameters parameters_from(const Rays& rays, const glm::dmat4& lps_from_voxel, const VoxelBox& texture,
+                               const VoxelBox& clip, const Axes& axes, const Patch& patch, bool only) {
   XrayParameters p{};
   split(turned(rays.pixel_first, axes), p.pixel_first, p.pixel_first_rest);
   split(turned(rays.per_column, axes), p.pixel_per_column, p.per_column_rest);
@@ -272,10 +246,6 @@ XrayParameters parameters_from(const Rays& rays, const glm::dmat4& lps_from_voxe
   return p;
 }
 
-Box grown(const Box& box, glm::ivec3 size) {
-  return {glm::max(box.low - 1, glm::ivec3(0)), glm::min(box.high + 1, size)};
-}
-
 void read_into(std::vector<float>& values, const gpu::Buffer& buffer, std::size_t count) {
   values.resize(count);
   buffer.read(std::as_writable_bytes(std::span(values)));
@@ -287,7 +257,7 @@ struct XrayGpu::Parts {
   Parts(gpu::Context& context, const volume::Volume& the_volume)
       : volume(the_volume),
         handles(context.handles()),
-        tissue(box_of_tissue(the_volume)),
+        tissue(attenuating_box(the_volume)),
         box(grown(tissue, the_volume.size_voxels)),
         exact(context, shader("xray_exact.comp")),
         exact_total(context, shader("xray_exact_total.comp")),
@@ -318,7 +288,7 @@ struct XrayGpu::Parts {
 
   const volume::Volume& volume;
   std::shared_ptr<gpu::Handles> handles;
-  Box tissue, box;  // box: what is uploaded, a voxel more on every side where there is one
+  VoxelBox tissue, box;  // box: what is uploaded, a voxel more on every side where there is one
   gpu::Program exact, exact_total, slab, slab_total;
   gpu::Buffer parameters;
   gpu::Buffer water, mineral;  // as large as the largest picture so far

@@ -142,6 +142,20 @@ TEST(FluoroscopyMetrics, ViewsAndTheAngleBetweenThem) {
   EXPECT_NEAR(number(recording, "view_angle_max"), 35.0, 1e-9);
 }
 
+TEST(FluoroscopyMetrics, CountPulsesAndTheirFastestRate) {
+  auto recording = way([](double t) { return 10.0 * t; }, 3.0);
+  EXPECT_EQ(number(recording, "pulses"), 0.0);
+  EXPECT_EQ(value(recording, "pulse_rate_max").reason, "no_exposure");
+  cases::BeamTruth slow = beam(), fast = beam();
+  slow.beam_s = 1.0 / 3.0;
+  fast.beam_s = 1.0 / 7.5;
+  for (const double t_s : {0.5, 1.0}) expose(recording, t_s, slow);
+  expose(recording, 1.5, fast);
+  hold(recording, 1.7);
+  EXPECT_EQ(number(recording, "pulses"), 3.0);
+  EXPECT_NEAR(number(recording, "pulse_rate_max"), 7.5, 1e-9);
+}
+
 // Poses from a file: what a view shows is known, what the beam did is not.
 TEST(FluoroscopyMetrics, AreNullWhereTheBeamWasNotRecorded) {
   auto recording = way([](double t) { return 10.0 * t; }, 2.0);

@@ -97,7 +97,7 @@ TEST_F(Exposure, StopsAtTheMachinesLimits) {
   cases::Technique last;
   EXPECT_GT(kermas_ngy(flat(64, 0.0), {80.0, 50.0, 8.0}, 5, &last).back(), kPanelKermaNgy);  // air
   EXPECT_EQ(last.kv, machine.kv_min);
-  EXPECT_EQ(last.ma, kMinTubeMa);
+  EXPECT_EQ(last.ma, cases::Fluoroscope{}.ma_min);
   EXPECT_LT(kermas_ngy(flat(64, 550.0), {80.0, 50.0, 8.0}, 5, &last).back(), kPanelKermaNgy);
   EXPECT_EQ(last.kv, machine.kv_max);
   EXPECT_EQ(last.ma, machine.ma_max);
@@ -165,7 +165,7 @@ TEST_F(Exposure, ByHandWithinTheLimits) {
   asked.kv = 300.0;
   asked.ma = 0.0;
   EXPECT_EQ(next().kv, machine.kv_max);
-  EXPECT_EQ(next().ma, kMinTubeMa);
+  EXPECT_EQ(next().ma, cases::Fluoroscope{}.ma_min);
 }
 
 TEST(OpenField, HoldsThePixelsWhoseCentresAreOpen) {
