@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reports/beam_table.h"
 #include "reports/metric_words.h"
 #include "reports/time_chart.h"
 
@@ -82,7 +83,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
   html.raw("</section>\n");
 }
 
-void add_picture(Html& html, const casedb::AttemptRow& row) {
+void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recording* recording) {
   html.raw("<section class=\"picture\" aria-labelledby=\"picture\">\n<h2 id=\"picture\">Picture</h2>\n");
   if (row.picture_sha256.empty()) {
     html.raw("<p class=\"note\">No picture is stored with this attempt.</p>\n");
@@ -99,14 +100,19 @@ void add_picture(Html& html, const casedb::AttemptRow& row) {
               : outcome == "No" ? "; the target was missed"
                                 : "")
         .raw("\">\n<figcaption>");
-    if (xray)
-      html.raw("The last image before the moment of firing.");
-    else
+    if (xray) {
+      html.raw("The last image before the moment of firing");
+      const double fired_s = recording != nullptr && recording->endpoint ? recording->endpoint->t_s : 1e300;
+      if (recording != nullptr)
+        if (const auto text = image_text(recording->frames, fired_s)) html.raw(": ").text(*text);
+      html.raw(".");
+    } else {
       html.raw("MPR under the probe at the moment of firing: probe at the upper edge, depth downwards, ")
           .text(number_text(row.picture.width_mm, 0))
           .raw(" mm wide, ")
           .text(number_text(row.picture.depth_mm, 0))
           .raw(" mm deep.");
+    }
     html.raw("</figcaption></figure>\n");
   }
   html.raw("</section>\n");
@@ -154,13 +160,14 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
   add_outcome(html, row);
   html.raw("<div class=\"columns\">\n");
   add_metrics(html, row);
-  add_picture(html, row);
+  add_picture(html, row, recording);
   html.raw("</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
   const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
   if (chart.empty()) {
     html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");
   } else {
     html.add(chart);
+    html.add(beam_table(*recording));
   }
   html.raw("</section>\n");
   add_details(html, attempt);
