@@ -1,10 +1,10 @@
-#include "casedb/import/axial_slices.h"
+#include "sim/volume/axial_slices.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 namespace {
 
 class SliceFill {
@@ -61,6 +61,8 @@ void grow_line(std::uint8_t* line, int count, std::ptrdiff_t step, int radius, s
   }
 }
 
+}  // namespace
+
 void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::ivec2 radius, std::uint8_t value,
                 std::vector<int>& last_seen) {
   for (int y = 0; y < height; ++y)
@@ -68,9 +70,7 @@ void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::iv
   for (int x = 0; x < width; ++x) grow_line(slice.data() + x, height, width, radius.y, value, last_seen);
 }
 
-}  // namespace
-
-AxialSlices::AxialSlices(const volume::Volume& volume) {
+AxialSlices::AxialSlices(const Volume& volume) {
   int axial = 0;
   double best_cosine = -1.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -118,4 +118,4 @@ std::vector<std::uint8_t> thin_parts(const AxialSlices& slices, const std::vecto
   return thin;
 }
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

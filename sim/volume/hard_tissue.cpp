@@ -1,0 +1,224 @@
+// Bone by hysteresis and connectivity, metal, and contrast that must be neither. Candidates are bright voxels;
+// bone's core is denser than enhanced blood; a thick bright plateau that bone does not surround is contrast; what
+// remains and is joined to a core is bone, however blurred.
+#include <algorithm>
+#include <cmath>
+
+#include "sim/volume/axial_slices.h"
+#include "sim/volume/class_steps.h"
+#include "sim/volume/components.h"
+
+namespace seldinger::volume {
+namespace {
+
+// HU of smoothed voxels. Blood and kidney reach 300 at most (350 in an angiogram).
+constexpr int kBrightHu = 150, kContrastHu = 200, kCoreHu = 380;
+constexpr int kPlateauHu = 105;     // so that noise tears no hole into vessels of 145
+constexpr int kSureCoreHu = 600;  // a single raw voxel of a thin cortex
+constexpr int kMetalHu = 2500, kMetalRimHu = 1000;
+constexpr double kMetalRimMm = 1.5;
+constexpr double kPlateauRadiusMm = 3.5;  // thicker than blurred cortex of ribs and laminae
+constexpr double kCoreReachMm = 1.5;      // blur of a core's edge: nearer is bone whatever the plateau
+constexpr double kPlateauReachMm = 3.0;   // blur of the plateau's edge
+constexpr double kSurroundMm = 32.0;      // across a vertebral body, 50 mm wide, from its middle and a little
+constexpr int kSurroundRounds = 2;
+constexpr int kSurroundedBy = 6;          // of 8 directions in the slice; a vessel beside a vertebra: at most 4
+
+enum Mark : std::uint8_t { kBright = 1, kCore = 2, kContrast = 4, kMetal = 8, kPlateau = 16, kMarrow = 32, kPale = 64 };
+
+class Slice {
+ public:
+  Slice(const Volume& volume, std::uint8_t* marks)
+      : width_(volume.size_voxels.x), height_(volume.size_voxels.y), spacing_mm_(volume.spacing_mm), marks_(marks) {}
+
+  glm::ivec2 radius(double mm) const {
+    return {std::max(1, static_cast<int>(std::lround(mm / spacing_mm_.x))),
+            std::max(1, static_cast<int>(std::lround(mm / spacing_mm_.y)))};
+  }
+
+  // Voxels of `where` within `mm` of marked ones along such voxels get the mark too, if none of `but`.
+  void spread(std::uint8_t mark, std::uint8_t where, std::uint8_t but, double mm) {
+    const glm::ivec2 r = radius(mm);
+    for (int step = 0; step < std::max(r.x, r.y); ++step) {
+      reached_.clear();
+      for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x) {
+          const std::uint8_t here = marks_[at(x, y)];
+          if ((here & where) == 0 || (here & (mark | but)) != 0) continue;
+          const bool along_x = step < r.x && ((x > 0 && (marks_[at(x - 1, y)] & mark) != 0) ||
+                                              (x + 1 < width_ && (marks_[at(x + 1, y)] & mark) != 0));
+          const bool along_y = step < r.y && ((y > 0 && (marks_[at(x, y - 1)] & mark) != 0) ||
+                                              (y + 1 < height_ && (marks_[at(x, y + 1)] & mark) != 0));
+          if (along_x || along_y) reached_.push_back(at(x, y));
+        }
+      for (const std::size_t there : reached_) marks_[there] |= mark;
+    }
+  }
+
+  // Bright voxels with core in most directions are marrow.
+  void mark_surrounded() {
+    directions_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    const double diagonal_mm = std::hypot(spacing_mm_.x, spacing_mm_.y);
+    const auto w = static_cast<std::size_t>(width_);
+    std::vector<int> before(w), here(w);
+    for (const int down : {1, -1}) {
+      for (const int across : {-1, 0, 1}) {
+        const int reach =
+            static_cast<int>(kSurroundMm / (across == 0 ? spacing_mm_.y : diagonal_mm));
+        std::fill(before.begin(), before.end(), reach + 1);
+        for (int row = 0; row < height_; ++row) {
+          const int y = down > 0 ? row : height_ - 1 - row;
+          for (int x = 0; x < width_; ++x) {
+            const int from = x + across;
+            here[static_cast<std::size_t>(x)] =
+                step_from(at(x, y), from < 0 || from >= width_ ? reach + 1 : before[static_cast<std::size_t>(from)],
+                          reach);
+          }
+          std::swap(before, here);
+        }
+      }
+      const int reach = static_cast<int>(kSurroundMm / spacing_mm_.x);
+      for (int y = 0; y < height_; ++y) {
+        int since = reach + 1;
+        for (int column = 0; column < width_; ++column)
+          since = step_from(at(down > 0 ? column : width_ - 1 - column, y), since, reach);
+      }
+    }
+    for (std::size_t v = 0; v < directions_.size(); ++v)
+      if ((marks_[v] & kBright) != 0 && directions_[v] >= kSurroundedBy) marks_[v] |= kMarrow;
+  }
+
+  // Pale voxels that are neither core nor marrow and that a square of them covers.
+  void mark_plateaus() {
+    const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    opened_.resize(count);
+    bool any = false;
+    for (std::size_t v = 0; v < count; ++v) {
+      opened_[v] = (marks_[v] & (kPale | kCore | kMarrow)) == kPale ? 1 : 0;
+      any = any || opened_[v] != 0;
+    }
+    if (!any) return;
+    const glm::ivec2 r = radius(kPlateauRadiusMm);
+    grow_slice(opened_, width_, height_, r, 0, last_seen_);
+    grow_slice(opened_, width_, height_, r, 1, last_seen_);
+    for (std::size_t v = 0; v < count; ++v)
+      if (opened_[v] != 0) marks_[v] |= kPlateau;
+  }
+
+ private:
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  int step_from(std::size_t v, int since, int reach) {
+    if ((marks_[v] & (kCore | kMarrow)) != 0) return 0;
+    const int now = std::min(since + 1, reach + 1);
+    if (now <= reach) ++directions_[v];
+    return now;
+  }
+
+  int width_, height_;
+  glm::dvec3 spacing_mm_;
+  std::uint8_t* marks_;
+  std::vector<std::size_t> reached_;
+  std::vector<std::uint8_t> directions_, opened_;
+  std::vector<int> last_seen_;
+};
+
+// 0 where nothing is bright.
+std::uint8_t marks_of(int smooth_hu, int raw_hu) {
+  if (raw_hu < kSureCoreHu && smooth_hu < kBrightHu) return smooth_hu >= kPlateauHu ? kPale : 0;
+  std::uint8_t marks = kBright | kPale;
+  if (smooth_hu >= kContrastHu) marks |= kContrast;
+  if (smooth_hu >= kCoreHu || raw_hu >= kSureCoreHu) marks |= kCore;
+  if (raw_hu >= kMetalHu) marks |= kMetal;
+  return marks;
+}
+
+void mark_metal_rim(const Volume& volume, std::uint8_t* marks, const std::int16_t* hu) {
+  const int radius = std::max(1, static_cast<int>(std::lround(kMetalRimMm / volume.spacing_mm.x)));
+  const int width = volume.size_voxels.x, height = volume.size_voxels.y;
+  std::vector<std::size_t> rim;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if ((marks[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] &
+           kMetal) == 0)
+        continue;
+      for (int b = std::max(0, y - radius); b <= std::min(height - 1, y + radius); ++b)
+        for (int a = std::max(0, x - radius); a <= std::min(width - 1, x + radius); ++a) {
+          const std::size_t v =
+              static_cast<std::size_t>(b) * static_cast<std::size_t>(width) + static_cast<std::size_t>(a);
+          if (hu[v] >= kMetalRimHu) rim.push_back(v);
+        }
+    }
+  for (const std::size_t v : rim) marks[v] |= kBright | kMetal;
+}
+
+}  // namespace
+
+void smooth_slice(const Volume& volume, int k, std::vector<std::int16_t>& smooth) {
+  const int width = volume.size_voxels.x, height = volume.size_voxels.y;
+  const auto w = static_cast<std::size_t>(width);
+  smooth.resize(w * static_cast<std::size_t>(height));
+  std::vector<int> columns(w);
+  const std::int16_t* hu = volume.hu.data() + volume.index(0, 0, k);
+  for (int y = 0; y < height; ++y) {
+    const std::int16_t* above = hu + static_cast<std::size_t>(std::max(0, y - 1)) * w;
+    const std::int16_t* here = hu + static_cast<std::size_t>(y) * w;
+    const std::int16_t* below = hu + static_cast<std::size_t>(std::min(height - 1, y + 1)) * w;
+    for (std::size_t x = 0; x < w; ++x) columns[x] = above[x] + 2 * here[x] + below[x];
+    std::int16_t* out = smooth.data() + static_cast<std::size_t>(y) * w;
+    const auto sixteenth = [](int sum) { return static_cast<std::int16_t>(sum >> 4); };  // downwards for all signs
+    for (std::size_t x = 1; x + 1 < w; ++x) out[x] = sixteenth(columns[x - 1] + 2 * columns[x] + columns[x + 1]);
+    out[0] = sixteenth(3 * columns[0] + columns[std::min<std::size_t>(1, w - 1)]);
+    out[w - 1] = sixteenth(3 * columns[w - 1] + columns[w >= 2 ? w - 2 : 0]);
+  }
+}
+
+void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
+  const std::size_t slice_voxels = static_cast<std::size_t>(volume.size_voxels.x) *
+                                   static_cast<std::size_t>(volume.size_voxels.y);
+  std::vector<std::uint8_t> marks(classes.size(), 0);
+  std::vector<std::int16_t> smooth;
+  for (int k = 0; k < volume.size_voxels.z; ++k) {
+    const std::size_t start = static_cast<std::size_t>(k) * slice_voxels;
+    std::uint8_t* const here = marks.data() + start;
+    smooth_slice(volume, k, smooth);
+    std::uint8_t all = 0;
+    for (std::size_t at = 0; at < slice_voxels; ++at) {
+      if (classes[start + at] == TissueClass::air) continue;
+      here[at] = marks_of(smooth[at], volume.hu[start + at]);
+      all |= here[at];
+    }
+    if ((all & kBright) == 0) continue;
+    if ((all & kMetal) != 0) mark_metal_rim(volume, here, volume.hu.data() + start);
+    Slice slice(volume, here);
+    if ((all & kCore) != 0) {
+      for (int round = 0; round < kSurroundRounds; ++round) slice.mark_surrounded();
+    }
+    slice.mark_plateaus();
+    slice.spread(kCore, kBright, kMarrow, kCoreReachMm);
+    slice.spread(kPlateau, kPale, kCore | kMarrow, kPlateauReachMm);
+  }
+
+  // Bone floods from core and marrow through all that is bright and no plateau.
+  std::vector<std::uint8_t> open(marks.size());
+  std::transform(marks.begin(), marks.end(), open.begin(), [](std::uint8_t m) {
+    return static_cast<std::uint8_t>((m & kBright) != 0 && ((m & kPlateau) == 0 || (m & kCore) != 0) ? 1 : 0);
+  });
+  Components pieces(volume.size_voxels, open);
+  std::vector<std::uint8_t> has_core(pieces.numbers(), 0);
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at)
+      if ((marks[at] & kCore) != 0) has_core[piece] = 1;
+  });
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    if (has_core[piece] != 0)
+      for (std::size_t at = begin; at < end; ++at) classes[at] = TissueClass::bone;
+  });
+  for (std::size_t at = 0; at < classes.size(); ++at) {
+    if ((marks[at] & kMetal) != 0) classes[at] = TissueClass::metal;
+    else if ((marks[at] & kContrast) != 0 && classes[at] != TissueClass::bone) classes[at] = TissueClass::vessel;
+  }
+}
+
+}  // namespace seldinger::volume

@@ -1,0 +1,156 @@
+// Fat, fluid and the rest by HU without noise, averaged among neighbours that are soft too: an edge to gas or bone
+// does not become fat or fluid.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "sim/volume/axial_slices.h"
+#include "sim/volume/class_steps.h"
+#include "sim/volume/components.h"
+
+namespace seldinger::volume {
+namespace {
+
+constexpr int kLowestSoftHu = -200, kHighestSoftHu = 200;
+constexpr int kFatBelowHu = -30;                  // the middle between fat, -100, and tissue, 40
+constexpr int kFluidFromHu = -20, kFluidToHu = 18;  // bile and urine are 0 to 15
+constexpr double kFluidRadiusMm = 2.0, kFluidMl = 0.5;  // an edge of fat and tissue has these HU, but is thinner
+constexpr double kNoisySdHu = 15.0;  // from here on the average goes over 5 x 5 voxels instead of 3 x 3
+constexpr double kWideMm = 2.5;      // but never farther than this
+
+// Of soft tissue, from differences of neighbours along x: their median is 0.954 sd for independent normal noise.
+double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes) {
+  std::array<std::size_t, 512> count{};
+  std::size_t pairs = 0;
+  const auto width = static_cast<std::size_t>(volume.size_voxels.x);
+  for (std::size_t at = 0; at + 1 < classes.size(); ++at) {
+    if ((at + 1) % width == 0 || classes[at] != TissueClass::soft_tissue) continue;
+    const int a = volume.hu[at], b = volume.hu[at + 1];
+    if (std::min(a, b) < kLowestSoftHu || std::max(a, b) > kHighestSoftHu) continue;
+    ++count[static_cast<std::size_t>(std::abs(a - b))];
+    ++pairs;
+  }
+  std::size_t below = 0;
+  for (std::size_t step = 0; step < count.size(); ++step)
+    if ((below += count[step]) * 2 >= pairs) return static_cast<double>(step) / 0.954;
+  return 0.0;
+}
+
+// Sums of a box of 2 radius + 1 voxels, beyond the slice nothing.
+class BoxSum {
+ public:
+  BoxSum(int width, int height, glm::ivec2 radius) : width_(width), height_(height), radius_(radius) {}
+
+  void sum(const std::vector<int>& in, std::vector<int>& out) {
+    const auto w = static_cast<std::size_t>(width_);
+    rows_.resize(in.size());
+    out.resize(in.size());
+    for (int y = 0; y < height_; ++y) {
+      const int* from = in.data() + static_cast<std::size_t>(y) * w;
+      int* to = rows_.data() + static_cast<std::size_t>(y) * w;
+      int running = 0;
+      for (int x = 0; x < std::min(radius_.x, width_); ++x) running += from[x];
+      for (int x = 0; x < width_; ++x) {
+        if (x + radius_.x < width_) running += from[x + radius_.x];
+        if (x - radius_.x - 1 >= 0) running -= from[x - radius_.x - 1];
+        to[x] = running;
+      }
+    }
+    column_.assign(w, 0);
+    const auto add = [&](int y, int sign) {
+      const int* row = rows_.data() + static_cast<std::size_t>(y) * w;
+      for (std::size_t x = 0; x < w; ++x) column_[x] += sign * row[x];
+    };
+    for (int y = 0; y < std::min(radius_.y, height_); ++y) add(y, 1);
+    for (int y = 0; y < height_; ++y) {
+      if (y + radius_.y < height_) add(y + radius_.y, 1);
+      if (y - radius_.y - 1 >= 0) add(y - radius_.y - 1, -1);
+      std::copy(column_.begin(), column_.end(), out.begin() + static_cast<std::ptrdiff_t>(y) * width_);
+    }
+  }
+
+ private:
+  int width_, height_;
+  glm::ivec2 radius_;
+  std::vector<int> rows_, column_;
+};
+
+// Where gas or lung lies on one side and tissue on the other, what looks like fat between them is neither. Fat in
+// `classes` at `at`, whose neighbours lie `step` away.
+bool between_gas_and_tissue(const std::vector<TissueClass>& classes, std::size_t at, std::size_t step) {
+  const auto hollow = [](TissueClass t) { return t == TissueClass::air || t == TissueClass::gas || t == TissueClass::lung; };
+  const TissueClass before = classes[at - step], after = classes[at + step];
+  return (hollow(before) && after == TissueClass::soft_tissue) || (hollow(after) && before == TissueClass::soft_tissue);
+}
+
+void clear_false_rims(const Volume& volume, std::vector<TissueClass>& classes) {
+  const glm::ivec3 n = volume.size_voxels;
+  const auto row = static_cast<std::size_t>(n.x);
+  std::vector<std::size_t> false_fat;
+  for (int k = 0; k < n.z; ++k)
+    for (int j = 1; j + 1 < n.y; ++j)
+      for (int i = 1; i + 1 < n.x; ++i) {
+        const std::size_t at = volume.index(i, j, k);
+        if (classes[at] == TissueClass::fat &&
+            (between_gas_and_tissue(classes, at, 1) || between_gas_and_tissue(classes, at, row)))
+          false_fat.push_back(at);
+      }
+  for (const std::size_t at : false_fat) classes[at] = TissueClass::soft_tissue;
+}
+
+}  // namespace
+
+void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
+  const glm::ivec3 n = volume.size_voxels;
+  const std::size_t slice_voxels = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
+  const int wanted = noise_sd_hu(volume, classes) >= kNoisySdHu ? 2 : 1;
+  glm::ivec2 average(1), fluid(1);
+  for (int axis = 0; axis < 2; ++axis) {
+    average[axis] = std::clamp(static_cast<int>(kWideMm / volume.spacing_mm[axis]), 0, wanted);
+    fluid[axis] = std::max(1, static_cast<int>(std::lround(kFluidRadiusMm / volume.spacing_mm[axis])));
+  }
+  BoxSum box(n.x, n.y, average);
+  std::vector<int> hu(slice_voxels), one(slice_voxels), sum, count, last_seen;
+  std::vector<std::uint8_t> opened(slice_voxels), fluids(classes.size(), 0);
+  for (int k = 0; k < n.z; ++k) {
+    const std::size_t start = static_cast<std::size_t>(k) * slice_voxels;
+    TissueClass* const slice = classes.data() + start;
+    for (std::size_t at = 0; at < slice_voxels; ++at) {
+      const int value = volume.hu[start + at];
+      const bool soft = slice[at] == TissueClass::soft_tissue && value >= kLowestSoftHu && value <= kHighestSoftHu;
+      hu[at] = soft ? value : 0;
+      one[at] = soft ? 1 : 0;
+    }
+    box.sum(hu, sum);
+    box.sum(one, count);
+    bool any = false;
+    for (std::size_t at = 0; at < slice_voxels; ++at) {
+      opened[at] = 0;
+      if (slice[at] != TissueClass::soft_tissue) continue;
+      if (one[at] == 0) {
+        if (volume.hu[start + at] < kLowestSoftHu) slice[at] = TissueClass::fat;
+        continue;
+      }
+      // sum / count against whole numbers, without a division
+      if (sum[at] < kFatBelowHu * count[at]) slice[at] = TissueClass::fat;
+      else if (sum[at] >= kFluidFromHu * count[at] && sum[at] <= kFluidToHu * count[at]) opened[at] = 1, any = true;
+    }
+    if (!any) continue;
+    std::copy(opened.begin(), opened.end(), fluids.begin() + static_cast<std::ptrdiff_t>(start));
+    grow_slice(opened, n.x, n.y, fluid, 0, last_seen);
+    grow_slice(opened, n.x, n.y, fluid + 1, 1, last_seen);
+    for (std::size_t at = 0; at < slice_voxels; ++at) fluids[start + at] = fluids[start + at] & opened[at];
+  }
+  Components pieces(n, fluids);
+  const double least = kFluidMl * 1e3 / (volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z);
+  std::vector<std::size_t> voxels(pieces.numbers(), 0);
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) { voxels[piece] += end - begin; });
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    if (static_cast<double>(voxels[piece]) < least) return;
+    std::fill(classes.begin() + static_cast<std::ptrdiff_t>(begin), classes.begin() + static_cast<std::ptrdiff_t>(end),
+              TissueClass::fluid);
+  });
+  clear_false_rims(volume, classes);
+}
+
+}  // namespace seldinger::volume

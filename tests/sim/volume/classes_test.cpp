@@ -1,0 +1,2 @@
+#include <gtest/gtest.h>
+#include "sim/volume/classes.h"
