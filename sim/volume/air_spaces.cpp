@@ -1,7 +1,6 @@
 // Lung, and gas that is none: told apart by size and by how dense the larger half of a connected space is.
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
+#include <cmath>
 
 #include "sim/volume/class_steps.h"
 #include "sim/volume/components.h"
@@ -12,7 +11,7 @@ namespace {
 constexpr int kAirSpaceHu = -400;   // the middle between lung (-850) and tissue (50)
 constexpr int kDenserThanGas = -930;  // lung is above: gas is -1000 to -950, lung -900 to -700
 constexpr double kLungMl = 30.0, kLungShare = 0.003;  // a space smaller, or less of the body, is no lung
-constexpr double kAirwayMl = 0.2;
+constexpr double kAirwayMl = 0.2, kAirwayEdgeMm = 2.5;
 
 struct Space {
   std::size_t voxels = 0, inner = 0, denser = 0;  // denser: of the inner ones
@@ -45,6 +44,21 @@ void mark_airways(const Volume& volume, std::vector<TissueClass>& classes) {
     if (static_cast<double>(voxels[piece]) * voxel_ml(volume) < kAirwayMl) return;
     for (std::size_t at = begin; at < end; ++at) classes[at] = TissueClass::gas;
   });
+  // The airway's blurred edge is no lung either.
+  const int steps = std::max(1, static_cast<int>(std::lround(kAirwayEdgeMm / volume.spacing_mm.x)));
+  const auto row = static_cast<std::size_t>(volume.size_voxels.x);
+  std::vector<std::size_t> reached, last;
+  for (std::size_t at = 0; at < classes.size(); ++at)
+    if (empty[at] != 0 && classes[at] == TissueClass::gas) last.push_back(at);
+  for (int step = 0; step < steps; ++step, std::swap(last, reached)) {
+    reached.clear();
+    for (const std::size_t at : last)
+      for (const std::size_t other : {at - 1, at + 1, at - row, at + row})
+        if (other < classes.size() && classes[other] == TissueClass::lung) {
+          classes[other] = TissueClass::gas;
+          reached.push_back(other);
+        }
+  }
 }
 
 }  // namespace
@@ -76,7 +90,7 @@ void mark_air_spaces(const Volume& volume, std::vector<TissueClass>& classes) {
   pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
     const Space& space = spaces[piece];
     const bool is_lung = static_cast<double>(space.voxels) >= lung_voxels && space.denser * 3 > space.inner * 2;
-    if(getenv("DBG")&&space.voxels>3000) printf("space %zu vox %zu ml %.1f inner %zu denser %zu\n",piece,space.voxels,double(space.voxels)*voxel_ml(volume),space.inner,space.denser);
+
     lung = lung || is_lung;
     for (std::size_t at = begin; at < end; ++at) classes[at] = is_lung ? TissueClass::lung : TissueClass::gas;
   });

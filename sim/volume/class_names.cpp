@@ -11,9 +11,9 @@ constexpr const char* kLabel = "label";
 constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
     {"air", "outside the largest piece above -300 HU with its inside filled", "contracts.md, Skin"},
     {"gas", "inside, below -400 HU; in no lung, or an airway of it", kProkop},
-    {"lung", "inside, below -400 HU, large, half of it above -930 HU", kProkop},
+    {"lung", "inside, below -400 HU, large, its inside mostly above -930 HU", kProkop},
     {"fat", "below -30 HU, the middle between fat (-100) and tissue (40)", kProkop},
-    {"fluid", "-20 to 18 HU and at least 4 mm thick, 0.5 ml", kProkop},
+    {"fluid", "-20 to 18 HU and at least 6 mm thick, 1 ml", kProkop},
     {"soft_tissue", "the rest of the inside", kProkop},
     {"liver", kLabel, kProkop},
     {"kidney", kLabel, kProkop},

@@ -20,9 +20,13 @@ constexpr double kMetalRimMm = 1.5;
 constexpr double kPlateauRadiusMm = 3.5;  // thicker than blurred cortex of ribs and laminae
 constexpr double kCoreReachMm = 1.5;      // blur of a core's edge: nearer is bone whatever the plateau
 constexpr double kPlateauReachMm = 3.0;   // blur of the plateau's edge
-constexpr double kSurroundMm = 32.0;      // across a vertebral body, 50 mm wide, from its middle and a little
-constexpr int kSurroundRounds = 2;
+constexpr int kCortexAboveMarrowHu = 60;  // five times the noise of a smoothed noisy picture
 constexpr int kSurroundedBy = 6;          // of 8 directions in the slice; a vessel beside a vertebra: at most 4
+constexpr double kHeldByBone = 0.4;       // of a plateau's surface; a vessel that lies on bone: less than a third
+constexpr int kMarrowHu = 70;             // more than what the spinal canal holds
+constexpr double kAcrossMarrowMm = 32.0;  // half a vertebral body and a little
+constexpr double kAcrossPoreMm = 6.0;     // less than half a spinal canal
+constexpr int kNothing = -32768;
 
 enum Mark : std::uint8_t { kBright = 1, kCore = 2, kContrast = 4, kMetal = 8, kPlateau = 16, kMarrow = 32, kPale = 64 };
 
@@ -55,37 +59,32 @@ class Slice {
     }
   }
 
-  // Bright voxels with core in most directions are marrow.
-  void mark_surrounded() {
-    directions_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-    const double diagonal_mm = std::hypot(spacing_mm_.x, spacing_mm_.y);
-    const auto w = static_cast<std::size_t>(width_);
-    std::vector<int> before(w), here(w);
-    for (const int down : {1, -1}) {
-      for (const int across : {-1, 0, 1}) {
-        const int reach =
-            static_cast<int>(kSurroundMm / (across == 0 ? spacing_mm_.y : diagonal_mm));
-        std::fill(before.begin(), before.end(), reach + 1);
-        for (int row = 0; row < height_; ++row) {
-          const int y = down > 0 ? row : height_ - 1 - row;
-          for (int x = 0; x < width_; ++x) {
-            const int from = x + across;
-            here[static_cast<std::size_t>(x)] =
-                step_from(at(x, y), from < 0 || from >= width_ ? reach + 1 : before[static_cast<std::size_t>(from)],
-                          reach);
-          }
-          std::swap(before, here);
-        }
-      }
-      const int reach = static_cast<int>(kSurroundMm / spacing_mm_.x);
-      for (int y = 0; y < height_; ++y) {
-        int since = reach + 1;
-        for (int column = 0; column < width_; ++column)
-          since = step_from(at(down > 0 ? column : width_ - 1 - column, y), since, reach);
-      }
-    }
+  // Pale voxels with something much brighter in most directions, before the pale part ends, are marrow.
+  void mark_marrow(const std::vector<std::int16_t>& smooth) {
+    count_directions([&](std::size_t v, int brightest) -> int {
+      if ((marks_[v] & kPale) == 0) return kNothing;
+      if (brightest >= smooth[v] + kCortexAboveMarrowHu) ++directions_[v];
+      return std::max<int>(brightest, smooth[v]);
+    });
     for (std::size_t v = 0; v < directions_.size(); ++v)
-      if ((marks_[v] & kBright) != 0 && directions_[v] >= kSurroundedBy) marks_[v] |= kMarrow;
+      if (directions_[v] >= kSurroundedBy) marks_[v] |= kMarrow;
+  }
+
+  void fill_holes(const std::vector<std::int16_t>& smooth, TissueClass* classes) {
+    const double mm = std::max(spacing_mm_.x, spacing_mm_.y);
+    const int marrow = static_cast<int>(kAcrossMarrowMm / mm), pore = std::max(1, static_cast<int>(kAcrossPoreMm / mm));
+    near_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    count_directions([&](std::size_t v, int since) -> int {
+      if (classes[v] == TissueClass::bone) return 0;
+      if (since == kNothing || since >= marrow) return kNothing;
+      ++directions_[v];
+      if (since < pore) ++near_[v];
+      return since + 1;
+    });
+    for (std::size_t v = 0; v < directions_.size(); ++v)
+      if (classes[v] == TissueClass::soft_tissue &&
+          (near_[v] == 8 || (directions_[v] >= kSurroundedBy && smooth[v] >= kMarrowHu)))
+        classes[v] = TissueClass::bone;
   }
 
   // Pale voxels that are neither core nor marrow and that a square of them covers.
@@ -109,18 +108,35 @@ class Slice {
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
-  int step_from(std::size_t v, int since, int reach) {
-    if ((marks_[v] & (kCore | kMarrow)) != 0) return 0;
-    const int now = std::min(since + 1, reach + 1);
-    if (now <= reach) ++directions_[v];
-    return now;
+  // Walks through the slice in 8 directions; step(voxel, what it returned one voxel before).
+  template <typename Step>
+  void count_directions(const Step& step) {
+    directions_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    const auto w = static_cast<std::size_t>(width_);
+    std::vector<int> before(w + 2), here(w + 2);  // one beyond each end of a row
+    for (const bool forward : {true, false}) {
+      for (const std::size_t across : {0U, 1U, 2U}) {
+        std::fill(before.begin(), before.end(), kNothing);
+        std::fill(here.begin(), here.end(), kNothing);
+        for (int row = 0; row < height_; ++row) {
+          const std::size_t start = at(0, forward ? row : height_ - 1 - row);
+          for (std::size_t x = 0; x < w; ++x) here[x + 1] = step(start + x, before[x + across]);
+          std::swap(before, here);
+        }
+      }
+      for (int y = 0; y < height_; ++y) {
+        int last = kNothing;
+        const std::size_t start = at(0, y);
+        for (std::size_t x = 0; x < w; ++x) last = step(start + (forward ? x : w - 1 - x), last);
+      }
+    }
   }
 
   int width_, height_;
   glm::dvec3 spacing_mm_;
   std::uint8_t* marks_;
   std::vector<std::size_t> reached_;
-  std::vector<std::uint8_t> directions_, opened_;
+  std::vector<std::uint8_t> directions_, near_, opened_;
   std::vector<int> last_seen_;
 };
 
@@ -151,6 +167,74 @@ void mark_metal_rim(const Volume& volume, std::uint8_t* marks, const std::int16_
         }
     }
   for (const std::size_t v : rim) marks[v] |= kBright | kMetal;
+}
+
+// Bone is whatever is bright, no plateau, and joined to a core.
+void flood_bone(const Volume& volume, const std::vector<std::uint8_t>& marks, std::vector<TissueClass>& classes) {
+  std::vector<std::uint8_t> open(marks.size());
+  std::transform(marks.begin(), marks.end(), open.begin(), [](std::uint8_t m) {
+    return static_cast<std::uint8_t>((m & kBright) != 0 && ((m & kPlateau) == 0 || (m & kCore) != 0) ? 1 : 0);
+  });
+  Components pieces(volume.size_voxels, open);
+  std::vector<std::uint8_t> has_core(pieces.numbers(), 0);
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t at = begin; at < end; ++at)
+      if ((marks[at] & kCore) != 0) has_core[piece] = 1;
+  });
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    if (has_core[piece] != 0)
+      for (std::size_t at = begin; at < end; ++at) classes[at] = TissueClass::bone;
+  });
+}
+
+// A plateau that bone holds is its spongy part: a vertebra's end between two slices has no bright rim.
+void join_held_plateaus(const Volume& volume, const std::vector<std::uint8_t>& marks,
+                        std::vector<TissueClass>& classes) {
+  const glm::ivec3 n = volume.size_voxels;
+  std::vector<std::uint8_t> plateau(marks.size());
+  for (std::size_t at = 0; at < marks.size(); ++at)
+    plateau[at] = (marks[at] & (kPlateau | kBright)) == (kPlateau | kBright) && classes[at] != TissueClass::bone ? 1 : 0;
+  Components pieces(n, plateau);
+  struct Surface {
+    double bone_mm2 = 0.0, all_mm2 = 0.0;
+  };
+  std::vector<Surface> surfaces(pieces.numbers());
+  const glm::dvec3 mm = volume.spacing_mm, area_mm2(mm.y * mm.z, mm.x * mm.z, mm.x * mm.y);
+  const std::size_t row = static_cast<std::size_t>(n.x), slice = row * static_cast<std::size_t>(n.y);
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    Surface& surface = surfaces[piece];
+    const auto look = [&](bool there, std::size_t other, double face_mm2) {
+      if (!there || plateau[other] != 0) return;
+      surface.all_mm2 += face_mm2;
+      if (classes[other] == TissueClass::bone) surface.bone_mm2 += face_mm2;
+    };
+    const std::size_t j = begin / row % static_cast<std::size_t>(n.y), k = begin / slice;
+    look(begin % row != 0, begin - 1, area_mm2.x);
+    look(end % row != 0, end, area_mm2.x);
+    for (std::size_t at = begin; at < end; ++at) {
+      look(j > 0, at - row, area_mm2.y);
+      look(j + 1 < static_cast<std::size_t>(n.y), at + row, area_mm2.y);
+      look(k > 0, at - slice, area_mm2.z);
+      look(k + 1 < static_cast<std::size_t>(n.z), at + slice, area_mm2.z);
+    }
+  });
+  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
+    if (surfaces[piece].bone_mm2 <= kHeldByBone * surfaces[piece].all_mm2) return;
+    for (std::size_t at = begin; at < end; ++at) classes[at] = TissueClass::bone;
+  });
+}
+
+// Holes in bone: marrow that bone surrounds in most directions, and pores that it surrounds in all.
+void fill_marrow(const Volume& volume, std::vector<std::uint8_t>& marks, std::vector<TissueClass>& classes) {
+  const std::size_t slice_voxels = static_cast<std::size_t>(volume.size_voxels.x) *
+                                   static_cast<std::size_t>(volume.size_voxels.y);
+  std::vector<std::int16_t> smooth;
+  for (int k = 0; k < volume.size_voxels.z; ++k) {
+    TissueClass* const here = classes.data() + static_cast<std::size_t>(k) * slice_voxels;
+    if (std::find(here, here + slice_voxels, TissueClass::bone) == here + slice_voxels) continue;
+    smooth_slice(volume, k, smooth);
+    Slice(volume, marks.data() + static_cast<std::size_t>(k) * slice_voxels).fill_holes(smooth, here);
+  }
 }
 
 }  // namespace
@@ -192,29 +276,15 @@ void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
     if ((all & kBright) == 0) continue;
     if ((all & kMetal) != 0) mark_metal_rim(volume, here, volume.hu.data() + start);
     Slice slice(volume, here);
-    if ((all & kCore) != 0) {
-      for (int round = 0; round < kSurroundRounds; ++round) slice.mark_surrounded();
-    }
+    slice.mark_marrow(smooth);
     slice.mark_plateaus();
     slice.spread(kCore, kBright, kMarrow, kCoreReachMm);
     slice.spread(kPlateau, kPale, kCore | kMarrow, kPlateauReachMm);
   }
 
-  // Bone floods from core and marrow through all that is bright and no plateau.
-  std::vector<std::uint8_t> open(marks.size());
-  std::transform(marks.begin(), marks.end(), open.begin(), [](std::uint8_t m) {
-    return static_cast<std::uint8_t>((m & kBright) != 0 && ((m & kPlateau) == 0 || (m & kCore) != 0) ? 1 : 0);
-  });
-  Components pieces(volume.size_voxels, open);
-  std::vector<std::uint8_t> has_core(pieces.numbers(), 0);
-  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
-    for (std::size_t at = begin; at < end; ++at)
-      if ((marks[at] & kCore) != 0) has_core[piece] = 1;
-  });
-  pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
-    if (has_core[piece] != 0)
-      for (std::size_t at = begin; at < end; ++at) classes[at] = TissueClass::bone;
-  });
+  flood_bone(volume, marks, classes);
+  join_held_plateaus(volume, marks, classes);
+  fill_marrow(volume, marks, classes);
   for (std::size_t at = 0; at < classes.size(); ++at) {
     if ((marks[at] & kMetal) != 0) classes[at] = TissueClass::metal;
     else if ((marks[at] & kContrast) != 0 && classes[at] != TissueClass::bone) classes[at] = TissueClass::vessel;

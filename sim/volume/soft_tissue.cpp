@@ -14,18 +14,22 @@ namespace {
 constexpr int kLowestSoftHu = -200, kHighestSoftHu = 200;
 constexpr int kFatBelowHu = -30;                  // the middle between fat, -100, and tissue, 40
 constexpr int kFluidFromHu = -20, kFluidToHu = 18;  // bile and urine are 0 to 15
-constexpr double kFluidRadiusMm = 2.0, kFluidMl = 0.5;  // an edge of fat and tissue has these HU, but is thinner
+constexpr double kFluidRadiusMm = 3.0, kFluidMl = 1.0;  // an edge of fat and tissue has these HU, but is thinner
+constexpr int kFluidEdgeHu = 28;
+constexpr double kEvenNoise = 1.6, kEvenHu = 8.0;  // sd of HU in fluid: fat mixed with tissue has 50
 constexpr double kNoisySdHu = 15.0;  // from here on the average goes over 5 x 5 voxels instead of 3 x 3
+constexpr int kLeastFatHu = -160;  // two of its sd below the fattest
+constexpr int kRimSteps = 4;
 constexpr double kWideMm = 2.5;      // but never farther than this
 
-// Of soft tissue, from differences of neighbours along x: their median is 0.954 sd for independent normal noise.
+// Of soft tissue, from differences three voxels apart along x, where noise is nearly independent: their median is 0.954 sd.
 double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes) {
   std::array<std::size_t, 512> count{};
   std::size_t pairs = 0;
   const auto width = static_cast<std::size_t>(volume.size_voxels.x);
-  for (std::size_t at = 0; at + 1 < classes.size(); ++at) {
-    if ((at + 1) % width == 0 || classes[at] != TissueClass::soft_tissue) continue;
-    const int a = volume.hu[at], b = volume.hu[at + 1];
+  for (std::size_t at = 0; at + 3 < classes.size(); ++at) {
+    if (at % width + 3 >= width || classes[at] != TissueClass::soft_tissue) continue;
+    const int a = volume.hu[at], b = volume.hu[at + 3];
     if (std::min(a, b) < kLowestSoftHu || std::max(a, b) > kHighestSoftHu) continue;
     ++count[static_cast<std::size_t>(std::abs(a - b))];
     ++pairs;
@@ -75,27 +79,53 @@ class BoxSum {
   std::vector<int> rows_, column_;
 };
 
-// Where gas or lung lies on one side and tissue on the other, what looks like fat between them is neither. Fat in
-// `classes` at `at`, whose neighbours lie `step` away.
-bool between_gas_and_tissue(const std::vector<TissueClass>& classes, std::size_t at, std::size_t step) {
-  const auto hollow = [](TissueClass t) { return t == TissueClass::air || t == TissueClass::gas || t == TissueClass::lung; };
-  const TissueClass before = classes[at - step], after = classes[at + step];
-  return (hollow(before) && after == TissueClass::soft_tissue) || (hollow(after) && before == TissueClass::soft_tissue);
+bool hollow(TissueClass tissue) {
+  return tissue == TissueClass::air || tissue == TissueClass::gas || tissue == TissueClass::lung;
 }
 
+// At the edge of gas or lung a voxel holds part of both: what seems fat there and has too little HU, or has tissue
+// behind it, is tissue.
 void clear_false_rims(const Volume& volume, std::vector<TissueClass>& classes) {
   const glm::ivec3 n = volume.size_voxels;
   const auto row = static_cast<std::size_t>(n.x);
-  std::vector<std::size_t> false_fat;
+  std::vector<std::size_t> front;  // fat beside gas
   for (int k = 0; k < n.z; ++k)
-    for (int j = 1; j + 1 < n.y; ++j)
-      for (int i = 1; i + 1 < n.x; ++i) {
-        const std::size_t at = volume.index(i, j, k);
-        if (classes[at] == TissueClass::fat &&
-            (between_gas_and_tissue(classes, at, 1) || between_gas_and_tissue(classes, at, row)))
-          false_fat.push_back(at);
-      }
-  for (const std::size_t at : false_fat) classes[at] = TissueClass::soft_tissue;
+    for (int j = 1; j + 1 < n.y; ++j) {
+      const std::size_t start = volume.index(0, j, k);
+      for (std::size_t at = start + 1; at + 1 < start + row; ++at)
+        if (classes[at] == TissueClass::fat && (hollow(classes[at - 1]) || hollow(classes[at + 1]) ||
+                                                hollow(classes[at - row]) || hollow(classes[at + row])))
+          front.push_back(at);
+    }
+  const auto inner = [&](std::size_t at) {
+    const std::size_t i = at % row, j = at / row % static_cast<std::size_t>(n.y);
+    return i > 0 && i + 1 < row && j > 0 && j + 1 < static_cast<std::size_t>(n.y);
+  };
+  std::vector<std::size_t> next;
+  for (int step = 0; step < kRimSteps; ++step, std::swap(front, next)) {
+    next.clear();
+    std::vector<std::size_t> cleared;
+    for (const std::size_t at : front) {
+      if (classes[at] != TissueClass::fat || !inner(at)) continue;
+      bool tissue = volume.hu[at] < kLeastFatHu;
+      const auto tissue_behind = [&](std::ptrdiff_t way) {
+        const TissueClass before = classes[at - static_cast<std::size_t>(way)];
+        if (!hollow(before) && (step == 0 || before != TissueClass::soft_tissue)) return false;
+        std::size_t behind = at + static_cast<std::size_t>(way);
+        for (int far = 1; far < kRimSteps && classes[behind] == TissueClass::fat && inner(behind); ++far)
+          behind += static_cast<std::size_t>(way);
+        return classes[behind] == TissueClass::soft_tissue;
+      };
+      const auto down = static_cast<std::ptrdiff_t>(row);
+      tissue = tissue || tissue_behind(1) || tissue_behind(-1) || tissue_behind(down) || tissue_behind(-down);
+      if (tissue) cleared.push_back(at);
+    }
+    for (const std::size_t at : cleared) {
+      classes[at] = TissueClass::soft_tissue;
+      for (const std::size_t other : {at - 1, at + 1, at - row, at + row})
+        if (classes[other] == TissueClass::fat) next.push_back(other);
+    }
+  }
 }
 
 }  // namespace
@@ -103,14 +133,17 @@ void clear_false_rims(const Volume& volume, std::vector<TissueClass>& classes) {
 void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
   const glm::ivec3 n = volume.size_voxels;
   const std::size_t slice_voxels = static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y);
-  const int wanted = noise_sd_hu(volume, classes) >= kNoisySdHu ? 2 : 1;
-  glm::ivec2 average(1), fluid(1);
+  const double noise_hu = noise_sd_hu(volume, classes);
+  const int wanted = noise_hu >= kNoisySdHu ? 2 : 1;
+  const auto even_hu2 = static_cast<int>(std::pow(kEvenNoise * noise_hu, 2.0) + kEvenHu * kEvenHu);
+  glm::ivec2 average(1), wide(1), fluid(1);
   for (int axis = 0; axis < 2; ++axis) {
     average[axis] = std::clamp(static_cast<int>(kWideMm / volume.spacing_mm[axis]), 0, wanted);
+    wide[axis] = std::clamp(static_cast<int>(kWideMm / volume.spacing_mm[axis]), 0, 2);
     fluid[axis] = std::max(1, static_cast<int>(std::lround(kFluidRadiusMm / volume.spacing_mm[axis])));
   }
-  BoxSum box(n.x, n.y, average);
-  std::vector<int> hu(slice_voxels), one(slice_voxels), sum, count, last_seen;
+  BoxSum box(n.x, n.y, average), wide_box(n.x, n.y, wide);
+  std::vector<int> hu(slice_voxels), square(slice_voxels), one(slice_voxels), sum, count, squares, last_seen;
   std::vector<std::uint8_t> opened(slice_voxels), fluids(classes.size(), 0);
   for (int k = 0; k < n.z; ++k) {
     const std::size_t start = static_cast<std::size_t>(k) * slice_voxels;
@@ -119,27 +152,43 @@ void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
       const int value = volume.hu[start + at];
       const bool soft = slice[at] == TissueClass::soft_tissue && value >= kLowestSoftHu && value <= kHighestSoftHu;
       hu[at] = soft ? value : 0;
+      square[at] = soft ? value * value : 0;
       one[at] = soft ? 1 : 0;
     }
     box.sum(hu, sum);
     box.sum(one, count);
+    bool soft = false;
+    for (std::size_t at = 0; at < slice_voxels; ++at) {
+      if (slice[at] != TissueClass::soft_tissue) continue;
+      soft = true;
+      // Without a division.
+      if (one[at] == 0 ? volume.hu[start + at] < kLowestSoftHu : sum[at] < kFatBelowHu * count[at])
+        slice[at] = TissueClass::fat;
+    }
+    if (!soft) continue;
+
+    if (average != wide) {
+      wide_box.sum(hu, sum);
+      wide_box.sum(one, count);
+    }
+    wide_box.sum(square, squares);
     bool any = false;
     for (std::size_t at = 0; at < slice_voxels; ++at) {
-      opened[at] = 0;
-      if (slice[at] != TissueClass::soft_tissue) continue;
-      if (one[at] == 0) {
-        if (volume.hu[start + at] < kLowestSoftHu) slice[at] = TissueClass::fat;
-        continue;
-      }
-      // sum / count against whole numbers, without a division
-      if (sum[at] < kFatBelowHu * count[at]) slice[at] = TissueClass::fat;
-      else if (sum[at] >= kFluidFromHu * count[at] && sum[at] <= kFluidToHu * count[at]) opened[at] = 1, any = true;
+      opened[at] = slice[at] == TissueClass::soft_tissue && one[at] != 0 && sum[at] >= kFluidFromHu * count[at] &&
+                           sum[at] <= kFluidToHu * count[at] &&
+                           squares[at] - sum[at] / count[at] * sum[at] <= even_hu2 * count[at]
+                       ? 1
+                       : 0;
+      any = any || opened[at] != 0;
     }
     if (!any) continue;
-    std::copy(opened.begin(), opened.end(), fluids.begin() + static_cast<std::ptrdiff_t>(start));
     grow_slice(opened, n.x, n.y, fluid, 0, last_seen);
     grow_slice(opened, n.x, n.y, fluid + 1, 1, last_seen);
-    for (std::size_t at = 0; at < slice_voxels; ++at) fluids[start + at] = fluids[start + at] & opened[at];
+    for (std::size_t at = 0; at < slice_voxels; ++at)
+      fluids[start + at] = opened[at] != 0 && slice[at] == TissueClass::soft_tissue && one[at] != 0 &&
+                                   sum[at] <= kFluidEdgeHu * count[at]
+                               ? 1
+                               : 0;
   }
   Components pieces(n, fluids);
   const double least = kFluidMl * 1e3 / (volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z);
