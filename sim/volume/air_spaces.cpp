@@ -8,8 +8,8 @@
 namespace seldinger::volume {
 namespace {
 
-constexpr int kAirSpaceHu = -400;   // the middle between lung (-850) and tissue (50)
-constexpr int kDenserThanGas = -930;  // lung is above: gas is -1000 to -950, lung -900 to -700
+constexpr int kAirSpaceHu = -400;                     // the middle between lung (-850) and tissue (50)
+constexpr int kDenserThanGas = -930;                  // lung is above: gas is -1000 to -950, lung -900 to -700
 constexpr double kLungMl = 30.0, kLungShare = 0.003;  // a space smaller, or less of the body, is no lung
 constexpr double kAirwayMl = 0.2, kAirwayEdgeMm = 2.5;
 
@@ -23,8 +23,8 @@ double voxel_ml(const Volume& volume) {
 
 // Trachea and bronchi are joined to the lung, and as empty as bowel gas.
 void mark_airways(const Volume& volume, std::vector<TissueClass>& classes) {
-  const std::size_t slice_voxels = static_cast<std::size_t>(volume.size_voxels.x) *
-                                   static_cast<std::size_t>(volume.size_voxels.y);
+  const std::size_t slice_voxels =
+      static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y);
   std::vector<std::uint8_t> empty(classes.size(), 0);
   std::vector<std::int16_t> smooth;
   for (int k = 0; k < volume.size_voxels.z; ++k) {
@@ -84,8 +84,7 @@ void mark_air_spaces(const Volume& volume, std::vector<TissueClass>& classes) {
       space.denser += volume.hu[at] >= kDenserThanGas ? 1 : 0;
     }
   });
-  const double lung_voxels =
-      std::max(kLungMl / voxel_ml(volume), kLungShare * static_cast<double>(body));
+  const double lung_voxels = std::max(kLungMl / voxel_ml(volume), kLungShare * static_cast<double>(body));
   bool lung = false;
   pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
     const Space& space = spaces[piece];

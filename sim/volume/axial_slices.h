@@ -34,7 +34,7 @@ void fill_slices(const AxialSlices& slices, std::vector<std::uint8_t>& mask);
 // In a slice of width x height bytes: voxels within `radius` (a box) of one of `value` get it. Beyond the slice's
 // edge there is neither.
 void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::ivec2 radius, std::uint8_t value,
-                std::vector<int>& last_seen);
+                std::vector<int>& scratch);
 
 // The voxels of the mask that a square of 2·radius + 1 voxels cannot cover within it, not even with its edge one
 // voxel off: thin sheets and threads. Beyond the slice's edge the mask is taken to go on.

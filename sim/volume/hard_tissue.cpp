@@ -3,6 +3,7 @@
 // remains and is joined to a core is bone, however blurred.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "sim/volume/axial_slices.h"
 #include "sim/volume/class_steps.h"
@@ -13,7 +14,7 @@ namespace {
 
 // HU of smoothed voxels. Blood and kidney reach 300 at most (350 in an angiogram).
 constexpr int kBrightHu = 150, kContrastHu = 200, kCoreHu = 380;
-constexpr int kPlateauHu = 105;     // so that noise tears no hole into vessels of 145
+constexpr int kPlateauHu = 105;   // so that noise tears no hole into vessels of 145
 constexpr int kSureCoreHu = 600;  // a single raw voxel of a thin cortex
 constexpr int kMetalHu = 2500, kMetalRimHu = 1000;
 constexpr double kMetalRimMm = 1.5;
@@ -28,12 +29,34 @@ constexpr double kAcrossMarrowMm = 32.0;  // half a vertebral body and a little
 constexpr double kAcrossPoreMm = 6.0;     // less than half a spinal canal
 constexpr int kNothing = -32768;
 
-enum Mark : std::uint8_t { kBright = 1, kCore = 2, kContrast = 4, kMetal = 8, kPlateau = 16, kMarrow = 32, kPale = 64 };
+enum Mark : std::uint8_t {
+  kBright = 1,
+  kCore = 2,
+  kContrast = 4,
+  kMetal = 8,
+  kPlateau = 16,
+  kMarrow = 32,
+  kPale = 64
+};
 
 class Slice {
  public:
   Slice(const Volume& volume, std::uint8_t* marks)
-      : width_(volume.size_voxels.x), height_(volume.size_voxels.y), spacing_mm_(volume.spacing_mm), marks_(marks) {}
+      : width_(volume.size_voxels.x),
+        height_(volume.size_voxels.y),
+        spacing_mm_(volume.spacing_mm),
+        marks_(marks),
+        low_(width_, height_) {
+    for (int y = 0; y < height_; ++y) {
+      const std::uint8_t *first = marks + at(0, y), *end = first + width_;
+      const auto marked = [](std::uint8_t m) { return m != 0; };
+      const std::uint8_t* begin = std::find_if(first, end, marked);
+      if (begin == end) continue;
+      while (end[-1] == 0) --end;
+      low_ = glm::min(low_, glm::ivec2(begin - first, y));
+      high_ = glm::max(high_, glm::ivec2(end - first - 1, y));
+    }
+  }
 
   glm::ivec2 radius(double mm) const {
     return {std::max(1, static_cast<int>(std::lround(mm / spacing_mm_.x))),
@@ -43,19 +66,25 @@ class Slice {
   // Voxels of `where` within `mm` of marked ones along such voxels get the mark too, if none of `but`.
   void spread(std::uint8_t mark, std::uint8_t where, std::uint8_t but, double mm) {
     const glm::ivec2 r = radius(mm);
-    for (int step = 0; step < std::max(r.x, r.y); ++step) {
+    const auto w = static_cast<std::size_t>(width_);
+    front_.clear();
+    for (int y = low_.y; y <= high_.y; ++y)
+      for (std::size_t v = at(low_.x, y); v <= at(high_.x, y); ++v)
+        if ((marks_[v] & mark) != 0) front_.push_back(v);
+    for (int step = 0; step < std::max(r.x, r.y); ++step, std::swap(front_, reached_)) {
       reached_.clear();
-      for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x) {
-          const std::uint8_t here = marks_[at(x, y)];
-          if ((here & where) == 0 || (here & (mark | but)) != 0) continue;
-          const bool along_x = step < r.x && ((x > 0 && (marks_[at(x - 1, y)] & mark) != 0) ||
-                                              (x + 1 < width_ && (marks_[at(x + 1, y)] & mark) != 0));
-          const bool along_y = step < r.y && ((y > 0 && (marks_[at(x, y - 1)] & mark) != 0) ||
-                                              (y + 1 < height_ && (marks_[at(x, y + 1)] & mark) != 0));
-          if (along_x || along_y) reached_.push_back(at(x, y));
-        }
-      for (const std::size_t there : reached_) marks_[there] |= mark;
+      const auto reach = [&](std::size_t v) {
+        if ((marks_[v] & where) == 0 || (marks_[v] & (mark | but)) != 0) return;
+        marks_[v] |= mark;
+        reached_.push_back(v);
+      };
+      for (const std::size_t v : front_) {
+        const std::size_t x = v % w;
+        if (step < r.x && x > 0) reach(v - 1);
+        if (step < r.x && x + 1 < w) reach(v + 1);
+        if (step < r.y && v >= w) reach(v - w);
+        if (step < r.y && v / w + 1 < static_cast<std::size_t>(height_)) reach(v + w);
+      }
     }
   }
 
@@ -72,7 +101,8 @@ class Slice {
 
   void fill_holes(const std::vector<std::int16_t>& smooth, TissueClass* classes) {
     const double mm = std::max(spacing_mm_.x, spacing_mm_.y);
-    const int marrow = static_cast<int>(kAcrossMarrowMm / mm), pore = std::max(1, static_cast<int>(kAcrossPoreMm / mm));
+    const int marrow = static_cast<int>(kAcrossMarrowMm / mm),
+              pore = std::max(1, static_cast<int>(kAcrossPoreMm / mm));
     near_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
     count_directions([&](std::size_t v, int since) -> int {
       if (classes[v] == TissueClass::bone) return 0;
@@ -98,8 +128,8 @@ class Slice {
     }
     if (!any) return;
     const glm::ivec2 r = radius(kPlateauRadiusMm);
-    grow_slice(opened_, width_, height_, r, 0, last_seen_);
-    grow_slice(opened_, width_, height_, r, 1, last_seen_);
+    grow_slice(opened_, width_, height_, r, 0, scratch_);
+    grow_slice(opened_, width_, height_, r, 1, scratch_);
     for (std::size_t v = 0; v < count; ++v)
       if (opened_[v] != 0) marks_[v] |= kPlateau;
   }
@@ -112,21 +142,22 @@ class Slice {
   template <typename Step>
   void count_directions(const Step& step) {
     directions_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
-    const auto w = static_cast<std::size_t>(width_);
+    if (high_.x < low_.x) return;
+    const auto w = static_cast<std::size_t>(high_.x - low_.x + 1);
     std::vector<int> before(w + 2), here(w + 2);  // one beyond each end of a row
     for (const bool forward : {true, false}) {
       for (const std::size_t across : {0U, 1U, 2U}) {
         std::fill(before.begin(), before.end(), kNothing);
         std::fill(here.begin(), here.end(), kNothing);
-        for (int row = 0; row < height_; ++row) {
-          const std::size_t start = at(0, forward ? row : height_ - 1 - row);
+        for (int row = 0; row <= high_.y - low_.y; ++row) {
+          const std::size_t start = at(low_.x, forward ? low_.y + row : high_.y - row);
           for (std::size_t x = 0; x < w; ++x) here[x + 1] = step(start + x, before[x + across]);
           std::swap(before, here);
         }
       }
-      for (int y = 0; y < height_; ++y) {
+      for (int y = low_.y; y <= high_.y; ++y) {
         int last = kNothing;
-        const std::size_t start = at(0, y);
+        const std::size_t start = at(low_.x, y);
         for (std::size_t x = 0; x < w; ++x) last = step(start + (forward ? x : w - 1 - x), last);
       }
     }
@@ -135,9 +166,10 @@ class Slice {
   int width_, height_;
   glm::dvec3 spacing_mm_;
   std::uint8_t* marks_;
-  std::vector<std::size_t> reached_;
+  glm::ivec2 low_, high_{-1};  // the box around all marks; empty: high < low
+  std::vector<std::size_t> front_, reached_;
   std::vector<std::uint8_t> directions_, near_, opened_;
-  std::vector<int> last_seen_;
+  std::vector<int> scratch_;
 };
 
 // 0 where nothing is bright.
@@ -193,7 +225,8 @@ void join_held_plateaus(const Volume& volume, const std::vector<std::uint8_t>& m
   const glm::ivec3 n = volume.size_voxels;
   std::vector<std::uint8_t> plateau(marks.size());
   for (std::size_t at = 0; at < marks.size(); ++at)
-    plateau[at] = (marks[at] & (kPlateau | kBright)) == (kPlateau | kBright) && classes[at] != TissueClass::bone ? 1 : 0;
+    plateau[at] =
+        (marks[at] & (kPlateau | kBright)) == (kPlateau | kBright) && classes[at] != TissueClass::bone ? 1 : 0;
   Components pieces(n, plateau);
   struct Surface {
     double bone_mm2 = 0.0, all_mm2 = 0.0;
@@ -226,8 +259,8 @@ void join_held_plateaus(const Volume& volume, const std::vector<std::uint8_t>& m
 
 // Holes in bone: marrow that bone surrounds in most directions, and pores that it surrounds in all.
 void fill_marrow(const Volume& volume, std::vector<std::uint8_t>& marks, std::vector<TissueClass>& classes) {
-  const std::size_t slice_voxels = static_cast<std::size_t>(volume.size_voxels.x) *
-                                   static_cast<std::size_t>(volume.size_voxels.y);
+  const std::size_t slice_voxels =
+      static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y);
   std::vector<std::int16_t> smooth;
   for (int k = 0; k < volume.size_voxels.z; ++k) {
     TissueClass* const here = classes.data() + static_cast<std::size_t>(k) * slice_voxels;
@@ -259,8 +292,8 @@ void smooth_slice(const Volume& volume, int k, std::vector<std::int16_t>& smooth
 }
 
 void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
-  const std::size_t slice_voxels = static_cast<std::size_t>(volume.size_voxels.x) *
-                                   static_cast<std::size_t>(volume.size_voxels.y);
+  const std::size_t slice_voxels =
+      static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y);
   std::vector<std::uint8_t> marks(classes.size(), 0);
   std::vector<std::int16_t> smooth;
   for (int k = 0; k < volume.size_voxels.z; ++k) {
@@ -286,8 +319,10 @@ void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
   join_held_plateaus(volume, marks, classes);
   fill_marrow(volume, marks, classes);
   for (std::size_t at = 0; at < classes.size(); ++at) {
-    if ((marks[at] & kMetal) != 0) classes[at] = TissueClass::metal;
-    else if ((marks[at] & kContrast) != 0 && classes[at] != TissueClass::bone) classes[at] = TissueClass::vessel;
+    if ((marks[at] & kMetal) != 0)
+      classes[at] = TissueClass::metal;
+    else if ((marks[at] & kContrast) != 0 && classes[at] != TissueClass::bone)
+      classes[at] = TissueClass::vessel;
   }
 }
 

@@ -12,17 +12,18 @@ namespace seldinger::volume {
 namespace {
 
 constexpr int kLowestSoftHu = -200, kHighestSoftHu = 200;
-constexpr int kFatBelowHu = -30;                  // the middle between fat, -100, and tissue, 40
-constexpr int kFluidFromHu = -20, kFluidToHu = 18;  // bile and urine are 0 to 15
+constexpr int kFatBelowHu = -30;                        // the middle between fat, -100, and tissue, 40
+constexpr int kFluidFromHu = -20, kFluidToHu = 18;      // bile and urine are 0 to 15
 constexpr double kFluidRadiusMm = 3.0, kFluidMl = 1.0;  // an edge of fat and tissue has these HU, but is thinner
 constexpr int kFluidEdgeHu = 28;
 constexpr double kEvenNoise = 1.6, kEvenHu = 8.0;  // sd of HU in fluid: fat mixed with tissue has 50
 constexpr double kNoisySdHu = 15.0;  // from here on the average goes over 5 x 5 voxels instead of 3 x 3
-constexpr int kLeastFatHu = -160;  // two of its sd below the fattest
+constexpr int kLeastFatHu = -160;    // two of its sd below the fattest
 constexpr int kRimSteps = 4;
-constexpr double kWideMm = 2.5;      // but never farther than this
+constexpr double kWideMm = 2.5;  // but never farther than this
 
-// Of soft tissue, from differences three voxels apart along x, where noise is nearly independent: their median is 0.954 sd.
+// Of soft tissue, from differences three voxels apart along x, where noise is nearly independent: their median is
+// 0.954 sd.
 double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes) {
   std::array<std::size_t, 512> count{};
   std::size_t pairs = 0;
@@ -143,7 +144,7 @@ void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
     fluid[axis] = std::max(1, static_cast<int>(std::lround(kFluidRadiusMm / volume.spacing_mm[axis])));
   }
   BoxSum box(n.x, n.y, average), wide_box(n.x, n.y, wide);
-  std::vector<int> hu(slice_voxels), square(slice_voxels), one(slice_voxels), sum, count, squares, last_seen;
+  std::vector<int> hu(slice_voxels), square(slice_voxels), one(slice_voxels), sum, count, squares, scratch;
   std::vector<std::uint8_t> opened(slice_voxels), fluids(classes.size(), 0);
   for (int k = 0; k < n.z; ++k) {
     const std::size_t start = static_cast<std::size_t>(k) * slice_voxels;
@@ -182,8 +183,8 @@ void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
       any = any || opened[at] != 0;
     }
     if (!any) continue;
-    grow_slice(opened, n.x, n.y, fluid, 0, last_seen);
-    grow_slice(opened, n.x, n.y, fluid + 1, 1, last_seen);
+    grow_slice(opened, n.x, n.y, fluid, 0, scratch);
+    grow_slice(opened, n.x, n.y, fluid + 1, 1, scratch);
     for (std::size_t at = 0; at < slice_voxels; ++at)
       fluids[start + at] = opened[at] != 0 && slice[at] == TissueClass::soft_tissue && one[at] != 0 &&
                                    sum[at] <= kFluidEdgeHu * count[at]
@@ -196,8 +197,8 @@ void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
   pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) { voxels[piece] += end - begin; });
   pieces.each_run([&](std::size_t piece, std::size_t begin, std::size_t end) {
     if (static_cast<double>(voxels[piece]) < least) return;
-    std::fill(classes.begin() + static_cast<std::ptrdiff_t>(begin), classes.begin() + static_cast<std::ptrdiff_t>(end),
-              TissueClass::fluid);
+    std::fill(classes.begin() + static_cast<std::ptrdiff_t>(begin),
+              classes.begin() + static_cast<std::ptrdiff_t>(end), TissueClass::fluid);
   });
   clear_false_rims(volume, classes);
 }
