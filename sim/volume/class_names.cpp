@@ -55,7 +55,7 @@ constexpr std::pair<std::string_view, TissueClass> kNames[] = {
     {"renal_sinus", TissueClass::fat},
     {"rib", TissueClass::bone},
     {"small_bowel", TissueClass::soft_tissue},
-    {"spinal_canal", TissueClass::fluid},
+    {"spinal_canal", TissueClass::soft_tissue},
     {"spine", TissueClass::bone},
     {"steel", TissueClass::metal},
     {"stomach", TissueClass::soft_tissue},

@@ -24,7 +24,7 @@ constexpr double kPlateauReachMm = 3.0;   // blur of the plateau's edge
 constexpr int kCortexAboveMarrowHu = 60;  // five times the noise of a smoothed noisy picture
 constexpr int kSurroundedBy = 6;          // of 8 directions in the slice; a vessel beside a vertebra: at most 4
 constexpr double kHeldByBone = 0.4;       // of a plateau's surface; a vessel that lies on bone: less than a third
-constexpr int kMarrowHu = 70;             // more than what the spinal canal holds
+constexpr int kMarrowHu = 100;            // more than muscle and what the spinal canal holds
 constexpr double kAcrossMarrowMm = 32.0;  // half a vertebral body and a little
 constexpr double kAcrossPoreMm = 6.0;     // less than half a spinal canal
 constexpr int kNothing = -32768;
@@ -174,7 +174,9 @@ class Slice {
 
 // 0 where nothing is bright.
 std::uint8_t marks_of(int smooth_hu, int raw_hu) {
-  if (raw_hu < kSureCoreHu && smooth_hu < kBrightHu) return smooth_hu >= kPlateauHu ? kPale : 0;
+  // The smooth picture alone would widen bone by the voxel that smoothing spreads it over.
+  const bool bright = raw_hu >= kSureCoreHu || (smooth_hu >= kBrightHu && raw_hu >= kPlateauHu);
+  if (!bright) return smooth_hu >= kPlateauHu ? kPale : 0;
   std::uint8_t marks = kBright | kPale;
   if (smooth_hu >= kContrastHu) marks |= kContrast;
   if (smooth_hu >= kCoreHu || raw_hu >= kSureCoreHu) marks |= kCore;

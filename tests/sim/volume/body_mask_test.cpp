@@ -74,7 +74,7 @@ TEST(BodyMask, AgreesWithThePlainDefinitionOnRandomVolumes) {
   std::mt19937 random(1);
   for (int round = 0; round < 40; ++round) {
     Volume v = empty_volume({1 + static_cast<int>(random() % 14), 1 + static_cast<int>(random() % 14),
-                                     1 + static_cast<int>(random() % 6)});
+                             1 + static_cast<int>(random() % 6)});
     for (std::int16_t& hu : v.hu) hu = random() % 100 < 25 + static_cast<unsigned>(round) ? 0 : -1000;
     const Mask mask = body_mask(v), expected = plain_mask(v, kSkinHu);
     // Two pieces of the same size: either may be the body.
