@@ -12,7 +12,7 @@
 namespace seldinger::volume {
 namespace {
 
-// HU of smoothed voxels. Blood and kidney reach 300 at most (350 in an angiogram).
+// HU of smoothed voxels. Blood and kidney reach 300; only an early angiogram passes the core's HU.
 constexpr int kBrightHu = 150, kContrastHu = 200, kCoreHu = 380;
 constexpr int kPlateauHu = 105;   // so that noise tears no hole into vessels of 145
 constexpr int kSureCoreHu = 600;  // a single raw voxel of a thin cortex
@@ -185,7 +185,7 @@ std::uint8_t marks_of(int smooth_hu, int raw_hu) {
 }
 
 void mark_metal_rim(const Volume& volume, std::uint8_t* marks, const std::int16_t* hu) {
-  const int radius = std::max(1, static_cast<int>(std::lround(kMetalRimMm / volume.spacing_mm.x)));
+  const int radius = std::clamp(static_cast<int>(std::lround(kMetalRimMm / volume.spacing_mm.x)), 1, 8);
   const int width = volume.size_voxels.x, height = volume.size_voxels.y;
   std::vector<std::size_t> rim;
   for (int y = 0; y < height; ++y)
