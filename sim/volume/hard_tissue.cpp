@@ -16,6 +16,7 @@ namespace {
 constexpr int kBrightHu = 150, kContrastHu = 200, kCoreHu = 380;
 constexpr int kPlateauHu = 105;   // so that noise tears no hole into vessels of 145
 constexpr int kSureCoreHu = 600;  // a single raw voxel of a thin cortex
+constexpr int kDenseContrastHu = 650;
 constexpr int kMetalHu = 2500, kMetalRimHu = 1000;
 constexpr double kMetalRimMm = 1.5;
 constexpr double kPlateauRadiusMm = 3.5;  // thicker than blurred cortex of ribs and laminae
@@ -117,20 +118,26 @@ class Slice {
         classes[v] = TissueClass::bone;
   }
 
+  // Core that is as even as blood, and thick, is contrast of an early phase.
+  void mark_dense_plateaus(const std::vector<std::int16_t>& smooth) {
+    if (!open_where([&](std::size_t v) {
+          return (marks_[v] & (kCore | kMarrow | kMetal)) == kCore && smooth[v] < kDenseContrastHu;
+        }))
+      return;
+    const std::size_t w = static_cast<std::size_t>(width_);
+    for (std::size_t v = 0; v < opened_.size(); ++v)
+      if (opened_[v] != 0) marks_[v] = static_cast<std::uint8_t>((marks_[v] & ~kCore) | kPlateau);
+    // And the core that is left of its round edge.
+    for (std::size_t v = w; v + w < opened_.size(); ++v)
+      if ((marks_[v] & kCore) != 0 && smooth[v] < kDenseContrastHu &&
+          (opened_[v - 1] != 0 || opened_[v + 1] != 0 || opened_[v - w] != 0 || opened_[v + w] != 0))
+        marks_[v] = static_cast<std::uint8_t>((marks_[v] & ~kCore) | kPlateau);
+  }
+
   // Pale voxels that are neither core nor marrow and that a square of them covers.
   void mark_plateaus() {
-    const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    opened_.resize(count);
-    bool any = false;
-    for (std::size_t v = 0; v < count; ++v) {
-      opened_[v] = (marks_[v] & (kPale | kCore | kMarrow)) == kPale ? 1 : 0;
-      any = any || opened_[v] != 0;
-    }
-    if (!any) return;
-    const glm::ivec2 r = radius(kPlateauRadiusMm);
-    grow_slice(opened_, width_, height_, r, 0, scratch_);
-    grow_slice(opened_, width_, height_, r, 1, scratch_);
-    for (std::size_t v = 0; v < count; ++v)
+    if (!open_where([&](std::size_t v) { return (marks_[v] & (kPale | kCore | kMarrow)) == kPale; })) return;
+    for (std::size_t v = 0; v < opened_.size(); ++v)
       if (opened_[v] != 0) marks_[v] |= kPlateau;
   }
 
@@ -138,6 +145,22 @@ class Slice {
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
+  // What a square of such voxels covers is left in opened_; false when there is none such.
+  template <typename Which>
+  bool open_where(const Which& which) {
+    opened_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    bool any = false;
+    for (std::size_t v = 0; v < opened_.size(); ++v) {
+      opened_[v] = which(v) ? 1 : 0;
+      any = any || opened_[v] != 0;
+    }
+    if (!any) return false;
+    const glm::ivec2 r = radius(kPlateauRadiusMm);
+    grow_slice(opened_, width_, height_, r, 0, scratch_);
+    grow_slice(opened_, width_, height_, r, 1, scratch_);
+    return true;
+  }
+
   // Walks through the slice in 8 directions; step(voxel, what it returned one voxel before).
   template <typename Step>
   void count_directions(const Step& step) {
@@ -312,6 +335,7 @@ void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
     if ((all & kMetal) != 0) mark_metal_rim(volume, here, volume.hu.data() + start);
     Slice slice(volume, here);
     slice.mark_marrow(smooth);
+    slice.mark_dense_plateaus(smooth);
     slice.mark_plateaus();
     slice.spread(kCore, kBright, kMarrow, kCoreReachMm);
     slice.spread(kPlateau, kPale, kCore | kMarrow, kPlateauReachMm);

@@ -149,7 +149,7 @@ TEST(Classes, AThinCortexBelowTheCoresHuIsBoneWhereItJoinsOne) {
 // decides; a little remains where the two blurred edges meet in a wedge.
 TEST(Classes, AVesselFullOfContrastBesideBoneIsNoBone) {
   for (const double noise_hu : {0.0, 12.0, 30.0})
-    for (const double hu : {145.0, 200.0, 250.0, 300.0}) {
+    for (const double hu : {145.0, 200.0, 250.0, 300.0, 350.0, 400.0, 450.0, 500.0}) {
       AnalyticVolume analytic = trunk();
       add_vertebra(analytic, 0, 20);
       add_tube(analytic, 0, 20 - 18.0 - 11.0, 11.0, hu);
