@@ -12,11 +12,11 @@
 namespace seldinger::volume {
 namespace {
 
-// HU of smoothed voxels. Blood and kidney reach 300; only an early angiogram passes the core's HU.
+// HU of smoothed voxels. Blood and kidney reach 300; in an early angiogram blood passes the core's HU.
 constexpr int kBrightHu = 150, kContrastHu = 200, kCoreHu = 380;
 constexpr int kPlateauHu = 105;   // so that noise tears no hole into vessels of 145
 constexpr int kSureCoreHu = 600;  // a single raw voxel of a thin cortex
-constexpr int kDenseContrastHu = 650;
+constexpr int kDenseFromHu = 280, kDenseContrastHu = 650;
 constexpr int kMetalHu = 2500, kMetalRimHu = 1000;
 constexpr double kMetalRimMm = 1.5;
 constexpr double kPlateauRadiusMm = 3.5;  // thicker than blurred cortex of ribs and laminae
@@ -118,10 +118,12 @@ class Slice {
         classes[v] = TissueClass::bone;
   }
 
-  // Core that is as even as blood, and thick, is contrast of an early phase.
+  // What is as dense as a core but wide and even, without denser rim, is contrast of an early phase. Bone like that
+  // comes back by the bone that holds it.
   void mark_dense_plateaus(const std::vector<std::int16_t>& smooth) {
     if (!open_where([&](std::size_t v) {
-          return (marks_[v] & (kCore | kMarrow | kMetal)) == kCore && smooth[v] < kDenseContrastHu;
+          return (marks_[v] & (kPale | kMarrow | kMetal)) == kPale && smooth[v] >= kDenseFromHu &&
+                 smooth[v] < kDenseContrastHu;
         }))
       return;
     const std::size_t w = static_cast<std::size_t>(width_);
@@ -148,16 +150,29 @@ class Slice {
   // What a square of such voxels covers is left in opened_; false when there is none such.
   template <typename Which>
   bool open_where(const Which& which) {
-    opened_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    bool any = false;
-    for (std::size_t v = 0; v < opened_.size(); ++v) {
-      opened_[v] = which(v) ? 1 : 0;
-      any = any || opened_[v] != 0;
-    }
-    if (!any) return false;
+    glm::ivec2 low(width_, height_), high(-1);
+    opened_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    for (int y = low_.y; y <= high_.y; ++y)
+      for (int x = low_.x; x <= high_.x; ++x) {
+        if (!which(at(x, y))) continue;
+        opened_[at(x, y)] = 1;
+        low = glm::min(low, glm::ivec2(x, y));
+        high = glm::max(high, glm::ivec2(x, y));
+      }
+    if (high.x < 0) return false;
+    // Only where there is something, with a rim of nothing around it.
     const glm::ivec2 r = radius(kPlateauRadiusMm);
-    grow_slice(opened_, width_, height_, r, 0, scratch_);
-    grow_slice(opened_, width_, height_, r, 1, scratch_);
+    low = glm::max(low - r - 1, glm::ivec2(0));
+    high = glm::min(high + r + 1, glm::ivec2(width_, height_) - 1);
+    const glm::ivec2 size = high - low + 1;
+    const auto w = static_cast<std::size_t>(size.x);
+    part_.resize(w * static_cast<std::size_t>(size.y));
+    for (int y = 0; y < size.y; ++y)
+      std::copy_n(opened_.data() + at(low.x, low.y + y), w, part_.data() + static_cast<std::size_t>(y) * w);
+    grow_slice(part_, size.x, size.y, r, 0, scratch_);
+    grow_slice(part_, size.x, size.y, r, 1, scratch_);
+    for (int y = 0; y < size.y; ++y)
+      std::copy_n(part_.data() + static_cast<std::size_t>(y) * w, w, opened_.data() + at(low.x, low.y + y));
     return true;
   }
 
@@ -191,7 +206,7 @@ class Slice {
   std::uint8_t* marks_;
   glm::ivec2 low_, high_{-1};  // the box around all marks; empty: high < low
   std::vector<std::size_t> front_, reached_;
-  std::vector<std::uint8_t> directions_, near_, opened_;
+  std::vector<std::uint8_t> directions_, near_, opened_, part_;
   std::vector<int> scratch_;
 };
 
