@@ -6,14 +6,15 @@ namespace seldinger::volume {
 namespace {
 
 constexpr const char* kProkop = "Prokop and Galanski, Spiral and Multislice CT of the Body (Thieme 2003)";
+constexpr const char* kTried = "docs/decisions/0012, tried on four real volumes";
 constexpr const char* kLabel = "label";
 
 constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
     {"air", "outside the largest piece above -300 HU with its inside filled", "contracts.md, Skin"},
-    {"gas", "inside, below -400 HU; in no lung, or an airway of it", kProkop},
-    {"lung", "inside, below -400 HU, large, its inside mostly above -930 HU", kProkop},
+    {"gas", "inside, below -400 HU; in no lung, or an airway of it", kTried},
+    {"lung", "inside, below -400 HU, large, its inside mostly above -930 HU", kTried},
     {"fat", "below -30 HU, the middle between fat (-100) and tissue (40)", kProkop},
-    {"fluid", "-20 to 18 HU and at least 6 mm thick, 1 ml", kProkop},
+    {"fluid", "-20 to 18 HU and at least 6 mm thick, 1 ml", kTried},
     {"soft_tissue", "the rest of the inside", kProkop},
     {"liver", kLabel, kProkop},
     {"kidney", kLabel, kProkop},
@@ -21,9 +22,9 @@ constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
     {"muscle", kLabel, kProkop},
     {"skin", kLabel, kProkop},
     {"connective", kLabel, kProkop},
-    {"vessel", "from 200 HU, the highest of enhanced parenchyma, and no bone", kProkop},
-    {"bone", "from 150 HU where joined to bone's core (380 HU) and no plateau of contrast", kProkop},
-    {"metal", "from 2500 HU, above cortical bone and enamel, and its rim", kProkop},
+    {"vessel", "from 200 HU, the highest of enhanced parenchyma, and no bone", kTried},
+    {"bone", "from 150 HU where joined to bone's core (380 HU) and no plateau of contrast", kTried},
+    {"metal", "from 2500 HU, above cortical bone and enamel, and its rim", kTried},
 }};
 
 // What the built-in torso, scenes and label maps call things.
