@@ -78,7 +78,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   if (!contact) {
     std::fill(line.tissue.begin(), line.tissue.end(), TissueClass::air);
     for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
-      line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine), false});
+      line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
     return;
   }
   const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
@@ -132,16 +132,16 @@ void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direct
   const double tilt_rad = std::acos(cosine);
   const double law = shaders::us_needle_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
   const double face = reflection * law * amplitude(kInterfaceDb - loss_db);
-  line.echoes.push_back({depth_mm, face, true});
+  line.echoes.push_back({depth_mm, face});
   if (std::abs(reflection) < kRepeatsFrom || depth_mm <= 0.0) {
     // Gas at the face itself rings in the lens.
     if (std::abs(reflection) >= kRepeatsFrom)
       for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
-        line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine), false});
+        line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
     return;
   }
   for (int again = 2; again * depth_mm < view_.depth_mm && again <= 4; ++again)
-    line.echoes.push_back({again * depth_mm, face * amplitude(-(again - 1) * (kRepeatDb + loss_db)), false});
+    line.echoes.push_back({again * depth_mm, face * amplitude(-(again - 1) * (kRepeatDb + loss_db))});
 }
 
 LineWalker::NeedleCrossing LineWalker::crossing(int beam, const glm::dvec3& start,
@@ -210,17 +210,15 @@ void LineWalker::add_needle(const NeedleCrossing& at, Line& line) const {
     const double tilt_deg = at.tilt_rad * 57.29577951308232;
     const double rough = at.tilt_rad < 1.55 ? amplitude(kNeedleRoughDb - fade * tilt_deg) : 0.0;
     const double through = at.weight * amplitude(-loss_at(at.depth_mm));
-    line.echoes.push_back({at.depth_mm, std::max(mirror, rough) * through, false});
+    line.echoes.push_back({at.depth_mm, std::max(mirror, rough) * through});
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
                                                              : 2.0 * needle_->radius_mm * 1540.0 / 5790.0;
     for (int n = 1; n <= 8 && mirror > rough; ++n)
-      line.echoes.push_back(
-          {at.depth_mm + n * spacing_mm, mirror * through * amplitude(-n * kTailDbPerLine), false});
+      line.echoes.push_back({at.depth_mm + n * spacing_mm, mirror * through * amplitude(-n * kTailDbPerLine)});
   }
   if (at.tip_depth_mm >= 0.0)
-    line.echoes.push_back(
-        {at.tip_depth_mm, at.tip_weight * amplitude(kNeedleTipDb - loss_at(at.tip_depth_mm)), false});
+    line.echoes.push_back({at.tip_depth_mm, at.tip_weight * amplitude(kNeedleTipDb - loss_at(at.tip_depth_mm))});
 }
 
 }  // namespace seldinger::imaging

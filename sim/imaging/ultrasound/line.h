@@ -36,8 +36,7 @@ constexpr double kGelMm = 3.0;
 
 struct LineEcho {
   double depth_mm;
-  double amplitude;      // of the envelope's peak, loss included
-  bool between_samples;  // exactly midway between two
+  double amplitude;  // of the envelope's peak, loss included
 };
 
 struct Line {

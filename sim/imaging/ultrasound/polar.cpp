@@ -25,21 +25,28 @@ void check_view(const UltrasoundView& view, std::span<const float> depth_below_s
   CHECK(depth_below_skin_mm.empty() || depth_below_skin_mm.size() == static_cast<std::size_t>(view.probe.elements));
 }
 
-// The pulse's envelope at whole samples, middle first; ∫h² = 1. Scatterers lie in the sample they fall in, which
-// widens by a box of one sample: the kernel is narrower by that (variance dz²/12).
-std::vector<float> pulse(const UltrasoundView& view, double sample_mm) {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
-  const double sigma = beam_width(view.probe, frequency_mhz, view.focus_mm, 1.0).axial_sigma_mm;
-  const double variance = std::max(sigma * sigma - sample_mm * sample_mm / 12.0, 0.01 * sample_mm * sample_mm);
-  const int reach = std::max(1, static_cast<int>(std::ceil(3.5 * std::sqrt(variance) / sample_mm)));
-  std::vector<double> h;
+// The pulse on the complex baseband, as a filter from fine samples to samples. Scatterers lie in the fine sample
+// that they fall in, which widens by a box of one: the kernel is narrower by that (variance fine²/12). ∫h² = 1.
+struct PulseTap {
+  int part, shift;  // fine sample (k + shift)·fine + part counts for sample k
+  float weight;
+};
+std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
+  const double fine_mm = sample_mm / fine;
+  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
+  CHECK(variance > 0.0);
+  const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
+  std::vector<PulseTap> taps;
   double energy = 0.0;
-  for (int n = 0; n <= reach; ++n) {
-    h.push_back(std::exp(-0.5 * n * n * sample_mm * sample_mm / variance));
-    energy += (n == 0 ? 1.0 : 2.0) * h.back() * h.back() * sample_mm;
-  }
-  std::vector<float> taps;
-  for (const double value : h) taps.push_back(static_cast<float>(value / std::sqrt(energy)));
+  for (int shift = -reach; shift <= reach; ++shift)
+    for (int part = 0; part < fine; ++part) {
+      const double off_mm = (shift * fine + part + 0.5 - 0.5 * fine) * fine_mm;
+      if (std::abs(off_mm) > 3.5 * sigma_mm) continue;
+      const double h = std::exp(-0.5 * off_mm * off_mm / variance);
+      energy += h * h * fine_mm;
+      taps.push_back({part, shift, static_cast<float>(h)});
+    }
+  for (PulseTap& tap : taps) tap.weight /= static_cast<float>(std::sqrt(energy));
   return taps;
 }
 
@@ -47,7 +54,8 @@ std::vector<float> pulse(const UltrasoundView& view, double sample_mm) {
 struct Room {
   std::vector<std::int32_t> sums;
   Line line;
-  std::vector<float> re, im, through;  // re and im with the kernel's reach of zeros at both ends
+  std::vector<float> through, re, im;
+  std::vector<float> part_re, part_im;  // fine samples, each part on its own, zeros at both ends
 };
 
 class PolarPainter {
@@ -60,18 +68,22 @@ class PolarPainter {
         walker_(view, tissue_at_, inserted),
         field_(view, tissue_at_),
         below_skin_mm_(depth_below_skin_mm),
-        taps_(pulse(view, fan_.sample_mm)),
-        wavelength_mm_(
-            shaders::us_wavelength_mm(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz)),
-        picture_(picture) {}
+        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz),
+        wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
+        sigma_mm_(beam_width(view.probe, frequency_mhz_, view.focus_mm, 1.0).axial_sigma_mm),
+        taps_(pulse_taps(sigma_mm_, fan_.sample_mm, field_.fine())),
+        picture_(picture) {
+    for (const PulseTap& tap : taps_) taps_reach_ = std::max(taps_reach_, std::abs(tap.shift));
+  }
 
   void paint(int first, int end, Room& room) const {
     field_.add_beams(first, end, room.sums);
     for (int beam = first; beam < end; ++beam) {
       walker_.walk(beam, touches(beam), room.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
-      paint_line(room.sums.data() + static_cast<std::size_t>(beam - first) * samples * 2, room,
-                 picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
+      paint_line(room.sums.data() +
+                     static_cast<std::size_t>(beam - first) * samples * static_cast<std::size_t>(field_.fine()) * 2,
+                 room, picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
     }
   }
 
@@ -83,47 +95,58 @@ class PolarPainter {
   }
 
   void paint_line(const std::int32_t* sums, Room& room, float* envelope) const {
-    const int samples = view_.samples, reach = static_cast<int>(taps_.size()) - 1;
-    const auto padded = static_cast<std::size_t>(samples + 2 * reach);
-    room.re.assign(padded, 0.0F);
-    room.im.assign(padded, 0.0F);
-    float* re = room.re.data() + reach;
-    float* im = room.im.data() + reach;
-    if (room.line.contact) {
-      const float* loss_db = room.line.loss_db.data();
-      for (int k = 0; k < samples; ++k) {
-        // 10^(−dB/20), and what the sums are counted in.
-        const float through = float_exp(-0.115129255F * loss_db[k]) * (1.0F / ScattererField::kUnit);
-        re[k] = static_cast<float>(sums[2 * k]) * through;
-        im[k] = static_cast<float>(sums[2 * k + 1]) * through;
+    const auto samples = static_cast<std::size_t>(view_.samples);
+    room.re.assign(samples, 0.0F);
+    room.im.assign(samples, 0.0F);
+    if (room.line.contact) add_speckle(sums, room);
+    for (const LineEcho& echo : room.line.echoes) add_echo(echo, room.re, room.im);
+    for (std::size_t k = 0; k < samples; ++k)
+      envelope[k] = std::sqrt(room.re[k] * room.re[k] + room.im[k] * room.im[k]);
+  }
+
+  void add_speckle(const std::int32_t* sums, Room& room) const {
+    const auto samples = static_cast<std::size_t>(view_.samples), fine = static_cast<std::size_t>(field_.fine());
+    room.through.resize(samples);
+    // 10^(−dB/20), and what the sums are counted in.
+    for (std::size_t k = 0; k < samples; ++k)
+      room.through[k] = float_exp(-0.115129255F * room.line.loss_db[k]) * (1.0F / ScattererField::kUnit);
+    const std::size_t padded = samples + 2 * static_cast<std::size_t>(taps_reach_);
+    room.part_re.assign(fine * padded, 0.0F);
+    room.part_im.assign(fine * padded, 0.0F);
+    for (std::size_t part = 0; part < fine; ++part) {
+      float* re = room.part_re.data() + part * padded + taps_reach_;
+      float* im = room.part_im.data() + part * padded + taps_reach_;
+      for (std::size_t k = 0; k < samples; ++k) {
+        re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * room.through[k];
+        im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * room.through[k];
       }
     }
-    for (const LineEcho& echo : room.line.echoes) add_echo(echo, re, im);
-    for (int k = 0; k < samples; ++k) {
-      float sum_re = taps_[0] * re[k], sum_im = taps_[0] * im[k];
-      for (int n = 1; n <= reach; ++n) {
-        sum_re += taps_[static_cast<std::size_t>(n)] * (re[k - n] + re[k + n]);
-        sum_im += taps_[static_cast<std::size_t>(n)] * (im[k - n] + im[k + n]);
-      }
-      envelope[k] = std::sqrt(sum_re * sum_re + sum_im * sum_im);
+    for (const PulseTap& tap : taps_) {
+      const std::ptrdiff_t from =
+          static_cast<std::ptrdiff_t>(static_cast<std::size_t>(tap.part) * padded) + taps_reach_ + tap.shift;
+      const float* re = room.part_re.data() + from;
+      const float* im = room.part_im.data() + from;
+      float* sum_re = room.re.data();
+      float* sum_im = room.im.data();
+      for (std::size_t k = 0; k < samples; ++k) sum_re[k] += tap.weight * re[k];
+      for (std::size_t k = 0; k < samples; ++k) sum_im[k] += tap.weight * im[k];
     }
   }
 
-  // So that the envelope's peak is the echo's amplitude.
-  void add_echo(const LineEcho& echo, float* re, float* im) const {
+  // The pulse itself, of the echo's amplitude at its peak, exactly where the echo is.
+  void add_echo(const LineEcho& echo, std::vector<float>& re, std::vector<float>& im) const {
     const double turns = 2.0 * echo.depth_mm / wavelength_mm_,
                  angle = -6.283185307179586 * (turns - std::floor(turns));
-    const double at = echo.depth_mm / fan_.sample_mm;
-    const double share = echo.between_samples ? taps_[0] + taps_[1] : taps_[0];
-    const auto add = [&](int k) {
-      if (k < 0 || k >= view_.samples) return;
-      re[k] += static_cast<float>(echo.amplitude / share * std::cos(angle));
-      im[k] += static_cast<float>(echo.amplitude / share * std::sin(angle));
-    };
-    if (!echo.between_samples) return add(static_cast<int>(std::floor(at)));
-    const int after = static_cast<int>(std::lround(at));
-    add(after - 1);
-    add(after);
+    const double cosine = std::cos(angle), sine = std::sin(angle), reach_mm = 4.0 * sigma_mm_;
+    const int first = std::max(0, static_cast<int>(std::ceil((echo.depth_mm - reach_mm) / fan_.sample_mm - 0.5))),
+              last = std::min(view_.samples - 1,
+                              static_cast<int>(std::floor((echo.depth_mm + reach_mm) / fan_.sample_mm - 0.5)));
+    for (int k = first; k <= last; ++k) {
+      const double off = ((k + 0.5) * fan_.sample_mm - echo.depth_mm) / sigma_mm_;
+      const double level = echo.amplitude * std::exp(-0.5 * off * off);
+      re[static_cast<std::size_t>(k)] += static_cast<float>(level * cosine);
+      im[static_cast<std::size_t>(k)] += static_cast<float>(level * sine);
+    }
   }
 
   const UltrasoundView& view_;
@@ -132,8 +155,9 @@ class PolarPainter {
   LineWalker walker_;
   ScattererField field_;
   std::span<const float> below_skin_mm_;
-  std::vector<float> taps_;
-  double wavelength_mm_;
+  double frequency_mhz_, wavelength_mm_, sigma_mm_;
+  std::vector<PulseTap> taps_;
+  int taps_reach_ = 0;
   PolarPicture& picture_;
 };
 

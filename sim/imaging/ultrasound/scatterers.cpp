@@ -12,8 +12,9 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kReach = 2.5;  // σ, where the Gaussians end: 0.04 % of their energy is beyond
-constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
+constexpr double kReach = 2.5;      // σ, where the Gaussians end: 0.04 % of their energy is beyond
+constexpr int kBands = 20;          // of depth, with one lattice and one thickness each
+constexpr double kMostTurns = 0.4;  // of the carrier in a fine sample
 constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
 
@@ -97,6 +98,7 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
   const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
   wavelength_mm_ = shaders::us_wavelength_mm(frequency_mhz);
+  fine_ = std::max(1, static_cast<int>(std::ceil(2.0 * fan_.sample_mm / (wavelength_mm_ * kMostTurns))));
   const auto widths = [&](double depth_mm) {
     return beam_width(view.probe, frequency_mhz, view.focus_mm, std::max(depth_mm, 0.01));
   };
@@ -150,7 +152,9 @@ double ScattererField::spacing_mm(double depth_mm) const noexcept {
 }
 
 void ScattererField::add_beams(int first, int end, std::vector<std::int32_t>& out) const {
-  out.assign(static_cast<std::size_t>(end - first) * static_cast<std::size_t>(view_.samples) * 2, 0);
+  out.assign(static_cast<std::size_t>(end - first) * static_cast<std::size_t>(view_.samples) *
+                 static_cast<std::size_t>(fine_) * 2,
+             0);
   for (const Band& band : bands_) add_band(band, first, end, out);
 }
 
@@ -207,9 +211,9 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
   f.end_beam = static_cast<float>(end - 1) + reach;
 
   const Tables& t = tables();
-  const float per_sample = static_cast<float>(1.0 / fan_.sample_mm);
+  const float per_fine = static_cast<float>(fine_ / fan_.sample_mm);
   const float turns = static_cast<float>(2.0 / wavelength_mm_ * kTable);
-  const auto samples = static_cast<std::size_t>(view_.samples);
+  const auto samples = static_cast<std::size_t>(view_.samples) * static_cast<std::size_t>(fine_);  // fine
   Chunk chunk;
   std::array<int, kChunk> chosen;
   const auto flush = [&] {
@@ -224,8 +228,9 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
     }
     for (int m = 0; m < kept; ++m) {
       const int n = chosen[static_cast<std::size_t>(m)];
-      const int k =
-          std::clamp(static_cast<int>(chunk.depth[n] * per_sample), band.first_sample, band.end_sample - 1);
+      const int fine = std::clamp(static_cast<int>(chunk.depth[n] * per_fine), band.first_sample * fine_,
+                                  band.end_sample * fine_ - 1);
+      const int k = fine / fine_;
       const AtSample& at = at_sample_[static_cast<std::size_t>(k)];
       const float q_y = chunk.y[n] * chunk.y[n] * at.elevation_scale;
       if (q_y >= 0.5F * kTable) continue;
@@ -241,7 +246,7 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       const auto& turn = t.turn[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kTable];
       const float re = amplitude * turn[0], im = amplitude * turn[1];
       std::int32_t* sum =
-          out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(k)) * 2;
+          out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(fine)) * 2;
       float off = static_cast<float>(from) - beam;
       for (int b = from; b <= to; ++b, off += 1.0F, sum += 2 * samples) {
         const float w = t.gauss[static_cast<std::size_t>(off * off * at.lateral_scale + q_y)];

@@ -15,9 +15,13 @@ class ScattererField {
  public:
   ScattererField(const UltrasoundView& view, const TissueAt& tissue_at);
 
-  // The sum, complex, in units of 1/kUnit, of beams [first, end): out[((beam − first)·samples + k)·2], zeroed here.
-  // Before loss and pulse; the phase is e^(−2πi·2·depth/λ). Whole numbers, so that the order of adding says
-  // nothing.
+  // Fine samples to a sample: so many that the lattice's own mean, which turns by 2·fine/λ a fine sample, is well
+  // below the Nyquist frequency and the pulse takes it away.
+  int fine() const noexcept { return fine_; }
+
+  // The sum, complex, in units of 1/kUnit, of beams [first, end): fine sample n of a beam is
+  // out[((beam − first)·samples·fine + n)·2]. Before loss and pulse; the phase is e^(−2πi·2·depth/λ). Whole
+  // numbers, so that the order of adding says nothing.
   void add_beams(int first, int end, std::vector<std::int32_t>& out) const;
 
   // With the pulse of unit energy, liver's mean square is 1. The least part of a sum that rounding can hide is
@@ -45,6 +49,7 @@ class ScattererField {
   const TissueAt& tissue_at_;
   Fan fan_;
   double wavelength_mm_;
+  int fine_;
   std::vector<Band> bands_;
   std::vector<AtSample> at_sample_;
   std::array<float, volume::kTissueClasses> amplitude_;
