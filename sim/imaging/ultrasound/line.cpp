@@ -18,6 +18,10 @@ double amplitude(double db) {
   return std::pow(10.0, db / 20.0);
 }
 
+double decibels_of(double amplitude) {
+  return 20.0 * std::log10(std::max(amplitude, 1e-12));
+}
+
 bool is_gas(TissueClass tissue) {
   return tissue == TissueClass::air || tissue == TissueClass::gas;
 }
@@ -27,25 +31,10 @@ bool is_usable(const NeedlePose& needle) {
          std::isfinite(needle.length_mm) && needle.length_mm > 0.0 && needle.radius_mm > 0.0;
 }
 
-// A ball of points, to find an interface's normal from the side that each lies on.
-constexpr double kNormalRadiusMm = 3.0, kNormalStepMm = 1.0;
-
-glm::dvec3 normal_of(const TissueAt& tissue_at, const AcousticTable& table, const glm::dvec3& at,
-                     double before_mrayl, double after_mrayl) {
-  const double low = std::log(before_mrayl), span = std::log(after_mrayl) - low;
-  glm::dvec3 sum(0.0);
-  constexpr int kReach = static_cast<int>(kNormalRadiusMm / kNormalStepMm);
-  for (int x = -kReach; x <= kReach; ++x)
-    for (int y = -kReach; y <= kReach; ++y)
-      for (int z = -kReach; z <= kReach; ++z) {
-        if (x * x + y * y + z * z > kReach * kReach) continue;
-        const glm::dvec3 offset = kNormalStepMm * glm::dvec3(x, y, z);
-        const double mrayl = table[static_cast<std::size_t>(tissue_at(at + offset))].impedance_mrayl;
-        sum += (std::log(mrayl) - low > 0.5 * span) == (span > 0.0) ? offset : -offset;
-      }
-  const double length = glm::length(sum);
-  return length > 0.0 ? sum / length : glm::dvec3(0.0);
-}
+// Five voxels, within reason: fewer and the steps of voxels show in the normal.
+constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
+// Interfaces whose echo is this far below liver's speckle are not worth their normal.
+constexpr double kLeastEchoDb = -10.0;
 
 }  // namespace
 
@@ -57,16 +46,50 @@ struct LineWalker::NeedleCrossing {
   double tip_depth_mm = -1.0, tip_weight = 0.0;
 };
 
-LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const Inserted& inserted)
+LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
+                       const Inserted& inserted)
     : view_(view),
       fan_(fan_of(view)),
       tissue_at_(tissue_at),
+      neighbours_(neighbours(volume)),
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
       frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
   for (std::size_t i = 0; i < table_.size(); ++i)
     loss_db_mm_[i] =
         shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
+}
+
+// Voxels around an interface; whatever lies between the voxels is the same for all of them.
+std::vector<LineWalker::Neighbour> LineWalker::neighbours(const volume::Volume& volume) {
+  const glm::dmat3 step(volume.lps_from_voxel);
+  const glm::dvec3 spacing = volume.spacing_mm;
+  const double radius_mm =
+      std::clamp(kNormalVoxels * std::cbrt(spacing.x * spacing.y * spacing.z), kLeastNormalMm, kMostNormalMm);
+  const glm::ivec3 reach = glm::max(glm::ivec3(radius_mm / spacing), glm::ivec3(1));
+  std::vector<Neighbour> all;
+  for (int k = -reach.z; k <= reach.z; ++k)
+    for (int j = -reach.y; j <= reach.y; ++j)
+      for (int i = -reach.x; i <= reach.x; ++i) {
+        const glm::dvec3 offset = step * glm::dvec3(i, j, k);
+        const glm::dvec3 part = glm::dvec3(i, j, k) * spacing / glm::max(glm::dvec3(radius_mm), spacing);
+        const double weight = 1.0 - glm::dot(part, part) / 1.44;
+        if (glm::dot(part, part) <= 1.0 && weight > 0.0) all.push_back({offset, weight * offset});
+      }
+  return all;
+}
+
+// From the side that each neighbour is more like.
+glm::dvec3 LineWalker::normal_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const {
+  const double middle_mrayl = std::sqrt(before_mrayl * after_mrayl);
+  std::array<bool, volume::kTissueClasses> after;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    after[i] = (table_[i].impedance_mrayl > middle_mrayl) == (after_mrayl > before_mrayl);
+  glm::dvec3 sum(0.0);
+  for (const Neighbour& n : neighbours_)
+    sum += after[static_cast<std::size_t>(tissue_at_(p_lps_mm + n.offset_mm))] ? n.weighted_mm : -n.weighted_mm;
+  const double length = glm::length(sum);
+  return length > 0.0 ? sum / length : glm::dvec3(0.0);
 }
 
 void LineWalker::walk(int beam, bool contact, Line& line) const {
@@ -125,8 +148,8 @@ void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direct
   const double depth_mm = sample * fan_.sample_mm;
   double cosine = 1.0;
   if (sample > 0) {
-    const glm::dvec3 normal =
-        normal_of(tissue_at_, table_, start + depth_mm * direction, before_mrayl, after_mrayl);
+    if (decibels_of(std::abs(reflection)) + kInterfaceDb < kLeastEchoDb) return;
+    const glm::dvec3 normal = normal_at(start + depth_mm * direction, before_mrayl, after_mrayl);
     cosine = std::clamp(std::abs(glm::dot(normal, direction)), 0.0, 1.0);
   }
   const double tilt_rad = std::acos(cosine);

@@ -48,10 +48,16 @@ struct Line {
 
 class LineWalker {
  public:
-  LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const Inserted& inserted);
+  LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
+             const Inserted& inserted);
   void walk(int beam, bool contact, Line& line) const;
 
  private:
+  struct Neighbour {
+    glm::dvec3 offset_mm, weighted_mm;
+  };
+  static std::vector<Neighbour> neighbours(const volume::Volume& volume);
+  glm::dvec3 normal_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const;
   void add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample, double before_mrayl,
                      double after_mrayl, double loss_db, Line& line) const;
   struct NeedleCrossing;
@@ -61,6 +67,7 @@ class LineWalker {
   const UltrasoundView& view_;
   Fan fan_;
   const TissueAt& tissue_at_;
+  std::vector<Neighbour> neighbours_;
   AcousticTable table_;
   std::array<double, volume::kTissueClasses> loss_db_mm_;
   const NeedlePose* needle_;

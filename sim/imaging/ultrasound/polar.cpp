@@ -65,7 +65,7 @@ class PolarPainter {
       : view_(view),
         fan_(fan_of(view)),
         tissue_at_(tissue, inserted),
-        walker_(view, tissue_at_, inserted),
+        walker_(view, tissue_at_, *tissue.volume, inserted),
         field_(view, tissue_at_),
         below_skin_mm_(depth_below_skin_mm),
         frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz),

@@ -19,8 +19,8 @@ struct Probe {
 
 // Frequency, elements, pitch, radius, height and elevation focus: the Verasonics probes as PyMUST lists them
 // (getparam). Aperture, F-number 2 and a pulse of 60 % of the frequency: design (half to all of the elements).
-constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5, 60.0, 32.0, 2.0, 0.6};
-constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0, 5.0, 18.0, 19.2, 2.0, 0.6};
+inline constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5, 60.0, 32.0, 2.0, 0.6};
+inline constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0, 5.0, 18.0, 19.2, 2.0, 0.6};
 
 // Null when there is no probe of that name.
 const Probe* probe_named(std::string_view name) noexcept;
