@@ -46,7 +46,7 @@ TEST(Goal11, TheNeedleIsWhereItIs) {
         double first_tip_mm = 1e9;
         for (int b = 0; b < view.beams; ++b) {
           const Peak peak = peak_of(picture, view, b);
-          if (peak.level < 1e-3F) continue;  // water's own speckle
+          if (peak.level < 1e-2F) continue;  // ten times what water scatters
           const glm::dvec3 p = point_of(view, b, peak.depth_mm);
           const glm::dvec3 from_tip = p - needle.tip_lps_mm;
           const double along = -glm::dot(from_tip, needle.direction);
