@@ -13,6 +13,7 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
+#include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
@@ -48,7 +49,8 @@ struct CaseRow {
   glm::dvec3 spacing_mm{0.0};
   glm::dmat4 lps_from_voxel{1.0};
   int hu_min = 0, hu_max = 0, slices_used = 0;
-  std::string volume_sha256, skin_sha256, labels_sha256 /* may be empty */;
+  std::string volume_sha256, skin_sha256, labels_sha256 /* may be empty */,
+      classes_sha256 /* empty: stored before schema 3 */;
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<base::Problem> warnings;
   cases::Modality modality = cases::Modality::mpr;
@@ -61,12 +63,16 @@ struct LesionRow {
   std::int64_t created_us = 0;
 };
 
+// Also computes the tissue classes and stores them.
 std::string add_case(Library& library, const NewCase& new_case);
 std::vector<CaseRow> list_cases(Library& library);                              // oldest first
 base::Result<CaseRow> find_case(Library& library, const std::string& case_id);  // `no_case`
 base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row);
 base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row);
 base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row);  // `no_labels`
+// One class per voxel, as add_case stored them. A case from before schema 3 has none: they are computed, in about a
+// second for 512 x 512 x 100 voxels.
+base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row);
 
 // `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the volume).
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion);

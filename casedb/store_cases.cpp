@@ -22,7 +22,7 @@ std::string matrix_column(int row, int column) {
 
 void insert_case(Sqlite& database, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
                  const std::string& volume_sha256, const std::string& skin_sha256,
-                 const std::optional<std::string>& labels_sha256) {
+                 const std::optional<std::string>& labels_sha256, const std::string& classes_sha256) {
   const volume::Volume& volume = new_case.volume;
   const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
   Statement insert = question(database, "add_case");
@@ -38,7 +38,7 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
   insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
   insert.bind("modality", name_of(new_case.modality)).bind("patient_position", name_of(new_case.position));
-  insert.bind("labels_sha256", labels_sha256).run();
+  insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
 
   Statement attribute = question(database, "add_case_attribute");
   for (std::size_t i = 0; i < new_case.attributes.size(); ++i)
@@ -76,6 +76,7 @@ CaseRow read_case(const Statement& from) {
   row.volume_sha256 = from.text("volume_sha256");
   row.skin_sha256 = from.text("skin_sha256");
   row.labels_sha256 = from.text("labels_sha256");
+  row.classes_sha256 = from.text("classes_sha256");
   // The schema takes no others.
   row.modality = *modality_from(from.text("modality"));
   row.position = *position_from(from.text("patient_position"));
@@ -149,12 +150,15 @@ std::string add_case(Library& library, const NewCase& new_case) {
   const std::string skin_sha256 = assets.add(cases::bytes_from_mesh(new_case.skin));
   std::optional<std::string> labels_sha256;
   if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
+  const std::string classes_sha256 = assets.add(
+      volume::bytes_from_classes(volume::tissue_classes(volume, new_case.labels ? &*new_case.labels : nullptr)));
 
   Transaction transaction(library.database());
   assets.make_sure();
   const std::int64_t created_us = now_us();
   const std::string case_id = new_uuid();
-  insert_case(library.database(), new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256);
+  insert_case(library.database(), new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256,
+              classes_sha256);
   transaction.commit();
   assets.keep();
   return case_id;
@@ -187,6 +191,23 @@ base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row)
   const auto bytes = library.load_asset(row.labels_sha256);
   if (!bytes) return bytes.error();
   return volume::labels_from_bytes(*bytes);
+}
+
+base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row) {
+  if (!row.classes_sha256.empty()) {
+    const auto bytes = library.load_asset(row.classes_sha256);
+    if (!bytes) return bytes.error();
+    const glm::dvec3 size(row.size_voxels);
+    return volume::classes_from_bytes(*bytes, static_cast<std::size_t>(size.x * size.y * size.z));
+  }
+  const auto volume = load_volume(library, row);
+  if (!volume) return volume.error();
+  if (row.labels_sha256.empty()) return volume::tissue_classes(*volume);
+  const auto labels = load_labels(library, row);
+  if (!labels) return labels.error();
+  if (labels->label.size() != volume->hu.size())
+    return base::Error{"damaged", "the stored labels are not the volume's"};
+  return volume::tissue_classes(*volume, &*labels);
 }
 
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion) {

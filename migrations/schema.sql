@@ -126,7 +126,7 @@ CREATE TABLE training_case (
   skin_sha256 TEXT NOT NULL CHECK (length(skin_sha256) = 64),
   labels_sha256 TEXT CHECK (length(labels_sha256) = 64) -- null: no labels
 , modality TEXT NOT NULL DEFAULT 'mpr' CHECK (modality IN ('mpr', 'xray')), patient_position TEXT NOT NULL DEFAULT 'supine'
-  CHECK (patient_position IN ('supine', 'prone'))) STRICT;
+  CHECK (patient_position IN ('supine', 'prone')), classes_sha256 TEXT CHECK (length(classes_sha256) = 64)) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
@@ -176,6 +176,11 @@ END;
 CREATE TRIGGER recording_chunk_is_kept BEFORE DELETE ON recording_chunk
 BEGIN
   SELECT RAISE(ABORT, 'a recording cannot be deleted');
+END;
+
+CREATE TRIGGER training_case_keeps_its_classes BEFORE UPDATE OF classes_sha256 ON training_case
+BEGIN
+  SELECT RAISE(ABORT, 'the tissue classes of a case cannot be changed');
 END;
 
 CREATE TRIGGER training_case_keeps_its_data

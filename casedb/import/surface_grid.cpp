@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "casedb/import/body_mask.h"
+#include "sim/volume/body_mask.h"
 
 namespace seldinger::casedb {
 namespace {

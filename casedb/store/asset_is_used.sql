@@ -1,6 +1,6 @@
 -- Whether a file of assets/ belongs to a case or an attempt.
 SELECT EXISTS (
-  SELECT 1 FROM training_case WHERE :sha256 IN (volume_sha256, skin_sha256, labels_sha256)
+  SELECT 1 FROM training_case WHERE :sha256 IN (volume_sha256, skin_sha256, labels_sha256, classes_sha256)
 ) OR EXISTS (
   SELECT 1 FROM attempt WHERE picture_sha256 = :sha256
 ) AS used

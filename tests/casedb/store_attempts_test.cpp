@@ -173,8 +173,8 @@ TEST_F(StoreAttemptsTest, WhatAnAttemptRefersToMustExist) {
   attempt.person_id = "nobody";
   EXPECT_EQ(refusal(attempt), "no_person");
   EXPECT_TRUE(list_attempts(library_).empty());
-  // volume and skin; no picture is left
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 2);
+  // volume, skin and classes; no picture is left
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 3);
 }
 
 TEST_F(StoreAttemptsTest, NothingStaysOfAnAttemptTheDatabaseRefuses) {
@@ -187,7 +187,7 @@ TEST_F(StoreAttemptsTest, NothingStaysOfAnAttemptTheDatabaseRefuses) {
   EXPECT_TRUE(refused_by_constraint([&] { static_cast<void>(add_attempt(library_, attempt)); }));
   EXPECT_TRUE(list_attempts(library_).empty());
   EXPECT_EQ(library_.database().integer("SELECT count(*) FROM recording_chunk"), 0);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 3);
   static_cast<void>(add(sample()));  // and the library goes on
 }
 

@@ -88,6 +88,66 @@ TEST_F(StoreCasesTest, VolumeSkinAndLabelsComeBackBitForBit) {
   EXPECT_EQ(labels.names, sample.labels->names);
 }
 
+TEST_F(StoreCasesTest, TissueClassesAreComputedOnceAndStored) {
+  NewCase sample = sample_case();
+  sample.volume.hu.assign(sample.volume.hu.size(), 50);
+  const std::string plain = add_case(library_, sample);
+  sample.labels.emplace();
+  sample.labels->names = {"none", "kidney", "Rippe"};
+  for (std::size_t i = 0; i < sample.volume.hu.size(); ++i)
+    sample.labels->label.push_back(static_cast<std::uint8_t>(i % 3));
+  const std::string labelled = add_case(library_, sample);
+
+  Library again = open_library(folder_);
+  EXPECT_EQ(load_classes(again, find_case(again, plain).value()).value(),
+            std::vector<volume::TissueClass>(sample.volume.hu.size(), volume::TissueClass::soft_tissue));
+  const auto classes = load_classes(again, find_case(again, labelled).value()).value();
+  ASSERT_EQ(classes.size(), sample.volume.hu.size());
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    EXPECT_EQ(classes[i], i % 3 == 1 ? volume::TissueClass::kidney : volume::TissueClass::soft_tissue) << i;
+  EXPECT_TRUE(refused_by_constraint(
+      [&] { library_.database().run("UPDATE training_case SET classes_sha256 = skin_sha256"); }));
+}
+
+TEST_F(StoreCasesTest, ACaseFromBeforeTheClassesGetsTheSameOnes) {
+  const std::filesystem::path folder = folder_.parent_path() / "old";
+  NewCase sample = sample_case();
+  sample.labels.emplace();
+  sample.labels->names = {"none", "liver"};
+  sample.labels->label.assign(sample.volume.hu.size(), 0);
+  sample.labels->label[100] = 1;
+  std::vector<volume::TissueClass> stored;
+  std::string case_id;
+  {
+    Library library = open_library(folder);
+    case_id = add_case(library, sample);
+    stored = load_classes(library, find_case(library, case_id).value()).value();
+    library.database().run(
+        "DROP TRIGGER training_case_keeps_its_classes; "
+        "ALTER TABLE training_case DROP COLUMN classes_sha256; PRAGMA user_version = 2");
+  }
+  EXPECT_EQ(stored[100], volume::TissueClass::liver);
+  Library library = open_library(folder);
+  const CaseRow row = find_case(library, case_id).value();
+  EXPECT_TRUE(row.classes_sha256.empty());
+  EXPECT_EQ(load_classes(library, row).value(), stored);
+  CaseRow plain = row;
+  plain.labels_sha256.clear();
+  EXPECT_NE(load_classes(library, plain).value(), stored) << "labels were asked";
+}
+
+TEST_F(StoreCasesTest, DamagedClassesAreRefused) {
+  const CaseRow row = find_case(library_, add_case(library_, sample_case())).value();
+  CaseRow other = row;
+  other.classes_sha256 = row.skin_sha256;
+  EXPECT_EQ(load_classes(library_, other).error().code, "damaged");
+  other = row;
+  other.size_voxels.z += 1;
+  EXPECT_EQ(load_classes(library_, other).error().code, "damaged");
+  library_.remove_asset(row.classes_sha256);
+  EXPECT_EQ(load_classes(library_, row).error().code, "asset_missing");
+}
+
 TEST_F(StoreCasesTest, CasesAreListedOldestFirstWithTheirOwnAttributes) {
   std::vector<std::string> ids;
   for (int i = 0; i < 30; ++i) {
@@ -109,7 +169,8 @@ TEST_F(StoreCasesTest, CasesAreListedOldestFirstWithTheirOwnAttributes) {
 TEST_F(StoreCasesTest, CasesOfTheSameVolumeShareItsFile) {
   add_case(library_, sample_case("A"));
   add_case(library_, sample_case("B"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 2);  // volume, skin
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}),
+            3);  // volume, skin, classes
 }
 
 TEST_F(StoreCasesTest, AnUnknownCaseIsRefused) {
@@ -140,7 +201,7 @@ TEST_F(StoreCasesTest, AFailedCaseLeavesNoFileButThoseOfOthers) {
   twice.attributes = {{"kvp", "1"}, {"kvp", "2"}};  // refused by the database
   EXPECT_TRUE(refused_by_constraint([&] { add_case(library_, twice); }));
   EXPECT_EQ(list_cases(library_).size(), 1U);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "assets"), {}), 3);
   const CaseRow row = find_case(library_, case_id).value();
   EXPECT_TRUE(load_volume(library_, row).has_value());
   EXPECT_TRUE(load_skin(library_, row).has_value());

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "casedb/export/dicom_series.h"
-#include "casedb/import/body_mask.h"
 #include "casedb/import/import.h"
+#include "sim/volume/body_mask.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::casedb {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "casedb/import/body_mask.h"
 #include "casedb/import/surface.h"
 #include "import_case.h"
 #include "sim/case/mesh_index.h"
+#include "sim/volume/body_mask.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "sim/volume/volume.h"
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 
 constexpr int kSkinHu = -300;  // contracts.md, clinical.md
 
 // One byte per voxel, 1 = body. Empty body (nothing above the threshold): all 0.
-std::vector<std::uint8_t> body_mask(const volume::Volume& volume, int threshold_hu = kSkinHu);
+std::vector<std::uint8_t> body_mask(const Volume& volume, int threshold_hu = kSkinHu);
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

@@ -7,11 +7,11 @@
 
 #include "sim/volume/volume.h"
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 
 class AxialSlices {
  public:
-  explicit AxialSlices(const volume::Volume& volume);
+  explicit AxialSlices(const Volume& volume);
 
   int count() const noexcept { return count_; }
   int width() const noexcept { return width_; }
@@ -31,9 +31,14 @@ class AxialSlices {
 // Whatever the background of a slice's border does not reach (4 neighbours) becomes body.
 void fill_slices(const AxialSlices& slices, std::vector<std::uint8_t>& mask);
 
+// In a slice of width x height bytes: voxels within `radius` (a box) of one of `value` get it. Beyond the slice's
+// edge there is neither.
+void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::ivec2 radius, std::uint8_t value,
+                std::vector<int>& scratch);
+
 // The voxels of the mask that a square of 2·radius + 1 voxels cannot cover within it, not even with its edge one
 // voxel off: thin sheets and threads. Beyond the slice's edge the mask is taken to go on.
 std::vector<std::uint8_t> thin_parts(const AxialSlices& slices, const std::vector<std::uint8_t>& mask,
                                      glm::ivec2 radius_voxels);
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

@@ -1,12 +1,12 @@
-#include "casedb/import/body_mask.h"
+#include "sim/volume/body_mask.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "casedb/import/axial_slices.h"
-#include "casedb/import/components.h"
+#include "sim/volume/axial_slices.h"
+#include "sim/volume/components.h"
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 namespace {
 
 // The cover of a couch's mattress may touch the back and so belong to the same component, though it is a sheet of 2
@@ -14,7 +14,7 @@ namespace {
 // shorter.
 constexpr double kSheetRadiusMm = 2.0, kSheetLengthMm = 80.0;
 
-void drop_sheets(const volume::Volume& volume, const AxialSlices& slices, std::vector<std::uint8_t>& mask) {
+void drop_sheets(const Volume& volume, const AxialSlices& slices, std::vector<std::uint8_t>& mask) {
   const glm::dvec2 spacing_mm = slices.spacing_mm();
   const glm::ivec2 radius(std::max(1, static_cast<int>(std::lround(kSheetRadiusMm / spacing_mm.x))),
                           std::max(1, static_cast<int>(std::lround(kSheetRadiusMm / spacing_mm.y))));
@@ -33,7 +33,7 @@ void drop_sheets(const volume::Volume& volume, const AxialSlices& slices, std::v
 
 }  // namespace
 
-std::vector<std::uint8_t> body_mask(const volume::Volume& volume, int threshold_hu) {
+std::vector<std::uint8_t> body_mask(const Volume& volume, int threshold_hu) {
   std::vector<std::uint8_t> mask(volume.hu.size());
   std::transform(volume.hu.begin(), volume.hu.end(), mask.begin(),
                  [&](std::int16_t hu) { return static_cast<std::uint8_t>(hu > threshold_hu ? 1 : 0); });
@@ -45,4 +45,4 @@ std::vector<std::uint8_t> body_mask(const volume::Volume& volume, int threshold_
   return mask;
 }
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

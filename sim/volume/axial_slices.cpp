@@ -1,10 +1,11 @@
-#include "casedb/import/axial_slices.h"
+#include "sim/volume/axial_slices.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 namespace {
 
 class SliceFill {
@@ -45,32 +46,47 @@ class SliceFill {
   std::vector<int> open_;
 };
 
-// Grows the voxels of `value` by `radius` along one line of `count` voxels, `step` apart. A line beyond its ends is
-// neither body nor not, so nothing grows in from there.
-void grow_line(std::uint8_t* line, int count, std::ptrdiff_t step, int radius, std::uint8_t value,
-               std::vector<int>& last_seen) {
-  last_seen.resize(static_cast<std::size_t>(count));
-  constexpr int kNever = 1 << 29;
-  for (int i = 0, last = -kNever; i < count; ++i) {
-    if (line[i * step] == value) last = i;
-    last_seen[static_cast<std::size_t>(i)] = last;
+// Grows the voxels of `value` by `radius` along a row. A row beyond its ends is neither body nor not, so nothing
+// grows in from there.
+void grow_row(std::uint8_t* row, int count, int radius, std::uint8_t value, int* since) {
+  int last = radius + 1;
+  for (int i = 0; i < count; ++i) since[i] = last = row[i] == value ? 0 : last + 1;
+  last = radius + 1;
+  for (int i = count - 1; i >= 0; --i) {
+    last = row[i] == value ? 0 : last + 1;
+    if (std::min(last, since[i]) <= radius) row[i] = value;
   }
-  for (int i = count - 1, next = kNever; i >= 0; --i) {
-    if (line[i * step] == value) next = i;
-    if (i - last_seen[static_cast<std::size_t>(i)] <= radius || next - i <= radius) line[i * step] = value;
-  }
-}
-
-void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::ivec2 radius, std::uint8_t value,
-                std::vector<int>& last_seen) {
-  for (int y = 0; y < height; ++y)
-    grow_line(slice.data() + static_cast<std::ptrdiff_t>(y) * width, width, 1, radius.x, value, last_seen);
-  for (int x = 0; x < width; ++x) grow_line(slice.data() + x, height, width, radius.y, value, last_seen);
 }
 
 }  // namespace
 
-AxialSlices::AxialSlices(const volume::Volume& volume) {
+void grow_slice(std::vector<std::uint8_t>& slice, int width, int height, glm::ivec2 radius, std::uint8_t value,
+                std::vector<int>& scratch) {
+  const auto w = static_cast<std::size_t>(width), h = static_cast<std::size_t>(height);
+  scratch.resize(w * h + w);
+  for (std::size_t y = 0; y < h; ++y)
+    if (std::memchr(slice.data() + y * w, value, w) != nullptr)
+      grow_row(slice.data() + y * w, width, radius.x, value, scratch.data());
+  // Down and up all columns at once, row by row as they lie in memory.
+  int* const last = scratch.data() + w * h;
+  std::fill(last, last + w, radius.y + 1);
+  for (std::size_t y = 0; y < h; ++y) {
+    const std::uint8_t* row = slice.data() + y * w;
+    int* since = scratch.data() + y * w;
+    for (std::size_t x = 0; x < w; ++x) since[x] = last[x] = row[x] == value ? 0 : last[x] + 1;
+  }
+  std::fill(last, last + w, radius.y + 1);
+  for (std::size_t y = h; y-- > 0;) {
+    std::uint8_t* row = slice.data() + y * w;
+    const int* since = scratch.data() + y * w;
+    for (std::size_t x = 0; x < w; ++x) {
+      last[x] = row[x] == value ? 0 : last[x] + 1;
+      row[x] = std::min(last[x], since[x]) <= radius.y ? value : row[x];
+    }
+  }
+}
+
+AxialSlices::AxialSlices(const Volume& volume) {
   int axial = 0;
   double best_cosine = -1.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -102,13 +118,13 @@ std::vector<std::uint8_t> thin_parts(const AxialSlices& slices, const std::vecto
   const int width = slices.width(), height = slices.height();
   std::vector<std::uint8_t> thin(mask.size(), 0);
   std::vector<std::uint8_t> opened(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  std::vector<int> last_seen;
+  std::vector<int> scratch;
   for (int slice = 0; slice < slices.count(); ++slice) {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
         opened[static_cast<std::size_t>(y * width + x)] = mask[slices.voxel(slice, x, y)];
-    grow_slice(opened, width, height, radius_voxels, 0, last_seen);
-    grow_slice(opened, width, height, radius_voxels + 1, 1, last_seen);
+    grow_slice(opened, width, height, radius_voxels, 0, scratch);
+    grow_slice(opened, width, height, radius_voxels + 1, 1, scratch);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const std::size_t voxel = slices.voxel(slice, x, y);
@@ -118,4 +134,4 @@ std::vector<std::uint8_t> thin_parts(const AxialSlices& slices, const std::vecto
   return thin;
 }
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

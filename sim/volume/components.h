@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 
 struct Piece {
   std::size_t voxels = 0;
@@ -21,6 +21,19 @@ class Components {
   void paint(const std::function<bool(const Piece&)>& which, std::uint8_t value, std::vector<std::uint8_t>& mask);
   // Leaves in the mask (the one these are the pieces of) nothing but the piece with the most voxels.
   void keep_largest(std::vector<std::uint8_t>& mask);
+
+  // Numbers of pieces are below this.
+  std::size_t numbers() const noexcept { return runs_.size(); }
+  // Calls visit(number of its piece, first voxel, voxel past the last) for every run, in the order of the voxels.
+  template <typename Visit>
+  void each_run(const Visit& visit) {
+    for (std::size_t row = 0; row < rows(); ++row)
+      for (std::uint32_t run = row_first_[row]; run < row_first_[row + 1]; ++run) {
+        const std::size_t start = row * static_cast<std::size_t>(size_.x);
+        visit(std::size_t{root(run)}, start + static_cast<std::size_t>(runs_[run].begin),
+              start + static_cast<std::size_t>(runs_[run].end));
+      }
+  }
 
  private:
   struct Run {  // [begin, end) of a row
@@ -40,4 +53,4 @@ class Components {
   std::vector<std::uint32_t> row_first_;
 };
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

@@ -1,28 +1,28 @@
 // The body is the largest piece above the threshold, without couch or sheets, its air filled slice by slice.
-#include "casedb/import/body_mask.h"
+#include "sim/volume/body_mask.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 namespace {
 
 using Mask = std::vector<std::uint8_t>;
 
-volume::Volume empty_volume(glm::ivec3 size, glm::dvec3 spacing_mm = glm::dvec3(1.0)) {
-  return volume::make_volume(size, spacing_mm, glm::dmat3(1.0), glm::dvec3(0.0));
+Volume empty_volume(glm::ivec3 size, glm::dvec3 spacing_mm = glm::dvec3(1.0)) {
+  return make_volume(size, spacing_mm, glm::dmat3(1.0), glm::dvec3(0.0));
 }
 
-void paint(volume::Volume& volume, glm::ivec3 low, glm::ivec3 high, std::int16_t hu) {
+void paint(Volume& volume, glm::ivec3 low, glm::ivec3 high, std::int16_t hu) {
   for (int k = low.z; k <= high.z; ++k)
     for (int j = low.y; j <= high.y; ++j)
       for (int i = low.x; i <= high.x; ++i) volume.hu[volume.index(i, j, k)] = hu;
 }
 
 // The definition again, by the slowest and plainest means: flood from every voxel, then from every slice's border.
-Mask plain_mask(const volume::Volume& v, int threshold) {
+Mask plain_mask(const Volume& v, int threshold) {
   const glm::ivec3 n = v.size_voxels;
   std::vector<int> piece(v.hu.size(), 0);
   std::vector<std::size_t> count = {0};
@@ -73,13 +73,13 @@ Mask plain_mask(const volume::Volume& v, int threshold) {
 TEST(BodyMask, AgreesWithThePlainDefinitionOnRandomVolumes) {
   std::mt19937 random(1);
   for (int round = 0; round < 40; ++round) {
-    volume::Volume v = empty_volume({1 + static_cast<int>(random() % 14), 1 + static_cast<int>(random() % 14),
-                                     1 + static_cast<int>(random() % 6)});
+    Volume v = empty_volume({1 + static_cast<int>(random() % 14), 1 + static_cast<int>(random() % 14),
+                             1 + static_cast<int>(random() % 6)});
     for (std::int16_t& hu : v.hu) hu = random() % 100 < 25 + static_cast<unsigned>(round) ? 0 : -1000;
     const Mask mask = body_mask(v), expected = plain_mask(v, kSkinHu);
     // Two pieces of the same size: either may be the body.
     if (std::count(mask.begin(), mask.end(), 1) == 0) continue;
-    volume::Volume chosen = v;
+    Volume chosen = v;
     if (mask != expected)
       for (std::size_t i = 0; i < mask.size(); ++i)
         if (expected[i] != 0 && mask[i] == 0) chosen.hu[i] = -1000;
@@ -88,7 +88,7 @@ TEST(BodyMask, AgreesWithThePlainDefinitionOnRandomVolumes) {
 }
 
 TEST(BodyMask, TheThresholdItselfIsOutside) {
-  volume::Volume v = empty_volume({3, 1, 1});
+  Volume v = empty_volume({3, 1, 1});
   v.hu = {-300, -299, -301};
   EXPECT_EQ(body_mask(v), (Mask{0, 1, 0}));
   v.hu = {-300, -1000, -301};
@@ -96,7 +96,7 @@ TEST(BodyMask, TheThresholdItselfIsOutside) {
 }
 
 TEST(BodyMask, ALungOpenAtTheVolumesEndIsFilled) {
-  volume::Volume v = empty_volume({20, 20, 10});
+  Volume v = empty_volume({20, 20, 10});
   paint(v, {3, 3, 0}, {16, 16, 9}, 40);
   paint(v, {6, 6, 5}, {12, 12, 9}, -850);  // open upwards, closed in each slice
   const Mask mask = body_mask(v);
@@ -105,7 +105,7 @@ TEST(BodyMask, ALungOpenAtTheVolumesEndIsFilled) {
 }
 
 TEST(BodyMask, AirOpenToTheSliceBorderStaysAir) {
-  volume::Volume v = empty_volume({20, 20, 4});
+  Volume v = empty_volume({20, 20, 4});
   paint(v, {3, 3, 0}, {16, 16, 3}, 40);
   paint(v, {8, 3, 0}, {9, 10, 3}, -1000);  // a cleft
   EXPECT_EQ(body_mask(v)[v.index(8, 8, 2)], 0);
@@ -115,7 +115,7 @@ TEST(BodyMask, AirOpenToTheSliceBorderStaysAir) {
 }
 
 TEST(BodyMask, ACouchApartIsDropped) {
-  volume::Volume v = empty_volume({60, 60, 8});
+  Volume v = empty_volume({60, 60, 8});
   paint(v, {20, 10, 0}, {40, 30, 7}, 40);
   paint(v, {0, 35, 0}, {59, 37, 7}, 150);
   const Mask mask = body_mask(v);
@@ -125,7 +125,7 @@ TEST(BodyMask, ACouchApartIsDropped) {
 }
 
 TEST(BodyMask, ACoverThatTouchesTheBackIsDroppedAndTheGapBetweenStaysAir) {
-  volume::Volume v = empty_volume({120, 60, 8}, {1.0, 1.0, 12.0});
+  Volume v = empty_volume({120, 60, 8}, {1.0, 1.0, 12.0});
   paint(v, {30, 10, 0}, {90, 40, 7}, 40);
   paint(v, {30, 38, 0}, {50, 40, 7}, -1000);  // a hollow of the back
   paint(v, {5, 41, 0}, {115, 42, 7}, 150);    // 2 mm thick, touching from 51 to 90
@@ -142,11 +142,11 @@ TEST(BodyMask, ACoverThatTouchesTheBackIsDroppedAndTheGapBetweenStaysAir) {
 }
 
 TEST(BodyMask, ShortThinPartsAndThinBodiesStay) {
-  volume::Volume v = empty_volume({100, 60, 8});
+  Volume v = empty_volume({100, 60, 8});
   paint(v, {30, 10, 0}, {70, 40, 7}, 40);
   paint(v, {71, 20, 0}, {95, 21, 7}, 40);  // an ear: 2 mm thick, 25 mm long
   EXPECT_EQ(body_mask(v)[v.index(90, 20, 4)], 1);
-  volume::Volume sheet = empty_volume({200, 20, 3});
+  Volume sheet = empty_volume({200, 20, 3});
   paint(sheet, {10, 5, 0}, {190, 6, 2}, 40);
   EXPECT_EQ(body_mask(sheet)[sheet.index(100, 5, 1)], 1);
 }
@@ -154,7 +154,7 @@ TEST(BodyMask, ShortThinPartsAndThinBodiesStay) {
 TEST(BodyMask, FillingFollowsTheAxialAxisWhereverItIs) {
   // The third patient axis lies along the first voxel axis.
   const glm::dmat3 direction({0, 0, 1}, {1, 0, 0}, {0, 1, 0});
-  volume::Volume v = volume::make_volume({10, 20, 20}, glm::dvec3(1.0), direction, glm::dvec3(0.0));
+  Volume v = make_volume({10, 20, 20}, glm::dvec3(1.0), direction, glm::dvec3(0.0));
   paint(v, {0, 3, 3}, {9, 16, 16}, 40);
   paint(v, {5, 6, 6}, {9, 12, 12}, -850);
   const Mask mask = body_mask(v);
@@ -162,4 +162,4 @@ TEST(BodyMask, FillingFollowsTheAxialAxisWhereverItIs) {
 }
 
 }  // namespace
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

@@ -1,9 +1,9 @@
-#include "casedb/import/components.h"
+#include "sim/volume/components.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
 
-namespace seldinger::casedb {
+namespace seldinger::volume {
 
 Components::Components(glm::ivec3 size_voxels, const std::vector<std::uint8_t>& mask) : size_(size_voxels) {
   row_first_.reserve(rows() + 1);
@@ -84,4 +84,4 @@ void Components::keep_largest(std::vector<std::uint8_t>& mask) {
   paint_roots(picked, 0, mask);
 }
 
-}  // namespace seldinger::casedb
+}  // namespace seldinger::volume

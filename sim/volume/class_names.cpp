@@ -1,0 +1,85 @@
+#include <utility>
+
+#include "sim/volume/classes.h"
+
+namespace seldinger::volume {
+namespace {
+
+constexpr const char* kProkop = "Prokop and Galanski, Spiral and Multislice CT of the Body (Thieme 2003)";
+constexpr const char* kLabel = "label";
+
+constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
+    {"air", "outside the largest piece above -300 HU with its inside filled", "contracts.md, Skin"},
+    {"gas", "inside, below -400 HU; in no lung, or an airway of it", kProkop},
+    {"lung", "inside, below -400 HU, large, its inside mostly above -930 HU", kProkop},
+    {"fat", "below -30 HU, the middle between fat (-100) and tissue (40)", kProkop},
+    {"fluid", "-20 to 18 HU and at least 6 mm thick, 1 ml", kProkop},
+    {"soft_tissue", "the rest of the inside", kProkop},
+    {"liver", kLabel, kProkop},
+    {"kidney", kLabel, kProkop},
+    {"spleen", kLabel, kProkop},
+    {"muscle", kLabel, kProkop},
+    {"skin", kLabel, kProkop},
+    {"connective", kLabel, kProkop},
+    {"vessel", "from 200 HU, the highest of enhanced parenchyma, and no bone", kProkop},
+    {"bone", "from 150 HU where joined to bone's core (380 HU) and no plateau of contrast", kProkop},
+    {"metal", "from 2500 HU, above cortical bone and enamel, and its rim", kProkop},
+}};
+
+// What the built-in torso, scenes and label maps call things.
+constexpr std::pair<std::string_view, TissueClass> kNames[] = {
+    {"adrenal", TissueClass::soft_tissue},
+    {"aorta", TissueClass::vessel},
+    {"artery", TissueClass::vessel},
+    {"bile", TissueClass::fluid},
+    {"bladder", TissueClass::fluid},
+    {"blood", TissueClass::vessel},
+    {"bowel_content", TissueClass::soft_tissue},
+    {"bowel_gas", TissueClass::gas},
+    {"cartilage", TissueClass::connective},
+    {"collecting_system", TissueClass::fluid},
+    {"colon", TissueClass::soft_tissue},
+    {"costal_cartilage", TissueClass::connective},
+    {"cyst", TissueClass::fluid},
+    {"diaphragm", TissueClass::muscle},
+    {"disc", TissueClass::connective},
+    {"gallbladder", TissueClass::fluid},
+    {"heart", TissueClass::muscle},
+    {"hepatic_vein", TissueClass::vessel},
+    {"intercostal_bundle", TissueClass::vessel},
+    {"pancreas", TissueClass::soft_tissue},
+    {"pelvis", TissueClass::bone},
+    {"pleural_recess", TissueClass::fluid},
+    {"portal_vein", TissueClass::vessel},
+    {"pulmonary_vessel", TissueClass::vessel},
+    {"renal_sinus", TissueClass::fat},
+    {"rib", TissueClass::bone},
+    {"small_bowel", TissueClass::soft_tissue},
+    {"spinal_canal", TissueClass::soft_tissue},
+    {"spine", TissueClass::bone},
+    {"steel", TissueClass::metal},
+    {"stomach", TissueClass::soft_tissue},
+    {"tendon", TissueClass::connective},
+    {"urine", TissueClass::fluid},
+    {"vein", TissueClass::vessel},
+    {"vena_cava", TissueClass::vessel},
+    {"visceral_fat", TissueClass::fat},
+    {"water", TissueClass::fluid},
+};
+
+}  // namespace
+
+const TissueAbout& about(TissueClass tissue) noexcept {
+  const auto at = static_cast<std::size_t>(tissue);
+  return kAbout[at < kTissueClasses ? at : 0];
+}
+
+std::optional<TissueClass> tissue_of_name(std::string_view name) noexcept {
+  for (std::size_t at = 0; at < kTissueClasses; ++at)
+    if (name == kAbout[at].name) return static_cast<TissueClass>(at);
+  for (const auto& [known, tissue] : kNames)
+    if (name == known) return tissue;
+  return std::nullopt;
+}
+
+}  // namespace seldinger::volume

@@ -1,0 +1,117 @@
+// Tissue classes of the real CT volumes, at the landmarks of their READMEs and at places that a reader of the
+// slices names without doubt.
+#include <array>
+
+#include "import_case.h"
+#include "sim/volume/classes.h"
+
+namespace seldinger::casedb {
+namespace {
+
+using volume::TissueClass;
+
+class RealClasses : public ImportCase {
+ protected:
+  void take(const std::filesystem::path& path) {
+    auto source = read(path);
+    ASSERT_TRUE(source);
+    volume_ = std::move(source->volume);
+    classes_ = volume::tissue_classes(volume_);
+    const auto count = volume::count_classes(classes_);
+    for (std::size_t at = 0; at < count.size(); ++at)
+      ml_[at] = static_cast<double>(count[at]) * volume_.spacing_mm.x * volume_.spacing_mm.y *
+                volume_.spacing_mm.z / 1000.0;
+  }
+  double ml(TissueClass tissue) const { return ml_[static_cast<std::size_t>(tissue)]; }
+  // Share of 7 x 7 voxels in plane.
+  double share(TissueClass tissue, const glm::ivec3& voxel) const {
+    int are = 0;
+    for (int j = -3; j <= 3; ++j)
+      for (int i = -3; i <= 3; ++i)
+        are += classes_[volume_.index(voxel.x + i, voxel.y + j, voxel.z)] == tissue ? 1 : 0;
+    return are / 49.0;
+  }
+  void expect_at(const glm::dvec3& p_lps_mm, TissueClass tissue) const {
+    const glm::dvec3 index(volume::voxel_from_lps(volume_) * glm::dvec4(p_lps_mm, 1.0));
+    expect_at(glm::ivec3(glm::round(index)), tissue);
+  }
+  void expect_at(const glm::ivec3& voxel, TissueClass tissue) const {
+    EXPECT_GE(share(tissue, voxel), 0.9)
+        << volume::about(tissue).name << " at voxel " << voxel.x << " " << voxel.y << " " << voxel.z;
+  }
+
+  volume::Volume volume_;
+  std::vector<TissueClass> classes_;
+  std::array<double, volume::kTissueClasses> ml_{};
+};
+
+TEST_F(RealClasses, InTheContrastAbdomenNothingEnhancedIsBone) {
+  take(shared_data("ct-abdomen-contrast-dicom"));
+  for (const glm::dvec3& p : {glm::dvec3{-107, 51, -153},
+                              {52, 66, -153},
+                              {-14, 25, -153},
+                              {-42, 16, -153},
+                              {-115, -5, -98},
+                              {89, 55, -98}})  // kidneys, aorta, vena cava, liver, spleen
+    expect_at(p, TissueClass::soft_tissue);
+  expect_at(glm::dvec3{-167, 21, -153}, TissueClass::fat);
+  expect_at(glm::ivec3{245, 325, 6}, TissueClass::bone);  // vertebral bodies
+  expect_at(glm::ivec3{248, 360, 24}, TissueClass::bone);
+  expect_at(glm::ivec3{160, 370, 30}, TissueClass::lung);
+  expect_at(glm::ivec3{350, 370, 30}, TissueClass::lung);
+  expect_at(glm::ivec3{20, 20, 10}, TissueClass::air);
+  EXPECT_GT(ml(TissueClass::metal), 0.1);  // a biliary stent
+  EXPECT_LT(ml(TissueClass::metal), 3.0);
+  EXPECT_GT(ml(TissueClass::bone), 400.0);
+  EXPECT_LT(ml(TissueClass::bone), 700.0);
+}
+
+TEST_F(RealClasses, InThePlainAbdomenTheSpineIsBoneAndTheBladderFluid) {
+  take(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz"));
+  for (const glm::dvec3& p : {glm::dvec3{-89, 58, -583},
+                              {63, 77, -583},
+                              {-104, 33, -506},
+                              {-4, 27, -583},
+                              {-40, 106, -583}})  // kidneys, liver, aorta, muscle
+    expect_at(p, TissueClass::soft_tissue);
+  expect_at(glm::dvec3{-16, 48, -583}, TissueClass::bone);
+  expect_at(glm::dvec3{-11, 28, -838}, TissueClass::fluid);
+  expect_at(glm::dvec3{-16, -79, -583}, TissueClass::fat);
+  expect_at(glm::ivec3{240, 215, 30}, TissueClass::bone);  // a body whose rim is below the core's HU
+  expect_at(glm::ivec3{155, 192, 5}, TissueClass::bone);   // femoral head
+  expect_at(glm::ivec3{322, 195, 95}, TissueClass::lung);
+  expect_at(glm::ivec3{315, 130, 62}, TissueClass::gas);  // colon
+  EXPECT_EQ(ml(TissueClass::metal), 0.0);
+  EXPECT_LT(ml(TissueClass::vessel), 20.0) << "there is no contrast";
+  EXPECT_GT(ml(TissueClass::lung), 300.0);
+}
+
+TEST_F(RealClasses, InTheNeckTheTracheaIsGasBetweenTwoLungs) {
+  take(shared_data("ct-neck/neck.nrrd"));
+  expect_at(glm::ivec3{145, 130, 3}, TissueClass::lung);
+  expect_at(glm::ivec3{250, 130, 3}, TissueClass::lung);
+  expect_at(glm::ivec3{188, 138, 3}, TissueClass::gas);
+  expect_at(glm::ivec3{190, 165, 3}, TissueClass::bone);
+  EXPECT_GT(ml(TissueClass::metal), 0.1);  // probably a port
+  EXPECT_LT(ml(TissueClass::vessel), 10.0) << "there is no contrast";
+}
+
+TEST_F(RealClasses, InTheThoraxInletTheTracheaIsGasBetweenTwoLungs) {
+  take(shared_data("ct-thorax-inlet/thorax_inlet_1mm.mha"));
+  expect_at(glm::ivec3{165, 180, 2}, TissueClass::lung);
+  expect_at(glm::ivec3{310, 180, 2}, TissueClass::lung);
+  expect_at(glm::ivec3{241, 150, 2}, TissueClass::gas);
+  expect_at(glm::ivec3{240, 235, 2}, TissueClass::bone);
+  EXPECT_LT(ml(TissueClass::vessel), 5.0) << "there is no contrast";
+  EXPECT_EQ(volume::tissue_classes(volume_), classes_);
+}
+
+TEST_F(RealClasses, ClassesAreStoredInATenthOfAByteAVoxel) {
+  take(shared_data("ct-abdomen-pelvis/abdomen_pelvis_2x.mha"));
+  const auto bytes = volume::bytes_from_classes(classes_);
+  EXPECT_LT(bytes.size(), classes_.size() / 10);
+  EXPECT_EQ(volume::classes_from_bytes(bytes, classes_.size()).value(), classes_);
+}
+
+}  // namespace
+}  // namespace seldinger::casedb
