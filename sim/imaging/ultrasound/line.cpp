@@ -33,6 +33,7 @@ bool is_usable(const NeedlePose& needle) {
 
 // Five voxels, within reason: fewer and the steps of voxels show in the normal.
 constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
+constexpr double kPlaceVoxels = 2.5, kSliceShare = 0.87;
 // Interfaces whose echo is this far below liver's speckle are not worth their normal.
 constexpr double kLeastEchoDb = -10.0;
 
@@ -51,7 +52,11 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
     : view_(view),
       fan_(fan_of(view)),
       tissue_at_(tissue_at),
-      neighbours_(neighbours(volume)),
+      around_(neighbours(volume, kNormalVoxels)),
+      close_(neighbours(volume, kPlaceVoxels)),
+      voxel_from_lps_(volume::voxel_from_lps(volume)),
+      lps_from_voxel_(volume.lps_from_voxel),
+      most_shift_mm_(std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z)),
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
       frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
@@ -60,36 +65,55 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
         shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
 }
 
-// Voxels around an interface; whatever lies between the voxels is the same for all of them.
-std::vector<LineWalker::Neighbour> LineWalker::neighbours(const volume::Volume& volume) {
+// Voxels around an interface, the inner ones first; whatever lies between the voxels is the same for all of them.
+std::vector<LineWalker::Neighbour> LineWalker::neighbours(const volume::Volume& volume, double radius_voxels) {
   const glm::dmat3 step(volume.lps_from_voxel);
   const glm::dvec3 spacing = volume.spacing_mm;
-  const double radius_mm =
-      std::clamp(kNormalVoxels * std::cbrt(spacing.x * spacing.y * spacing.z), kLeastNormalMm, kMostNormalMm);
+  const double radius_mm = std::clamp(radius_voxels * std::cbrt(spacing.x * spacing.y * spacing.z),
+                                      kLeastNormalMm * radius_voxels / kNormalVoxels, kMostNormalMm);
   const glm::ivec3 reach = glm::max(glm::ivec3(radius_mm / spacing), glm::ivec3(1));
   std::vector<Neighbour> all;
   for (int k = -reach.z; k <= reach.z; ++k)
     for (int j = -reach.y; j <= reach.y; ++j)
       for (int i = -reach.x; i <= reach.x; ++i) {
-        const glm::dvec3 offset = step * glm::dvec3(i, j, k);
         const glm::dvec3 part = glm::dvec3(i, j, k) * spacing / glm::max(glm::dvec3(radius_mm), spacing);
         const double weight = 1.0 - glm::dot(part, part) / 1.44;
-        if (glm::dot(part, part) <= 1.0 && weight > 0.0) all.push_back({offset, weight * offset});
+        if (glm::dot(part, part) <= 1.0) all.push_back({step * glm::dvec3(i, j, k), weight});
       }
   return all;
 }
 
-// From the side that each neighbour is more like.
-glm::dvec3 LineWalker::normal_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const {
+// The plane between the tissue before and after: its normal from the side that each neighbour is more like, its
+// place from how many there are of each.
+LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const {
   const double middle_mrayl = std::sqrt(before_mrayl * after_mrayl);
-  std::array<bool, volume::kTissueClasses> after;
-  for (std::size_t i = 0; i < after.size(); ++i)
-    after[i] = (table_[i].impedance_mrayl > middle_mrayl) == (after_mrayl > before_mrayl);
-  glm::dvec3 sum(0.0);
-  for (const Neighbour& n : neighbours_)
-    sum += after[static_cast<std::size_t>(tissue_at_(p_lps_mm + n.offset_mm))] ? n.weighted_mm : -n.weighted_mm;
-  const double length = glm::length(sum);
-  return length > 0.0 ? sum / length : glm::dvec3(0.0);
+  std::array<double, volume::kTissueClasses> side;
+  for (std::size_t i = 0; i < side.size(); ++i)
+    side[i] = (table_[i].impedance_mrayl > middle_mrayl) == (after_mrayl > before_mrayl) ? 1.0 : -1.0;
+  const auto side_at = [&](const Neighbour& n) {
+    return n.weight * side[static_cast<std::size_t>(tissue_at_(p_lps_mm + n.offset_mm))];
+  };
+  Plane plane;
+  for (const Neighbour& n : around_) plane.normal += side_at(n) * n.offset_mm;
+  const double length = glm::length(plane.normal);
+  if (!(length > 0.0)) return plane;
+  plane.normal /= length;
+  double after = 0.0, all = 0.0, square = 0.0;
+  for (const Neighbour& n : close_) {
+    const double along = glm::dot(n.offset_mm, plane.normal);
+    after += side_at(n);
+    all += n.weight;
+    square += n.weight * along * along;
+  }
+  // A plane d off the middle of a ball leaves 2·d·(weight of a slice) more on one side. The slice through the
+  // middle of a ball of weights 1 − r²/1.44R² has 0.87 of what a Gaussian's of the same weight and spread would
+  // have.
+  const glm::dvec3 index = glm::dvec3(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
+  const glm::dvec3 center = glm::dvec3(lps_from_voxel_ * glm::dvec4(glm::floor(index + 0.5), 1.0));
+  const double slice = kSliceShare * all / std::sqrt(6.283185307 * square / all);
+  plane.has_place = square > 1e-9;
+  if (plane.has_place) plane.off_mm = glm::dot(center - p_lps_mm, plane.normal) - after / (2.0 * slice);
+  return plane;
 }
 
 void LineWalker::walk(int beam, bool contact, Line& line) const {
@@ -114,10 +138,8 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
 
   const NeedleCrossing needle = needle_ != nullptr ? crossing(beam, start, direction) : NeedleCrossing{};
-  const double steel_db = shaders::us_step_loss_db(
-      shaders::us_reflection(kMatchedMrayl, table_[std::size_t(TissueClass::metal)].impedance_mrayl));
   const double shadow_db =
-      needle.covered > 0.0 ? -20.0 * std::log10(1.0 - needle.covered * (1.0 - amplitude(-steel_db))) : 0.0;
+      needle.covered > 0.0 ? -20.0 * std::log10(1.0 - needle.covered * (1.0 - amplitude(-kNeedleShadowDb))) : 0.0;
   double sum_db = 0.0, before_mrayl = kMatchedMrayl;
   bool needle_above = false;
   for (std::size_t k = first; k < count; ++k) {
@@ -145,12 +167,15 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
 void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample,
                                double before_mrayl, double after_mrayl, double loss_db, Line& line) const {
   const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
-  const double depth_mm = sample * fan_.sample_mm;
-  double cosine = 1.0;
+  double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
   if (sample > 0) {
     if (decibels_of(std::abs(reflection)) + kInterfaceDb < kLeastEchoDb) return;
-    const glm::dvec3 normal = normal_at(start + depth_mm * direction, before_mrayl, after_mrayl);
-    cosine = std::clamp(std::abs(glm::dot(normal, direction)), 0.0, 1.0);
+    const Plane plane = plane_at(start + depth_mm * direction, before_mrayl, after_mrayl);
+    const double along = glm::dot(plane.normal, direction);
+    cosine = std::clamp(std::abs(along), 0.0, 1.0);
+    // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
+    if (plane.has_place && cosine > 0.3)
+      depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
   const double tilt_rad = std::acos(cosine);
   const double law = shaders::us_needle_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
