@@ -104,11 +104,12 @@ TEST(Goal12, TheNeedleFadesWithItsTilt) {
 
 TEST(Goal13, TheSliceIsAsThickAsTheBeam) {
   double worst = 0.0;
-  for (const UltrasoundView& view : {curved_view(), straight_view()})
+  for (UltrasoundView view : {curved_view(), straight_view()})
     for (const double share : {0.15, 0.4, 0.8}) {
+      view.beams = 16;
       const double depth_mm = share * view.depth_mm;
       const auto level = [&](double out_mm) {
-        return decibels(peak_of(polar_of(water(), view, needle_at(30.0, depth_mm, 0.0, out_mm)), view, 64).level);
+        return decibels(peak_of(polar_of(water(), view, needle_at(30.0, depth_mm, 0.0, out_mm)), view, 8).level);
       };
       const double in_plane = level(0.0);
       const double fwhm_mm = elevation_fwhm_mm(view.probe, view.probe.frequency_mhz, depth_mm);
