@@ -12,9 +12,9 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kReach = 2.5;      // σ, where the Gaussians end: 0.04 % of their energy is beyond
-constexpr int kBands = 20;          // of depth, with one lattice and one thickness each
-constexpr double kMostTurns = 0.4;  // of the carrier in a fine sample
+constexpr double kReach = 2.5;       // σ, where the Gaussians end: 0.04 % of their energy is beyond
+constexpr int kBands = 20;           // of depth, with one lattice and one thickness each
+constexpr double kMostTurns = 0.25;  // of the carrier in a fine sample
 constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
 
@@ -145,10 +145,10 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
   }
 }
 
-double ScattererField::spacing_mm(double depth_mm) const noexcept {
+ScattererField::Lattice ScattererField::lattice_at(double depth_mm) const noexcept {
   for (const Band& band : bands_)
-    if (depth_mm < band.to_mm) return band.spacing_mm;
-  return bands_.back().spacing_mm;
+    if (depth_mm < band.to_mm) return {band.spacing_mm, band.key};
+  return {bands_.back().spacing_mm, bands_.back().key};
 }
 
 void ScattererField::add_beams(int first, int end, std::vector<std::int32_t>& out) const {

@@ -28,8 +28,12 @@ class ScattererField {
   // 100 dB below liver; 80 dB above it there is still room.
   static constexpr float kUnit = 524288.0F;
 
-  // Side of the lattice's cubes at a depth.
-  double spacing_mm(double depth_mm) const noexcept;
+  // The lattice at a depth: side of its cubes, and the key of their bits.
+  struct Lattice {
+    double spacing_mm;
+    std::uint32_t key;
+  };
+  Lattice lattice_at(double depth_mm) const noexcept;
 
  private:
   struct Band {

@@ -70,13 +70,12 @@ double fwhm_from(double lag_mm, double r) {
 
 TEST(Goal7, SpeckleIsAsWideAsTheBeam) {
   for (UltrasoundView view : {lossless(curved_view()), lossless(straight_view())}) {
-    view.beams = 768;
-    view.samples = 2048;
+    view.beams = 512;
     const Fan fan = fan_of(view);
     for (const double share : {0.2, 0.5, 0.85}) {
       const double depth_mm = share * view.depth_mm;
       const BeamWidth width = beam_width(view.probe, view.probe.frequency_mhz, 0, depth_mm);
-      const int middle = sample_at(view, depth_mm), half = 120;
+      const int middle = sample_at(view, depth_mm), half = 60;
       // Lags of about one σ.
       const int down = std::max(1, static_cast<int>(std::lround(width.axial_sigma_mm / fan.sample_mm)));
       const int across =
@@ -148,11 +147,12 @@ TEST(Goal8, SpeckleStaysWithTheTissueWhenTheProbeIsPressedIn) {
   int windows = 0;
   for (int middle = 80; middle < view.samples - 80; middle += 40) {
     const double r = correlation(window(still, middle, 0, 4), window(moved, middle, 0)),
-                 spacing_mm = field.spacing_mm((middle - 70) * view.depth_mm / view.samples);
+                 spacing_mm = field.lattice_at((middle - 70) * view.depth_mm / view.samples).spacing_mm;
     // Where one lattice takes over from another, a strip as thick as the movement is new.
     bool one_lattice = true;
     for (int k = middle - 70; k <= middle + 70; ++k)
-      one_lattice = one_lattice && field.spacing_mm((k + 0.5) * view.depth_mm / view.samples) == spacing_mm;
+      one_lattice =
+          one_lattice && field.lattice_at((k + 0.5) * view.depth_mm / view.samples).spacing_mm == spacing_mm;
     windows += one_lattice;
     EXPECT_GE(r, one_lattice ? 0.98 : 0.85) << middle;
   }
@@ -163,7 +163,7 @@ TEST(Goal8, OutOfThePlaneItChangesAsTheBeamIsThick) {
   double worst = 0.0;
   for (UltrasoundView view : {lossless(curved_view()), lossless(straight_view())}) {
     std::vector<PolarPicture> still;
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       view.seed = seed;
       still.push_back(polar_of(liver(), view));
     }
@@ -171,7 +171,7 @@ TEST(Goal8, OutOfThePlaneItChangesAsTheBeamIsThick) {
       for (const double sigmas : {0.25, 0.5, 1.0, 2.0}) {
         const double sigma_mm = beam_width(view.probe, view.probe.frequency_mhz, 0, depth_mm).elevation_sigma_mm;
         double r = 0.0;
-        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
           view.seed = seed;
           view.origin_lps_mm = {0, 0, sigmas * sigma_mm};
           const PolarPicture moved = polar_of(liver(), view);
@@ -179,7 +179,7 @@ TEST(Goal8, OutOfThePlaneItChangesAsTheBeamIsThick) {
                               b = window(moved, sample_at(view, depth_mm), 0);
           for (double& v : a) v *= v;
           for (double& v : b) v *= v;
-          r += correlation(a, b) / 3.0;
+          r += correlation(a, b) / 2.0;
         }
         const double off = std::abs(r - std::exp(-0.5 * sigmas * sigmas));
         worst = std::max(worst, off);
