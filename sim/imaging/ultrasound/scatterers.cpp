@@ -12,9 +12,11 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kReach = 2.5;       // σ, where the Gaussians end: 0.04 % of their energy is beyond
-constexpr int kBands = 20;           // of depth, with one lattice and one thickness each
-constexpr double kMostTurns = 0.25;  // of the carrier in a fine sample
+constexpr double kReach = 2.5;  // σ, where the Gaussians end: 0.04 % of their energy is beyond
+constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
+// Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
+// samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
+constexpr double kMostTurns = 0.25;
 constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
 

@@ -69,6 +69,46 @@ TEST(Display, SlidersActAtTheirDepthAndGainEverywhere) {
   EXPECT_NEAR(added(400.0), 1.0, 1e-9);
 }
 
+TEST(Display, ReceiverNoiseIsRayleighAndStaysWithItsFrame) {
+  UltrasoundView view = curved_view();
+  view.beams = 512;
+  const auto noisy = [&](std::uint64_t frame, float level) {
+    PolarPicture picture = flat(view, level);
+    add_receiver_noise(1, frame, picture);
+    return picture;
+  };
+  const PolarPicture one = noisy(1, 0.0F);
+  EXPECT_EQ(one.envelope, noisy(1, 0.0F).envelope);
+  EXPECT_NE(one.envelope, noisy(2, 0.0F).envelope);
+  EXPECT_NEAR(level_db(one, 0, 512, 0, view.samples), kReceiverNoiseDb, 0.05);
+  double sum = 0.0, square = 0.0;
+  for (const float v : one.envelope) sum += v, square += double{v} * v;
+  const double n = static_cast<double>(one.envelope.size()), mean = sum / n;
+  EXPECT_NEAR(mean / std::sqrt(square / n - mean * mean), 1.913, 0.02);
+  // Powers add; what is loud does not notice.
+  EXPECT_NEAR(level_db(noisy(1, 1e-3F), 0, 512, 0, view.samples), -60.0 + 3.01, 0.05);
+  EXPECT_NEAR(level_db(noisy(1, 1.0F), 0, 512, 0, view.samples), 0.0, 0.001);
+}
+
+TEST(Display, NoiseEndsPenetration) {
+  const Scene liver = all_of(TissueClass::liver);
+  for (const auto& [frequency_mhz, reaches_mm] :
+       std::vector<std::pair<double, double>>{{3.57, 168.0}, {7.6, 79.0}}) {
+    UltrasoundView view = curved_view(200.0);
+    view.frequency_mhz = frequency_mhz;
+    PolarPicture picture = polar_of(liver, view);
+    const PolarPicture clean = picture;
+    add_receiver_noise(1, 1, picture);
+    // Where liver and noise are equal their sum is 3 dB above either.
+    double equal_mm = 0.0;
+    for (int k = 0; k + 20 < view.samples && equal_mm == 0.0; k += 10)
+      if (level_db(clean, 0, 128, k, k + 20) < kReceiverNoiseDb) equal_mm = (k + 10) * view.depth_mm / view.samples;
+    EXPECT_NEAR(equal_mm, reaches_mm, 4.0);
+    const int last = view.samples - 40;
+    EXPECT_LT(level_db(picture, 0, 128, last, view.samples), kReceiverNoiseDb + 1.0);
+  }
+}
+
 TEST(Display, NanShows) {
   const UltrasoundView view = straight_view();
   const ScanConverter converter(view, {100, 100});
