@@ -22,10 +22,10 @@ SHARED real us_axial_fwhm_mm(real frequency_mhz, real bandwidth) {
   return real(0.5) * kUsSpeedMmPerUs * real(0.8825) / (bandwidth * frequency_mhz);
 }
 
-// Two-way −6 dB width of a focused rectangular aperture, 0.89·λ·F (Szabo, Diagnostic Ultrasound Imaging, ch. 6, a
-// sinc's square), with the F-number held at f_number until the aperture is exhausted. focus_mm > 0: the transmitted
-// beam keeps one focus and widens away from it by its geometry, the received one is always in focus; the product of
-// two Gaussians, which at the focus is the same.
+// Two-way −6 dB width of a focused rectangular aperture, 0.89·λ·F: sinc² falls to a half at 0.443. The F-number is
+// held at f_number until the aperture is exhausted. focus_mm > 0: the transmitted beam keeps one focus and widens
+// away from it by its geometry, the received one is always in focus; the product of two Gaussians, which at the
+// focus is the same.
 SHARED real us_lateral_fwhm_mm(real depth_mm, real wavelength_mm, real f_number, real aperture_mm, real focus_mm) {
   real f = max(f_number, depth_mm / aperture_mm);
   real both = real(0.89) * wavelength_mm * f;
