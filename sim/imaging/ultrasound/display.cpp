@@ -1,0 +1,109 @@
+// From the envelope to the screen: what the console adds for depth, scan conversion, grey.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/check.h"
+#include "sim/base/exact_math.h"
+#include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/xray/float_math.h"
+#include "sim/imaging/xray/noise.h"
+
+namespace seldinger::imaging {
+
+double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs, double depth_mm) noexcept {
+  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double at = std::clamp(7.0 * depth_mm / view.depth_mm, 0.0, 7.0);
+  const auto low = static_cast<std::size_t>(at);
+  return knobs.gain_db +
+         shaders::us_between(knobs.tgc_db[low], knobs.tgc_db[std::min<std::size_t>(low + 1, 7)], at) +
+         shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz) * depth_mm;
+}
+
+void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
+  constexpr std::size_t kTurns = 256;
+  static const auto kTurn = [] {
+    std::array<std::array<float, 2>, kTurns> turn;
+    for (std::size_t i = 0; i < kTurns; ++i) {
+      const double angle = 6.283185307179586 * static_cast<double>(i) / kTurns;
+      turn[i] = {static_cast<float>(base::exact_cos(angle)), static_cast<float>(base::exact_sin(angle))};
+    }
+    return turn;
+  }();
+  const NoiseKey key = noise_key(seed, frame);
+  const float mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
+  for (std::size_t i = 0; i < picture.envelope.size(); ++i) {
+    const std::uint32_t bits = noise_bits(key, static_cast<std::uint32_t>(i));
+    // Rayleigh length of 24 bits, one of 256 directions.
+    const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
+    const float length = std::sqrt(-mean_square * float_log(u));
+    const float re = picture.envelope[i] + length * kTurn[bits & 255U][0], im = length * kTurn[bits & 255U][1];
+    picture.envelope[i] = std::sqrt(re * re + im * im);
+  }
+}
+
+ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
+    : size_(size), beams_(view.beams), samples_(view.samples) {
+  CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
+  const Fan fan = fan_of(view);
+  // From the outer edge of the first beam to that of the last.
+  const double half = 0.5 * view.beams * fan.beam_step;
+  const double half_width_mm =
+      fan.curved ? (fan.radius_mm + view.depth_mm) * std::sin(std::min(half, 1.5707963)) : half;
+  top_mm_ = fan.curved ? -fan.radius_mm * (1.0 - std::cos(half)) : 0.0;
+  pixel_mm_ = std::max(2.0 * half_width_mm / size.width_px, (view.depth_mm - top_mm_) / size.height_px);
+  sources_.resize(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
+  std::size_t pixel = 0;
+  for (int r = 0; r < size.height_px; ++r)
+    for (int c = 0; c < size.width_px; ++c, ++pixel) {
+      const double x_mm = (c - 0.5 * (size.width_px - 1)) * pixel_mm_, z_mm = top_mm_ + (r + 0.5) * pixel_mm_;
+      const BeamAndDepth at = beam_and_depth(view, x_mm, z_mm);
+      if (at.beam < -0.5 || at.beam > view.beams - 0.5 || at.depth_mm < 0.0 || at.depth_mm > view.depth_mm)
+        continue;
+      const double beam = std::clamp(at.beam, 0.0, view.beams - 1.0),
+                   sample = std::clamp(at.depth_mm / fan.sample_mm - 0.5, 0.0, view.samples - 1.0);
+      const int b = std::min(static_cast<int>(beam), view.beams - 2),
+                k = std::min(static_cast<int>(sample), view.samples - 2);
+      const auto share = [](double fraction) {
+        return static_cast<std::uint16_t>(std::min(65535.0, std::floor(fraction * 65536.0)));
+      };
+      sources_[pixel] = {b * view.samples + k, share(beam - b), share(sample - k)};
+    }
+}
+
+void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
+                         std::vector<unsigned char>& grey) const {
+  CHECK(polar.beams == beams_ && polar.samples == samples_ && knobs.dynamic_range_db > 0.0);
+  std::vector<float> gain(static_cast<std::size_t>(samples_) + 1);
+  for (int k = 0; k < samples_; ++k)
+    gain[static_cast<std::size_t>(k)] =
+        static_cast<float>(display_gain_db(view, knobs, (k + 0.5) * view.depth_mm / samples_));
+  gain.back() = gain[static_cast<std::size_t>(samples_) - 1];
+  grey.assign(sources_.size(), 0);
+  const float per_db = static_cast<float>(255.0 / knobs.dynamic_range_db);
+  const float black = static_cast<float>(kWhiteDb - knobs.dynamic_range_db);
+  const float* envelope = polar.envelope.data();
+  for (int r = 0; r < size_.height_px; ++r) {
+    const Source* source = sources_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
+    unsigned char* row = grey.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
+    for (int c = 0; c < size_.width_px; ++c) {
+      if (source[c].at < 0) continue;
+      const float* near = envelope + source[c].at;
+      const float* far = near + samples_;
+      const float across = static_cast<float>(source[c].beam_65536) * (1.0F / 65536.0F),
+                  down = static_cast<float>(source[c].sample_65536) * (1.0F / 65536.0F);
+      const float above = near[0] + across * (far[0] - near[0]), below = near[1] + across * (far[1] - near[1]);
+      const float level = above + down * (below - above);
+      const int k = source[c].at % samples_;
+      const float db = 8.6858896F * float_log(std::max(level, 1e-10F)) + gain[static_cast<std::size_t>(k)] +
+                       down * (gain[static_cast<std::size_t>(k) + 1] - gain[static_cast<std::size_t>(k)]);
+      const float value = (db - black) * per_db;
+      // NaN fails both comparisons and shows.
+      row[c] = value <= 0.0F ? 0 : (value < 255.0F ? static_cast<unsigned char>(value + 0.5F) : 255);
+      if (level != level) row[c] = 255;
+    }
+  }
+}
+
+}  // namespace seldinger::imaging

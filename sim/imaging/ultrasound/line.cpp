@@ -1,0 +1,272 @@
+#include "sim/imaging/ultrasound/line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/vectors.h"
+
+namespace seldinger::imaging {
+namespace {
+
+using volume::TissueClass;
+constexpr double kMatchedMrayl = 1.65;  // gel and lens
+constexpr double kDeadDb = 400.0;       // nothing comes back; keeps sums finite
+
+double amplitude(double db) {
+  return std::pow(10.0, db / 20.0);
+}
+
+double decibels_of(double amplitude) {
+  return 20.0 * std::log10(std::max(amplitude, 1e-12));
+}
+
+bool is_gas(TissueClass tissue) {
+  return tissue == TissueClass::air || tissue == TissueClass::gas;
+}
+
+bool is_usable(const NeedlePose& needle) {
+  return base::is_finite(needle.tip_lps_mm) && base::is_finite(needle.direction) &&
+         std::isfinite(needle.length_mm) && needle.length_mm > 0.0 && needle.radius_mm > 0.0;
+}
+
+// Five voxels, within reason: fewer and the steps of voxels show in the normal.
+constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
+constexpr double kPlaceVoxels = 2.5, kSliceShare = 0.87;
+// Interfaces whose echo is this far below liver's speckle are not worth their normal.
+constexpr double kLeastEchoDb = -10.0;
+
+}  // namespace
+
+struct LineWalker::NeedleCrossing {
+  double depth_mm = -1.0;  // of the shaft's near side; < 0: none
+  double weight = 0.0;     // how much of the beam meets it
+  double tilt_rad = 0.0;   // of the beam off the needle's normal
+  double covered = 0.0;    // share of the beam it stands before
+  double tip_depth_mm = -1.0, tip_weight = 0.0;
+};
+
+LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
+                       const Inserted& inserted)
+    : view_(view),
+      fan_(fan_of(view)),
+      tissue_at_(tissue_at),
+      around_(neighbours(volume, kNormalVoxels)),
+      close_(neighbours(volume, kPlaceVoxels)),
+      voxel_from_lps_(volume::voxel_from_lps(volume)),
+      lps_from_voxel_(volume.lps_from_voxel),
+      most_shift_mm_(std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z)),
+      table_(acoustic_table(view.attenuation_db_cm_mhz)),
+      needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
+      frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+  for (std::size_t i = 0; i < table_.size(); ++i)
+    loss_db_mm_[i] =
+        shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
+}
+
+// Voxels around an interface, the inner ones first; whatever lies between the voxels is the same for all of them.
+std::vector<LineWalker::Neighbour> LineWalker::neighbours(const volume::Volume& volume, double radius_voxels) {
+  const glm::dmat3 step(volume.lps_from_voxel);
+  const glm::dvec3 spacing = volume.spacing_mm;
+  const double radius_mm = std::clamp(radius_voxels * std::cbrt(spacing.x * spacing.y * spacing.z),
+                                      kLeastNormalMm * radius_voxels / kNormalVoxels, kMostNormalMm);
+  const glm::ivec3 reach = glm::max(glm::ivec3(radius_mm / spacing), glm::ivec3(1));
+  std::vector<Neighbour> all;
+  for (int k = -reach.z; k <= reach.z; ++k)
+    for (int j = -reach.y; j <= reach.y; ++j)
+      for (int i = -reach.x; i <= reach.x; ++i) {
+        const glm::dvec3 part = glm::dvec3(i, j, k) * spacing / glm::max(glm::dvec3(radius_mm), spacing);
+        const double weight = 1.0 - glm::dot(part, part) / 1.44;
+        if (glm::dot(part, part) <= 1.0) all.push_back({step * glm::dvec3(i, j, k), weight});
+      }
+  return all;
+}
+
+// The plane between the tissue before and after: its normal from the side that each neighbour is more like, its
+// place from how many there are of each.
+LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const {
+  const double middle_mrayl = std::sqrt(before_mrayl * after_mrayl);
+  std::array<double, volume::kTissueClasses> side;
+  for (std::size_t i = 0; i < side.size(); ++i)
+    side[i] = (table_[i].impedance_mrayl > middle_mrayl) == (after_mrayl > before_mrayl) ? 1.0 : -1.0;
+  const auto side_at = [&](const Neighbour& n) {
+    return n.weight * side[static_cast<std::size_t>(tissue_at_(p_lps_mm + n.offset_mm))];
+  };
+  Plane plane;
+  for (const Neighbour& n : around_) plane.normal += side_at(n) * n.offset_mm;
+  const double length = glm::length(plane.normal);
+  if (!(length > 0.0)) return plane;
+  plane.normal /= length;
+  double after = 0.0, all = 0.0, square = 0.0;
+  for (const Neighbour& n : close_) {
+    const double along = glm::dot(n.offset_mm, plane.normal);
+    after += side_at(n);
+    all += n.weight;
+    square += n.weight * along * along;
+  }
+  // A plane d off the middle of a ball leaves 2·d·(weight of a slice) more on one side. The slice through the
+  // middle of a ball of weights 1 − r²/1.44R² has 0.87 of what a Gaussian's of the same weight and spread would
+  // have.
+  const glm::dvec3 index = glm::dvec3(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
+  const glm::dvec3 center = glm::dvec3(lps_from_voxel_ * glm::dvec4(glm::floor(index + 0.5), 1.0));
+  const double slice = kSliceShare * all / std::sqrt(6.283185307 * square / all);
+  plane.has_place = square > 1e-9;
+  if (plane.has_place) plane.off_mm = glm::dot(center - p_lps_mm, plane.normal) - after / (2.0 * slice);
+  return plane;
+}
+
+void LineWalker::walk(int beam, bool contact, Line& line) const {
+  const auto count = static_cast<std::size_t>(view_.samples);
+  line.tissue.resize(count);
+  line.loss_db.assign(count, static_cast<float>(kDeadDb));
+  line.echoes.clear();
+  line.contact = contact;
+  if (!contact) {
+    std::fill(line.tissue.begin(), line.tissue.end(), TissueClass::air);
+    for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
+      line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
+    return;
+  }
+  const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
+  const double dz = fan_.sample_mm;
+  for (std::size_t k = 0; k < count; ++k)
+    line.tissue[k] = tissue_at_(start + ((static_cast<double>(k) + 0.5) * dz) * direction);
+  // Gel, unless there is gas beyond what a blurred skin can be.
+  std::size_t first = 0;
+  while (first < count && is_gas(line.tissue[first])) ++first;
+  if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
+
+  const NeedleCrossing needle = needle_ != nullptr ? crossing(beam, start, direction) : NeedleCrossing{};
+  const double shadow_db =
+      needle.covered > 0.0 ? -20.0 * std::log10(1.0 - needle.covered * (1.0 - amplitude(-kNeedleShadowDb))) : 0.0;
+  double sum_db = 0.0, before_mrayl = kMatchedMrayl;
+  bool needle_above = false;
+  for (std::size_t k = first; k < count; ++k) {
+    const auto tissue = static_cast<std::size_t>(line.tissue[k]);
+    const double mrayl = table_[tissue].impedance_mrayl;
+    // The skin of gel and lens is matched: only what reflects much shows at the face.
+    if (k == first && mrayl > 0.5 && mrayl < 3.0) before_mrayl = mrayl;
+    if (mrayl != before_mrayl && sum_db < kDeadDb) {
+      add_interface(start, direction, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
+      sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
+      before_mrayl = mrayl;
+    }
+    if (!needle_above && needle.depth_mm >= 0.0 && (static_cast<double>(k) + 0.5) * dz >= needle.depth_mm) {
+      needle_above = true;
+      sum_db += shadow_db;
+    }
+    const double step_db = loss_db_mm_[tissue] * dz;
+    line.loss_db[k] = static_cast<float>(std::min(kDeadDb, sum_db + 0.5 * step_db));
+    sum_db = std::min(kDeadDb, sum_db + step_db);
+  }
+  for (std::size_t k = 0; k < first; ++k) line.loss_db[k] = 0.0F;
+  if (needle_ != nullptr) add_needle(needle, line);
+}
+
+void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample,
+                               double before_mrayl, double after_mrayl, double loss_db, Line& line) const {
+  const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
+  double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
+  if (sample > 0) {
+    if (decibels_of(std::abs(reflection)) + kInterfaceDb < kLeastEchoDb) return;
+    const Plane plane = plane_at(start + depth_mm * direction, before_mrayl, after_mrayl);
+    const double along = glm::dot(plane.normal, direction);
+    cosine = std::clamp(std::abs(along), 0.0, 1.0);
+    // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
+    if (plane.has_place && cosine > 0.3)
+      depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
+  }
+  const double tilt_rad = std::acos(cosine);
+  const double law = shaders::us_needle_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
+  const double face = reflection * law * amplitude(kInterfaceDb - loss_db);
+  line.echoes.push_back({depth_mm, face});
+  if (std::abs(reflection) < kRepeatsFrom || depth_mm <= 0.0) {
+    // Gas at the face itself rings in the lens.
+    if (std::abs(reflection) >= kRepeatsFrom)
+      for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
+        line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
+    return;
+  }
+  for (int again = 2; again * depth_mm < view_.depth_mm && again <= 4; ++again)
+    line.echoes.push_back({again * depth_mm, face * amplitude(-(again - 1) * (kRepeatDb + loss_db))});
+}
+
+LineWalker::NeedleCrossing LineWalker::crossing(int beam, const glm::dvec3& start,
+                                                const glm::dvec3& direction) const {
+  (void)beam;
+  NeedleCrossing at;
+  const glm::dvec3 along = glm::normalize(needle_->direction);
+  const glm::dvec3 across = glm::cross(fan_.elevation, direction);  // in the plane, square to the beam
+  const glm::dvec3 tip = needle_->tip_lps_mm - start;
+  const double tip_x = glm::dot(tip, across), tip_y = glm::dot(tip, fan_.elevation),
+               tip_z = glm::dot(tip, direction);
+  const double x1 = -glm::dot(along, across), y1 = -glm::dot(along, fan_.elevation),
+               z1 = -glm::dot(along, direction);
+  const auto width_at = [&](double depth_mm) {
+    return beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::clamp(depth_mm, 0.5, view_.depth_mm));
+  };
+  // The point of the shaft that the beam sees most of; its widths change slowly with depth, twice is enough.
+  double t = 0.0;
+  for (int round = 0; round < 3; ++round) {
+    const BeamWidth width = width_at(tip_z + t * z1);
+    const double wx = 1.0 / (width.lateral_sigma_mm * width.lateral_sigma_mm),
+                 wy = 1.0 / (width.elevation_sigma_mm * width.elevation_sigma_mm);
+    const double curvature = x1 * x1 * wx + y1 * y1 * wy;
+    t = curvature > 1e-9 ? std::clamp(-(tip_x * x1 * wx + tip_y * y1 * wy) / curvature, 0.0, needle_->length_mm)
+                         : 0.0;
+  }
+  const auto weight_at = [&](double x, double y, double z) {
+    const BeamWidth width = width_at(z);
+    const double u = x / width.lateral_sigma_mm, v = y / width.elevation_sigma_mm;
+    return std::exp(-0.5 * (u * u + v * v));
+  };
+  const double z = tip_z + t * z1;
+  const double sine = std::min(1.0, std::abs(z1));
+  at.tilt_rad = std::asin(sine);
+  const double near_mm = z - needle_->radius_mm / std::max(0.25, std::sqrt(1.0 - sine * sine));
+  constexpr double kLeastWeight = 0.01;
+  const double weight = weight_at(tip_x + t * x1, tip_y + t * y1, z);
+  if (near_mm >= 0.0 && near_mm < view_.depth_mm && weight > kLeastWeight) {
+    at.depth_mm = near_mm;
+    at.weight = weight;
+    // A strip as wide as the needle, in a Gaussian beam whose width across the strip is:
+    const BeamWidth width = width_at(z);
+    const double flat = std::sqrt(x1 * x1 + y1 * y1);  // 0: along the beam, a dot
+    const double sigma = flat > 1e-6 ? std::hypot(width.elevation_sigma_mm * x1, width.lateral_sigma_mm * y1) / flat
+                                     : width.elevation_sigma_mm;
+    at.covered = std::min(0.99, weight * 2.0 * needle_->radius_mm / (2.506628 * sigma));
+  }
+  if (tip_z >= 0.0 && tip_z < view_.depth_mm) {
+    at.tip_weight = weight_at(tip_x, tip_y, tip_z);
+    if (at.tip_weight > kLeastWeight) at.tip_depth_mm = tip_z;
+  }
+  return at;
+}
+
+void LineWalker::add_needle(const NeedleCrossing& at, Line& line) const {
+  const auto loss_at = [&](double depth_mm) {
+    const auto k = static_cast<std::size_t>(std::clamp(depth_mm / fan_.sample_mm - 0.5, 0.0, view_.samples - 1.0));
+    return static_cast<double>(line.loss_db[k]);
+  };
+  if (at.depth_mm >= 0.0) {
+    // ½·atan(a/z) of an aperture of half width a.
+    const double open_mm = std::min(view_.probe.aperture_mm, std::max(1.0, at.depth_mm) / view_.probe.f_number);
+    const double cone_rad = 0.5 * std::atan(0.5 * open_mm / std::max(1.0, at.depth_mm));
+    const double mirror = shaders::us_needle_mirror(at.tilt_rad, cone_rad) * amplitude(kNeedleMirrorDb);
+    const double fade = view_.echogenic_needle ? kEchogenicFadeDbPerDeg : kPlainFadeDbPerDeg;
+    const double tilt_deg = at.tilt_rad * 57.29577951308232;
+    const double rough = at.tilt_rad < 1.55 ? amplitude(kNeedleRoughDb - fade * tilt_deg) : 0.0;
+    const double through = at.weight * amplitude(-loss_at(at.depth_mm));
+    line.echoes.push_back({at.depth_mm, std::max(mirror, rough) * through});
+    // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
+    const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
+                                                             : 2.0 * needle_->radius_mm * 1540.0 / 5790.0;
+    for (int n = 1; n <= 8 && mirror > rough; ++n)
+      line.echoes.push_back({at.depth_mm + n * spacing_mm, mirror * through * amplitude(-n * kTailDbPerLine)});
+  }
+  if (at.tip_depth_mm >= 0.0)
+    line.echoes.push_back({at.tip_depth_mm, at.tip_weight * amplitude(kNeedleTipDb - loss_at(at.tip_depth_mm))});
+}
+
+}  // namespace seldinger::imaging

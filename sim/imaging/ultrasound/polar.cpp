@@ -1,0 +1,197 @@
+// From lines and scatterers to the envelope, a block of beams at a time.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/check.h"
+#include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/scatterers.h"
+#include "sim/imaging/xray/float_math.h"
+
+namespace seldinger::imaging {
+namespace {
+
+void check_view(const UltrasoundView& view, std::span<const float> depth_below_skin_mm) {
+  CHECK(view.beams >= 1 && view.beams <= 4096 && view.samples >= 1 && view.samples <= 16384);
+  CHECK(view.depth_mm > 0.0 && view.depth_mm <= 400.0 && view.frequency_mhz >= 0.0 && view.focus_mm >= 0.0);
+  CHECK(view.scatterers_per_cell > 0.0);
+  CHECK(base::is_finite(view.origin_lps_mm) && glm::length(view.origin_lps_mm) <= 1e8);  // lattice numbers are ints
+  CHECK(std::abs(glm::length(view.axial) - 1.0) < 1e-6 && std::abs(glm::length(view.lateral) - 1.0) < 1e-6);
+  CHECK(std::abs(glm::dot(view.axial, view.lateral)) < 1e-6);
+  CHECK(depth_below_skin_mm.empty() || depth_below_skin_mm.size() == static_cast<std::size_t>(view.probe.elements));
+}
+
+// The pulse on the complex baseband, as a filter from fine samples to samples. Scatterers lie in the fine sample
+// that they fall in, which widens by a box of one: the kernel is narrower by that (variance fine²/12). ∫h² = 1.
+struct PulseTap {
+  int part, shift;  // fine sample (k + shift)·fine + part counts for sample k
+  float weight;
+};
+std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
+  const double fine_mm = sample_mm / fine;
+  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
+  CHECK(variance > 0.0);
+  const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
+  std::vector<PulseTap> taps;
+  double energy = 0.0;
+  for (int shift = -reach; shift <= reach; ++shift)
+    for (int part = 0; part < fine; ++part) {
+      const double off_mm = (shift * fine + part + 0.5 - 0.5 * fine) * fine_mm;
+      if (std::abs(off_mm) > 3.5 * sigma_mm) continue;
+      const double h = std::exp(-0.5 * off_mm * off_mm / variance);
+      energy += h * h * fine_mm;
+      taps.push_back({part, shift, static_cast<float>(h)});
+    }
+  for (PulseTap& tap : taps) tap.weight /= static_cast<float>(std::sqrt(energy));
+  return taps;
+}
+
+// One thread's room for a block of beams.
+struct Room {
+  std::vector<std::int32_t> sums;
+  Line line;
+  std::vector<float> through, re, im;
+  std::vector<float> part_re, part_im;  // fine samples, each part on its own, zeros at both ends
+};
+
+class PolarPainter {
+ public:
+  PolarPainter(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+               std::span<const float> depth_below_skin_mm, PolarPicture& picture)
+      : view_(view),
+        fan_(fan_of(view)),
+        tissue_at_(tissue, inserted),
+        walker_(view, tissue_at_, *tissue.volume, inserted),
+        field_(view, tissue_at_),
+        below_skin_mm_(depth_below_skin_mm),
+        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz),
+        wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
+        sigma_mm_(beam_width(view.probe, frequency_mhz_, view.focus_mm, 1.0).axial_sigma_mm),
+        taps_(pulse_taps(sigma_mm_, fan_.sample_mm, field_.fine())),
+        picture_(picture) {
+    for (const PulseTap& tap : taps_) taps_reach_ = std::max(taps_reach_, std::abs(tap.shift));
+  }
+
+  void paint(int first, int end, Room& room) const {
+    field_.add_beams(first, end, room.sums);
+    for (int beam = first; beam < end; ++beam) {
+      walker_.walk(beam, touches(beam), room.line);
+      const std::size_t samples = static_cast<std::size_t>(view_.samples);
+      paint_line(room.sums.data() +
+                     static_cast<std::size_t>(beam - first) * samples * static_cast<std::size_t>(field_.fine()) * 2,
+                 room, picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
+    }
+  }
+
+ private:
+  bool touches(int beam) const {
+    if (below_skin_mm_.empty()) return true;
+    const auto element = static_cast<std::size_t>((beam + 0.5) * view_.probe.elements / view_.beams);
+    return below_skin_mm_[std::min(element, below_skin_mm_.size() - 1)] >= static_cast<float>(-kContactMm);
+  }
+
+  void paint_line(const std::int32_t* sums, Room& room, float* envelope) const {
+    const auto samples = static_cast<std::size_t>(view_.samples);
+    room.re.assign(samples, 0.0F);
+    room.im.assign(samples, 0.0F);
+    if (room.line.contact) add_speckle(sums, room);
+    for (const LineEcho& echo : room.line.echoes) add_echo(echo, room.re, room.im);
+    for (std::size_t k = 0; k < samples; ++k)
+      envelope[k] = std::sqrt(room.re[k] * room.re[k] + room.im[k] * room.im[k]);
+  }
+
+  void add_speckle(const std::int32_t* sums, Room& room) const {
+    const auto samples = static_cast<std::size_t>(view_.samples), fine = static_cast<std::size_t>(field_.fine());
+    room.through.resize(samples);
+    // 10^(−dB/20), and what the sums are counted in.
+    for (std::size_t k = 0; k < samples; ++k)
+      room.through[k] = float_exp(-0.115129255F * room.line.loss_db[k]) * (1.0F / ScattererField::kUnit);
+    const std::size_t padded = samples + 2 * static_cast<std::size_t>(taps_reach_);
+    room.part_re.assign(fine * padded, 0.0F);
+    room.part_im.assign(fine * padded, 0.0F);
+    for (std::size_t part = 0; part < fine; ++part) {
+      float* re = room.part_re.data() + part * padded + taps_reach_;
+      float* im = room.part_im.data() + part * padded + taps_reach_;
+      for (std::size_t k = 0; k < samples; ++k) {
+        re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * room.through[k];
+        im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * room.through[k];
+      }
+    }
+    for (const PulseTap& tap : taps_) {
+      const std::ptrdiff_t from =
+          static_cast<std::ptrdiff_t>(static_cast<std::size_t>(tap.part) * padded) + taps_reach_ + tap.shift;
+      const float* re = room.part_re.data() + from;
+      const float* im = room.part_im.data() + from;
+      float* sum_re = room.re.data();
+      float* sum_im = room.im.data();
+      for (std::size_t k = 0; k < samples; ++k) sum_re[k] += tap.weight * re[k];
+      for (std::size_t k = 0; k < samples; ++k) sum_im[k] += tap.weight * im[k];
+    }
+  }
+
+  // The pulse itself, of the echo's amplitude at its peak, exactly where the echo is.
+  void add_echo(const LineEcho& echo, std::vector<float>& re, std::vector<float>& im) const {
+    const double turns = 2.0 * echo.depth_mm / wavelength_mm_,
+                 angle = -6.283185307179586 * (turns - std::floor(turns));
+    const double cosine = std::cos(angle), sine = std::sin(angle), reach_mm = 4.0 * sigma_mm_;
+    const int first = std::max(0, static_cast<int>(std::ceil((echo.depth_mm - reach_mm) / fan_.sample_mm - 0.5))),
+              last = std::min(view_.samples - 1,
+                              static_cast<int>(std::floor((echo.depth_mm + reach_mm) / fan_.sample_mm - 0.5)));
+    for (int k = first; k <= last; ++k) {
+      const double off = ((k + 0.5) * fan_.sample_mm - echo.depth_mm) / sigma_mm_;
+      const double level = echo.amplitude * std::exp(-0.5 * off * off);
+      re[static_cast<std::size_t>(k)] += static_cast<float>(level * cosine);
+      im[static_cast<std::size_t>(k)] += static_cast<float>(level * sine);
+    }
+  }
+
+  const UltrasoundView& view_;
+  Fan fan_;
+  TissueAt tissue_at_;
+  LineWalker walker_;
+  ScattererField field_;
+  std::span<const float> below_skin_mm_;
+  double frequency_mhz_, wavelength_mm_, sigma_mm_;
+  std::vector<PulseTap> taps_;
+  int taps_reach_ = 0;
+  PolarPicture& picture_;
+};
+
+}  // namespace
+
+void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                      std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
+  check_view(view, depth_below_skin_mm);
+  picture.beams = view.beams;
+  picture.samples = view.samples;
+  picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
+  const PolarPainter painter(tissue, view, inserted, depth_below_skin_mm, picture);
+  // The same blocks for any number of threads. Wide enough that scatterers at their sides, which two blocks see,
+  // are few; the arctangent's series wants them narrow.
+  const int block = std::clamp(view.beams / 16, 1, 32), blocks = (view.beams + block - 1) / block;
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    Room room;
+    for (int i = next.fetch_add(1); i < blocks; i = next.fetch_add(1))
+      painter.paint(i * block, std::min(view.beams, (i + 1) * block), room);
+  };
+  const int wanted = view.threads > 0 ? view.threads : static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<std::jthread> others;
+  for (int i = 1; i < std::min(wanted, blocks); ++i) others.emplace_back(work);
+  work();
+}
+
+std::vector<float> polar_db(const PolarPicture& picture) {
+  std::vector<float> db(picture.envelope.size());
+  const auto beams = static_cast<std::size_t>(picture.beams), samples = static_cast<std::size_t>(picture.samples);
+  for (std::size_t b = 0; b < beams; ++b)
+    for (std::size_t k = 0; k < samples; ++k)
+      db[k * beams + b] = 8.6858896F * float_log(std::max(picture.envelope[b * samples + k], 1e-10F));
+  return db;
+}
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,37 @@
+// Probes: what the transducer is, and how wide its beam is at a depth.
+#pragma once
+
+#include <string_view>
+
+namespace seldinger::imaging {
+
+struct Probe {
+  std::string_view name;
+  double frequency_mhz;
+  int elements;
+  double pitch_mm;
+  double radius_mm;  // of the face's curve; 0: a straight (linear) one
+  double height_mm, elevation_focus_mm;
+  double aperture_mm;  // the widest that focuses one line
+  double f_number;     // aperture grows with depth at this ratio until it is the widest
+  double bandwidth;    // of the pulse, −6 dB, fraction of its frequency
+};
+
+// Frequency, elements, pitch, radius, height and elevation focus: the Verasonics probes as PyMUST lists them
+// (getparam). Aperture, F-number 2 and a pulse of 60 % of the frequency: design (half to all of the elements).
+inline constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5, 60.0, 32.0, 2.0, 0.6};
+inline constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0, 5.0, 18.0, 19.2, 2.0, 0.6};
+
+// Null when there is no probe of that name.
+const Probe* probe_named(std::string_view name) noexcept;
+
+// Of the Gaussian amplitude exp(−x²/2σ²) of the two-way beam.
+struct BeamWidth {
+  double axial_sigma_mm, lateral_sigma_mm, elevation_sigma_mm;
+};
+// focus_mm 0: in focus at every depth. depth_mm > 0.
+BeamWidth beam_width(const Probe& probe, double frequency_mhz, double focus_mm, double depth_mm) noexcept;
+
+double elevation_fwhm_mm(const Probe& probe, double frequency_mhz, double depth_mm) noexcept;
+
+}  // namespace seldinger::imaging

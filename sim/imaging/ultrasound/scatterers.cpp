@@ -1,0 +1,310 @@
+#include "sim/imaging/ultrasound/scatterers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/exact_math.h"
+#include "sim/base/hash.h"
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr double kReach = 2.5;  // σ, where the Gaussians end: 0.04 % of their energy is beyond
+constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
+// Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
+// samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
+constexpr double kMostTurns = 0.25;
+constexpr int kTable = 1024;
+constexpr double kLeastSpacingMm = 0.1;
+
+// exp(−q), q up to the end of two Gaussians.
+constexpr float kPerQ = kTable / (0.5F * 2.0F * 6.25F);
+struct Tables {
+  std::array<float, kTable + 1> gauss;
+  std::array<std::array<float, 2>, kTable> turn;  // e^(−2πi·n/kTable)
+  Tables() {
+    for (std::size_t i = 0; i <= kTable; ++i)
+      gauss[i] = static_cast<float>(base::exact_exp(-(static_cast<double>(i) + 0.5) / kPerQ));
+    for (std::size_t i = 0; i < kTable; ++i) {
+      const double angle = 6.283185307179586 * static_cast<double>(i) / kTable;
+      turn[i] = {static_cast<float>(base::exact_cos(angle)), static_cast<float>(-base::exact_sin(angle))};
+    }
+  }
+};
+const Tables& tables() {
+  static const Tables kTables;
+  return kTables;
+}
+
+// Cubes of a lattice that may hold scatterers of a tile, a few hundred at a time.
+constexpr int kChunk = 512;
+struct Chunk {
+  int count = 0;
+  std::uint32_t seed[kChunk];             // of the lattice
+  float x[kChunk], y[kChunk], z[kChunk];  // the cube's corner, in the tile's frame
+  float depth[kChunk], beam[kChunk];      // of the scatterer; y becomes its own
+  std::uint32_t inside[kChunk];
+};
+
+struct TileFrame {
+  float radius, per_radian, beam_middle;  // straight: per_radian is per mm
+  float a[3], b[3], c[3];                 // the cube's edges
+  float from, to, half_thickness, first_beam, end_beam;
+};
+
+// Where the scatterer of each cube is: plain loops, which the compiler runs eight at a time.
+template <bool curved>
+[[gnu::always_inline]] inline void place(const TileFrame& f, Chunk& chunk) noexcept {
+  for (int n = 0; n < chunk.count; ++n) {
+    const std::uint32_t bits = shaders::us_lattice_bits(chunk.seed[n]);
+    const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 21)) + 0.5F) * (1.0F / 2048.0F);
+    const float v = (static_cast<float>(static_cast<std::int32_t>((bits >> 11) & 1023U)) + 0.5F) * (1.0F / 1024.0F);
+    const float w = (static_cast<float>(static_cast<std::int32_t>(bits & 2047U)) + 0.5F) * (1.0F / 2048.0F);
+    const float x = chunk.x[n] + u * f.a[0] + v * f.b[0] + w * f.c[0];
+    const float y = chunk.y[n] + u * f.a[1] + v * f.b[1] + w * f.c[1];
+    const float z = chunk.z[n] + u * f.a[2] + v * f.b[2] + w * f.c[2];
+    float depth = z, beam = 0.0F;
+    if constexpr (curved) {
+      const float from_center = z + f.radius;
+      depth = std::sqrt(x * x + from_center * from_center) - f.radius;
+      // A tile is a few degrees wide: arctangent by its series, 1e-7 at 12°.
+      const float t = x / from_center, t2 = t * t;
+      const float angle = t * (1.0F - t2 * (0.33333333F - t2 * (0.2F - t2 * (0.14285714F - t2 * 0.11111111F))));
+      beam = f.beam_middle + angle * f.per_radian;
+    } else {
+      beam = f.beam_middle + x * f.per_radian;
+    }
+    chunk.x[n] = x;
+    chunk.y[n] = y;
+    chunk.z[n] = z;
+    chunk.depth[n] = depth;
+    chunk.beam[n] = beam;
+    chunk.inside[n] =
+        static_cast<std::uint32_t>((depth >= f.from) & (depth < f.to) & (std::abs(y) < f.half_thickness) &
+                                   (beam > f.first_beam) & (beam < f.end_beam));
+  }
+}
+[[gnu::target_clones("avx2", "default")]] void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
+  place<true>(f, chunk);
+}
+[[gnu::target_clones("avx2", "default")]] void place_straight(const TileFrame& f, Chunk& chunk) noexcept {
+  place<false>(f, chunk);
+}
+
+}  // namespace
+
+ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissue_at)
+    : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
+  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  wavelength_mm_ = shaders::us_wavelength_mm(frequency_mhz);
+  fine_ = std::max(1, static_cast<int>(std::ceil(2.0 * fan_.sample_mm / (wavelength_mm_ * kMostTurns))));
+  const auto widths = [&](double depth_mm) {
+    return beam_width(view.probe, frequency_mhz, view.focus_mm, std::max(depth_mm, 0.01));
+  };
+  for (int i = 0; i < kBands; ++i) {
+    Band band{};
+    band.first_sample = static_cast<int>(std::int64_t{view.samples} * i / kBands);
+    band.end_sample = static_cast<int>(std::int64_t{view.samples} * (i + 1) / kBands);
+    if (band.first_sample == band.end_sample) continue;
+    band.from_mm = band.first_sample * fan_.sample_mm;
+    band.to_mm = band.end_sample * fan_.sample_mm;
+    const double middle_mm = 0.5 * (band.from_mm + band.to_mm);
+    const BeamWidth width = widths(middle_mm);
+    // The widths go down to a focus and up again: the ends have the greatest.
+    band.half_thickness_mm =
+        kReach * std::max(widths(band.from_mm).elevation_sigma_mm, widths(band.to_mm).elevation_sigma_mm);
+    // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
+    const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
+    const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
+    // A few steps an octave, not by the view's depth, so that a turned depth knob leaves most of the speckle.
+    const double level = std::floor(4.0 * std::log2(std::max(wanted_mm, kLeastSpacingMm)));
+    band.spacing_mm = std::exp2(0.25 * level);
+    band.key = static_cast<std::uint32_t>(
+        base::hash_combine(view.seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(level))));
+    bands_.push_back(band);
+  }
+  at_sample_.resize(static_cast<std::size_t>(view.samples));
+  for (const Band& band : bands_)
+    for (int k = band.first_sample; k < band.end_sample; ++k) {
+      const double depth_mm = (k + 0.5) * fan_.sample_mm, spacing_mm = fan_.beam_spacing_mm(depth_mm);
+      const BeamWidth width = widths(depth_mm);
+      const double lateral = spacing_mm / width.lateral_sigma_mm;
+      AtSample& at = at_sample_[static_cast<std::size_t>(k)];
+      at.lateral_scale = static_cast<float>(0.5 * lateral * lateral) * kPerQ;
+      at.lateral_reach = static_cast<float>(kReach / lateral);
+      at.elevation_scale = static_cast<float>(0.5 / (width.elevation_sigma_mm * width.elevation_sigma_mm)) * kPerQ;
+      // ∫exp(−x²/σ²) = √π·σ in each of the two directions.
+      at.amplitude = static_cast<float>(
+          kUnit * std::sqrt(band.spacing_mm * band.spacing_mm * band.spacing_mm /
+                            (3.141592653589793 * width.lateral_sigma_mm * width.elevation_sigma_mm)));
+    }
+  for (std::size_t i = 0; i < amplitude_.size(); ++i) {
+    const double db = acoustic_table()[i].scatter_db;
+    amplitude_[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
+  }
+}
+
+ScattererField::Lattice ScattererField::lattice_at(double depth_mm) const noexcept {
+  for (const Band& band : bands_)
+    if (depth_mm < band.to_mm) return {band.spacing_mm, band.key};
+  return {bands_.back().spacing_mm, bands_.back().key};
+}
+
+void ScattererField::add_beams(int first, int end, std::vector<std::int32_t>& out) const {
+  out.assign(static_cast<std::size_t>(end - first) * static_cast<std::size_t>(view_.samples) *
+                 static_cast<std::size_t>(fine_) * 2,
+             0);
+  for (const Band& band : bands_) add_band(band, first, end, out);
+}
+
+void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
+  // The tile's frame: x across, y elevation, z along its middle beam from the face.
+  const double middle = 0.5 * (first + end - 1);
+  const glm::dvec3 start = fan_.start_lps_mm(middle), z_axis = fan_.direction(middle), y_axis = fan_.elevation,
+                   x_axis = fan_.curved ? glm::cross(y_axis, z_axis) : fan_.lateral;
+  float reach = 0.0F;
+  for (int k = band.first_sample; k < band.end_sample; ++k)
+    reach = std::max(reach, at_sample_[static_cast<std::size_t>(k)].lateral_reach);
+  const double beams_half = 0.5 * (end - 1 - first) + static_cast<double>(reach);
+  const double wide = beams_half * fan_.beam_step;  // half, radians or mm
+  // A box around the tile.
+  glm::dvec3 low, high;
+  if (fan_.curved) {
+    const double half_mm = (fan_.radius_mm + band.to_mm) * std::sin(wide);
+    low = {-half_mm, -band.half_thickness_mm, (fan_.radius_mm + band.from_mm) * std::cos(wide) - fan_.radius_mm};
+    high = {half_mm, band.half_thickness_mm, band.to_mm};
+  } else {
+    low = {-wide, -band.half_thickness_mm, band.from_mm};
+    high = {wide, band.half_thickness_mm, band.to_mm};
+  }
+  const double s = band.spacing_mm;
+  const glm::dvec3 axes[3] = {x_axis, y_axis, z_axis};
+  // Around the centres of cubes that touch the box.
+  glm::dvec3 center_box = 0.5 * (low + high), half_box = 0.5 * (high - low);
+  glm::dvec3 half_cells{0.0};
+  for (int a = 0; a < 3; ++a) {
+    half_box[a] += 0.5 * s * (std::abs(axes[a].x) + std::abs(axes[a].y) + std::abs(axes[a].z));
+    for (int l = 0; l < 3; ++l) half_cells[l] += half_box[a] * std::abs(axes[a][l]) / s;
+  }
+  const glm::dvec3 center_lps = start + center_box.x * x_axis + center_box.y * y_axis + center_box.z * z_axis;
+  const glm::dvec3 center_cell = center_lps / s - 0.5;  // in cubes' numbers
+  // Innermost the axis most across the picture: its rows are short and few are empty.
+  int inner = 0;
+  for (int l = 1; l < 3; ++l)
+    if (std::abs(y_axis[l]) > std::abs(y_axis[inner])) inner = l;
+  const int outer = (inner + 1) % 3, middle_axis = (inner + 2) % 3;
+
+  TileFrame f{};
+  f.radius = static_cast<float>(fan_.radius_mm);
+  f.per_radian = static_cast<float>(1.0 / fan_.beam_step);
+  f.beam_middle = static_cast<float>(middle);
+  for (int a = 0; a < 3; ++a) {
+    f.a[a] = static_cast<float>(s * axes[a].x);
+    f.b[a] = static_cast<float>(s * axes[a].y);
+    f.c[a] = static_cast<float>(s * axes[a].z);
+  }
+  f.from = static_cast<float>(band.from_mm);
+  f.to = static_cast<float>(band.to_mm);
+  f.half_thickness = static_cast<float>(band.half_thickness_mm);
+  f.first_beam = static_cast<float>(first) - reach;
+  f.end_beam = static_cast<float>(end - 1) + reach;
+
+  const Tables& t = tables();
+  const float per_fine = static_cast<float>(fine_ / fan_.sample_mm);
+  const float turns = static_cast<float>(2.0 / wavelength_mm_ * kTable);
+  const auto samples = static_cast<std::size_t>(view_.samples) * static_cast<std::size_t>(fine_);  // fine
+  Chunk chunk;
+  std::array<int, kChunk> chosen;
+  const auto flush = [&] {
+    if (fan_.curved)
+      place_curved(f, chunk);
+    else
+      place_straight(f, chunk);
+    int kept = 0;
+    for (int n = 0; n < chunk.count; ++n) {
+      chosen[static_cast<std::size_t>(kept)] = n;
+      kept += static_cast<int>(chunk.inside[n]);
+    }
+    for (int m = 0; m < kept; ++m) {
+      const int n = chosen[static_cast<std::size_t>(m)];
+      const int fine = std::clamp(static_cast<int>(chunk.depth[n] * per_fine), band.first_sample * fine_,
+                                  band.end_sample * fine_ - 1);
+      const int k = fine / fine_;
+      const AtSample& at = at_sample_[static_cast<std::size_t>(k)];
+      const float q_y = chunk.y[n] * chunk.y[n] * at.elevation_scale;
+      if (q_y >= 0.5F * kTable) continue;
+      const float beam = chunk.beam[n];
+      const int from = std::max(first, static_cast<int>(std::ceil(beam - at.lateral_reach)));
+      const int to = std::min(end - 1, static_cast<int>(std::floor(beam + at.lateral_reach)));
+      if (from > to) continue;
+      const glm::dvec3 p = start + static_cast<double>(chunk.x[n]) * x_axis +
+                           static_cast<double>(chunk.y[n]) * y_axis + static_cast<double>(chunk.z[n]) * z_axis;
+      const float tissue = amplitude_[static_cast<std::size_t>(tissue_at_(p))];
+      if (tissue == 0.0F) continue;
+      const float amplitude = tissue * at.amplitude;
+      const auto& turn = t.turn[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kTable];
+      const float re = amplitude * turn[0], im = amplitude * turn[1];
+      std::int32_t* sum =
+          out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(fine)) * 2;
+      float off = static_cast<float>(from) - beam;
+      for (int b = from; b <= to; ++b, off += 1.0F, sum += 2 * samples) {
+        const float w = t.gauss[static_cast<std::size_t>(off * off * at.lateral_scale + q_y)];
+        sum[0] += static_cast<std::int32_t>(std::lrintf(re * w));
+        sum[1] += static_cast<std::int32_t>(std::lrintf(im * w));
+      }
+    }
+    chunk.count = 0;
+  };
+
+  const auto cells = [&](int axis) {
+    return std::pair<int, int>{static_cast<int>(std::ceil(center_cell[axis] - half_cells[axis])),
+                               static_cast<int>(std::floor(center_cell[axis] + half_cells[axis]))};
+  };
+  constexpr std::uint32_t kSteps[3] = {shaders::kUsStepI, shaders::kUsStepJ, shaders::kUsStepK};
+  const std::uint32_t seed_step = kSteps[inner];
+  const auto [outer_first, outer_last] = cells(outer);
+  const auto [middle_first, middle_last] = cells(middle_axis);
+  for (int i = outer_first; i <= outer_last; ++i)
+    for (int j = middle_first; j <= middle_last; ++j) {
+      // Rows are cut by the box: |axis·(cell − centre)| ≤ half, on each of its three axes.
+      double k_low = -1e9, k_high = 1e9;
+      for (int a = 0; a < 3; ++a) {
+        const double fixed =
+            axes[a][outer] * (i - center_cell[outer]) + axes[a][middle_axis] * (j - center_cell[middle_axis]);
+        const double slope = axes[a][inner], half = half_box[a] / s;
+        if (std::abs(slope) < 1e-9) {
+          if (std::abs(fixed) > half) k_high = -1e10;
+          continue;
+        }
+        const double one = (-half - fixed) / slope, other = (half - fixed) / slope;
+        k_low = std::max(k_low, std::min(one, other));
+        k_high = std::min(k_high, std::max(one, other));
+      }
+      if (!(k_low + center_cell[inner] <= k_high + center_cell[inner])) continue;
+      const int k_first = static_cast<int>(std::ceil(k_low + center_cell[inner])),
+                k_last = static_cast<int>(std::floor(k_high + center_cell[inner]));
+      if (k_first > k_last) continue;
+      glm::ivec3 cell;
+      cell[outer] = i, cell[middle_axis] = j, cell[inner] = k_first;
+      std::uint32_t seed = shaders::us_lattice_seed(band.key, cell.x, cell.y, cell.z);
+      glm::dvec3 corner;
+      corner[outer] = i * s, corner[middle_axis] = j * s, corner[inner] = k_first * s;
+      corner -= start;
+      glm::dvec3 at{glm::dot(corner, x_axis), glm::dot(corner, y_axis), glm::dot(corner, z_axis)};
+      const glm::dvec3 step{s * x_axis[inner], s * y_axis[inner], s * z_axis[inner]};
+      for (int k = k_first; k <= k_last; ++k, at += step, seed += seed_step) {
+        const int n = chunk.count++;
+        chunk.seed[n] = seed;
+        chunk.x[n] = static_cast<float>(at.x);
+        chunk.y[n] = static_cast<float>(at.y);
+        chunk.z[n] = static_cast<float>(at.z);
+        if (chunk.count == kChunk) flush();
+      }
+    }
+  if (chunk.count > 0) flush();
+}
+
+}  // namespace seldinger::imaging

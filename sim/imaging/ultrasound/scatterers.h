@@ -1,0 +1,62 @@
+// Speckle by convolution of scatterers (COLE: Gao et al., IEEE TUFFC 56 (2009) 404): equal amplitudes on a jittered
+// lattice that hangs on tissue coordinates, each laid into the beams that see it, before the pulse.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/imaging/ultrasound/fan.h"
+
+namespace seldinger::imaging {
+
+// What holds for a whole picture: per depth sample the beam's widths, per depth band the lattice.
+class ScattererField {
+ public:
+  ScattererField(const UltrasoundView& view, const TissueAt& tissue_at);
+
+  // Fine samples to a sample: so many that the lattice's own mean, which turns by 2·fine/λ a fine sample, is well
+  // below the Nyquist frequency and the pulse takes it away.
+  int fine() const noexcept { return fine_; }
+
+  // The sum, complex, in units of 1/kUnit, of beams [first, end): fine sample n of a beam is
+  // out[((beam − first)·samples·fine + n)·2]. Before loss and pulse; the phase is e^(−2πi·2·depth/λ). Whole
+  // numbers, so that the order of adding says nothing.
+  void add_beams(int first, int end, std::vector<std::int32_t>& out) const;
+
+  // With the pulse of unit energy, liver's mean square is 1. The least part of a sum that rounding can hide is
+  // 100 dB below liver; 80 dB above it there is still room.
+  static constexpr float kUnit = 524288.0F;
+
+  // The lattice at a depth: side of its cubes, and the key of their bits.
+  struct Lattice {
+    double spacing_mm;
+    std::uint32_t key;
+  };
+  Lattice lattice_at(double depth_mm) const noexcept;
+
+ private:
+  struct Band {
+    double from_mm, to_mm, half_thickness_mm, spacing_mm;
+    std::uint32_t key;
+    int first_sample, end_sample;
+  };
+  struct AtSample {
+    float lateral_scale;    // of (beams off)²: Σ index of the Gaussian's table
+    float lateral_reach;    // beams
+    float elevation_scale;  // of y²
+    float amplitude;        // unit energy · lattice
+  };
+  void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
+
+  const UltrasoundView& view_;
+  const TissueAt& tissue_at_;
+  Fan fan_;
+  double wavelength_mm_;
+  int fine_;
+  std::vector<Band> bands_;
+  std::vector<AtSample> at_sample_;
+  std::array<float, volume::kTissueClasses> amplitude_;
+};
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,206 @@
+// Gas, bone, metal, a face off the skin, the edge of the CT (ultrasound.md §4c).
+#include "ultrasound_scene.h"
+
+namespace seldinger::imaging {
+namespace {
+
+void expect_finite(const PolarPicture& picture) {
+  for (const float v : picture.envelope) ASSERT_TRUE(std::isfinite(v) && v >= 0.0F);
+}
+
+// From 10 mm down a line is dark but for what comes again.
+void expect_dark_below(const PolarPicture& picture, const UltrasoundView& view, double depth_mm, double below_db) {
+  for (int b = 0; b < view.beams; ++b)
+    for (int k = sample_at(view, depth_mm); k < view.samples; ++k)
+      ASSERT_LT(decibels(std::max(at(picture, b, k), 1e-10F)), below_db) << "beam " << b << ", sample " << k;
+}
+
+TEST(HardCase, GasAtTheSkinIsDarkWithRingsAndNoNan) {
+  const Scene s = scene([](const glm::dvec3& p) { return p.y < 60.0 ? TissueClass::gas : TissueClass::liver; });
+  for (const UltrasoundView& view : {curved_view(), straight_view()}) {
+    const PolarPicture picture = polar_of(s, view);
+    expect_finite(picture);
+    // Rings at the lens, half each time.
+    for (int k = 1; k <= 5; ++k)
+      EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kLensMm))), kLensDb - (k - 1) * kLensDbPerLine, 1.5);
+    expect_dark_below(picture, view, 35.0, -60.0);
+  }
+}
+
+TEST(HardCase, BoneAtTheSkinIsBrightAndDarkBehind) {
+  const Scene s = scene([](const glm::dvec3&) { return TissueClass::bone; });
+  const UltrasoundView view = curved_view();
+  const PolarPicture picture = polar_of(s, view);
+  expect_finite(picture);
+  EXPECT_GT(at(picture, 64, 0), 10.0F);
+  expect_dark_below(picture, view, 20.0, -60.0);
+}
+
+TEST(HardCase, AProbeInAirShowsItsLensAndNothingStale) {
+  const UltrasoundView view = curved_view();
+  const Scene liver = all_of(TissueClass::liver);
+  PolarPicture picture = polar_of(liver, view);  // whatever it held before
+  const std::vector<float> far(128, -30.0F);
+  ultrasound_polar(liver.tissue(), view, {}, far, picture);
+  expect_finite(picture);
+  for (int b = 0; b < view.beams; ++b)
+    for (int k = 0; k < view.samples; ++k) EXPECT_EQ(at(picture, b, k), at(picture, 0, k));
+  for (int k = 1; k <= 5; ++k)
+    EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kLensMm))), kLensDb - (k - 1) * kLensDbPerLine, 1.5);
+  expect_dark_below(picture, view, 35.0, -100.0);
+}
+
+TEST(HardCase, HalfOfTheFaceTouches) {
+  UltrasoundView view = straight_view();
+  const Scene liver = all_of(TissueClass::liver);
+  std::vector<float> below(128, 0.5F);
+  for (std::size_t i = 64; i < 128; ++i) below[i] = -1.01F;
+  const PolarPicture whole = polar_of(liver, view), half = polar_of(liver, view, {}, below);
+  for (int k = 0; k < view.samples; ++k) {
+    EXPECT_EQ(at(half, 63, k), at(whole, 63, k));
+    if (k > sample_at(view, 35.0)) {
+      EXPECT_LT(at(half, 64, k), 1e-4F);
+    }
+  }
+  std::fill(below.begin() + 64, below.end(), -1.0F);  // −1 mm still touches (contracts.md)
+  EXPECT_EQ(polar_of(liver, view, {}, below).envelope, whole.envelope);
+  // Other numbers of beams ask the element they stand on.
+  view.beams = 64;
+  std::fill(below.begin() + 64, below.end(), -5.0F);
+  const PolarPicture fewer = polar_of(liver, view, {}, below);
+  EXPECT_GT(at(fewer, 31, 500), 1e-3F);
+  EXPECT_LT(at(fewer, 32, 800), 1e-4F);
+}
+
+TEST(HardCase, ABlurredSkinIsCoupledByGel) {
+  const Scene s = scene([](const glm::dvec3& p) { return p.y < 2.0 ? TissueClass::air : TissueClass::liver; },
+                        {100, 120, 30}, 1.0);
+  UltrasoundView view = straight_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  const PolarPicture picture = polar_of(s, view);
+  EXPECT_NEAR(level_db(picture, 0, 128, 200, 800), 0.0, 0.7);
+  EXPECT_LT(at(picture, 64, 5), 1e-3F);  // gel is clear
+}
+
+TEST(HardCase, OutsideTheCtIsAir) {
+  const Scene s = scene([](const glm::dvec3&) { return TissueClass::liver; }, {20, 40, 20}, 2.0);  // ±20 mm, to 50
+  UltrasoundView view = curved_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  const PolarPicture picture = polar_of(s, view);
+  expect_finite(picture);
+  EXPECT_NEAR(level_db(picture, 60, 68, sample_at(view, 10.0), sample_at(view, 45.0)), 0.0, 1.0);
+  EXPECT_LT(level_db(picture, 60, 68, sample_at(view, 53.0), sample_at(view, 90.0)), -60.0);
+  // Wholly outside.
+  view.origin_lps_mm = {500.0, 0.0, 0.0};
+  const PolarPicture outside = polar_of(s, view);
+  expect_finite(outside);
+  expect_dark_below(outside, view, 35.0, -60.0);
+}
+
+TEST(HardCase, GasInTheDepthComesAgainAtTwiceItsDepth) {
+  const Scene s = scene([](const glm::dvec3& p) { return p.y < 30.0 ? TissueClass::fluid : TissueClass::gas; });
+  const UltrasoundView view = straight_view(100.0);
+  const PolarPicture picture = polar_of(s, view);
+  const auto level = [&](double depth_mm) {
+    float most = 0.0F;
+    for (int k = sample_at(view, depth_mm - 0.5); k < sample_at(view, depth_mm + 0.5); ++k)
+      most = std::max(most, at(picture, 64, k));
+    return decibels(most);
+  };
+  const double way_db = line_of(s, view, 64).loss_db[static_cast<std::size_t>(sample_at(view, 29.9))];
+  EXPECT_NEAR(level(60.0) - level(30.0), -kRepeatDb - way_db, 1.0);
+  EXPECT_NEAR(level(90.0) - level(60.0), -kRepeatDb - way_db, 1.0);
+  EXPECT_LT(level(45.0), -60.0);
+}
+
+TEST(HardCase, AVesselFullOfContrastCastsNoShadow) {
+  // Its HU of 300 says nothing here: its class does.
+  Scene s = scene([](const glm::dvec3& p) {
+    return std::hypot(p.x, p.y - 40.0) < 10.0 ? TissueClass::vessel : TissueClass::liver;
+  });
+  std::fill(s.volume.hu.begin(), s.volume.hu.end(), std::int16_t{300});
+  UltrasoundView view = curved_view(100.0);
+  const Line through = line_of(s, view, 64), beside = line_of(s, view, 10);
+  const auto k = static_cast<std::size_t>(sample_at(view, 80.0));
+  EXPECT_LT(through.loss_db[k], beside.loss_db[k]);  // blood takes less than liver
+  const PolarPicture picture = polar_of(s, view);
+  view.seed = 1;
+  EXPECT_LT(level_db(picture, 62, 66, sample_at(view, 34), sample_at(view, 46)),
+            level_db(picture, 62, 66, sample_at(view, 15), sample_at(view, 28)) - 25.0);
+}
+
+TEST(HardCase, OneVoxelOfCalcificationShadowsItsOwnBeamsOnly) {
+  Scene s = all_of(TissueClass::liver);
+  // The voxel that holds (1, 31, 0).
+  const glm::dvec3 index = glm::dvec3(volume::voxel_from_lps(s.volume) * glm::dvec4(1.0, 31.0, 0.5, 1.0));
+  const glm::ivec3 v(glm::floor(index + 0.5));
+  s.classes[s.volume.index(v.x, v.y, v.z)] = TissueClass::bone;
+  UltrasoundView view = straight_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  view.origin_lps_mm.z = 0.5;
+  int shadowed = 0;
+  for (int b = 0; b < view.beams; ++b) shadowed += line_of(s, view, b).loss_db.back() > 6.0F;
+  EXPECT_NEAR(shadowed * 0.3, 2.0, 0.35);  // 2 mm
+}
+
+TEST(HardCase, AnisotropicVoxelsOfASlantedPatient) {
+  Scene s;
+  const double c = std::cos(0.4), n = std::sin(0.4);
+  s.volume = volume::make_volume({300, 300, 24}, {0.7, 0.7, 5.0}, glm::dmat3(c, n, 0, -n, c, 0, 0, 0, 1),
+                                 {-60.0, -120.0, -57.5});
+  s.classes.assign(s.volume.hu.size(), TissueClass::liver);
+  UltrasoundView view = straight_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  const PolarPicture picture = polar_of(s, view);
+  EXPECT_NEAR(level_db(picture, 0, 128, 100, 900), 0.0, 0.5);
+  // The same tissue on another grid has the same scatterers.
+  EXPECT_EQ(picture.envelope, polar_of(all_of(TissueClass::liver), view).envelope);
+}
+
+TEST(HardCase, FiftyMillimetresOfBoneDoNotUnderflow) {
+  const Scene s =
+      scene([](const glm::dvec3& p) { return p.y > 10.0 && p.y < 60.0 ? TissueClass::bone : TissueClass::liver; });
+  const UltrasoundView view = curved_view();
+  const Line line = line_of(s, view, 64);
+  EXPECT_NEAR(line.loss_db[static_cast<std::size_t>(sample_at(view, 59.0))], 0.2 * 8.0 * 3.57 * 49.0 + 4.8 + 3.6,
+              2.0);
+  expect_finite(polar_of(s, view));
+}
+
+TEST(HardCase, LesionsShowAsTheirTissue) {
+  UltrasoundView view = curved_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  Inserted inserted;
+  inserted.lesions.push_back({{0.0, 60.0, 0.0}, 10.0, 0.0});
+  const PolarPicture picture = polar_of(all_of(TissueClass::liver), view, inserted);
+  EXPECT_LT(level_db(picture, 63, 65, sample_at(view, 54), sample_at(view, 66)), -30.0);
+  EXPECT_NEAR(level_db(picture, 10, 30, sample_at(view, 54), sample_at(view, 66)), 0.0, 1.0);
+}
+
+TEST(HardCase, FewBeamsAndSamplesAndGreatNumbers) {
+  const Scene s = all_of(TissueClass::liver);
+  for (const auto& [beams, samples] : std::vector<std::pair<int, int>>{{1, 1}, {2, 2}, {3, 50}, {1024, 256}}) {
+    UltrasoundView view = curved_view();
+    view.beams = beams, view.samples = samples;
+    expect_finite(polar_of(s, view));
+  }
+  UltrasoundView far = straight_view();  // lattice numbers beyond 2²⁴ and negative ones
+  far.origin_lps_mm = {-9e6, 9e6, -9e6};
+  expect_finite(polar_of(s, far));
+}
+
+TEST(HardCase, LookingFromEverySideIsTheSameLiver) {
+  const Scene s = scene([](const glm::dvec3&) { return TissueClass::liver; }, {120, 120, 120}, 2.0);
+  for (int i = 0; i < 8; ++i) {
+    const double a = i * M_PI / 4.0;
+    UltrasoundView view = straight_view();
+    view.attenuation_db_cm_mhz = 0.0;
+    view.origin_lps_mm = {0.0, 90.0, 0.0};
+    view.axial = {std::cos(a), std::sin(a), 0.0};
+    view.lateral = {0.6 * -std::sin(a), 0.6 * std::cos(a), 0.8};
+    EXPECT_NEAR(level_db(polar_of(s, view), 0, 128, 50, 1000), 0.0, 0.3) << i;
+  }
+}
+
+}  // namespace
+}  // namespace seldinger::imaging
