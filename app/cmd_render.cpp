@@ -25,7 +25,9 @@ int run_render(const Arguments& arguments) {
   if (!scene->view) return refuse({"bad_scene", "scene.view is missing"});
   const auto volume = volume_of(*scene, arguments.text("--library"));
   if (!volume) return refuse(volume.error());
-  const ScenePicture picture = render_scene(*volume, *scene, backend);
+  const auto rendered = render_scene(*volume, *scene, arguments.text("--library"), backend);
+  if (!rendered) return refuse(rendered.error());
+  const ScenePicture& picture = *rendered;
   if (out.extension() == ".mha")
     write_file(out, meta_image(picture.values, picture.plane));
   else

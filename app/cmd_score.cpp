@@ -75,8 +75,10 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
     if (const auto* xray = std::get_if<XrayView>(&*scene->view)) {
       built.picture.modality = cases::Modality::xray;
       add_frames(*scene, *xray, *volume, *recording);
+    } else if (const auto* mpr = std::get_if<imaging::MprView>(&*scene->view)) {
+      add_frames(*scene, *mpr, *recording);
     } else {
-      add_frames(*scene, std::get<imaging::MprView>(*scene->view), *recording);
+      return base::Error{"unsupported_view", "this version scores poses in views of kind mpr and xray"};
     }
   }
   return measure(built, *recording);

@@ -75,7 +75,7 @@ constexpr Command kCommands[] = {
     {"case list", "", 0, 0, kLibraryJson, "Lists the cases, oldest first.", &run_case_list},
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
-    {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray).", &run_render},
+    {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
      &run_simulate},
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",

@@ -35,4 +35,19 @@ base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& li
   return casedb::load_volume(*opened, *row);
 }
 
+base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
+                                                          const std::string& library) {
+  if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume)) {
+    volume::LabelMap labels;
+    volume::rasterize(*analytic, labels);
+    return volume::tissue_classes(volume, &labels);
+  }
+  if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);
+  auto opened = casedb::Library::open(library);
+  if (!opened) return opened.error();
+  const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
+  if (!row) return row.error();
+  return casedb::load_classes(*opened, *row);
+}
+
 }  // namespace seldinger::app

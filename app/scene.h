@@ -10,9 +10,11 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/ultrasound/ultrasound.h"
 #include "sim/imaging/xray/attenuation.h"
 #include "sim/imaging/xray/projection.h"
 #include "sim/volume/analytic.h"
+#include "sim/volume/classes.h"
 
 namespace seldinger::app {
 
@@ -31,7 +33,14 @@ struct XrayView {
   XrayOutput output = XrayOutput::line_integral;
   int supersampling = 1;  // rays a pixel in each direction
 };
-using View = std::variant<imaging::MprView, XrayView>;
+enum class UltrasoundOutput { display, polar_db };
+struct UltrasoundSceneView {
+  imaging::UltrasoundView view;
+  imaging::UltrasoundKnobs knobs;
+  imaging::DisplaySize size;
+  UltrasoundOutput output = UltrasoundOutput::display;
+};
+using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 
 struct Scene {
   std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume> volume;
@@ -49,6 +58,10 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
 // Reads the file; `notes` gets a line for each object with fields that are not used, to be shown when all went
 // well. Refused as scene_from_json, `not_found`, `too_large`.
 base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
+
+// What each voxel of the scene's volume is: by the labels of a case or of analytic shapes, elsewhere by HU.
+base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
+                                                          const std::string& library);
 
 // The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);

@@ -241,6 +241,52 @@ imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std:
   return view;
 }
 
+// Methods and outputs that this version does not have are told as such, in `unsupported`.
+UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic, base::Error& error,
+                                    std::vector<std::string>& unused, bool& unsupported) {
+  Reader reader(json, "view", error);
+  UltrasoundSceneView scene;
+  imaging::UltrasoundView& view = scene.view;
+  reader.has("kind");
+  if (reader.has("probe") && reader["probe"].is_object())
+    unsupported = true;
+  else if (const auto* probe = imaging::probe_named(reader.choice("probe", {"C5-2v", "L11-5v"}, "C5-2v")))
+    view.probe = *probe;
+  view.origin_lps_mm = reader.point("origin_mm");
+  view.axial = reader.unit("axial");
+  view.lateral = perpendicular(reader, view.axial, reader.unit("lateral"));
+  view.depth_mm = reader.number("depth_mm", 5.0, 400.0, 150.0);
+  view.focus_mm = reader.number("focus_mm", 0.0, 400.0, 0.0);
+  view.beams = static_cast<int>(reader.number("beams", 1.0, 2048.0, 128.0));
+  view.samples = static_cast<int>(reader.number("samples", 8.0, 8192.0, 1024.0));
+  view.seed = static_cast<std::uint64_t>(reader.number("seed", 0.0, 9e15, 1.0));
+  if (reader.has("attenuation_db_cm_mhz"))
+    view.attenuation_db_cm_mhz = reader.number("attenuation_db_cm_mhz", 0.0, 20.0);
+  view.echogenic_needle = echogenic;
+  scene.knobs.gain_db = reader.number("gain_db", -120.0, 120.0, 0.0);
+  scene.knobs.dynamic_range_db = reader.number("dynamic_range_db", 1.0, 200.0, 60.0);
+  if (reader.has("tgc_db")) {
+    const Json& bands = reader["tgc_db"];
+    bool good = bands.is_array() && bands.size() == scene.knobs.tgc_db.size();
+    for (std::size_t i = 0; good && i < scene.knobs.tgc_db.size(); ++i) {
+      good = bands[i].is_number() && std::abs(bands[i].get<double>()) <= 120.0;
+      if (good) scene.knobs.tgc_db[i] = bands[i].get<double>();
+    }
+    if (!good) reader.bad("tgc_db", "is not eight numbers in their range");
+  }
+  if (reader.has("size_px")) {
+    const auto size = reader.wholes<2>("size_px", kMaxPixels);
+    scene.size = {size[0], size[1]};
+  }
+  unsupported =
+      unsupported || reader.choice("method", {"scatterers", "lattice", "thesis"}, "scatterers") != "scatterers";
+  const std::string output = reader.choice("output", {"display", "envelope_db", "polar_db"}, "display");
+  unsupported = unsupported || output == "envelope_db";
+  scene.output = output == "polar_db" ? UltrasoundOutput::polar_db : UltrasoundOutput::display;
+  reader.unused(unused);
+  return scene;
+}
+
 // Degenerate geometry has one judge: imaging's own.
 XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string>& unused) {
   Reader reader(json, "view", error);
@@ -313,9 +359,16 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
       scene.view = read_mpr(view, error, unused);
     else if (kind == "xray")
       scene.view = read_xray(view, error, unused);
-    else if (kind == "ultrasound")
-      return base::Error{"unsupported_view", "this version renders views of kind mpr and xray"};
-    else
+    else if (kind == "ultrasound") {
+      bool unsupported = false;
+      const bool echogenic = root.has("needle") && root["needle"].is_object() &&
+                             root["needle"].value("surface", Json()) == Json("echogenic");
+      scene.view = read_ultrasound(view, echogenic, error, unused, unsupported);
+      if (unsupported)
+        return base::Error{
+            "unsupported_view",
+            "this version has probes by name, the method scatterers, and the outputs display and polar_db"};
+    } else
       root.bad("view", "has no known kind");
   }
   root.unused(unused);

@@ -6,6 +6,7 @@
 
 #include "app/frame_truth.h"
 #include "app/xray_sight.h"
+#include "casedb/import/surface.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/xray/coarse.h"
@@ -103,15 +104,67 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
+// How deep below the skin each element of the probe lies; without a body all stand in air.
+std::vector<float> element_depths(const volume::Volume& volume, const imaging::UltrasoundView& view) {
+  const imaging::Probe& probe = view.probe;
+  std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
+  const auto skin = casedb::skin_surface(volume);
+  if (!skin) return depths;
+  const cases::MeshIndex index(*skin);
+  for (int element = 0; element < probe.elements; ++element) {
+    const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
+    depths[static_cast<std::size_t>(element)] =
+        static_cast<float>(-index.closest(imaging::point_of(view, beam, 0.0)).distance_mm);
+  }
+  return depths;
+}
+
+void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
+                       const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
+  if (!picture.backend.empty() && picture.backend != "cpu")
+    std::fputs("note: ultrasound is the CPU's in this version\n", stderr);
+  picture.backend = "cpu";
+  const imaging::UltrasoundView& view = scene.view;
+  imaging::PolarPicture polar;
+  imaging::ultrasound_polar({&volume, classes}, view, inserted, element_depths(volume, view), polar);
+  if (scene.output == UltrasoundOutput::polar_db) {
+    // A row a depth, a column a beam: no place in space, one unit a pixel.
+    picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};
+    picture.unit = "dB";
+    picture.values = imaging::polar_db(polar);
+    for (const float db : picture.values)
+      picture.grey.push_back(static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F)));
+    return;
+  }
+  const imaging::ScanConverter converter(view, scene.size);
+  imaging::add_receiver_noise(view.seed, 1, polar);
+  converter.grey(view, scene.knobs, polar, picture.grey);
+  const double middle_mm = converter.top_mm() + 0.5 * converter.height_px() * converter.pixel_mm();
+  picture.plane = {view.origin_lps_mm + view.axial * middle_mm,
+                   view.lateral,
+                   view.axial,
+                   converter.pixel_mm(),
+                   converter.width_px(),
+                   converter.height_px()};
+  picture.unit = "grey";
+  picture.values.assign(picture.grey.begin(), picture.grey.end());
+}
+
 }  // namespace
 
-ScenePicture render_scene(const volume::Volume& volume, const Scene& scene, const std::string& backend) {
+base::Result<ScenePicture> render_scene(const volume::Volume& volume, const Scene& scene,
+                                        const std::string& library, const std::string& backend) {
   ScenePicture picture;
   picture.backend = backend;
   if (const auto* mpr = std::get_if<imaging::MprView>(&*scene.view))
     render_mpr(volume, *mpr, scene.inserted, picture);
-  else
-    render_xray(volume, std::get<XrayView>(*scene.view), scene.inserted, picture);
+  else if (const auto* xray = std::get_if<XrayView>(&*scene.view))
+    render_xray(volume, *xray, scene.inserted, picture);
+  else {
+    const auto classes = classes_of(scene, volume, library);
+    if (!classes) return classes.error();
+    render_ultrasound(volume, *classes, std::get<UltrasoundSceneView>(*scene.view), scene.inserted, picture);
+  }
   return picture;
 }
 

@@ -20,8 +20,9 @@ struct ScenePicture {
   std::optional<imaging::Visible> visible;
 };
 
-// `scene.view` must be there. `backend`: gpu, cpu, reference, or empty: the faster of the machine. Throws
-// base::Failure("gl") when gpu was asked for and cannot be had.
-ScenePicture render_scene(const volume::Volume& volume, const Scene& scene, const std::string& backend);
+// `scene.view` must be there. Refused as classes_of (a case's damaged assets). `backend`: gpu, cpu, reference, or
+// empty: the faster of the machine. Throws base::Failure("gl") when gpu was asked for and cannot be had.
+base::Result<ScenePicture> render_scene(const volume::Volume& volume, const Scene& scene,
+                                        const std::string& library, const std::string& backend);
 
 }  // namespace seldinger::app
