@@ -142,7 +142,7 @@ void print_value(const assessment::MetricValue& metric) {
   if (metric.value)
     std::printf(" %12.*f", metric.unit == "count" || metric.unit == "bool" ? 0 : 2, *metric.value);
   else
-    std::printf(" %12s", "–");
+    std::printf("            –");  // one column wide, three bytes long
 }
 
 void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder) {
