@@ -257,8 +257,13 @@ UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic, base::Erro
   view.lateral = perpendicular(reader, view.axial, reader.unit("lateral"));
   view.depth_mm = reader.number("depth_mm", 5.0, 400.0, 150.0);
   view.focus_mm = reader.number("focus_mm", 0.0, 400.0, 0.0);
-  view.beams = static_cast<int>(reader.number("beams", 1.0, 2048.0, 128.0));
-  view.samples = static_cast<int>(reader.number("samples", 8.0, 8192.0, 1024.0));
+  const auto whole = [&](const char* field, double min, double max, double fallback) {
+    const double number = reader.number(field, min, max, fallback);
+    if (number != std::floor(number)) reader.bad(field, "is not a whole number");
+    return static_cast<int>(number);
+  };
+  view.beams = whole("beams", 1.0, 2048.0, 128.0);
+  view.samples = whole("samples", 8.0, 8192.0, 1024.0);
   view.seed = static_cast<std::uint64_t>(reader.number("seed", 0.0, 9e15, 1.0));
   if (reader.has("attenuation_db_cm_mhz"))
     view.attenuation_db_cm_mhz = reader.number("attenuation_db_cm_mhz", 0.0, 20.0);

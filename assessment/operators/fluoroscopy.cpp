@@ -68,8 +68,7 @@ FluoroscopyOperator::FluoroscopyOperator(const OperatorProfile& profile, const P
   expected_depth_mm_ = std::max(15.0, plan.depth_mm + rng_.normal() * profile.depth_error_mm);
   depth_view_ = !chance(profile.skip_depth_view_share);
   beam_with_motion_ = chance(profile.beam_while_moving_share);
-  for (Wander& wander : tremor_) wander = make_wander(rng_, kTremorLowHz, kTremorHighHz);
-  for (Wander& wander : sway_) wander = make_wander(rng_, kSwayLowHz, kSwayHighHz);
+  hand_ = UnsteadyHand(rng_);
   direction_ = plan.direction;
   inserted_mm_ = -kStartMm;
 }
@@ -324,14 +323,10 @@ cases::Inputs FluoroscopyOperator::act(const cases::State& state, const PictureF
   move_hand(state, dt_s);
 
   cases::Inputs inputs;
-  const auto [u, v] = base::perpendiculars(direction_);
-  const double held = inserted_mm_ > 0.0 ? kHeldByTissue : 1.0;
-  const glm::dvec3 tremor =
-      glm::dvec3(tremor_[0].at(t_s_), tremor_[1].at(t_s_), tremor_[2].at(t_s_)) * (profile_.tremor_mm * held);
-  const glm::dvec3 sway = (u * sway_[0].at(t_s_) + v * sway_[1].at(t_s_)) * (profile_.sway_mm * held);
-  inputs.needle.position_lps_mm = believed_tip() + tremor + sway;
+  inputs.needle.position_lps_mm =
+      believed_tip() + hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
   inputs.needle.axis = direction_;
-  inputs.needle.side = u;
+  inputs.needle.side = base::perpendiculars(direction_).u;
   inputs.probe = plan_.probe;  // stands aside
   inputs.fire = phase_ == Phase::fire;
 

@@ -80,7 +80,7 @@ class FluoroscopyOperator {
   bool fix_seen_ = false;
   PictureFix fix_;
   double fix_seen_s_ = 0.0;
-  Wander tremor_[3], sway_[2];
+  UnsteadyHand hand_;
 };
 
 }  // namespace seldinger::assessment

@@ -35,8 +35,7 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   const glm::dvec3 beside = error(profile.target_error_mm / 2);
   entry_ = plan.entry_lps_mm + beside - plan.direction * glm::dot(beside, plan.direction);
   scan_s_ = profile.scan_s * (0.7 + 0.6 * rng_.uniform());
-  for (Wander& wander : tremor_) wander = make_wander(rng_, kTremorLowHz, kTremorHighHz);
-  for (Wander& wander : sway_) wander = make_wander(rng_, kSwayLowHz, kSwayHighHz);
+  hand_ = UnsteadyHand(rng_);
   drift_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   tilt_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   inserted_mm_ = -kStartMm;
@@ -143,14 +142,11 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   move(state, dt_s);
 
   cases::Inputs inputs;
-  const auto [u, v] = base::perpendiculars(direction_);
-  const double held = inserted_mm_ > 0.0 ? kHeldByTissue : 1.0;
-  const glm::dvec3 tremor =
-      glm::dvec3(tremor_[0].at(t_s_), tremor_[1].at(t_s_), tremor_[2].at(t_s_)) * (profile_.tremor_mm * held);
-  const glm::dvec3 sway = (u * sway_[0].at(t_s_) + v * sway_[1].at(t_s_)) * (profile_.sway_mm * held);
-  inputs.needle.position_lps_mm = entry_ + direction_ * inserted_mm_ + tremor + sway;
+  inputs.needle.position_lps_mm =
+      entry_ + direction_ * inserted_mm_ +
+      hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
   inputs.needle.axis = direction_;
-  inputs.needle.side = u;
+  inputs.needle.side = base::perpendiculars(direction_).u;
   inputs.fire = phase_ == Phase::fire;
 
   const glm::dvec3 normal = glm::cross(plan_.probe.side, plan_.probe.axis);

@@ -48,7 +48,8 @@ class ScriptedOperator {
   bool going_blind_ = false, decided_blind_ = false;
   double alignment_ = 1.0;  // share of the probe's drift not yet corrected
   double follow_mm_ = 0.0;  // the probe's way out of the planned plane, after the tip
-  Wander tremor_[3], sway_[2], drift_, tilt_;
+  UnsteadyHand hand_;
+  Wander drift_, tilt_;
   std::deque<cases::FrameTruth> seen_;  // pictures younger than the reaction delay, and the one acted upon
 };
 

@@ -67,7 +67,8 @@ struct FluoroscopeInputs {
 };
 constexpr std::array<double, 3> kPulseRateHz = {3.0, 7.5, 15.0};
 
-// What imaging found in the last exposed frame. `frame` 0: none yet.
+// What imaging found in the last exposed frame. `frame` 0: none yet. It must reach step before the next pulse: a
+// frame that is told of after its successor is not added up.
 struct ExposureReport {
   std::uint32_t frame = 0;     // of FluoroscopyState::frames when it was exposed
   double air_kerma_mgy = 0.0;  // this frame's, free in air at the interventional reference point (IEC 60601-2-43:

@@ -6,24 +6,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "tests/fixtures/answers.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
+using fixtures::metric;
 using fixtures::run;
 
 const std::string kProgram = SELDINGER_PROGRAM;
 const std::string kData = SELDINGER_SHARED_DATA_DIR;
-
-std::optional<double> metric(const Json& attempt, const std::string& id) {
-  for (const Json& one : attempt.at("metrics"))
-    if (one.at("id") == id)
-      return one.at("value").is_null() ? std::nullopt : std::optional(one.at("value").get<double>());
-  ADD_FAILURE() << id << " is missing";
-  return std::nullopt;
-}
 
 struct XrayDemo {
   std::filesystem::path scratch = fixtures::fresh_folder("demo_xray");

@@ -13,10 +13,11 @@ struct Scalar {
   static F all(float x) { return x; }
   static I all(std::int32_t x) { return x; }
   static F add(F a, F b) { return a + b; }
-  static I add(I a, I b) { return a + b; }
+  // Integers wrap, as those of vectors do.
+  static I add(I a, I b) { return static_cast<I>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b)); }
   static F sub(F a, F b) { return a - b; }
   static F mul(F a, F b) { return a * b; }
-  static I mul(I a, I b) { return a * b; }
+  static I mul(I a, I b) { return static_cast<I>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b)); }
   static F min(F a, F b) { return a < b ? a : b; }
   static F max(F a, F b) { return a > b ? a : b; }
   static F positive(F a) { return 0.5F * (a + std::abs(a)); }  // max(a, 0) without a branch; exact here
@@ -31,7 +32,7 @@ struct Scalar {
   static bool any(M a) { return a; }
   static F select(M m, F yes, F no) { return m ? yes : no; }
   static F add_where(M m, F a, F b) { return m ? a + b : a; }
-  static I add_where(M m, I a, I b) { return m ? a + b : a; }
+  static I add_where(M m, I a, I b) { return m ? add(a, b) : a; }
   template <bool masked>
   static void gather_pair(const std::uint16_t* p, I at, M m, I shift, I shift_next, F& here, F& next) {
     here = !masked || m ? static_cast<F>(p[at + (shift >> 4)]) : 0.0F;

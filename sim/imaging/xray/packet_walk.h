@@ -178,7 +178,12 @@ void start_block(Packet<V>& packet, int block, int main_stride) {
   const auto start = static_cast<double>(block);
   for (int l = 0; l < W; ++l) packet.enter_f[l] = static_cast<float>(packet.enter[l] - start);
   for (int l = 0; l < W; ++l) packet.leave_f[l] = static_cast<float>(packet.leave[l] - start);
-  for (int l = 0; l < W; ++l) packet.offset[l] = packet.base[l] + block * main_stride;
+  // Offsets of lanes that have not entered yet may wrap; nothing is read there.
+  const auto wrapped = [](std::int32_t a, std::int32_t b, std::int32_t stride) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) +
+                                     static_cast<std::uint32_t>(b) * static_cast<std::uint32_t>(stride));
+  };
+  for (int l = 0; l < W; ++l) packet.offset[l] = wrapped(packet.base[l], block, main_stride);
   for (MinorAxis<W>& axis : packet.minor) {
     for (int l = 0; l < W; ++l) {
       const double at = axis.at_zero[l] + start * axis.slope[l];
@@ -189,7 +194,7 @@ void start_block(Packet<V>& packet, int block, int main_stride) {
       axis.crossing[l] = static_cast<float>((1.0 - part) * axis.inverse[l]);
     }
     for (int l = 0; l < W; ++l) axis.index[l] = static_cast<std::int32_t>(axis.whole[l]);
-    for (int l = 0; l < W; ++l) packet.offset[l] += axis.index[l] * axis.stride[l];
+    for (int l = 0; l < W; ++l) packet.offset[l] = wrapped(packet.offset[l], axis.index[l], axis.stride[l]);
   }
 }
 
@@ -332,7 +337,8 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
       axis.size = size;
       for (int l = 0; l < W; ++l) {
         const double slope = along[which][l] * per_main[l];
-        const double at_zero = from[which][l] - from[main][l] * slope;
+        // An idle lane stands anywhere that fits a 32-bit index.
+        const double at_zero = per_main[l] != 0.0 ? from[which][l] - from[main][l] * slope : 0.0;
         const double mirrored = slope < 0.0 ? mirroring : 0.0;
         const double steep = mirrored > 0.0 ? -slope : slope;
         const double inverse = 1.0 / (steep > 1.0 / kNever ? steep : 1.0 / kNever);

@@ -202,6 +202,21 @@ TEST(XrayHardCases, C11NoDriftOverLongRaysAndFarSources) {
   EXPECT_LE(errors.max_relative, 1e-4);
 }
 
+// Most rays of a row miss by far, in voxels beyond any 32-bit number: they must not disturb the few that hit.
+TEST(XrayHardCases, C11RaysThatMissByFarDisturbNothing) {
+  const volume::Volume volume = noisy({24, 20, 16}, {0.05, 0.05, 0.05});
+  XrayGeometry g = facing({0.6, 0.8, 0.1}, 2.0, 3);
+  g.width_px = 63;
+  g.pixel_mm = 1e7;  // the middle pixel alone looks at the volume
+  const PathLengths reference = xray_reference(volume, g, ProjectionMethod::exact);
+  EXPECT_GT(total_mm(reference, 94), 0.0);
+  for (const Instructions instructions : all_instructions())
+    EXPECT_LE(
+        errors_of(XrayCpu(volume).project(g, ProjectionMethod::exact, {Basis::total, instructions, 1}), reference)
+            .max_nepers,
+        1e-5);
+}
+
 // Rays that end within rounding of the last face, at every kind of exit.
 TEST(XrayHardCases, C12IndexAtTheExitStaysInside) {
   const volume::Volume water = centered({33, 31, 7}, {0.7, 0.7, 2.9}, 0);
