@@ -48,6 +48,11 @@ SHARED real us_loss_db_per_mm(real attenuation_db_cm_mhz, real exponent, real fr
   return real(0.2) * attenuation_db_cm_mhz * pow(frequency_mhz, exponent);
 }
 
+// How much deeper than it lies a piece of tissue shows, per mm above it.
+SHARED real us_shift_per_mm(real speed_mm_per_us) {
+  return kUsSpeedMmPerUs / speed_mm_per_us - real(1.0);
+}
+
 // Amplitude that a step of impedance sends back, of either sign.
 SHARED real us_reflection(real from_mrayl, real to_mrayl) {
   return (to_mrayl - from_mrayl) / (to_mrayl + from_mrayl);
@@ -87,9 +92,14 @@ SHARED real us_between(real low, real high, real at) {
   return low + (at - floor(at)) * (high - low);
 }
 
-// Share of the needle's echo that comes back when the beam meets it `tilt` (radians) off its normal: a mirror
-// within the aperture's cone, ½·atan(a/z), and a rough rest that falls with the projected face.
-SHARED real us_needle_mirror(real tilt_rad, real cone_rad) {
+// How far off the normal a mirror at a depth still sends sound back into the aperture, of half width a: ½·atan(a/z).
+SHARED real us_cone_rad(real depth_mm, real aperture_mm, real f_number) {
+  real z = max(depth_mm, real(1.0));
+  return real(0.5) * atan(real(0.5) * min(aperture_mm, z / f_number) / z);
+}
+
+// Share of a mirror's echo that comes back when the beam meets it `tilt` (radians) off its normal.
+SHARED real us_mirror(real tilt_rad, real cone_rad) {
   real t = tilt_rad / cone_rad;
   return exp(-t * t);
 }

@@ -5,8 +5,8 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
-#include "sim/base/exact_math.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/xray/float_math.h"
 #include "sim/imaging/xray/noise.h"
 
@@ -22,15 +22,7 @@ double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs,
 }
 
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
-  constexpr std::size_t kTurns = 256;
-  static const auto kTurn = [] {
-    std::array<std::array<float, 2>, kTurns> turn;
-    for (std::size_t i = 0; i < kTurns; ++i) {
-      const double angle = 6.283185307179586 * static_cast<double>(i) / kTurns;
-      turn[i] = {static_cast<float>(base::exact_cos(angle)), static_cast<float>(base::exact_sin(angle))};
-    }
-    return turn;
-  }();
+  const auto& turn = phases();
   const NoiseKey key = noise_key(seed, frame);
   const float mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
   for (std::size_t i = 0; i < picture.envelope.size(); ++i) {
@@ -38,7 +30,8 @@ void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& p
     // Rayleigh length of 24 bits, one of 256 directions.
     const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 8)) + 0.5F) * 0x1.0p-24F;
     const float length = std::sqrt(-mean_square * float_log(u));
-    const float re = picture.envelope[i] + length * kTurn[bits & 255U][0], im = length * kTurn[bits & 255U][1];
+    const auto& [cosine, sine] = turn[4 * (bits & 255U)];
+    const float re = picture.envelope[i] + length * cosine, im = length * sine;
     picture.envelope[i] = std::sqrt(re * re + im * im);
   }
 }

@@ -26,11 +26,6 @@ bool is_gas(TissueClass tissue) {
   return tissue == TissueClass::air || tissue == TissueClass::gas;
 }
 
-bool is_usable(const NeedlePose& needle) {
-  return base::is_finite(needle.tip_lps_mm) && base::is_finite(needle.direction) &&
-         std::isfinite(needle.length_mm) && needle.length_mm > 0.0 && needle.radius_mm > 0.0;
-}
-
 // Five voxels, within reason: fewer and the steps of voxels show in the normal.
 constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
 constexpr double kPlaceVoxels = 2.5, kSliceShare = 0.87;
@@ -60,9 +55,11 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
       frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
-  for (std::size_t i = 0; i < table_.size(); ++i)
+  for (std::size_t i = 0; i < table_.size(); ++i) {
     loss_db_mm_[i] =
         shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
+    shift_per_mm_[i] = shaders::us_shift_per_mm(1e-3 * table_[i].speed_m_s);
+  }
 }
 
 // Voxels around an interface, the inner ones first; whatever lies between the voxels is the same for all of them.
@@ -120,6 +117,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const auto count = static_cast<std::size_t>(view_.samples);
   line.tissue.resize(count);
   line.loss_db.assign(count, static_cast<float>(kDeadDb));
+  line.shift_mm.clear();
   line.echoes.clear();
   line.contact = contact;
   if (!contact) {
@@ -137,7 +135,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   while (first < count && is_gas(line.tissue[first])) ++first;
   if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
 
-  const NeedleCrossing needle = needle_ != nullptr ? crossing(beam, start, direction) : NeedleCrossing{};
+  const NeedleCrossing needle = needle_ != nullptr ? crossing(start, direction) : NeedleCrossing{};
   const double shadow_db =
       needle.covered > 0.0 ? -20.0 * std::log10(1.0 - needle.covered * (1.0 - amplitude(-kNeedleShadowDb))) : 0.0;
   double sum_db = 0.0, before_mrayl = kMatchedMrayl;
@@ -162,6 +160,29 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   }
   for (std::size_t k = 0; k < first; ++k) line.loss_db[k] = 0.0F;
   if (needle_ != nullptr) add_needle(needle, line);
+  if (view_.range_error) shift(first, line);
+}
+
+// Sound that was slower than the scanner assumes comes later, and shows deeper (ultrasound.md §3: 10 mm of fat,
+// half a mm).
+void LineWalker::shift(std::size_t first, Line& line) const {
+  double sum_mm = 0.0, most_mm = 0.0;
+  line.shift_mm.resize(line.tissue.size());
+  for (std::size_t k = 0; k < line.tissue.size(); ++k) {
+    const double step_mm =
+        k < first ? 0.0 : shift_per_mm_[static_cast<std::size_t>(line.tissue[k])] * fan_.sample_mm;
+    line.shift_mm[k] = static_cast<float>(sum_mm + 0.5 * step_mm);
+    sum_mm += step_mm;
+    most_mm = std::max(most_mm, std::abs(sum_mm));
+  }
+  if (most_mm == 0.0) {
+    line.shift_mm.clear();
+    return;
+  }
+  for (LineEcho& echo : line.echoes) {
+    const double at = std::clamp(echo.depth_mm / fan_.sample_mm - 0.5, 0.0, view_.samples - 1.0);
+    echo.depth_mm += static_cast<double>(line.shift_mm[static_cast<std::size_t>(at)]);
+  }
 }
 
 void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample,
@@ -178,7 +199,7 @@ void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direct
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
   const double tilt_rad = std::acos(cosine);
-  const double law = shaders::us_needle_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
+  const double law = shaders::us_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
   const double face = reflection * law * amplitude(kInterfaceDb - loss_db);
   line.echoes.push_back({depth_mm, face});
   if (std::abs(reflection) < kRepeatsFrom || depth_mm <= 0.0) {
@@ -192,9 +213,7 @@ void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direct
     line.echoes.push_back({again * depth_mm, face * amplitude(-(again - 1) * (kRepeatDb + loss_db))});
 }
 
-LineWalker::NeedleCrossing LineWalker::crossing(int beam, const glm::dvec3& start,
-                                                const glm::dvec3& direction) const {
-  (void)beam;
+LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const glm::dvec3& direction) const {
   NeedleCrossing at;
   const glm::dvec3 along = glm::normalize(needle_->direction);
   const glm::dvec3 across = glm::cross(fan_.elevation, direction);  // in the plane, square to the beam
@@ -250,23 +269,18 @@ void LineWalker::add_needle(const NeedleCrossing& at, Line& line) const {
     return static_cast<double>(line.loss_db[k]);
   };
   if (at.depth_mm >= 0.0) {
-    // ½·atan(a/z) of an aperture of half width a.
-    const double open_mm = std::min(view_.probe.aperture_mm, std::max(1.0, at.depth_mm) / view_.probe.f_number);
-    const double cone_rad = 0.5 * std::atan(0.5 * open_mm / std::max(1.0, at.depth_mm));
-    const double mirror = shaders::us_needle_mirror(at.tilt_rad, cone_rad) * amplitude(kNeedleMirrorDb);
-    const double fade = view_.echogenic_needle ? kEchogenicFadeDbPerDeg : kPlainFadeDbPerDeg;
-    const double tilt_deg = at.tilt_rad * 57.29577951308232;
-    const double rough = at.tilt_rad < 1.55 ? amplitude(kNeedleRoughDb - fade * tilt_deg) : 0.0;
+    const NeedleEcho echo = needle_echo(view_, needle_->radius_mm, at.depth_mm, at.tilt_rad);
     const double through = at.weight * amplitude(-loss_at(at.depth_mm));
-    line.echoes.push_back({at.depth_mm, std::max(mirror, rough) * through});
+    line.echoes.push_back({at.depth_mm, echo.shaft() * through});
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
                                                              : 2.0 * needle_->radius_mm * 1540.0 / 5790.0;
-    for (int n = 1; n <= 8 && mirror > rough; ++n)
-      line.echoes.push_back({at.depth_mm + n * spacing_mm, mirror * through * amplitude(-n * kTailDbPerLine)});
+    for (int n = 1; n <= 8 && echo.mirror > echo.rough; ++n)
+      line.echoes.push_back({at.depth_mm + n * spacing_mm, echo.mirror * through * amplitude(-n * kTailDbPerLine)});
   }
   if (at.tip_depth_mm >= 0.0)
-    line.echoes.push_back({at.tip_depth_mm, at.tip_weight * amplitude(kNeedleTipDb - loss_at(at.tip_depth_mm))});
+    line.echoes.push_back({at.tip_depth_mm, needle_echo(view_, needle_->radius_mm, at.tip_depth_mm, 0.0).tip *
+                                                at.tip_weight * amplitude(-loss_at(at.tip_depth_mm))});
 }
 
 }  // namespace seldinger::imaging

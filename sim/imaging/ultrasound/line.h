@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/needle_echo.h"
 
 namespace seldinger::imaging {
 
@@ -15,14 +16,8 @@ constexpr double kInterfaceDb = 40.0;
 constexpr double kInterfaceConeRad = 0.2618;  // 15°: how far off the normal such an interface still shines (design)
 constexpr double kInterfaceRoughDb = -26.0;   // of its part that goes everywhere, as the cosine (design)
 
-// The same for a needle. Its rough part fades linearly in dB with the tilt: on a picture of 60 dB that is grey
-// falling linearly (Schafhalter-Zoppoth 2004) to 0.08 of white at 75° for a plain and 0.55 for an echogenic needle
-// (Nichols 2003: echogenicity 5.0 and 40 of 60 to 76).
-constexpr double kNeedleMirrorDb = 36.0;
-constexpr double kNeedleRoughDb = 25.0;
-constexpr double kPlainFadeDbPerDeg = 60.0 * 0.92 / 75.0, kEchogenicFadeDbPerDeg = 60.0 * 0.45 / 75.0;
-constexpr double kNeedleTipDb = 22.0;  // the bevel's, at any angle (design)
-// Two-way, right behind it. A half space of steel would take 17.6; walls of 0.2 mm leak (design).
+// Of a needle (needle_echo.h), two-way, right behind it. A half space of steel would take 17.6; walls of 0.2 mm
+// leak (design).
 constexpr double kNeedleShadowDb = 10.0;
 constexpr double kTailDbPerLine = 5.0;  // of a comet tail (design, 4 to 6)
 
@@ -37,13 +32,14 @@ constexpr double kLensMm = 1.5, kLensDb = 40.0, kLensDbPerLine = 6.0;
 constexpr double kGelMm = 3.0;
 
 struct LineEcho {
-  double depth_mm;
+  double depth_mm;   // as it shows
   double amplitude;  // of the envelope's peak, loss included
 };
 
 struct Line {
   std::vector<volume::TissueClass> tissue;  // at each sample
   std::vector<float> loss_db;               // two-way, down to each sample
+  std::vector<float> shift_mm;              // how much deeper than it lies each sample shows; empty: nowhere
   std::vector<LineEcho> echoes;
   bool contact = true;
 };
@@ -69,8 +65,9 @@ class LineWalker {
   void add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample, double before_mrayl,
                      double after_mrayl, double loss_db, Line& line) const;
   struct NeedleCrossing;
-  NeedleCrossing crossing(int beam, const glm::dvec3& start, const glm::dvec3& direction) const;
+  NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;
   void add_needle(const NeedleCrossing& at, Line& line) const;
+  void shift(std::size_t first, Line& line) const;
 
   const UltrasoundView& view_;
   Fan fan_;
@@ -79,7 +76,7 @@ class LineWalker {
   glm::dmat4 voxel_from_lps_, lps_from_voxel_;
   double most_shift_mm_;
   AcousticTable table_;
-  std::array<double, volume::kTissueClasses> loss_db_mm_;
+  std::array<double, volume::kTissueClasses> loss_db_mm_, shift_per_mm_;
   const NeedlePose* needle_;
   double frequency_mhz_;
 };

@@ -9,6 +9,7 @@
 #include "sim/base/check.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/ultrasound/scatterers.h"
 #include "sim/imaging/xray/float_math.h"
 
@@ -113,14 +114,17 @@ class PolarPainter {
     const std::size_t padded = samples + 2 * static_cast<std::size_t>(taps_reach_);
     room.part_re.assign(fine * padded, 0.0F);
     room.part_im.assign(fine * padded, 0.0F);
-    for (std::size_t part = 0; part < fine; ++part) {
-      float* re = room.part_re.data() + part * padded + taps_reach_;
-      float* im = room.part_im.data() + part * padded + taps_reach_;
-      for (std::size_t k = 0; k < samples; ++k) {
-        re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * room.through[k];
-        im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * room.through[k];
+    if (room.line.shift_mm.empty())
+      for (std::size_t part = 0; part < fine; ++part) {
+        float* re = room.part_re.data() + part * padded + taps_reach_;
+        float* im = room.part_im.data() + part * padded + taps_reach_;
+        for (std::size_t k = 0; k < samples; ++k) {
+          re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * room.through[k];
+          im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * room.through[k];
+        }
       }
-    }
+    else
+      lay_shifted(sums, padded, room);
     for (const PulseTap& tap : taps_) {
       const std::ptrdiff_t from =
           static_cast<std::ptrdiff_t>(static_cast<std::size_t>(tap.part) * padded) + taps_reach_ + tap.shift;
@@ -130,6 +134,31 @@ class PolarPainter {
       float* sum_im = room.im.data();
       for (std::size_t k = 0; k < samples; ++k) sum_re[k] += tap.weight * re[k];
       for (std::size_t k = 0; k < samples; ++k) sum_im[k] += tap.weight * im[k];
+    }
+  }
+
+  // Each fine sample where it shows, its phase with it.
+  void lay_shifted(const std::int32_t* sums, std::size_t padded, Room& room) const {
+    const auto fine = static_cast<std::size_t>(field_.fine());
+    const auto count = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view_.samples) * fine);
+    const float fine_per_mm = static_cast<float>(static_cast<double>(fine) / fan_.sample_mm);
+    const float turns_per_mm = static_cast<float>(2.0 / wavelength_mm_);
+    const auto& turn = phases();
+    std::size_t from = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(view_.samples); ++k) {
+      const float shift_mm = room.line.shift_mm[k], turns = shift_mm * turns_per_mm;
+      const auto& phase = turn[static_cast<std::size_t>((turns - std::floor(turns)) * kPhases) % kPhases];
+      const float cosine = phase[0] * room.through[k], sine = phase[1] * room.through[k];
+      const auto shift = static_cast<std::ptrdiff_t>(std::floor(shift_mm * fine_per_mm + 0.5F));
+      for (std::size_t part = 0; part < fine; ++part, ++from) {
+        const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(from) + shift;
+        if (to < 0 || to >= count) continue;
+        const auto at = static_cast<std::size_t>(to);
+        const std::size_t place = (at % fine) * padded + static_cast<std::size_t>(taps_reach_) + at / fine;
+        const float re = static_cast<float>(sums[2 * from]), im = static_cast<float>(sums[2 * from + 1]);
+        room.part_re[place] += re * cosine - im * sine;
+        room.part_im[place] += re * sine + im * cosine;
+      }
     }
   }
 

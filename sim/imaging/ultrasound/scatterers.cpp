@@ -8,6 +8,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
+#include "sim/imaging/ultrasound/phase.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -24,14 +25,9 @@ constexpr double kLeastSpacingMm = 0.1;
 constexpr float kPerQ = kTable / (0.5F * 2.0F * 6.25F);
 struct Tables {
   std::array<float, kTable + 1> gauss;
-  std::array<std::array<float, 2>, kTable> turn;  // e^(−2πi·n/kTable)
   Tables() {
     for (std::size_t i = 0; i <= kTable; ++i)
       gauss[i] = static_cast<float>(base::exact_exp(-(static_cast<double>(i) + 0.5) / kPerQ));
-    for (std::size_t i = 0; i < kTable; ++i) {
-      const double angle = 6.283185307179586 * static_cast<double>(i) / kTable;
-      turn[i] = {static_cast<float>(base::exact_cos(angle)), static_cast<float>(-base::exact_sin(angle))};
-    }
   }
 };
 const Tables& tables() {
@@ -214,7 +210,8 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
 
   const Tables& t = tables();
   const float per_fine = static_cast<float>(fine_ / fan_.sample_mm);
-  const float turns = static_cast<float>(2.0 / wavelength_mm_ * kTable);
+  const auto& phase = phases();
+  const float turns = static_cast<float>(2.0 / wavelength_mm_ * kPhases);
   const auto samples = static_cast<std::size_t>(view_.samples) * static_cast<std::size_t>(fine_);  // fine
   Chunk chunk;
   std::array<int, kChunk> chosen;
@@ -245,7 +242,7 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       const float tissue = amplitude_[static_cast<std::size_t>(tissue_at_(p))];
       if (tissue == 0.0F) continue;
       const float amplitude = tissue * at.amplitude;
-      const auto& turn = t.turn[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kTable];
+      const auto& turn = phase[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kPhases];
       const float re = amplitude * turn[0], im = amplitude * turn[1];
       std::int32_t* sum =
           out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(fine)) * 2;

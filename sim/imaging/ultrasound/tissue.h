@@ -13,6 +13,7 @@ struct Acoustics {
   double attenuation_db_cm_mhz;  // one way; dB/cm = this · (f/MHz)^exponent
   double exponent;
   double scatter_db;  // mean-square echo of its speckle above the liver's; kNoScatterDb: none
+  double speed_m_s;   // of sound; a scanner takes all for kUsSpeedMmPerUs and shows it too deep or too shallow
   bool soft;          // a view's attenuation override replaces its coefficient
 };
 constexpr double kNoScatterDb = -200.0;

@@ -4,8 +4,8 @@
 //
 // Order: tissue along the beam → two-way loss (a prefix sum in dB) → scatterers on a lattice in tissue coordinates
 // under a beam whose width depends on depth → echoes of interfaces and needle → pulse on the complex baseband →
-// envelope; then noise, gain, logarithm against a fixed reference, scan conversion, grey. Not modelled yet:
-// refraction, range error by speed of sound, compounding, persistence.
+// envelope; then noise, gain, logarithm against a fixed reference, scan conversion, grey. Not modelled: refraction,
+// compounding, persistence.
 #pragma once
 
 #include <array>
@@ -22,7 +22,13 @@
 
 namespace seldinger::imaging {
 
+// How speckle comes about. scatterers: convolved with the beam, the picture that is practised with. lattice:
+// complex noise, fast, its resolution is the lattice's. thesis: what Vidal 2008 §4.6 did, to be compared with:
+// windowed HU times noise, shadows by thresholds, edges by Sobel; no attenuation, no needle's angle.
+enum class UltrasoundMethod { scatterers, lattice, thesis };
+
 struct UltrasoundView {
+  UltrasoundMethod method = UltrasoundMethod::scatterers;
   Probe probe = kC52v;
   glm::dvec3 origin_lps_mm{0.0};                  // centre of the transducer's face
   glm::dvec3 axial{0.0, 1.0, 0.0};                // unit, into the body
@@ -35,7 +41,8 @@ struct UltrasoundView {
   double scatterers_per_cell = 8.0;               // in the volume of one PSF: quality against time
   std::optional<double> attenuation_db_cm_mhz{};  // of every soft class
   bool echogenic_needle = false;
-  int threads = 0;  // 0: as many as cores
+  bool range_error = false;  // tissue shows deeper or shallower than it lies, by the speed of sound above it
+  int threads = 0;           // 0: as many as cores
 };
 
 // The tissue a picture is taken of. Both outlive the picture-taker.

@@ -1,0 +1,36 @@
+#include "sim/imaging/ultrasound/needle_echo.h"
+
+#include <cmath>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/vectors.h"
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr double kAlongRad = 1.55;  // a beam along the shaft meets its tip alone
+constexpr double kDegPerRad = 57.29577951308232;
+
+double amplitude(double db) {
+  return std::pow(10.0, db / 20.0);
+}
+
+}  // namespace
+
+NeedleEcho needle_echo(const UltrasoundView& view, double radius_mm, double depth_mm, double tilt_rad) noexcept {
+  const double size = std::sqrt(radius_mm / kNeedleLevelRadiusMm);
+  const double cone_rad = shaders::us_cone_rad(depth_mm, view.probe.aperture_mm, view.probe.f_number);
+  const double fade = view.echogenic_needle ? kEchogenicFadeDbPerDeg : kPlainFadeDbPerDeg;
+  NeedleEcho echo;
+  echo.mirror = size * amplitude(kNeedleMirrorDb) * shaders::us_mirror(tilt_rad, cone_rad);
+  echo.rough = tilt_rad < kAlongRad ? size * amplitude(kNeedleRoughDb - fade * tilt_rad * kDegPerRad) : 0.0;
+  echo.tip = size * amplitude(kNeedleTipDb);
+  return echo;
+}
+
+bool is_usable(const NeedlePose& needle) noexcept {
+  return base::is_finite(needle.tip_lps_mm) && base::is_finite(needle.direction) &&
+         std::isfinite(needle.length_mm) && needle.length_mm > 0.0 && needle.radius_mm > 0.0;
+}
+
+}  // namespace seldinger::imaging

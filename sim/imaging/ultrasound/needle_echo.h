@@ -1,0 +1,33 @@
+// What a needle sends back to the probe: the law behind the picture and behind what is told of it.
+#pragma once
+
+#include "sim/imaging/ultrasound/ultrasound.h"
+
+namespace seldinger::imaging {
+
+// Levels above liver's speckle. The rough part fades linearly in dB with the tilt: on a picture of 60 dB that is
+// grey falling linearly (Schafhalter-Zoppoth 2004) to 0.08 of white at 75° for a plain and 0.55 for an echogenic
+// needle (Nichols 2003: echogenicity 5.0 and 40 of 60 to 76).
+constexpr double kNeedleMirrorDb = 36.0;
+constexpr double kNeedleRoughDb = 25.0;
+constexpr double kPlainFadeDbPerDeg = 60.0 * 0.92 / 75.0, kEchogenicFadeDbPerDeg = 60.0 * 0.45 / 75.0;
+constexpr double kNeedleTipDb = 22.0;  // the bevel's, at any angle (design)
+// The levels are a 22-gauge needle's; a long hard cylinder's echo grows as the root of its radius (Morse and
+// Ingard, Theoretical Acoustics, 8.1), so thinner needles show less (Schafhalter-Zoppoth 2004).
+constexpr double kNeedleLevelRadiusMm = 0.36;
+
+// Amplitudes where the needle is: without loss on the way, and as if in the middle of the beam.
+struct NeedleEcho {
+  double mirror;  // of the straight shaft; with it come the lines from inside
+  double rough;
+  double tip;
+  double shaft() const noexcept { return mirror > rough ? mirror : rough; }
+};
+
+// tilt_rad: of the beam off the needle's normal, [0, π/2].
+NeedleEcho needle_echo(const UltrasoundView& view, double radius_mm, double depth_mm, double tilt_rad) noexcept;
+
+// Finite, with a length and a radius: one that can be shown.
+bool is_usable(const NeedlePose& needle) noexcept;
+
+}  // namespace seldinger::imaging
