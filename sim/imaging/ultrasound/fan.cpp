@@ -1,5 +1,6 @@
 #include "sim/imaging/ultrasound/fan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -37,6 +38,14 @@ Fan fan_of(const UltrasoundView& view) noexcept {
   fan.lateral = view.lateral;
   fan.elevation = glm::cross(view.axial, view.lateral);
   return fan;
+}
+
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept {
+  if (depth_below_skin_mm.empty()) return true;
+  const double last = static_cast<double>(depth_below_skin_mm.size() - 1);
+  const auto element =
+      static_cast<std::size_t>(std::clamp((beam + 0.5) * view.probe.elements / view.beams, 0.0, last));
+  return depth_below_skin_mm[element] >= static_cast<float>(-kContactMm);
 }
 
 TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {

@@ -23,6 +23,10 @@ struct Fan {
 };
 Fan fan_of(const UltrasoundView& view) noexcept;
 
+// Whether the element in the middle of a beam's aperture is in contact; `beam` is continuous. An empty list: all
+// are.
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;
+
 // Tissue at points; outside the volume there is air.
 class TissueAt {
  public:

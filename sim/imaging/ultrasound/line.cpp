@@ -11,8 +11,6 @@ namespace seldinger::imaging {
 namespace {
 
 using volume::TissueClass;
-constexpr double kMatchedMrayl = 1.65;  // gel and lens
-constexpr double kDeadDb = 400.0;       // nothing comes back; keeps sums finite
 
 double amplitude(double db) {
   return std::pow(10.0, db / 20.0);
@@ -20,10 +18,6 @@ double amplitude(double db) {
 
 double decibels_of(double amplitude) {
   return 20.0 * std::log10(std::max(amplitude, 1e-12));
-}
-
-bool is_gas(TissueClass tissue) {
-  return tissue == TissueClass::air || tissue == TissueClass::gas;
 }
 
 // Five voxels, within reason: fewer and the steps of voxels show in the normal.
