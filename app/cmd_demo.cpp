@@ -164,7 +164,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
   std::printf("  unit\n");
   for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
     const assessment::MetricValue& first = answer.attempts.front().metrics[i];
-    if (first.reason == "not_xray") continue;  // of all three
+    if (!assessment::applies(first)) continue;
     std::printf("%-*s", width, first.id.c_str());
     for (const SimulatedAttempt& attempt : answer.attempts)
       for (const assessment::MetricValue& metric : attempt.metrics)

@@ -36,16 +36,11 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n");
 }
 
-// What a fluoroscope spends says nothing where there was none: pages leave it out.
-bool applies(const casedb::MetricValue& metric) {
-  return metric.value.has_value() || metric.reason != "not_xray";
-}
-
 void add_definitions(Html& html, const casedb::AttemptRow& row) {
   Html items;
   for (const casedb::MetricValue& metric : row.metrics) {
     const std::string definition = metric_definition(metric.id);
-    if (definition.empty() || !applies(metric)) continue;
+    if (definition.empty() || !assessment::applies(metric)) continue;
     items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
   }
   if (items.empty()) return;
@@ -59,7 +54,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
   for (const std::string& group : metric_groups()) {
     Html rows;
     for (const casedb::MetricValue& metric : row.metrics) {
-      if (metric_group(metric.id) != group || !applies(metric)) continue;
+      if (metric_group(metric.id) != group || !assessment::applies(metric)) continue;
       rows.raw("<tr><th scope=\"row\">")
           .text(metric_label(metric.id))
           .raw(" <span class=\"id\">")
