@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/frame_truth.h"
+#include "app/ultrasound_sight.h"
 #include "app/xray_sight.h"
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
@@ -104,29 +105,18 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
-// How deep below the skin each element of the probe lies; without a body all stand in air.
-std::vector<float> element_depths(const volume::Volume& volume, const imaging::UltrasoundView& view) {
-  const imaging::Probe& probe = view.probe;
-  std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
-  const auto skin = casedb::skin_surface(volume);
-  if (!skin) return depths;
-  const cases::MeshIndex index(*skin);
-  for (int element = 0; element < probe.elements; ++element) {
-    const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
-    depths[static_cast<std::size_t>(element)] =
-        static_cast<float>(-index.closest(imaging::point_of(view, beam, 0.0)).distance_mm);
-  }
-  return depths;
-}
-
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
   if (!picture.backend.empty() && picture.backend != "cpu")
     std::fputs("note: ultrasound is the CPU's in this version\n", stderr);
   picture.backend = "cpu";
   const imaging::UltrasoundView& view = scene.view;
+  const auto skin = casedb::skin_surface(volume);  // without a body all elements stand in air
+  const std::vector<float> below_skin_mm =
+      element_depths(skin ? cases::MeshIndex(*skin) : cases::MeshIndex(), view);
   imaging::PolarPicture polar;
-  imaging::ultrasound_polar({&volume, classes}, view, inserted, element_depths(volume, view), polar);
+  imaging::ultrasound_polar({&volume, classes}, view, inserted, below_skin_mm, polar);
+  picture.visible = imaging::ultrasound_visible({&volume, classes}, view, inserted, below_skin_mm).visible;
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};

@@ -86,11 +86,13 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
     const casedb::MetricValue* hit = find_metric(row.metrics, "hit");
     const std::string outcome = hit == nullptr ? "" : value_text(*hit);
     const bool xray = row.picture.modality == cases::Modality::xray;
+    const bool ultrasound = row.picture.modality == cases::Modality::ultrasound;
     html.raw("<figure><img src=\"/attempts/")
         .text(row.attempt_id)
         .raw("/picture.png\" alt=\"")
-        .text(xray ? "The fluoroscope's last image before the trigger fell, with the needle in it"
-                   : "Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .text(xray         ? "The fluoroscope's last image before the trigger fell, with the needle in it"
+              : ultrasound ? "Ultrasound picture under the probe when the trigger fell"
+                           : "Grey CT plane under the probe when the trigger fell, with the needle in it")
         .text(outcome == "Yes"  ? "; the target was hit"
               : outcome == "No" ? "; the target was missed"
                                 : "")
@@ -101,6 +103,12 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
       if (recording != nullptr)
         if (const auto text = image_text(recording->frames, fired_s)) html.raw(": ").text(*text);
       html.raw(".");
+    } else if (ultrasound) {
+      html.raw("Ultrasound at the moment of firing: probe ")
+          .text(row.picture.probe)
+          .raw(" at the upper edge, depth downwards, ")
+          .text(number_text(row.picture.depth_mm, 0))
+          .raw(" mm deep.");
     } else {
       html.raw("MPR under the probe at the moment of firing: probe at the upper edge, depth downwards, ")
           .text(number_text(row.picture.width_mm, 0))
