@@ -11,7 +11,6 @@
 namespace seldinger::app {
 namespace {
 
-constexpr int kContactStride = 8;  // 4 mm of a curved face
 constexpr double kLinearToMm = 35.0;
 constexpr double kTargetShare = 0.6, kDepthStepMm = 5.0, kLeastDepthMm = 30.0;
 constexpr double kScreenHz = 60.0;
@@ -130,7 +129,12 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   double shows_from_mm = plan.depth_mm;
   while (shows_from_mm > kWayStepMm && with_tip_at(shows_from_mm - kWayStepMm).needle_tip)
     shows_from_mm -= kWayStepMm;
-  return assessment::ProbeView{held, picture, shows_from_mm, seen.needle_length_mm};
+  const imaging::UltrasoundView view = view_of(picture, held);
+  const imaging::TargetLevel level =
+      imaging::target_level({&scene_.volume, scene_.classes}, view, {std::nullopt, {target}},
+                            element_depths(scene_.skin_index, view, kContactStride));
+  return assessment::ProbeView{held, picture, shows_from_mm, seen.needle_length_mm,
+                               std::max(0.0, -level.transmission_db)};
 }
 
 std::vector<std::byte> UltrasoundSight::picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,

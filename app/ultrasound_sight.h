@@ -14,6 +14,8 @@
 
 namespace seldinger::app {
 
+constexpr int kContactStride = 8;  // elements; 4 mm of a curved face, over which skin hardly bends
+
 // How deep below the skin each of the probe's elements lies, mm; an empty skin: all stand in air. Asked of every
 // `stride`-th element, between them linear.
 std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view,

@@ -19,9 +19,10 @@ constexpr int kDirections = 600;
 constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
 constexpr double kProbeMinMm = 20.0;   // between probe's middle and entry: room for a hand
 constexpr double kProbeMaxDepthMm = 120.0;
-// What a plan under ultrasound is worth, in mm of needle seen at the target: a mm of way over which the tip shows,
-// and a mm less from skin to target for needle and probe (design).
-constexpr double kWayWorth = 0.5, kDepthPrice = 0.3;
+// What a plan under ultrasound is worth, in mm of needle seen at the target: so much for a mm of way over which the
+// tip shows, less so much for a dB of shadow on the target and for a mm from skin to target, needle's and probe's
+// (design).
+constexpr double kWayWorth = 0.5, kShadowPrice = 4.0, kDepthPrice = 0.3;
 constexpr int kWaysJudged = 32;  // so many free ways, from the shortest, are compared
 
 double tableward(const glm::dvec3& outward, cases::PatientPosition position) {
@@ -95,11 +96,11 @@ std::optional<double> place_probe(const cases::MeshIndex& skin, const Way& way, 
           view = limits.looks_from(plan);
           if (!view) continue;
           score = view->needle_mm + kWayWorth * (plan.depth_mm - view->tip_shows_from_mm) -
-                  kDepthPrice * (plan.depth_mm + hit->distance_mm);
+                  kShadowPrice * view->shadow_db - kDepthPrice * (plan.depth_mm + hit->distance_mm);
         }
         if (score <= best) continue;
         best = score;
-        chosen = view.value_or(ProbeView{plan.probe, {}, 0.0, 0.0});
+        chosen = view.value_or(ProbeView{plan.probe, {}, 0.0, 0.0, 0.0});
       }
     }
   if (std::isinf(best)) return std::nullopt;

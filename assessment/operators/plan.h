@@ -31,6 +31,7 @@ struct ProbeView {
   cases::Picture picture;
   double tip_shows_from_mm = 0.0;  // as PuncturePlan's
   double needle_mm = 0.0;          // of the shaft that is seen when the tip is at the target
+  double shadow_db = 0.0;          // ≥ 0: what ribs and gas above take from the target's echoes
 };
 
 struct PathLimits {
