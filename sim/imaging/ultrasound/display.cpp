@@ -18,7 +18,9 @@ double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs,
   const auto low = static_cast<std::size_t>(at);
   return knobs.gain_db +
          shaders::us_between(knobs.tgc_db[low], knobs.tgc_db[std::min<std::size_t>(low + 1, 7)], at) +
-         shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz) * depth_mm;
+         (view.method == UltrasoundMethod::thesis
+              ? 0.0
+              : shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz) * depth_mm);
 }
 
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
