@@ -85,13 +85,15 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   if (!lesions.empty()) return lesions.front();
   cases::Picture picture;
   picture.modality = row.modality;
-  const auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
+  auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
   if (!scene) return scene.error();
   assessment::LesionRule rule = assessment::lesion_rule(row.modality, row.position);
-  if (row.modality == cases::Modality::ultrasound)
+  if (row.modality == cases::Modality::ultrasound) {
+    if (const auto added = add_ultrasound_tissue(library, row, *scene); !added) return added.error();
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return UltrasoundSight(*scene).looks_from(plan, target);
     };
+  }
   const auto site = assessment::find_lesion_site(scene->volume, scene->skin_index, rule);
   if (!site) return site.error();
   const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);

@@ -10,6 +10,7 @@
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -105,6 +106,11 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
+// Of levels that nothing was added to: liver at the face is white, 128 dB below it black.
+unsigned char grey_of_db(float db) {
+  return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
+}
+
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
   if (!picture.backend.empty() && picture.backend != "cpu")
@@ -115,20 +121,19 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   const std::vector<float> below_skin_mm =
       element_depths(skin ? cases::MeshIndex(*skin) : cases::MeshIndex(), view);
   imaging::PolarPicture polar;
-  imaging::ultrasound_polar({&volume, classes}, view, inserted, below_skin_mm, polar);
-  picture.visible = imaging::ultrasound_visible({&volume, classes}, view, inserted, below_skin_mm).visible;
+  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
+  const imaging::TissueVolume tissue{&volume, classes, echogenicity};
+  imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar);
+  picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm).visible;
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};
     picture.unit = "dB";
     picture.values = imaging::polar_db(polar);
-    for (const float db : picture.values)
-      picture.grey.push_back(static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F)));
+    for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
   const imaging::ScanConverter converter(view, scene.size);
-  imaging::add_receiver_noise(view.seed, 1, polar);
-  converter.grey(view, scene.knobs, polar, picture.grey);
   const double middle_mm = converter.top_mm() + 0.5 * converter.height_px() * converter.pixel_mm();
   picture.plane = {view.origin_lps_mm + view.axial * middle_mm,
                    view.lateral,
@@ -136,6 +141,14 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
                    converter.pixel_mm(),
                    converter.width_px(),
                    converter.height_px()};
+  if (scene.output == UltrasoundOutput::envelope_db) {
+    picture.unit = "dB";
+    picture.values = converter.envelope_db(polar);
+    for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
+    return;
+  }
+  imaging::add_receiver_noise(view.seed, 1, polar);
+  converter.grey(view, scene.knobs, polar, picture.grey);
   picture.unit = "grey";
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }

@@ -82,6 +82,14 @@ SHARED uint us_lattice_bits(uint seed) {
   return us_mix(seed);
 }
 
+// Noise on a node of a lattice, both parts uniform in [−1, 1).
+SHARED real us_node_re(uint bits) {
+  return (real(int(bits >> 16u)) + real(0.5)) * real(1.0 / 32768.0) - real(1.0);
+}
+SHARED real us_node_im(uint bits) {
+  return (real(int(bits & 65535u)) + real(0.5)) * real(1.0 / 32768.0) - real(1.0);
+}
+
 // What a person sees of a level: black at top − range, white at top.
 SHARED real us_grey(real level_db, real top_db, real range_db) {
   return clamp(real(255.0) * (level_db - top_db + range_db) / range_db, real(0.0), real(255.0));

@@ -6,27 +6,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/speckle.h"
 
 namespace seldinger::imaging {
 
 // What holds for a whole picture: per depth sample the beam's widths, per depth band the lattice.
-class ScattererField {
+class ScattererField final : public SpeckleField {
  public:
   ScattererField(const UltrasoundView& view, const TissueAt& tissue_at);
 
   // Fine samples to a sample: so many that the lattice's own mean, which turns by 2·fine/λ a fine sample, is well
   // below the Nyquist frequency and the pulse takes it away.
-  int fine() const noexcept { return fine_; }
+  int fine() const noexcept override { return fine_; }
 
-  // The sum, complex, in units of 1/kUnit, of beams [first, end): fine sample n of a beam is
-  // out[((beam − first)·samples·fine + n)·2]. Before loss and pulse; the phase is e^(−2πi·2·depth/λ). Whole
-  // numbers, so that the order of adding says nothing.
-  void add_beams(int first, int end, std::vector<std::int32_t>& out) const;
-
-  // With the pulse of unit energy, liver's mean square is 1. The least part of a sum that rounding can hide is
-  // 100 dB below liver; 80 dB above it there is still room.
-  static constexpr float kUnit = 524288.0F;
+  // The phase is e^(−2πi·2·depth/λ).
+  void add_beams(int first, int end, std::vector<std::int32_t>& out) const override;
 
   // The lattice at a depth: side of its cubes, and the key of their bits.
   struct Lattice {
@@ -56,7 +50,6 @@ class ScattererField {
   int fine_;
   std::vector<Band> bands_;
   std::vector<AtSample> at_sample_;
-  std::array<float, volume::kTissueClasses> amplitude_;
 };
 
 }  // namespace seldinger::imaging
