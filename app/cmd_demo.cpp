@@ -40,7 +40,7 @@ volume::Calyces calyces_of(const Arguments& arguments) {
 }
 
 cases::Modality modality_of(const Arguments& arguments) {
-  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
+  const auto modality = casedb::modality_from(arguments.text("--modality", "ultrasound"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   return *modality;
 }
@@ -76,7 +76,7 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   }
   imported->modality = modality;
   if (modality == cases::Modality::xray) imported->title += ", fluoroscopy";
-  if (modality == cases::Modality::ultrasound) imported->title += ", ultrasound";
+  if (modality == cases::Modality::mpr) imported->title += ", CT slices";
   return casedb::find_case(library, casedb::add_case(library, *imported));
 }
 

@@ -62,7 +62,8 @@ constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
-    {"--modality", "mpr|xray|ultrasound", "slices under a probe, fluoroscopy, or ultrasound; default mpr"},
+    {"--modality", "ultrasound|xray|mpr",
+     "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
