@@ -68,14 +68,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
     const double db = acoustic_table()[i].scatter_db;
     amplitude_[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
   }
-  // Made once: what a picture shows is told many times a second.
-  static const std::array<float, 256> kOffsets = [] {
-    std::array<float, 256> offsets;
-    for (std::size_t i = 0; i < offsets.size(); ++i)
-      offsets[i] = static_cast<float>(std::pow(10.0, echo_offset_db(static_cast<std::uint8_t>(i)) / 20.0));
-    return offsets;
-  }();
-  offset_ = kOffsets;
+  offset_ = echo_offset_amplitudes().data();
 }
 
 glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept {

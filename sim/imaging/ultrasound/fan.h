@@ -75,7 +75,7 @@ class TissueAt {
   const volume::TissueClass* classes_;
   const std::uint8_t* echogenicity_;
   std::array<float, volume::kTissueClasses> amplitude_;
-  std::array<float, 256> offset_;
+  const float* offset_;
 };
 
 }  // namespace seldinger::imaging

@@ -76,8 +76,10 @@ class Sight {
     const double dz = depth_mm / steps;
     const auto tissue = [&](double z_mm) { return tissue_at_(start + z_mm * direction); };
     // A blurred skin is gel, unless there is gas beyond what it can be.
+    constexpr double kStepMm = 0.25 * kWalkMm;
     double gel_mm = 0.0;
-    while (gel_mm <= kGelMm && is_gas(tissue(gel_mm))) gel_mm += 0.25 * kWalkMm;
+    for (double z_mm = 0.0; z_mm <= kGelMm; z_mm += kStepMm)
+      if (z_mm == gel_mm ? is_gas(tissue(z_mm)) : tissue(z_mm) == TissueClass::air) gel_mm = z_mm + kStepMm;
     if (gel_mm > kGelMm) gel_mm = 0.0;
     double sum_db = 0.0, before_mrayl = kMatchedMrayl;
     bool at_face = true;
