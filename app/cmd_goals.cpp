@@ -17,9 +17,9 @@ int run_goals_ultrasound(const Arguments& arguments) {
     if (method_text == "all" || method_text == name_of(method)) methods.push_back(method);
   if (methods.empty()) throw UsageError("--method is scatterers, lattice, thesis or all");
   std::vector<imaging::Probe> probes;
-  for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v})
+  for (const imaging::Probe& probe : imaging::kProbes)
     if (!arguments.has("--probe") || arguments.text("--probe") == probe.name) probes.push_back(probe);
-  if (probes.empty()) throw UsageError("--probe is C5-2v or L11-5v");
+  if (probes.empty()) throw UsageError("--probe is C5-2v, L11-5v, thesis-linear or thesis-curved");
 
   std::vector<GoalsOfMethod> answer;
   bool holds = true;

@@ -16,21 +16,31 @@ using volume::TissueClass;
 
 namespace {
 
-// Slope of the speckle's level in dB over depth, a straight line through rows of frames of different tissue.
+// Slope of the speckle's level in dB over depth, a straight line through rows of frames of different tissue. For
+// the reference the same tissue without loss is taken off, so that chance goes with it.
 double slope_db_cm(const Setting& setting, const TissueBlock& block, UltrasoundView view, double from_mm,
                    double to_mm) {
   constexpr int kRows = 60;
-  const int frames = std::max(4, setting.frames(6));
+  const bool paired = setting.quality == Quality::reference;
+  const int frames = paired ? 6 : std::max(4, setting.frames(6));
   std::vector<double> level(kRows, 0.0);
   for (int frame = 1; frame <= frames; ++frame) {
     view.seed = static_cast<std::uint64_t>(frame);
     const PolarPicture picture = setting.picture(block, view);
+    PolarPicture without;
+    if (paired) {
+      UltrasoundView lossless = view;
+      lossless.attenuation_db_cm_mhz = 0.0;
+      without = setting.picture(block, lossless);
+    }
     for (int i = 0; i < kRows; ++i) {
       const int low = sample_at(view, from_mm + (to_mm - from_mm) * i / kRows),
                 high = sample_at(view, from_mm + (to_mm - from_mm) * (i + 1) / kRows);
       double sum = 0.0;
       for (int k = low; k < high; ++k)
-        for (int b = 0; b < view.beams; ++b) sum += decibels(std::max(1e-12F, at(picture, b, k)));
+        for (int b = 0; b < view.beams; ++b)
+          sum += decibels(std::max(1e-12F, at(picture, b, k))) -
+                 (paired ? decibels(std::max(1e-12F, at(without, b, k))) : 0.0);
       level[static_cast<std::size_t>(i)] += sum / (high - low) / view.beams / frames;
     }
   }
@@ -124,7 +134,10 @@ void measure_enhancement(const Setting& setting, Readings& readings) {
   if (curved) view.frequency_mhz = 3.5;
   view.attenuation_db_cm_mhz = 0.5;
   const int low = sample_at(view, top_mm + 24.0), high = sample_at(view, curved ? 96.0 : 49.0);
-  const int first = beam_at(view, curved ? 54 : 44), end = beam_at(view, curved ? 74 : 84);
+  const imaging::Fan fan = imaging::fan_of(view);
+  const double half_beams = 0.5 * half_mm / fan.beam_spacing_mm(top_mm);
+  const int first = static_cast<int>(0.5 * view.beams - half_beams),
+            end = static_cast<int>(0.5 * view.beams + half_beams) + 1;
   double behind = 0.0, beside = 0.0;
   const int frames = setting.frames(8);
   for (int frame = 1; frame <= frames; ++frame) {
@@ -138,7 +151,6 @@ void measure_enhancement(const Setting& setting, Readings& readings) {
   }
   // Beams at an angle pass more of it.
   double path_cm = 0.0;
-  const imaging::Fan fan = imaging::fan_of(view);
   for (int b = first; b < end; ++b) path_cm += 2.0 / fan.direction(b).y / (end - first);
   const double mhz = frequency_mhz(view);
   const double wanted =

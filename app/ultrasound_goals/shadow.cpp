@@ -26,6 +26,8 @@ void measure_shadow(const Setting& setting, Readings& readings) {
   UltrasoundView view = setting.lossless_view();
   view.depth_mm = 50.0;
   view.samples = static_cast<int>(setting.samples * 50.0 / setting.depth_mm());
+  // A tenth of a beam is told by more of them.
+  if (setting.quality == Quality::reference) view.beams *= 2;
   const imaging::Acoustics& bone = imaging::acoustic_table()[static_cast<std::size_t>(TissueClass::bone)];
   const double liver_mrayl =
       imaging::acoustic_table()[static_cast<std::size_t>(TissueClass::liver)].impedance_mrayl;
@@ -33,6 +35,9 @@ void measure_shadow(const Setting& setting, Readings& readings) {
   const double bone_db_mm =
       shaders::us_loss_db_per_mm(bone.attenuation_db_cm_mhz, bone.exponent, frequency_mhz(view));
   const double middle_mm = kTopMm + 0.5 * kThickMm;
+  // Any way through the plate passes two walls: half the drop is reached where the beam runs this far inside it.
+  const double half_db = 0.5 * (walls_db + bone_db_mm * kThickMm),
+               half_way_mm = std::max(0.0, half_db - walls_db) / bone_db_mm;
   double worst_edge = 0.0, worst_depth = 0.0;
   // The probe stands anew each time: the plate's edges between beams, its faces between samples.
   const int places = setting.quick ? 3 : 5;
@@ -52,14 +57,13 @@ void measure_shadow(const Setting& setting, Readings& readings) {
       const auto i = static_cast<std::size_t>(b);
       drop_db[i] = level_db(bright, b, b + 1, low, high) - level_db(dark, b, b + 1, low, high);
       const glm::dvec3 start = fan.start_lps_mm(b), direction = fan.direction(b);
-      across_mm[i] = start.x + (middle_mm - start.y) / direction.y * direction.x;
+      across_mm[i] = start.x + (kTopMm - start.y + half_way_mm * direction.y) / direction.y * direction.x;
       if (std::abs(across_mm[i]) > kHalfMm - 3.0 * fan.beam_spacing_mm(middle_mm) - 0.5) continue;
       sum += drop_db[i];
       wanted += walls_db + bone_db_mm * kThickMm / direction.y;
       ++inside;
     }
     worst_depth = std::max(worst_depth, std::abs(sum - wanted) / inside);
-    const double half_db = 0.5 * wanted / inside;
     // "A beam": the spacing of 128 there.
     const double beam_mm = fan.beam_spacing_mm(middle_mm) * view.beams / 128.0;
     double edge_off = NAN;

@@ -229,12 +229,15 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   work();
 }
 
+float level_db_of(float amplitude) noexcept {
+  return 8.6858896F * float_log(std::max(amplitude, 1e-10F));
+}
+
 std::vector<float> polar_db(const PolarPicture& picture) {
   std::vector<float> db(picture.envelope.size());
   const auto beams = static_cast<std::size_t>(picture.beams), samples = static_cast<std::size_t>(picture.samples);
   for (std::size_t b = 0; b < beams; ++b)
-    for (std::size_t k = 0; k < samples; ++k)
-      db[k * beams + b] = 8.6858896F * float_log(std::max(picture.envelope[b * samples + k], 1e-10F));
+    for (std::size_t k = 0; k < samples; ++k) db[k * beams + b] = level_db_of(picture.envelope[b * samples + k]);
   return db;
 }
 

@@ -20,7 +20,7 @@ TEST(Goal11, TheNeedleIsWhereItIs) {
 }
 
 TEST(Goal12, TheNeedleFadesWithItsTilt) {
-  for (const Probe& probe : kProbes) {
+  for (const Probe& probe : kRealProbes) {
     const app::goals::Setting setting = practised(probe);
     expect_holds(setting, &app::goals::measure_needle_fading);
     double before = needle_grey(setting, 0.0, false);
@@ -37,7 +37,7 @@ TEST(Goal12, TheNeedleFadesWithItsTilt) {
 }
 
 TEST(Goal13, TheSliceIsAsThickAsTheBeam) {
-  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_slice);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_slice);
 }
 
 TEST(Needle, AcrossThePlaneItIsADot) {

@@ -83,6 +83,7 @@ inline void expect_holds(const app::goals::Setting& setting,
 inline app::goals::Setting practised(const Probe& probe) {
   return app::goals::Setting::of(UltrasoundMethod::scatterers, probe, app::goals::Quality::fast);
 }
-constexpr Probe kProbes[] = {kC52v, kL115v};
+// Those that are learnt on; `seldinger goals` measures the thesis' two as well.
+constexpr Probe kRealProbes[] = {kC52v, kL115v};
 
 }  // namespace seldinger::imaging
