@@ -110,8 +110,12 @@ std::vector<SpeckleStatistics> speckle_statistics(const Setting& setting) {
 }
 
 void measure_statistics(const Setting& setting, Readings& readings) {
+  read_statistics(setting, speckle_statistics(setting), readings);
+}
+
+void read_statistics(const Setting& setting, std::span<const SpeckleStatistics> at_depths, Readings& readings) {
   double snr = 0.0, ks = 0.0, m = 0.0;
-  for (const SpeckleStatistics& found : speckle_statistics(setting)) {
+  for (const SpeckleStatistics& found : at_depths) {
     snr = std::max(snr, std::abs(found.snr - kRayleighSnr));
     ks = std::max(ks, found.ks);
     m = std::max(m, std::abs(found.nakagami_m - 1.0));
@@ -188,25 +192,30 @@ void measure_motion(const Setting& setting, Readings& readings) {
       }
     }
   }
-  const int frames = setting.frames(2);
-  const std::vector<double> shares = setting.quick ? std::vector<double>{0.4} : std::vector<double>{0.15, 0.4, 0.8};
+  // So far out of the plane, in σ at 0.4 of the depth; each seen at three depths, where σ is another.
+  constexpr std::array<double, 3> kShares = {0.15, 0.4, 0.8};
   const std::vector<double> sigmas =
       setting.quick ? std::vector<double>{0.5, 1.0} : std::vector<double>{0.25, 0.5, 1.0, 2.0};
-  std::vector<double> r(shares.size() * sigmas.size(), 0.0);
+  const double unit_mm = width_at(view, 0.4 * view.depth_mm).elevation_sigma_mm;
+  std::vector<double> r(kShares.size() * sigmas.size(), 0.0);
+  const int frames = setting.frames(2);
   for (int frame = 1; frame <= frames; ++frame) {
     view.seed = static_cast<std::uint64_t>(frame);
     view.origin_lps_mm = {0, 0, 0};
     const PolarPicture still = setting.picture(liver(), view);
-    for (std::size_t i = 0; i < r.size(); ++i) {
-      const double depth_mm = shares[i / sigmas.size()] * view.depth_mm;
-      view.origin_lps_mm = {0, 0, sigmas[i % sigmas.size()] * width_at(view, depth_mm).elevation_sigma_mm};
+    for (std::size_t i = 0; i < sigmas.size(); ++i) {
+      view.origin_lps_mm = {0, 0, sigmas[i] * unit_mm};
       const PolarPicture moved = setting.picture(liver(), view);
-      const int middle = sample_at(view, depth_mm);
-      r[i] += correlation(window(still, middle, half, 0, true), window(moved, middle, half, 0, true)) / frames;
+      for (std::size_t d = 0; d < kShares.size(); ++d) {
+        const int middle = sample_at(view, kShares[d] * view.depth_mm);
+        r[i * kShares.size() + d] +=
+            correlation(window(still, middle, half, 0, true), window(moved, middle, half, 0, true)) / frames;
+      }
     }
   }
   for (std::size_t i = 0; i < r.size(); ++i) {
-    const double s = sigmas[i % sigmas.size()];
+    const double sigma_mm = width_at(view, kShares[i % kShares.size()] * view.depth_mm).elevation_sigma_mm,
+                 s = sigmas[i / kShares.size()] * unit_mm / sigma_mm;
     out = std::max(out, std::abs(r[i] - std::exp(-0.5 * s * s)));
   }
   const std::string probe(setting.probe.name);

@@ -15,6 +15,8 @@ constexpr double kLeastCells = 7000.0;
 
 // Of liver without loss at 10, 30 … 90 % of the depth, from as many frames as give kLeastCells at each.
 std::vector<SpeckleStatistics> speckle_statistics(const Setting& setting);
+// Goal 6 of them.
+void read_statistics(const Setting& setting, std::span<const SpeckleStatistics> at_depths, Readings& readings);
 
 // FWHM of the intensity's correlation over that of the beam, at one share of the depth. Not finite or 0 where
 // there is no such width.
