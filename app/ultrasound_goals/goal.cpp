@@ -23,6 +23,7 @@ constexpr Goal kGoals[] = {
     {13, "slice thickness", true, &measure_slice},
     {14, "logarithm and grey", false, &measure_grey},
     {15, "same bits", false, &measure_bits},
+    {16, "beside the scanner by elements", true, &measure_elements},
 };
 
 }  // namespace

@@ -89,5 +89,6 @@ void measure_needle_fading(const Setting& setting, Readings& readings);    // 12
 void measure_slice(const Setting& setting, Readings& readings);            // 13
 void measure_grey(const Setting& setting, Readings& readings);             // 14
 void measure_bits(const Setting& setting, Readings& readings);             // 15
+void measure_elements(const Setting& setting, Readings& readings);         // 16
 
 }  // namespace seldinger::app::goals
