@@ -9,6 +9,7 @@
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -131,7 +132,8 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   picture.backend = "cpu";
   const imaging::UltrasoundView& view = scene.view;
   imaging::PolarPicture polar;
-  imaging::ultrasound_polar({&volume, classes}, view, inserted, element_depths(volume, view), polar);
+  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
+  imaging::ultrasound_polar({&volume, classes, echogenicity}, view, inserted, element_depths(volume, view), polar);
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};

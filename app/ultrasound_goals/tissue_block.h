@@ -13,7 +13,7 @@ namespace seldinger::app::goals {
 struct TissueBlock {
   volume::Volume volume;  // HU typical of the class (ultrasound.md §2.1)
   std::vector<volume::TissueClass> classes;
-  imaging::TissueVolume tissue() const { return {&volume, classes}; }
+  imaging::TissueVolume tissue() const { return {&volume, classes, {}}; }
 };
 
 // From 30 mm above the face; `class_at` is asked at voxel centres.

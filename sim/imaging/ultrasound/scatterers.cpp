@@ -137,10 +137,6 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
           kUnit * std::sqrt(band.spacing_mm * band.spacing_mm * band.spacing_mm /
                             (3.141592653589793 * width.lateral_sigma_mm * width.elevation_sigma_mm)));
     }
-  for (std::size_t i = 0; i < amplitude_.size(); ++i) {
-    const double db = acoustic_table()[i].scatter_db;
-    amplitude_[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
-  }
 }
 
 ScattererField::Lattice ScattererField::lattice_at(double depth_mm) const noexcept {
@@ -239,7 +235,7 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       if (from > to) continue;
       const glm::dvec3 p = start + static_cast<double>(chunk.x[n]) * x_axis +
                            static_cast<double>(chunk.y[n]) * y_axis + static_cast<double>(chunk.z[n]) * z_axis;
-      const float tissue = amplitude_[static_cast<std::size_t>(tissue_at_(p))];
+      const float tissue = tissue_at_.speckle(p);
       if (tissue == 0.0F) continue;
       const float amplitude = tissue * at.amplitude;
       const auto& turn = phase[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kPhases];
