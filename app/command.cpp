@@ -52,9 +52,9 @@ constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--stage", "a,b", "import, mpr, xray, ultrasound, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
-    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
     {"--out", "DIR", "where results.csv goes"}};
 constexpr Option kGoalsOptions[] = {
@@ -86,7 +86,8 @@ constexpr Command kCommands[] = {
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
     {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
-    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.", &run_sheet},
+    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.",
+     &run_sheet},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
      &run_simulate},
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",

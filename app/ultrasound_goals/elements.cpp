@@ -38,7 +38,12 @@ Likeness likeness_to_elements(const Setting& setting, Apodisation apodisation, d
   std::vector<double> wanted, found;
   for (int b = first; b <= last; b += step)
     for (int k = from; k < to; ++k) {
-      wanted.push_back(std::abs(elements.sample(b, depth_at(view, k), scatterers)));
+      // The picture shows speckle of one level at every depth: as if the scanner took out how many scatterers its
+      // beam holds there.
+      const imaging::BeamWidth width =
+          imaging::beam_width(view.probe, frequency_mhz(view), focus_mm, depth_at(view, k));
+      wanted.push_back(std::abs(elements.sample(b, depth_at(view, k), scatterers)) /
+                       std::sqrt(width.lateral_sigma_mm * width.elevation_sigma_mm));
       found.push_back(at(picture, b, k));
     }
   return {correlation(wanted, found), scatterers.size(), wanted.size()};

@@ -8,7 +8,7 @@ namespace {
 
 TEST(Goal16Long, AHundredThousandScatterers) {
   for (const auto& [probe, length_mm, lines] :
-       std::vector<std::tuple<Probe, double, int>>{{kC52v, 30.0, 16}, {kL115v, 10.0, 24}}) {
+       std::vector<std::tuple<Probe, double, int>>{{kC52v, 32.0, 16}, {kL115v, 16.0, 24}}) {
     const app::goals::Setting setting = practised(probe);
     const app::goals::Likeness found = app::goals::likeness_to_elements(
         setting, app::goals::Apodisation::even, 0.0, {0.5 * setting.depth_mm(), length_mm, lines});

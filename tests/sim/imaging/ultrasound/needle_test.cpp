@@ -139,5 +139,28 @@ TEST(Needle, AtTheFirstSampleItIsFinite) {
   }
 }
 
+// Out of the plane along its length: it fades where the slice ends, not at once.
+TEST(Needle, CrossingTheSliceItFadesAsTheSliceIsThick) {
+  UltrasoundView view = straight_view();
+  view.beams = 256;
+  const double depth_mm = 18.0, slope = 0.25;  // mm out for each mm along
+  Inserted inserted;
+  inserted.needle = NeedlePose{};
+  inserted.needle->direction = glm::normalize(glm::dvec3(1.0, 0.0, slope));
+  inserted.needle->tip_lps_mm = glm::dvec3(0.0, depth_mm, 0.0) + 60.0 * inserted.needle->direction;
+  const PolarPicture picture = polar_of(water(), view, inserted);
+  const float in_plane = std::max(peak_of(picture, view, 127).level, peak_of(picture, view, 128).level);
+  const double fwhm_mm = elevation_fwhm_mm(view.probe, view.probe.frequency_mhz, depth_mm);
+  double first = 1e9, last = -1e9;
+  for (int b = 0; b < view.beams; ++b)
+    if (peak_of(picture, view, b).level > 0.5F * in_plane) {
+      const double x_mm = point_of(view, b, 0.0).x;
+      first = std::min(first, x_mm), last = std::max(last, x_mm);
+    }
+  // The beam's width blurs what it sees of the slanting shaft a little.
+  EXPECT_NEAR((last - first) * slope / fwhm_mm, 1.0, 0.1);
+  EXPECT_NEAR(0.5 * (first + last), 0.0, 0.2);
+}
+
 }  // namespace
 }  // namespace seldinger::imaging
