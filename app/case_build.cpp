@@ -13,6 +13,11 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   auto skin = casedb::load_skin(library, row);
   if (!skin) return skin.error();
   cases::Case scene;
+  if (picture.modality == cases::Modality::ultrasound) {
+    auto classes = casedb::load_classes(library, row);
+    if (!classes) return classes.error();
+    scene.classes = std::move(*classes);
+  }
   scene.volume = std::move(*volume);
   scene.skin = std::move(*skin);
   scene.skin_index = cases::MeshIndex(scene.skin);

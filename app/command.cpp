@@ -13,12 +13,13 @@ constexpr Option kJson{"--json", nullptr, "one JSON document on standard output,
 constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
                                    {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
                                    {"--routes", nullptr, "print the table of web routes (docs/routes.md)"}};
-constexpr Option kImportOptions[] = {kLibrary,
-                                     {"--title", "TEXT", "the case's title; never taken from the source"},
-                                     {"--series", "UID|N", "which series, when the folder holds several"},
-                                     {"--modality", "mpr|xray", "what the case is practised with; default mpr"},
-                                     {"--position", "supine|prone", "how the patient lies; default supine"},
-                                     kJson};
+constexpr Option kImportOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "the case's title; never taken from the source"},
+    {"--series", "UID|N", "which series, when the folder holds several"},
+    {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
+    {"--position", "supine|prone", "how the patient lies; default supine"},
+    kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
 constexpr Option kLibraryJson[] = {kLibrary, kJson};
@@ -69,7 +70,7 @@ constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
-    {"--modality", "mpr|xray", "slices under a probe, or fluoroscopy; default mpr"},
+    {"--modality", "mpr|xray|ultrasound", "slices under a probe, fluoroscopy, or ultrasound; default mpr"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};

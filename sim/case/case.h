@@ -9,6 +9,7 @@
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
 #include "sim/case/patient_position.h"
+#include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::cases {
@@ -34,19 +35,22 @@ struct Lesion {
 };
 
 enum class Approach { in_plane, out_of_plane };
-enum class Modality { mpr, xray };
+enum class Modality { mpr, xray, ultrasound };
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.
+// ultrasound: the probe's; its width says nothing, its rate is a physical one.
 struct Picture {
   Modality modality = Modality::mpr;
   double depth_mm = 150.0;
   double width_mm = 150.0;
   double rate_hz = 30.0;
+  std::string probe{};  // ultrasound: its name
 };
 
 struct Case {
   volume::Volume volume;
+  std::vector<volume::TissueClass> classes;  // of every voxel; under ultrasound only, else empty
   Mesh skin;
   MeshIndex skin_index;
   std::vector<Lesion> lesions;  // [0] is the target

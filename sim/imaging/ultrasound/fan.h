@@ -23,6 +23,10 @@ struct Fan {
 };
 Fan fan_of(const UltrasoundView& view) noexcept;
 
+// Whether the element in the middle of a beam's aperture is in contact; `beam` is continuous. An empty list: all
+// are.
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;
+
 // Tissue at points; outside the volume there is air.
 class TissueAt {
  public:
@@ -71,7 +75,7 @@ class TissueAt {
   const volume::TissueClass* classes_;
   const std::uint8_t* echogenicity_;
   std::array<float, volume::kTissueClasses> amplitude_;
-  std::array<float, 256> offset_;
+  const float* offset_;
 };
 
 }  // namespace seldinger::imaging

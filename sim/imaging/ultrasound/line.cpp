@@ -11,8 +11,6 @@ namespace seldinger::imaging {
 namespace {
 
 using volume::TissueClass;
-constexpr double kMatchedMrayl = 1.65;  // gel and lens
-constexpr double kDeadDb = 400.0;       // nothing comes back; keeps sums finite
 
 double amplitude(double db) {
   return std::pow(10.0, db / 20.0);
@@ -20,10 +18,6 @@ double amplitude(double db) {
 
 double decibels_of(double amplitude) {
   return 20.0 * std::log10(std::max(amplitude, 1e-12));
-}
-
-bool is_gas(TissueClass tissue) {
-  return tissue == TissueClass::air || tissue == TissueClass::gas;
 }
 
 // Five voxels, within reason: fewer and the steps of voxels show in the normal.
@@ -130,9 +124,11 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const double dz = fan_.sample_mm;
   for (std::size_t k = 0; k < count; ++k)
     line.tissue[k] = tissue_at_(start + ((static_cast<double>(k) + 0.5) * dz) * direction);
-  // Gel, unless there is gas beyond what a blurred skin can be.
+  // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam
+  // clips.
   std::size_t first = 0;
-  while (first < count && is_gas(line.tissue[first])) ++first;
+  for (std::size_t k = 0; k < count && static_cast<double>(k) * dz <= kGelMm; ++k)
+    if (k == first ? is_gas(line.tissue[k]) : line.tissue[k] == TissueClass::air) first = k + 1;
   if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
 
   const NeedleCrossing needle = needle_ != nullptr ? crossing(start, direction) : NeedleCrossing{};

@@ -30,6 +30,11 @@ constexpr double kLensMm = 1.5, kLensDb = 40.0, kLensDbPerLine = 6.0;
 
 // Air down to here under an element in contact is a CT's blurred skin, and coupled by gel.
 constexpr double kGelMm = 3.0;
+constexpr double kMatchedMrayl = 1.65;  // gel and lens
+constexpr double kDeadDb = 400.0;       // nothing comes back; keeps sums finite
+constexpr bool is_gas(volume::TissueClass tissue) noexcept {
+  return tissue == volume::TissueClass::air || tissue == volume::TissueClass::gas;
+}
 
 struct LineEcho {
   double depth_mm;   // as it shows

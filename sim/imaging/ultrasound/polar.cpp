@@ -82,7 +82,7 @@ class PolarPainter {
   void paint(int first, int end, Room& room) const {
     field_->add_beams(first, end, room.sums);
     for (int beam = first; beam < end; ++beam) {
-      walker_.walk(beam, touches(beam), room.line);
+      walker_.walk(beam, beam_touches(view_, below_skin_mm_, beam), room.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
       paint_line(room.sums.data() + static_cast<std::size_t>(beam - first) * samples *
                                         static_cast<std::size_t>(field_->fine()) * 2,
@@ -91,12 +91,6 @@ class PolarPainter {
   }
 
  private:
-  bool touches(int beam) const {
-    if (below_skin_mm_.empty()) return true;
-    const auto element = static_cast<std::size_t>((beam + 0.5) * view_.probe.elements / view_.beams);
-    return below_skin_mm_[std::min(element, below_skin_mm_.size() - 1)] >= static_cast<float>(-kContactMm);
-  }
-
   void paint_line(const std::int32_t* sums, Room& room, float* envelope) const {
     const auto samples = static_cast<std::size_t>(view_.samples);
     room.re.assign(samples, 0.0F);
