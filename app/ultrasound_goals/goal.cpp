@@ -8,22 +8,22 @@ namespace seldinger::app::goals {
 namespace {
 
 constexpr Goal kGoals[] = {
-    {1, "scan conversion", false, &measure_scan_conversion},
+    {1, "scan conversion", true, &measure_scan_conversion},
     {2, "attenuation", true, &measure_attenuation},
     {3, "shadow", true, &measure_shadow},
-    {4, "reflection", true, &measure_reflection},
-    {5, "angle law", true, &measure_angle_law},
+    {4, "reflection", false, &measure_reflection},
+    {5, "angle law", false, &measure_angle_law},
     {6, "speckle statistics", true, &measure_statistics},
     {7, "speckle size", true, &measure_widths},
     {8, "speckle in motion", true, &measure_motion},
-    {9, "contrast", true, &measure_contrast},
-    {10, "enhancement", true, &measure_enhancement},
+    {9, "contrast", false, &measure_contrast},
+    {10, "enhancement", false, &measure_enhancement},
     {11, "needle's place", true, &measure_needle_place},
     {12, "needle's fading", false, &measure_needle_fading},
-    {13, "slice thickness", true, &measure_slice},
+    {13, "slice thickness", false, &measure_slice},
     {14, "logarithm and grey", false, &measure_grey},
     {15, "same bits", false, &measure_bits},
-    {16, "beside the scanner by elements", true, &measure_elements},
+    {16, "beside the scanner by elements", false, &measure_elements},
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ using Readings = std::vector<Reading>;
 struct Goal {
   int number;
   const char* name;
-  bool by_setting;  // beams, samples or density can change it
+  bool by_setting;  // beams, samples or density can change it much
   void (*measure)(const Setting& setting, Readings& readings);
 };
 std::span<const Goal> ultrasound_goals();

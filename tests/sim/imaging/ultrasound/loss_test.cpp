@@ -29,8 +29,7 @@ TEST(Goal2, TheSumsAreExact) {
     if (z > 70.0) db += shaders::us_step_loss_db(shaders::us_reflection(1.66, 1.67));
     worst = std::max(worst, std::abs(db - line.loss_db[static_cast<std::size_t>(k)]));
   }
-  // Half a sample where tissues meet: 0.06 mm of 0.2·7.6·0.46 dB/mm.
-  EXPECT_LE(worst, 0.1);
+  EXPECT_LE(worst, 0.01);  // a sixteenth of a sample where tissues meet
   printf("goal 2: sums off by at most %.4f dB of %.0f\n", worst, double{line.loss_db.back()});
 }
 
@@ -76,15 +75,7 @@ TEST(Goal3, TheEdgeOfAShadowIsWithinHalfABeam) {
 }
 
 TEST(Goal3, EdgeAndDepthOfAShadowInThePicture) {
-  for (const Probe& probe : kProbes) {
-    const app::goals::Setting setting = practised(probe);
-    const app::goals::Readings readings = readings_of(setting, &app::goals::measure_shadow);
-    ASSERT_EQ(readings.size(), 2U);
-    expect_holds(setting, readings[0]);
-    // Bone counts by whole samples: of 7.6 MHz one takes 0.6 dB.
-    const double sample_db = 0.2 * 8.0 * probe.frequency_mhz * setting.depth_mm() / 1024.0;
-    EXPECT_LE(readings[1].off, std::max(0.5, sample_db)) << probe.name;
-  }
+  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_shadow);
 }
 
 TEST(Goal4, ReflectionIsThatOfTheImpedances) {
