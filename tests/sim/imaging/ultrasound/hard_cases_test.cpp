@@ -256,7 +256,8 @@ TEST(HardCase, AMetalClipIsBrightAndShadows) {
   expect_finite(picture);
   const int beam = static_cast<int>(1.0 / 0.3 + 63.5);
   float most = 0.0F;
-  for (int k = sample_at(view, 29.0); k < sample_at(view, 31.5); ++k) most = std::max(most, at(picture, beam, k));
+  // Within its voxel: one alone has no wall to lie on.
+  for (int k = sample_at(view, 29.9); k < sample_at(view, 32.1); ++k) most = std::max(most, at(picture, beam, k));
   EXPECT_GT(decibels(most), 20.0);
   const auto level = [&](const PolarPicture& p) {
     return level_db(p, beam - 1, beam + 2, sample_at(view, 36.0), sample_at(view, 49.0));
