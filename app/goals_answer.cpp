@@ -13,7 +13,7 @@ const char* name_of(imaging::UltrasoundMethod method) noexcept {
 
 std::string goals_table(const GoalsOfMethod& measured) {
   char line[256];
-  std::snprintf(line, sizeof line, "%s, %s\n%2s  %-49s %-8s %10s %-12s %7s %9s %8s\n", measured.method.c_str(),
+  std::snprintf(line, sizeof line, "%s, %s\n%2s  %-49s %-13s %10s %-12s %7s %9s %8s\n", measured.method.c_str(),
                 measured.quality == goals::Quality::fast ? "fast" : "reference", "", "how far off", "probe",
                 "measured", "", "fast", "reference", "of it");
   std::string text = line;
@@ -25,7 +25,7 @@ std::string goals_table(const GoalsOfMethod& measured) {
     char measured_text[32], share_text[32];
     std::snprintf(measured_text, sizeof measured_text, std::isfinite(reading.off) ? "%.4g" : "none", reading.off);
     std::snprintf(share_text, sizeof share_text, std::isfinite(share) ? "%.2f" : "-", share);
-    std::snprintf(line, sizeof line, "%2d  %-49s %-8s %10s %-12s %7g %9g %8s  %s\n", reading.goal,
+    std::snprintf(line, sizeof line, "%2d  %-49s %-13s %10s %-12s %7g %9g %8s  %s\n", reading.goal,
                   reading.what.c_str(), reading.probe.c_str(), measured_text, reading.unit, reading.fast,
                   reading.reference, share_text, holds ? "holds" : "MISSED");
     text += line;

@@ -80,7 +80,7 @@ void measure_attenuation(const Setting& setting, Readings& readings) {
     const double wanted = 2.0 * one.db_cm_mhz * one.mhz;
     const double to_mm = std::min(0.967 * view.depth_mm, 10.0 * 100.0 / wanted);  // within 100 dB
     const double slope = slope_db_cm(setting, liver, view, view.depth_mm / 30.0, to_mm);
-    worst = std::max(worst, 100.0 * std::abs(slope / wanted - 1.0));
+    worst = farther(worst, 100.0 * std::abs(slope / wanted - 1.0));
   }
   readings.push_back({2, "slope of level over depth", std::string(setting.probe.name), worst, "%", 1.0, 0.1});
 }
@@ -114,7 +114,7 @@ void measure_contrast(const Setting& setting, Readings& readings) {
     }
     const double wanted = imaging::acoustic_table()[static_cast<std::size_t>(tissue)].scatter_db -
                           step_loss_db(TissueClass::liver, tissue);
-    worst = std::max(worst, std::abs(10.0 * std::log10(inside / outside) - wanted));
+    worst = farther(worst, std::abs(10.0 * std::log10(inside / outside) - wanted));
   }
   readings.push_back({9, "cylinders of -7 to +6 dB", std::string(setting.probe.name), worst, "dB", 1.0, 0.3});
 }

@@ -41,7 +41,7 @@ void measure_scan_conversion(const Setting& setting, Readings& readings) {
         x += value * (c - 399.5) * converter.pixel_mm();
         z += value * (converter.top_mm() + (r + 0.5) * converter.pixel_mm());
       }
-    worst_mm = std::max(worst_mm, sum > 1000.0 ? std::hypot(x / sum - center.x, z / sum - center.y) : NAN);
+    worst_mm = farther(worst_mm, sum > 1000.0 ? std::hypot(x / sum - center.x, z / sum - center.y) : NAN);
   }
   const std::string probe(setting.probe.name);
   readings.push_back({1, "centroid of 25 points", probe, worst_mm, "mm", 0.15, 0.05});
@@ -72,7 +72,7 @@ void measure_grey(const Setting& setting, Readings& readings) {
         continue;
       ++seen;
       const double shown = grey[static_cast<std::size_t>(r) * 601 + static_cast<std::size_t>(c)];
-      worst = std::max(worst, std::abs(shown - 255.0 * place.beam / 600.0));
+      worst = farther(worst, std::abs(shown - 255.0 * place.beam / 600.0));
     }
   // A whole number is up to half a level from what it stands for: that much is no error.
   readings.push_back({14, "grey of a ramp of 60 dB, beyond rounding", std::string(setting.probe.name),

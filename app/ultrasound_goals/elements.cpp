@@ -58,7 +58,7 @@ void measure_elements(const Setting& setting, Readings& readings) {
       const Likeness found = likeness_to_elements(setting, Apodisation::even, focus_mm,
                                                   {share * setting.depth_mm(), length_mm, setting.quick ? 8 : 16});
       double& worst = focus_mm > 0.0 ? one : everywhere;
-      worst = std::max(worst, 1.0 - found.ncc);
+      worst = farther(worst, 1.0 - found.ncc);
     }
   const std::string probe(setting.probe.name);
   readings.push_back({16, "1 - NCC with a scanner by elements", probe, everywhere, "", 0.10, 0.03});

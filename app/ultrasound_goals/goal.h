@@ -2,6 +2,7 @@
 // known in closed form, the same way for every method, and told as how far off it is.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -55,6 +56,11 @@ struct Reading {
   bool holds(Quality quality) const noexcept { return share(quality) <= 1.0; }
 };
 using Readings = std::vector<Reading>;
+
+// The greater; NaN, once there, stays.
+inline double farther(double off, double other) noexcept {
+  return std::isnan(off) || other <= off ? off : other;
+}
 
 struct Goal {
   int number;

@@ -101,7 +101,7 @@ void measure_reflection(const Setting& setting, Readings& readings) {
     for (const int finer : {1, 2}) {
       double& off = below == kidney ? weakest : worst;
       const double error = std::abs(reflection_error_db(setting, above, below, finer));
-      off = std::isnan(error) || std::isnan(off) ? NAN : std::max(off, error);
+      off = farther(off, error);
     }
   const std::string probe(setting.probe.name);
   readings.push_back({4, "echo of nine interfaces, two step sizes", probe, worst, "dB", 0.5, 0.05});

@@ -80,7 +80,7 @@ void measure_needle_place(const Setting& setting, Readings& readings) {
         if (along < 2.0 || along > 40.0) continue;
         // Of the near side, one radius above the axis.
         const double off_mm = glm::length(from_tip + along * needle.direction) - needle.radius_mm;
-        worst_axis_px = std::max(worst_axis_px, std::abs(off_mm) / pixel_mm);
+        worst_axis_px = farther(worst_axis_px, std::abs(off_mm) / pixel_mm);
         ++n, sx += p.x, sy += p.y, sxx += p.x * p.x, sxy += p.x * p.y;
       }
       const glm::dvec3 tip = seen_tip(peaks, view);
@@ -88,9 +88,9 @@ void measure_needle_place(const Setting& setting, Readings& readings) {
       const glm::dvec3 up(needle.direction.y, -needle.direction.x, 0.0), off = tip - needle.tip_lps_mm;
       const double tip_mm = glm::length(off - std::clamp(glm::dot(off, up), 0.0, needle.radius_mm) * up);
       seen = seen && n >= 4 && std::isfinite(tip_mm);
-      worst_tip_mm = std::max(worst_tip_mm, tip_mm);
+      worst_tip_mm = farther(worst_tip_mm, tip_mm);
       const double slope = (sxy - sx * sy / n) / (sxx - sx * sx / n);
-      worst_deg = std::max(worst_deg, std::abs(std::atan(slope) * 180.0 / M_PI - tilt_deg));
+      worst_deg = farther(worst_deg, std::abs(std::atan(slope) * 180.0 / M_PI - tilt_deg));
     }
   const std::string probe(setting.probe.name);
   readings.push_back({11, "needle's axis, 800 x 700", probe, seen ? worst_axis_px : NAN, "pixels", 1.0, 1.0});
@@ -132,7 +132,7 @@ void measure_slice(const Setting& setting, Readings& readings) {
     const double fwhm_mm = imaging::elevation_fwhm_mm(view.probe, frequency_mhz(view), depth_mm);
     double low = 0.0, high = 2.0 * fwhm_mm;
     for (int i = 0; i < 16; ++i) (level(0.5 * (low + high)) > half ? low : high) = 0.5 * (low + high);
-    worst = std::max(worst, 100.0 * std::abs(low / (0.5 * fwhm_mm) - 1.0));
+    worst = farther(worst, 100.0 * std::abs(low / (0.5 * fwhm_mm) - 1.0));
   }
   readings.push_back(
       {13, "where the needle falls to half", std::string(setting.probe.name), worst, "%", 10.0, 3.0});

@@ -63,7 +63,7 @@ void measure_shadow(const Setting& setting, Readings& readings) {
       wanted += walls_db + bone_db_mm * kThickMm / direction.y;
       ++inside;
     }
-    worst_depth = std::max(worst_depth, std::abs(sum - wanted) / inside);
+    worst_depth = farther(worst_depth, std::abs(sum - wanted) / inside);
     // "A beam": the spacing of 128 there.
     const double beam_mm = fan.beam_spacing_mm(middle_mm) * view.beams / 128.0;
     double edge_off = NAN;
@@ -75,7 +75,7 @@ void measure_shadow(const Setting& setting, Readings& readings) {
       const double off = std::abs(std::abs(edge_mm) - kHalfMm) / beam_mm;
       edge_off = std::isnan(edge_off) ? off : std::max(edge_off, off);
     }
-    worst_edge = std::isnan(edge_off) ? NAN : std::max(worst_edge, edge_off);
+    worst_edge = farther(worst_edge, edge_off);
   }
   const std::string probe(setting.probe.name);
   readings.push_back({3, "edge of a bone's shadow", probe, worst_edge, "beams of 128", 0.5, 0.1});

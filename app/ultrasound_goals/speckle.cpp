@@ -37,8 +37,8 @@ SpeckleStatistics statistics_of(std::vector<double>& envelope) {
   found.mean_square = square;
   std::sort(envelope.begin(), envelope.end());
   for (std::size_t i = 0; i < envelope.size(); ++i)
-    found.ks = std::max(found.ks, std::abs((static_cast<double>(i) + 0.5) / n -
-                                           (1.0 - std::exp(-envelope[i] * envelope[i] / square))));
+    found.ks = farther(found.ks, std::abs((static_cast<double>(i) + 0.5) / n -
+                                          (1.0 - std::exp(-envelope[i] * envelope[i] / square))));
   return found;
 }
 
@@ -116,9 +116,9 @@ void measure_statistics(const Setting& setting, Readings& readings) {
 void read_statistics(const Setting& setting, std::span<const SpeckleStatistics> at_depths, Readings& readings) {
   double snr = 0.0, ks = 0.0, m = 0.0;
   for (const SpeckleStatistics& found : at_depths) {
-    snr = std::max(snr, std::abs(found.snr - kRayleighSnr));
-    ks = std::max(ks, found.ks);
-    m = std::max(m, std::abs(found.nakagami_m - 1.0));
+    snr = farther(snr, std::abs(found.snr - kRayleighSnr));
+    ks = farther(ks, found.ks);
+    m = farther(m, std::abs(found.nakagami_m - 1.0));
   }
   const std::string probe(setting.probe.name);
   readings.push_back({6, "SNR of the envelope, 5 depths", probe, snr, "", 0.06, 0.03});
@@ -166,9 +166,9 @@ void measure_widths(const Setting& setting, Readings& readings) {
   WidthRatios worst{};
   for (const double share : {0.2, 0.5, 0.85}) {
     const WidthRatios found = speckle_widths(setting, share);
-    worst.axial = std::max(worst.axial, 100.0 * std::abs(found.axial - 1.0));
-    worst.lateral = std::max(worst.lateral, 100.0 * std::abs(found.lateral - 1.0));
-    worst.elevation = std::max(worst.elevation, 100.0 * std::abs(found.elevation - 1.0));
+    worst.axial = farther(worst.axial, 100.0 * std::abs(found.axial - 1.0));
+    worst.lateral = farther(worst.lateral, 100.0 * std::abs(found.lateral - 1.0));
+    worst.elevation = farther(worst.elevation, 100.0 * std::abs(found.elevation - 1.0));
   }
   const std::string probe(setting.probe.name);
   readings.push_back({7, "length of speckle", probe, worst.axial, "%", 10.0, 3.0});
@@ -187,8 +187,8 @@ void measure_motion(const Setting& setting, Readings& readings) {
       const PolarPicture moved = setting.picture(liver(), moved_along(view, beams));
       for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
         const int middle = sample_at(view, share * view.depth_mm);
-        across = std::max(across, 1.0 - correlation(window(still, middle, half, beams, false),
-                                                    window(moved, middle, half, 0, false)));
+        across = farther(across, 1.0 - correlation(window(still, middle, half, beams, false),
+                                                   window(moved, middle, half, 0, false)));
       }
     }
   }
@@ -216,7 +216,7 @@ void measure_motion(const Setting& setting, Readings& readings) {
   for (std::size_t i = 0; i < r.size(); ++i) {
     const double sigma_mm = width_at(view, kShares[i % kShares.size()] * view.depth_mm).elevation_sigma_mm,
                  s = sigmas[i / kShares.size()] * unit_mm / sigma_mm;
-    out = std::max(out, std::abs(r[i] - std::exp(-0.5 * s * s)));
+    out = farther(out, std::abs(r[i] - std::exp(-0.5 * s * s)));
   }
   const std::string probe(setting.probe.name);
   readings.push_back({8, "1 - r, moved by less than a beam", probe, across, "", 0.02, 0.005});
