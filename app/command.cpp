@@ -53,11 +53,19 @@ constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--stage", "a,b", "import, mpr, xray, ultrasound, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
-    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
     {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kGoalsOptions[] = {
+    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
+    {"--quality", "fast|reference",
+     "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
+     "fast"},
+    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    kJson};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
@@ -95,6 +103,9 @@ constexpr Command kCommands[] = {
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
+    {"goals ultrasound", "", 0, 0, kGoalsOptions,
+     "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+     &run_goals_ultrasound},
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},
