@@ -20,8 +20,8 @@ double decibels_of(double amplitude) {
   return 20.0 * std::log10(std::max(amplitude, 1e-12));
 }
 
-// Five voxels, within reason: fewer and the steps of voxels show in the normal.
-constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
+// Five and a half voxels, within reason: fewer and the steps of voxels show in the normal.
+constexpr double kNormalVoxels = 5.5, kLeastNormalMm = 3.3, kMostNormalMm = 6.6;
 constexpr double kPlaceVoxels = 2.5, kSliceShare = 0.87;
 // Interfaces whose echo is this far below liver's speckle are not worth their normal.
 constexpr double kLeastEchoDb = -10.0;
