@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
@@ -39,11 +40,15 @@ Fan fan_of(const UltrasoundView& view) noexcept {
   return fan;
 }
 
+bool is_shown(const cases::Lesion& lesion) noexcept {
+  return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0;
+}
+
 TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
   CHECK(inserted.lesions.size() <= kMaxLesions);
   for (const cases::Lesion& lesion : inserted.lesions)
-    if (base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0)
+    if (is_shown(lesion))
       lesions_.push_back({lesion.center_lps_mm, lesion.radius_mm * lesion.radius_mm, tissue_of_lesion(lesion.hu)});
   const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;
@@ -62,10 +67,8 @@ glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) no
 BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept {
   const Fan fan = fan_of(view);
   if (!fan.curved) return {(x_mm - fan.first_beam) / fan.beam_step, z_mm};
-  const double from_center_mm = z_mm + fan.radius_mm, r_mm = std::hypot(x_mm, from_center_mm);
-  const double half =
-      base::exact_atan(x_mm / (r_mm + from_center_mm));  // of the angle, so that z < −R is right too
-  return {(2.0 * half - fan.first_beam) / fan.beam_step, r_mm - fan.radius_mm};
+  const double half = base::exact_atan(shaders::us_half_tangent(x_mm, z_mm, fan.radius_mm));
+  return {(2.0 * half - fan.first_beam) / fan.beam_step, shaders::us_from_face_mm(x_mm, z_mm, fan.radius_mm)};
 }
 
 }  // namespace seldinger::imaging

@@ -23,6 +23,8 @@ struct Fan {
 };
 Fan fan_of(const UltrasoundView& view) noexcept;
 
+bool is_shown(const cases::Lesion& lesion) noexcept;  // finite, with a radius
+
 // Tissue at points; outside the volume there is air.
 class TissueAt {
  public:

@@ -6,50 +6,15 @@
 #include <thread>
 
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/base/check.h"
-#include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/pulse.h"
 #include "sim/imaging/ultrasound/scatterers.h"
+#include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 
 namespace seldinger::imaging {
 namespace {
-
-void check_view(const UltrasoundView& view, std::span<const float> depth_below_skin_mm) {
-  CHECK(view.beams >= 1 && view.beams <= 4096 && view.samples >= 1 && view.samples <= 16384);
-  CHECK(view.depth_mm > 0.0 && view.depth_mm <= 400.0 && view.frequency_mhz >= 0.0 && view.focus_mm >= 0.0);
-  CHECK(view.scatterers_per_cell > 0.0);
-  CHECK(base::is_finite(view.origin_lps_mm) && glm::length(view.origin_lps_mm) <= 1e8);  // lattice numbers are ints
-  CHECK(std::abs(glm::length(view.axial) - 1.0) < 1e-6 && std::abs(glm::length(view.lateral) - 1.0) < 1e-6);
-  CHECK(std::abs(glm::dot(view.axial, view.lateral)) < 1e-6);
-  CHECK(depth_below_skin_mm.empty() || depth_below_skin_mm.size() == static_cast<std::size_t>(view.probe.elements));
-}
-
-// The pulse on the complex baseband, as a filter from fine samples to samples. Scatterers lie in the fine sample
-// that they fall in, which widens by a box of one: the kernel is narrower by that (variance fine²/12). ∫h² = 1.
-struct PulseTap {
-  int part, shift;  // fine sample (k + shift)·fine + part counts for sample k
-  float weight;
-};
-std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
-  const double fine_mm = sample_mm / fine;
-  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
-  CHECK(variance > 0.0);
-  const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
-  std::vector<PulseTap> taps;
-  double energy = 0.0;
-  for (int shift = -reach; shift <= reach; ++shift)
-    for (int part = 0; part < fine; ++part) {
-      const double off_mm = (shift * fine + part + 0.5 - 0.5 * fine) * fine_mm;
-      if (std::abs(off_mm) > 3.5 * sigma_mm) continue;
-      const double h = std::exp(-0.5 * off_mm * off_mm / variance);
-      energy += h * h * fine_mm;
-      taps.push_back({part, shift, static_cast<float>(h)});
-    }
-  for (PulseTap& tap : taps) tap.weight /= static_cast<float>(std::sqrt(energy));
-  return taps;
-}
 
 // One thread's room for a block of beams.
 struct Room {
@@ -80,7 +45,7 @@ class PolarPainter {
   void paint(int first, int end, Room& room) const {
     field_.add_beams(first, end, room.sums);
     for (int beam = first; beam < end; ++beam) {
-      walker_.walk(beam, touches(beam), room.line);
+      walker_.walk(beam, touches(view_, below_skin_mm_, beam), room.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
       paint_line(room.sums.data() +
                      static_cast<std::size_t>(beam - first) * samples * static_cast<std::size_t>(field_.fine()) * 2,
@@ -89,12 +54,6 @@ class PolarPainter {
   }
 
  private:
-  bool touches(int beam) const {
-    if (below_skin_mm_.empty()) return true;
-    const auto element = static_cast<std::size_t>((beam + 0.5) * view_.probe.elements / view_.beams);
-    return below_skin_mm_[std::min(element, below_skin_mm_.size() - 1)] >= static_cast<float>(-kContactMm);
-  }
-
   void paint_line(const std::int32_t* sums, Room& room, float* envelope) const {
     const auto samples = static_cast<std::size_t>(view_.samples);
     room.re.assign(samples, 0.0F);

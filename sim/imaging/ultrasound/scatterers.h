@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/imaging/ultrasound/fan.h"
@@ -35,7 +36,7 @@ class ScattererField {
   };
   Lattice lattice_at(double depth_mm) const noexcept;
 
- private:
+  // A layer of depth with one lattice and one thickness.
   struct Band {
     double from_mm, to_mm, half_thickness_mm, spacing_mm;
     std::uint32_t key;
@@ -47,6 +48,21 @@ class ScattererField {
     float elevation_scale;  // of y²
     float amplitude;        // unit energy · lattice
   };
+  std::span<const Band> bands() const noexcept { return bands_; }
+  std::span<const AtSample> at_samples() const noexcept { return at_sample_; }
+  float most_reach(const Band& band) const noexcept;  // beams
+
+  // The part of a band within `beams_half` of beam `middle`: its frame (x across, y elevation, z along its middle
+  // beam from the face), a box around it in that frame, and where the lattice's cubes lie that touch the box.
+  struct Tile {
+    glm::dvec3 start_lps_mm, axes[3];
+    glm::dvec3 center_mm, half_mm;                    // of the box, in the frame; around centres of cubes
+    glm::dvec3 center_lps_mm, center_cell, half_cells;  // the same in LPS, and in cubes' numbers
+    int inner;  // the lattice's axis most across the picture: its rows are short and few are empty
+  };
+  Tile tile(const Band& band, double middle, double beams_half) const noexcept;
+
+ private:
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
 
   const UltrasoundView& view_;
@@ -58,5 +74,8 @@ class ScattererField {
   std::vector<AtSample> at_sample_;
   std::array<float, volume::kTissueClasses> amplitude_;
 };
+
+// Amplitude of a class's speckle; liver's is 1.
+std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept;
 
 }  // namespace seldinger::imaging

@@ -1,0 +1,104 @@
+// What the passes of ultrasound on the GPU are told: uniform blocks (std140) and the tiles of scatterers (std430, the
+// same offsets, as it holds nothing but vec4 and fours of numbers).
+#ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_PASSES
+#define SELDINGER_SHADERS_SHARED_ULTRASOUND_PASSES
+
+#include "real.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+
+SHARED_BEGIN
+
+SHARED_CONSTANT int kUsMaxLesions = 16;
+SHARED_CONSTANT int kUsPhases = 1024;
+
+// Amplitudes of 15 tissue classes and the lesions that stand before the volume. Positions are relative to the view's
+// origin, so that float keeps its digits.
+struct UsScatterParameters {
+  vec4 amplitude[4];                     // of classes 0 to 15
+  vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
+  vec4 lesion_amplitude[kUsMaxLesions];  // x
+  int lesion_count;
+  int beams;
+  int fine_samples;  // of a beam
+  int fine;          // in a sample
+  int size_x;        // of the volume, voxels
+  int size_y;
+  int size_z;
+  int curved;
+  float radius_mm;
+  float beams_per_unit;  // radian, or mm of a straight face
+  float fine_per_mm;
+  float phases_per_mm;  // entries of the table of phases
+};
+
+// A tile of scatterers: a band of depth, a few beams wide. Its frame: x across, y elevation, z along its middle beam.
+struct UsTile {
+  vec4 corner_mm;           // xyz: of the first row's cube 0; w: half thickness
+  vec4 from_box_mm;         // xyz: that cube's centre from the box's centre; w: where the band begins
+  vec4 half_box_mm;         // xyz; w: where the band ends
+  vec4 edge_x_mm;           // xyz: of a cube, along the lattice's x; w: the middle beam
+  vec4 edge_y_mm;           // xyz; w: scatterers from this beam on are the tile's
+  vec4 edge_z_mm;           // xyz; w: to before this one
+  vec4 outer_mm;            // xyz: to the next row, outer axis
+  vec4 middle_mm;           // xyz
+  vec4 inner_mm;            // xyz: to the next cube of a row
+  vec4 index;               // xyz: index + ½ of the frame's origin
+  vec4 index_x;             // xyz: per mm of x
+  vec4 index_y;             // xyz
+  vec4 index_z;             // xyz
+  vec4 origin_mm;           // xyz: the frame's origin from the view's
+  vec4 axis_x;              // xyz
+  vec4 axis_y;              // xyz
+  vec4 axis_z;              // xyz
+  uint seed;                // of the first row's cube 0
+  uint step_outer;          // to the next row's
+  uint step_middle;
+  uint step_inner;
+  int rows_outer;
+  int rows_middle;
+  int first_fine;  // fine samples that are the band's
+  int end_fine;
+};
+
+struct UsPulseParameters {
+  int beams;
+  int samples;
+  int fine;        // fine samples in a sample
+  int first_tap;   // fine sample k·fine + first_tap is the first that counts for sample k
+  int taps;        // weights are padded with zeros, (kUsOutputs − 1)·fine on either side
+  int most_echoes;  // room for a beam's
+  int noisy;
+  uint noise_first;  // the noise's key
+  uint noise_second;
+  float noise_mean_square;
+  float sample_mm;
+  float sigma_mm;        // of the pulse
+  float fine_per_mm;
+  float phases_per_mm;
+  int padding_1;
+  int padding_2;
+};
+SHARED_CONSTANT int kUsOutputs = 8;  // samples that one invocation makes
+
+struct UsGreyParameters {
+  int width_px;
+  int height_px;
+  int beams;
+  int samples;
+  float pixel_mm;
+  float top_mm;
+  float radius_mm;
+  float first_beam;  // of beam 0, and
+  float beam_step;   // between beams: radians, or mm for a straight face
+  float sample_mm;
+  float depth_mm;
+  float black_db;
+  float per_db;  // grey levels
+  int curved;
+  int padding_1;
+  int padding_2;
+};
+SHARED_CONSTANT int kUsPixels = 4;  // side by side in one number
+
+SHARED_END
+
+#endif

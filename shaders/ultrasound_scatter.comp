@@ -1,0 +1,91 @@
+// Scatterers of a lattice in tissue coordinates laid into the beams that see them. One invocation goes along one row of
+// cubes of a tile. Sums are whole numbers, so that the order of adding says nothing.
+#version 430 core
+#extension GL_GOOGLE_include_directive : enable
+#include "shared/ultrasound.glsl.h"
+#include "shared/ultrasound_cube.glsl.h"
+#include "shared/ultrasound_passes.glsl.h"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform usampler2DArray classes;  // one layer a slice
+layout(std140, binding = 0) uniform Parameters { UsScatterParameters parameters; };
+layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases / 2]; };
+layout(std430, binding = 2) readonly buffer Tiles { UsTile tiles[]; };
+// lateral scale, lateral reach in beams, elevation scale, amplitude
+layout(std430, binding = 3) readonly buffer AtSamples { vec4 at_samples[]; };
+layout(std430, binding = 4) buffer Sums { int sums[]; };
+
+float amplitude_at(UsTile tile, vec3 at_mm) {
+  vec3 index = tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz;
+  bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(parameters.size_x) &&
+                index.y < float(parameters.size_y) && index.z < float(parameters.size_z);
+  uint tissue = texelFetch(classes, inside ? ivec3(index) : ivec3(0), 0).x;
+  vec4 four = parameters.amplitude[tissue >> 2u];
+  vec2 two = (tissue & 2u) == 0u ? four.xy : four.zw;
+  float amplitude = inside ? ((tissue & 1u) == 0u ? two.x : two.y) : 0.0;
+  if (parameters.lesion_count > 0) {
+    vec3 p = tile.origin_mm.xyz + at_mm.x * tile.axis_x.xyz + at_mm.y * tile.axis_y.xyz + at_mm.z * tile.axis_z.xyz;
+    // Backwards, so that the first lesion that contains the point is the last to write.
+    for (int i = parameters.lesion_count - 1; i >= 0; --i) {
+      vec3 off = p - parameters.lesion_sphere_mm[i].xyz;
+      float radius = parameters.lesion_sphere_mm[i].w;
+      amplitude = dot(off, off) <= radius * radius ? parameters.lesion_amplitude[i].x : amplitude;
+    }
+  }
+  return amplitude;
+}
+
+void main() {
+  UsTile tile = tiles[gl_WorkGroupID.y];
+  int row = int(gl_GlobalInvocationID.x);
+  int outer = row / tile.rows_middle;
+  int middle = row - outer * tile.rows_middle;
+  vec3 to_row = float(outer) * tile.outer_mm.xyz + float(middle) * tile.middle_mm.xyz;
+  uint row_seed = tile.seed + uint(outer) * tile.step_outer + uint(middle) * tile.step_middle;
+
+  // Rows are cut by the box: |centre of the cube| ≤ half, on each of its three axes.
+  float low = -1e4;
+  float high = outer < tile.rows_outer ? 1e4 : -2e4;
+  vec3 fixed_mm = tile.from_box_mm.xyz + to_row;
+  for (int a = 0; a < 3; ++a) {
+    float slope = tile.inner_mm[a];
+    slope = abs(slope) < 1e-6 ? 1e-6 : slope;
+    float one = (-tile.half_box_mm[a] - fixed_mm[a]) / slope;
+    float other = (tile.half_box_mm[a] - fixed_mm[a]) / slope;
+    low = max(low, min(one, other));
+    high = min(high, max(one, other));
+  }
+  int last = int(floor(high));
+  vec3 row_mm = tile.corner_mm.xyz + to_row;
+  for (int cube = int(ceil(low)); cube <= last; ++cube) {
+    uint bits = us_lattice_bits(row_seed + uint(cube) * tile.step_inner);
+    vec3 at_mm = row_mm + float(cube) * tile.inner_mm.xyz + us_cube_u(bits) * tile.edge_x_mm.xyz +
+                 us_cube_v(bits) * tile.edge_y_mm.xyz + us_cube_w(bits) * tile.edge_z_mm.xyz;
+    float from_center = at_mm.z + parameters.radius_mm;
+    bool curved = parameters.curved != 0;
+    float depth_mm = curved ? sqrt(at_mm.x * at_mm.x + from_center * from_center) - parameters.radius_mm : at_mm.z;
+    float beam = tile.edge_x_mm.w +
+                 (curved ? us_narrow_angle(at_mm.x / from_center) : at_mm.x) * parameters.beams_per_unit;
+    int fine = clamp(int(depth_mm * parameters.fine_per_mm), tile.first_fine, tile.end_fine - 1);
+    vec4 at = at_samples[fine / parameters.fine];
+    float q_y = at_mm.y * at_mm.y * at.z;
+    bool inside = depth_mm >= tile.from_box_mm.w && depth_mm < tile.half_box_mm.w &&
+                  abs(at_mm.y) < tile.corner_mm.w && beam >= tile.edge_y_mm.w && beam < tile.edge_z_mm.w &&
+                  q_y < 512.0;
+    float amplitude = inside ? amplitude_at(tile, at_mm) * at.w : 0.0;
+    uint phase = uint(depth_mm * parameters.phases_per_mm) & uint(kUsPhases - 1);
+    vec4 two = phases[phase >> 1u];
+    vec2 value = amplitude * ((phase & 1u) == 0u ? two.xy : two.zw);
+    int from = max(0, int(ceil(beam - at.y)));
+    int to = amplitude == 0.0 ? -1 : min(parameters.beams - 1, int(floor(beam + at.y)));
+    for (int b = from; b <= to; ++b) {
+      float off = float(b) - beam;
+      // The table's entry, worked out: on llvmpipe quicker than looking it up.
+      float weight = exp(-(floor(off * off * at.x + q_y) + 0.5) * (1.0 / kUsTablePerQ));
+      int place = (b * parameters.fine_samples + fine) * 2;
+      atomicAdd(sums[place], int(roundEven(value.x * weight)));
+      atomicAdd(sums[place + 1], int(roundEven(value.y * weight)));
+    }
+  }
+}

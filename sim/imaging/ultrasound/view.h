@@ -1,0 +1,19 @@
+// What both ways to a picture ask of a view.
+#pragma once
+
+#include <span>
+
+#include "sim/imaging/ultrasound/ultrasound.h"
+
+namespace seldinger::imaging {
+
+// CHECKs what ultrasound.h demands.
+void check_view(const UltrasoundView& view, std::span<const float> depth_below_skin_mm);
+
+// The view's own frequency, or else the probe's.
+double working_mhz(const UltrasoundView& view) noexcept;
+
+// Whether the element under a beam has contact.
+bool touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, int beam) noexcept;
+
+}  // namespace seldinger::imaging
