@@ -10,20 +10,16 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform usampler2DArray classes;  // one layer a slice
 layout(std140, binding = 0) uniform Parameters { UsScatterParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases / 2]; };
+layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Tiles { UsTile tiles[]; };
-// lateral scale, lateral reach in beams, elevation scale, amplitude
-layout(std430, binding = 3) readonly buffer AtSamples { vec4 at_samples[]; };
-layout(std430, binding = 4) buffer Sums { int sums[]; };
+layout(std430, binding = 3) buffer Sums { int sums[]; };
 
 float amplitude_at(UsTile tile, vec3 at_mm) {
   vec3 index = tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz;
   bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(parameters.size_x) &&
                 index.y < float(parameters.size_y) && index.z < float(parameters.size_z);
   uint tissue = texelFetch(classes, inside ? ivec3(index) : ivec3(0), 0).x;
-  vec4 four = parameters.amplitude[tissue >> 2u];
-  vec2 two = (tissue & 2u) == 0u ? four.xy : four.zw;
-  float amplitude = inside ? ((tissue & 1u) == 0u ? two.x : two.y) : 0.0;
+  float amplitude = inside ? parameters.amplitude[tissue].x : 0.0;
   if (parameters.lesion_count > 0) {
     vec3 p = tile.origin_mm.xyz + at_mm.x * tile.axis_x.xyz + at_mm.y * tile.axis_y.xyz + at_mm.z * tile.axis_z.xyz;
     // Backwards, so that the first lesion that contains the point is the last to write.
@@ -34,6 +30,18 @@ float amplitude_at(UsTile tile, vec3 at_mm) {
     }
   }
   return amplitude;
+}
+
+// us_beam_weight of a sample's middle, in the table's steps. Worked out anew: on llvmpipe reading it costs more.
+vec4 weight_at(UsTile tile, float depth_mm) {
+  float lateral_mm = us_lateral_fwhm_mm(max(depth_mm, 0.01), parameters.wavelength_mm, parameters.f_number,
+                                        parameters.aperture_mm, parameters.focus_mm);
+  float elevation_mm = us_elevation_fwhm_mm(max(depth_mm, 0.01), parameters.wavelength_mm, parameters.height_mm,
+                                            parameters.elevation_focus_mm);
+  float spacing_mm = parameters.beam_step * (parameters.curved != 0 ? parameters.radius_mm + depth_mm : 1.0);
+  vec4 weight = us_beam_weight(lateral_mm / kUsFwhmPerSigma, elevation_mm / kUsFwhmPerSigma, spacing_mm,
+                               tile.outer_mm.w, kUsReachSigmas);
+  return weight * vec4(kUsTablePerQ, 1.0, kUsTablePerQ, parameters.unit);
 }
 
 void main() {
@@ -66,17 +74,16 @@ void main() {
     bool curved = parameters.curved != 0;
     float depth_mm = curved ? sqrt(at_mm.x * at_mm.x + from_center * from_center) - parameters.radius_mm : at_mm.z;
     float beam = tile.edge_x_mm.w +
-                 (curved ? us_narrow_angle(at_mm.x / from_center) : at_mm.x) * parameters.beams_per_unit;
+                 (curved ? us_narrow_angle(at_mm.x / from_center) : at_mm.x) / parameters.beam_step;
     int fine = clamp(int(depth_mm * parameters.fine_per_mm), tile.first_fine, tile.end_fine - 1);
-    vec4 at = at_samples[fine / parameters.fine];
+    vec4 at = weight_at(tile, (float(fine / parameters.fine) + 0.5) * parameters.sample_mm);
     float q_y = at_mm.y * at_mm.y * at.z;
     bool inside = depth_mm >= tile.from_box_mm.w && depth_mm < tile.half_box_mm.w &&
                   abs(at_mm.y) < tile.corner_mm.w && beam >= tile.edge_y_mm.w && beam < tile.edge_z_mm.w &&
                   q_y < 512.0;
     float amplitude = inside ? amplitude_at(tile, at_mm) * at.w : 0.0;
     uint phase = uint(depth_mm * parameters.phases_per_mm) & uint(kUsPhases - 1);
-    vec4 two = phases[phase >> 1u];
-    vec2 value = amplitude * ((phase & 1u) == 0u ? two.xy : two.zw);
+    vec2 value = amplitude * phases[phase].xy;
     int from = max(0, int(ceil(beam - at.y)));
     int to = amplitude == 0.0 ? -1 : min(parameters.beams - 1, int(floor(beam + at.y)));
     for (int b = from; b <= to; ++b) {

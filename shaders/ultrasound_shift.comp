@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsPulseParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases / 2]; };
+layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Shift { float shift_mm[]; };   // a sample
 layout(std430, binding = 3) readonly buffer Through { float through[]; };  // a sample; what sums are counted in with it
 layout(std430, binding = 4) readonly buffer Sums { ivec2 sums[]; };
@@ -37,8 +37,7 @@ void main() {
     if (at > n) break;
     float turns = shift_mm[beam_sample + k] * parameters.phases_per_mm * (1.0 / float(kUsPhases));
     uint phase = uint((turns - floor(turns)) * float(kUsPhases)) & uint(kUsPhases - 1);
-    vec4 two = phases[phase >> 1u];
-    vec2 turn = ((phase & 1u) == 0u ? two.xy : two.zw) * through[beam_sample + k];
+    vec2 turn = phases[phase].xy * through[beam_sample + k];
     vec2 one = vec2(sums[(beam_sample + k) * parameters.fine + n - at]);
     sum += vec2(one.x * turn.x - one.y * turn.y, one.x * turn.y + one.y * turn.x);
   }

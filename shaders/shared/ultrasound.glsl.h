@@ -97,6 +97,17 @@ SHARED real us_from_face_mm(real x_mm, real z_mm, real radius_mm) {
   return sqrt(x_mm * x_mm + from_center_mm * from_center_mm) - radius_mm;
 }
 
+// What a beam gives a scatterer at one depth: x · (beams off)² and z · y² are −log of its weight, which is taken for
+// nothing y beams off; w: of one scatterer, so that ∫ over the beam's width, squared, is the cube's volume: with
+// ∫exp(−x²/σ²) = √π·σ in each of the two directions.
+SHARED real4 us_beam_weight(real lateral_sigma_mm, real elevation_sigma_mm, real beam_spacing_mm, real cube_mm,
+                            real reach_sigmas) {
+  real lateral = beam_spacing_mm / lateral_sigma_mm;
+  return real4(
+      real(0.5) * lateral * lateral, reach_sigmas / lateral, real(0.5) / (elevation_sigma_mm * elevation_sigma_mm),
+      sqrt(cube_mm * cube_mm * cube_mm / (real(3.141592653589793) * lateral_sigma_mm * elevation_sigma_mm)));
+}
+
 // How far off the normal a mirror at a depth still sends sound back into the aperture, of half width a: ½·atan(a/z).
 SHARED real us_cone_rad(real depth_mm, real aperture_mm, real f_number) {
   real z = max(depth_mm, real(1.0));

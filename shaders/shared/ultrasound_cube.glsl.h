@@ -27,6 +27,8 @@ SHARED float us_narrow_angle(float t) {
 // Gaussians go by a table: its entry n, at q = (n + ½)/this, is exp(−q).
 SHARED_CONSTANT float kUsTablePerQ = 163.84F;
 
+SHARED_CONSTANT real kUsReachSigmas = 2.5;  // where they end: 0.04 % of their energy is beyond
+
 SHARED_END
 
 #endif

@@ -13,7 +13,7 @@ SHARED_CONSTANT int kUsPhases = 1024;
 // Amplitudes of 15 tissue classes and the lesions that stand before the volume. Positions are relative to the view's
 // origin, so that float keeps its digits.
 struct UsScatterParameters {
-  vec4 amplitude[4];                     // of classes 0 to 15
+  vec4 amplitude[16];                    // x: of each class
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
   vec4 lesion_amplitude[kUsMaxLesions];  // x
   int lesion_count;
@@ -25,9 +25,17 @@ struct UsScatterParameters {
   int size_z;
   int curved;
   float radius_mm;
-  float beams_per_unit;  // radian, or mm of a straight face
+  float beam_step;  // radians, or mm of a straight face
+  float sample_mm;
   float fine_per_mm;
   float phases_per_mm;  // entries of the table of phases
+  float unit;           // what sums are counted in: 1/unit
+  float wavelength_mm;  // and the probe
+  float f_number;
+  float aperture_mm;
+  float focus_mm;
+  float height_mm;
+  float elevation_focus_mm;
 };
 
 // A tile of scatterers: a band of depth, a few beams wide. Its frame: x across, y elevation, z along its middle beam.
@@ -38,7 +46,7 @@ struct UsTile {
   vec4 edge_x_mm;           // xyz: of a cube, along the lattice's x; w: the middle beam
   vec4 edge_y_mm;           // xyz; w: scatterers from this beam on are the tile's
   vec4 edge_z_mm;           // xyz; w: to before this one
-  vec4 outer_mm;            // xyz: to the next row, outer axis
+  vec4 outer_mm;            // xyz: to the next row, outer axis; w: the cube's side
   vec4 middle_mm;           // xyz
   vec4 inner_mm;            // xyz: to the next cube of a row
   vec4 index;               // xyz: index + ½ of the frame's origin

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsPulseParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases / 2]; };
+layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
 #ifdef ULTRASOUND_SHIFTED
 layout(std430, binding = 3) readonly buffer Laid { vec2 laid[]; };
@@ -65,7 +65,7 @@ void main() {
       // Rayleigh length of 24 bits, one of 256 directions.
       float u = (float(int(bits >> 8u)) + 0.5) * (1.0 / 16777216.0);
       float length = sqrt(-parameters.noise_mean_square * log(u));
-      vec2 turn = phases[(bits & 255u) * 2u].xy;
+      vec2 turn = phases[(bits & 255u) * 4u].xy;
       vec2 sum = vec2(level, 0.0) + length * turn;
       level = sqrt(dot(sum, sum));
     }

@@ -14,7 +14,6 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kReach = 2.5;  // σ, where the Gaussians end: 0.04 % of their energy is beyond
 constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
 // Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
 // samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
@@ -109,7 +108,7 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     const BeamWidth width = widths(middle_mm);
     // The widths go down to a focus and up again: the ends have the greatest.
     band.half_thickness_mm =
-        kReach * std::max(widths(band.from_mm).elevation_sigma_mm, widths(band.to_mm).elevation_sigma_mm);
+        shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm, widths(band.to_mm).elevation_sigma_mm);
     // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
     const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
     const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
@@ -125,15 +124,13 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     for (int k = band.first_sample; k < band.end_sample; ++k) {
       const double depth_mm = (k + 0.5) * fan_.sample_mm, spacing_mm = fan_.beam_spacing_mm(depth_mm);
       const BeamWidth width = widths(depth_mm);
-      const double lateral = spacing_mm / width.lateral_sigma_mm;
+      const auto weight = shaders::us_beam_weight(width.lateral_sigma_mm, width.elevation_sigma_mm, spacing_mm,
+                                                  band.spacing_mm, shaders::kUsReachSigmas);
       AtSample& at = at_sample_[static_cast<std::size_t>(k)];
-      at.lateral_scale = static_cast<float>(0.5 * lateral * lateral) * kUsTablePerQ;
-      at.lateral_reach = static_cast<float>(kReach / lateral);
-      at.elevation_scale = static_cast<float>(0.5 / (width.elevation_sigma_mm * width.elevation_sigma_mm)) * kUsTablePerQ;
-      // ∫exp(−x²/σ²) = √π·σ in each of the two directions.
-      at.amplitude = static_cast<float>(
-          kUnit * std::sqrt(band.spacing_mm * band.spacing_mm * band.spacing_mm /
-                            (3.141592653589793 * width.lateral_sigma_mm * width.elevation_sigma_mm)));
+      at.lateral_scale = static_cast<float>(weight.x) * kUsTablePerQ;
+      at.lateral_reach = static_cast<float>(weight.y);
+      at.elevation_scale = static_cast<float>(weight.z) * kUsTablePerQ;
+      at.amplitude = static_cast<float>(kUnit * weight.w);
     }
   amplitude_ = speckle_amplitudes();
 }

@@ -42,14 +42,7 @@ class ScattererField {
     std::uint32_t key;
     int first_sample, end_sample;
   };
-  struct AtSample {
-    float lateral_scale;    // of (beams off)²: Σ index of the Gaussian's table
-    float lateral_reach;    // beams
-    float elevation_scale;  // of y²
-    float amplitude;        // unit energy · lattice
-  };
   std::span<const Band> bands() const noexcept { return bands_; }
-  std::span<const AtSample> at_samples() const noexcept { return at_sample_; }
   float most_reach(const Band& band) const noexcept;  // beams
 
   // The part of a band within `beams_half` of beam `middle`: its frame (x across, y elevation, z along its middle
@@ -63,6 +56,12 @@ class ScattererField {
   Tile tile(const Band& band, double middle, double beams_half) const noexcept;
 
  private:
+  struct AtSample {
+    float lateral_scale;    // of (beams off)²: Σ index of the Gaussian's table
+    float lateral_reach;    // beams
+    float elevation_scale;  // of y²
+    float amplitude;        // unit energy · lattice
+  };
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
 
   const UltrasoundView& view_;

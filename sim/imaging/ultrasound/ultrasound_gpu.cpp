@@ -33,7 +33,7 @@ using shaders::UsGreyParameters;
 using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
-static_assert(sizeof(UsScatterParameters) == 624 && sizeof(UsTile) == 304);
+static_assert(sizeof(UsScatterParameters) == 848 && sizeof(UsTile) == 304);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
 static_assert(shaders::kUsMaxLesions == kMaxLesions && shaders::kUsPhases == kPhases);
 static_assert(volume::kTissueClasses <= 16);
@@ -82,7 +82,7 @@ UsScatterParameters scatter_parameters(const TissueVolume& tissue, const Ultraso
   const Fan fan = fan_of(view);
   const auto amplitude = speckle_amplitudes();
   for (std::size_t i = 0; i < amplitude.size(); ++i)
-    p.amplitude[i / 4][static_cast<glm::length_t>(i % 4)] = amplitude[i];
+    p.amplitude[i].x = amplitude[i];
   const auto add = [&](const cases::Lesion& lesion) {
     p.lesion_sphere_mm[p.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
     p.lesion_amplitude[p.lesion_count].x = amplitude[static_cast<std::size_t>(tissue_of_lesion(lesion.hu))];
@@ -98,9 +98,18 @@ UsScatterParameters scatter_parameters(const TissueVolume& tissue, const Ultraso
   p.size_z = tissue.volume->size_voxels.z;
   p.curved = fan.curved ? 1 : 0;
   p.radius_mm = static_cast<float>(fan.radius_mm);
-  p.beams_per_unit = static_cast<float>(1.0 / fan.beam_step);
+  p.beam_step = static_cast<float>(fan.beam_step);
+  p.sample_mm = static_cast<float>(fan.sample_mm);
   p.fine_per_mm = static_cast<float>(p.fine / fan.sample_mm);
-  p.phases_per_mm = static_cast<float>(2.0 / shaders::us_wavelength_mm(working_mhz(view)) * kPhases);
+  const double wavelength_mm = shaders::us_wavelength_mm(working_mhz(view));
+  p.phases_per_mm = static_cast<float>(2.0 / wavelength_mm * kPhases);
+  p.unit = ScattererField::kUnit;
+  p.wavelength_mm = static_cast<float>(wavelength_mm);
+  p.f_number = static_cast<float>(view.probe.f_number);
+  p.aperture_mm = static_cast<float>(view.probe.aperture_mm);
+  p.focus_mm = static_cast<float>(view.focus_mm);
+  p.height_mm = static_cast<float>(view.probe.height_mm);
+  p.elevation_focus_mm = static_cast<float>(view.probe.elevation_focus_mm);
   return p;
 }
 
@@ -138,7 +147,7 @@ std::vector<UsTile> tiles_of(const UltrasoundView& view, const ScattererField& f
       t.edge_x_mm = vec4_from(edge[0], middle);
       t.edge_y_mm = vec4_from(edge[1], from);
       t.edge_z_mm = vec4_from(edge[2], to);
-      t.outer_mm = vec4_from(edge[outer]);
+      t.outer_mm = vec4_from(edge[outer], s);
       t.middle_mm = vec4_from(edge[other]);
       t.inner_mm = vec4_from(edge[inner]);
       t.index = vec4_from(glm::dvec3(voxel_from_lps * glm::dvec4(at.start_lps_mm, 1.0)) + 0.5);
@@ -224,9 +233,8 @@ struct UltrasoundGpu::Parts {
         scatter_parameters(context, gpu::BufferUse::uniform, sizeof(UsScatterParameters)),
         pulse_parameters(context, gpu::BufferUse::uniform, sizeof(UsPulseParameters)),
         grey_parameters(context, gpu::BufferUse::uniform, sizeof(UsGreyParameters)),
-        phases(context, gpu::BufferUse::uniform, sizeof(imaging::phases())),
+        phases(context, gpu::BufferUse::uniform, kPhases * sizeof(glm::vec4)),
         tiles(context),
-        at_samples(context),
         sums(context),
         weights(context),
         through(context),
@@ -237,7 +245,9 @@ struct UltrasoundGpu::Parts {
         envelope(context),
         gain(context),
         picture(context) {
-    phases.write(std::as_bytes(std::span(imaging::phases())));
+    std::vector<glm::vec4> turns;
+    for (const auto& [re, im] : imaging::phases()) turns.emplace_back(re, im, 0.0F, 0.0F);
+    phases.write(std::as_bytes(std::span(turns)));
   }
 
   void scatter_all(const UltrasoundView& view, const Inserted& inserted, const ScattererField& field);
@@ -248,7 +258,7 @@ struct UltrasoundGpu::Parts {
   gpu::Texture classes;
   gpu::Program scatter, shift, pulse, pulse_shifted, grey;
   gpu::Buffer scatter_parameters, pulse_parameters, grey_parameters, phases;
-  Storage tiles, at_samples, sums, weights, through, shift_mm, echo_counts, echoes, laid, envelope, gain, picture;
+  Storage tiles, sums, weights, through, shift_mm, echo_counts, echoes, laid, envelope, gain, picture;
   Lines lines;
 };
 
@@ -260,13 +270,11 @@ void UltrasoundGpu::Parts::scatter_all(const UltrasoundView& view, const Inserte
   for (const UsTile& tile : all) most_rows = std::max(most_rows, tile.rows_outer * tile.rows_middle);
   scatter_parameters.write(std::as_bytes(std::span(&parameters, 1)));
   tiles.write(all);
-  at_samples.write(std::vector(field.at_samples().begin(), field.at_samples().end()));
   classes.bind(0);
   scatter_parameters.bind(0);
   phases.bind(1);
   tiles.buffer().bind(2);
-  at_samples.buffer().bind(3);
-  sums.buffer().bind(4);
+  sums.buffer().bind(3);
   scatter.dispatch(groups(most_rows, kGroup), static_cast<int>(all.size()), 1);
 }
 
@@ -404,7 +412,7 @@ std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
   std::size_t bytes = 0;
   for (const gpu::Buffer* buffer : {&p.scatter_parameters, &p.pulse_parameters, &p.grey_parameters, &p.phases})
     bytes += buffer->size();
-  for (Storage* storage : {&p.tiles, &p.at_samples, &p.sums, &p.weights, &p.through, &p.shift_mm, &p.echo_counts,
+  for (Storage* storage : {&p.tiles, &p.sums, &p.weights, &p.through, &p.shift_mm, &p.echo_counts,
                            &p.echoes, &p.laid, &p.envelope, &p.gain, &p.picture})
     bytes += storage->buffer().size();
   return bytes;
