@@ -10,7 +10,8 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(std140, binding = 0) uniform Parameters { UsGreyParameters parameters; };
 layout(std430, binding = 1) readonly buffer Envelope { float envelope[]; };
 layout(std430, binding = 2) readonly buffer Gain { float gain_db[]; };  // a sample, and the last once more
-layout(std430, binding = 3) writeonly buffer Grey { uint grey[]; };
+layout(std430, binding = 3) readonly buffer Map { uint map[]; };  // of 256 greys
+layout(std430, binding = 4) writeonly buffer Grey { uint grey[]; };
 
 uint grey_at(float x_mm, float z_mm) {
   bool curved = parameters.curved != 0;
@@ -38,7 +39,9 @@ uint grey_at(float x_mm, float z_mm) {
     float value = (db - parameters.black_db) * parameters.per_db;
     level = isnan(amplitude) ? 255u : uint(clamp(value, 0.0, 255.0) + 0.5);
   }
-  return min(level, 255u);
+  level = min(level, 255u);
+  for (int times = parameters.mapped; times > 0; --times) level = map[level];
+  return level;
 }
 
 void main() {
@@ -48,7 +51,7 @@ void main() {
   uint four = 0u;
   for (int i = 0; i < kUsPixels; ++i) {
     float x_mm = (float(column + i) - 0.5 * float(parameters.width_px - 1)) * parameters.pixel_mm;
-    four |= grey_at(x_mm, z_mm) << uint(8 * i);
+    four |= grey_at(parameters.flipped != 0 ? -x_mm : x_mm, z_mm) << uint(8 * i);
   }
   int words = (parameters.width_px + kUsPixels - 1) / kUsPixels;
   if (column < parameters.width_px && row < parameters.height_px) grey[row * words + column / kUsPixels] = four;

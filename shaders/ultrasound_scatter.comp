@@ -10,26 +10,16 @@ layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform usampler2DArray classes;  // one layer a slice
 layout(std140, binding = 0) uniform Parameters { UsScatterParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
+layout(std140, binding = 1) uniform Tissue { UsTissue tissue; };
+layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Tiles { UsTile tiles[]; };
 layout(std430, binding = 3) buffer Sums { int sums[]; };
+#include "shared/ultrasound_tissue.glsl.h"
 
 float amplitude_at(UsTile tile, vec3 at_mm) {
-  vec3 index = tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz;
-  bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(parameters.size_x) &&
-                index.y < float(parameters.size_y) && index.z < float(parameters.size_z);
-  uint tissue = texelFetch(classes, inside ? ivec3(index) : ivec3(0), 0).x;
-  float amplitude = inside ? parameters.amplitude[tissue].x : 0.0;
-  if (parameters.lesion_count > 0) {
-    vec3 p = tile.origin_mm.xyz + at_mm.x * tile.axis_x.xyz + at_mm.y * tile.axis_y.xyz + at_mm.z * tile.axis_z.xyz;
-    // Backwards, so that the first lesion that contains the point is the last to write.
-    for (int i = parameters.lesion_count - 1; i >= 0; --i) {
-      vec3 off = p - parameters.lesion_sphere_mm[i].xyz;
-      float radius = parameters.lesion_sphere_mm[i].w;
-      amplitude = dot(off, off) <= radius * radius ? parameters.lesion_amplitude[i].x : amplitude;
-    }
-  }
-  return amplitude;
+  return speckle_amplitude(
+      tile.index.xyz + at_mm.x * tile.index_x.xyz + at_mm.y * tile.index_y.xyz + at_mm.z * tile.index_z.xyz,
+      tile.origin_mm.xyz + at_mm.x * tile.axis_x.xyz + at_mm.y * tile.axis_y.xyz + at_mm.z * tile.axis_z.xyz);
 }
 
 // us_beam_weight of a sample's middle, in the table's steps. Worked out anew: on llvmpipe reading it costs more.

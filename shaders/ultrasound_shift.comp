@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsPulseParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
+layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Shift { float shift_mm[]; };   // a sample
 layout(std430, binding = 3) readonly buffer Through { float through[]; };  // a sample; what sums are counted in with it
 layout(std430, binding = 4) readonly buffer Sums { ivec2 sums[]; };

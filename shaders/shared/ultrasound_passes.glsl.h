@@ -10,19 +10,21 @@ SHARED_BEGIN
 SHARED_CONSTANT int kUsMaxLesions = 16;
 SHARED_CONSTANT int kUsPhases = 1024;
 
-// Amplitudes of 15 tissue classes and the lesions that stand before the volume. Positions are relative to the view's
-// origin, so that float keeps its digits.
-struct UsScatterParameters {
+// Tissue as speckle sees it. Positions are from the view's origin, so that float keeps its digits.
+struct UsTissue {
   vec4 amplitude[16];                    // x: of each class
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
   vec4 lesion_amplitude[kUsMaxLesions];  // x
   int lesion_count;
+  int size_x;  // of the volume, voxels
+  int size_y;
+  int size_z;
+};
+
+struct UsScatterParameters {
   int beams;
   int fine_samples;  // of a beam
   int fine;          // in a sample
-  int size_x;        // of the volume, voxels
-  int size_y;
-  int size_z;
   int curved;
   float radius_mm;
   float beam_step;  // radians, or mm of a straight face
@@ -67,6 +69,40 @@ struct UsTile {
   int end_fine;
 };
 
+SHARED_CONSTANT int kUsLinesPerBeam = 2;
+struct UsLatticeParameters {
+  vec4 lateral;        // xyz
+  vec4 axial;          // xyz
+  vec4 index;          // xyz: index + ½ of the view's origin
+  vec4 index_lateral;  // xyz: per mm
+  vec4 index_axial;    // xyz
+  int beams;
+  int samples;
+  int lines;
+  int lines_before;  // that lie before beam 0
+  int curved;
+  float radius_mm;
+  float first_beam;  // of beam 0, and
+  float beam_step;   // between beams: radians, or mm for a straight face
+  float sample_mm;
+  float unit;  // what sums are counted in: 1/unit
+  int padding_1;
+  int padding_2;
+};
+
+// The lattice at one sample.
+struct UsLatticeDepth {
+  vec4 part;   // xyz: where in its cell the view's origin lies; w: cells in a mm
+  int cell_x;  // that cell
+  int cell_y;
+  int cell_z;
+  uint key;
+  float gain;
+  float lateral_scale;  // of (lines off)²: −log of the weight
+  int lateral_reach;    // lines
+  int padding;
+};
+
 struct UsPulseParameters {
   int beams;
   int samples;
@@ -102,8 +138,8 @@ struct UsGreyParameters {
   float black_db;
   float per_db;  // grey levels
   int curved;
-  int padding_1;
-  int padding_2;
+  int flipped;
+  int mapped;
 };
 SHARED_CONSTANT int kUsPixels = 4;  // side by side in one number
 

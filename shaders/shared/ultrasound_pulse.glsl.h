@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 layout(std140, binding = 0) uniform Parameters { UsPulseParameters parameters; };
-layout(std140, binding = 1) uniform Phases { vec4 phases[kUsPhases]; };
+layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };
 layout(std430, binding = 2) readonly buffer Weights { float weights[]; };
 #ifdef ULTRASOUND_SHIFTED
 layout(std430, binding = 3) readonly buffer Laid { vec2 laid[]; };

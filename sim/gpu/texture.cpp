@@ -53,8 +53,8 @@ void Texture::check_size(const std::shared_ptr<Handles>& handles, glm::ivec3 siz
                                   " voxels along a side");
 }
 
-void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type,
-                     int alignment, const void* values) {
+void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type, int alignment,
+                     const void* values) {
   check_size(handles_, size);
   glGenTextures(1, &name_);
   try {

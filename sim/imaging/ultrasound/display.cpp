@@ -7,18 +7,21 @@
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 #include "sim/imaging/xray/noise.h"
 
 namespace seldinger::imaging {
 
 double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs, double depth_mm) noexcept {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double frequency_mhz = working_mhz(view);
   const double at = std::clamp(7.0 * depth_mm / view.depth_mm, 0.0, 7.0);
   const auto low = static_cast<std::size_t>(at);
   return knobs.gain_db +
          shaders::us_between(knobs.tgc_db[low], knobs.tgc_db[std::min<std::size_t>(low + 1, 7)], at) +
-         shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz) * depth_mm;
+         (view.method == UltrasoundMethod::thesis
+              ? 0.0
+              : shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz) * depth_mm);
 }
 
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture) {
@@ -43,7 +46,8 @@ Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept {
   const double half_width_mm =
       fan.curved ? (fan.radius_mm + view.depth_mm) * std::sin(std::min(half, 1.5707963)) : half;
   const double top_mm = fan.curved ? -fan.radius_mm * (1.0 - std::cos(half)) : 0.0;
-  return {std::max(2.0 * half_width_mm / size.width_px, (view.depth_mm - top_mm) / size.height_px), top_mm};
+  const double whole_mm = std::max(2.0 * half_width_mm / size.width_px, (view.depth_mm - top_mm) / size.height_px);
+  return {size.pixel_mm > 0.0 ? size.pixel_mm : whole_mm, top_mm};
 }
 
 ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
@@ -81,17 +85,14 @@ void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knob
   const float per_db = static_cast<float>(255.0 / knobs.dynamic_range_db);
   const float black = static_cast<float>(kWhiteDb - knobs.dynamic_range_db);
   const float* envelope = polar.envelope.data();
+  const auto map = grey_table(knobs.grey_map);
   for (int r = 0; r < size_.height_px; ++r) {
     const Source* source = sources_.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
     unsigned char* row = grey.data() + static_cast<std::size_t>(r) * static_cast<std::size_t>(size_.width_px);
     for (int c = 0; c < size_.width_px; ++c) {
       if (source[c].at < 0) continue;
-      const float* near = envelope + source[c].at;
-      const float* far = near + samples_;
-      const float across = static_cast<float>(source[c].beam_65536) * (1.0F / 65536.0F),
-                  down = static_cast<float>(source[c].sample_65536) * (1.0F / 65536.0F);
-      const float above = near[0] + across * (far[0] - near[0]), below = near[1] + across * (far[1] - near[1]);
-      const float level = above + down * (below - above);
+      const float down = source[c].down();
+      const float level = source[c].level(envelope, samples_);
       const int k = source[c].at % samples_;
       const float db = 8.6858896F * float_log(std::max(level, 1e-10F)) + gain[static_cast<std::size_t>(k)] +
                        down * (gain[static_cast<std::size_t>(k) + 1] - gain[static_cast<std::size_t>(k)]);
@@ -100,7 +101,30 @@ void ScanConverter::grey(const UltrasoundView& view, const UltrasoundKnobs& knob
       row[c] = value <= 0.0F ? 0 : (value < 255.0F ? static_cast<unsigned char>(value + 0.5F) : 255);
       if (level != level) row[c] = 255;
     }
+    if (knobs.grey_map != GreyMap::linear)
+      for (int c = 0; c < size_.width_px; ++c) row[c] = map[row[c]];
+    if (knobs.flip) std::reverse(row, row + size_.width_px);
   }
+}
+
+std::vector<float> ScanConverter::envelope_db(const PolarPicture& polar) const {
+  CHECK(polar.beams == beams_ && polar.samples == samples_);
+  std::vector<float> db(sources_.size(), kLeastDb);
+  for (std::size_t i = 0; i < sources_.size(); ++i)
+    if (sources_[i].at >= 0) db[i] = level_db_of(sources_[i].level(polar.envelope.data(), samples_));
+  return db;
+}
+
+std::array<unsigned char, 256> grey_table(GreyMap map) noexcept {
+  std::array<unsigned char, 256> table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double in = static_cast<double>(i) / 255.0;
+    double out = in;
+    if (map == GreyMap::lifted) out = std::sqrt(in);
+    if (map == GreyMap::contrast) out = in * in * (3.0 - 2.0 * in);
+    table[i] = static_cast<unsigned char>(std::lround(255.0 * out));
+  }
+  return table;
 }
 
 }  // namespace seldinger::imaging

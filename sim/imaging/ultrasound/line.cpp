@@ -6,6 +6,7 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -54,7 +55,7 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
       most_shift_mm_(std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z)),
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
-      frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+      frequency_mhz_(working_mhz(view)) {
   for (std::size_t i = 0; i < table_.size(); ++i) {
     loss_db_mm_[i] =
         shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);

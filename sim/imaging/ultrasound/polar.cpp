@@ -6,10 +6,12 @@
 #include <thread>
 
 #include "shaders/shared/ultrasound.glsl.h"
+#include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/ultrasound/pulse.h"
 #include "sim/imaging/ultrasound/scatterers.h"
+#include "sim/imaging/ultrasound/thesis.h"
 #include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 
@@ -32,23 +34,23 @@ class PolarPainter {
         fan_(fan_of(view)),
         tissue_at_(tissue, inserted),
         walker_(view, tissue_at_, *tissue.volume, inserted),
-        field_(view, tissue_at_),
+        field_(speckle_field(view, tissue_at_)),
         below_skin_mm_(depth_below_skin_mm),
-        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz),
+        frequency_mhz_(working_mhz(view)),
         wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
         sigma_mm_(beam_width(view.probe, frequency_mhz_, view.focus_mm, 1.0).axial_sigma_mm),
-        taps_(pulse_taps(sigma_mm_, fan_.sample_mm, field_.fine())),
+        taps_(pulse_taps(sigma_mm_, fan_.sample_mm, field_->fine())),
         picture_(picture) {
     for (const PulseTap& tap : taps_) taps_reach_ = std::max(taps_reach_, std::abs(tap.shift));
   }
 
   void paint(int first, int end, Room& room) const {
-    field_.add_beams(first, end, room.sums);
+    field_->add_beams(first, end, room.sums);
     for (int beam = first; beam < end; ++beam) {
       walker_.walk(beam, touches(view_, below_skin_mm_, beam), room.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
-      paint_line(room.sums.data() +
-                     static_cast<std::size_t>(beam - first) * samples * static_cast<std::size_t>(field_.fine()) * 2,
+      paint_line(room.sums.data() + static_cast<std::size_t>(beam - first) * samples *
+                                        static_cast<std::size_t>(field_->fine()) * 2,
                  room, picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
     }
   }
@@ -65,11 +67,11 @@ class PolarPainter {
   }
 
   void add_speckle(const std::int32_t* sums, Room& room) const {
-    const auto samples = static_cast<std::size_t>(view_.samples), fine = static_cast<std::size_t>(field_.fine());
+    const auto samples = static_cast<std::size_t>(view_.samples), fine = static_cast<std::size_t>(field_->fine());
     room.through.resize(samples);
     // 10^(−dB/20), and what the sums are counted in.
     for (std::size_t k = 0; k < samples; ++k)
-      room.through[k] = float_exp(-0.115129255F * room.line.loss_db[k]) * (1.0F / ScattererField::kUnit);
+      room.through[k] = float_exp(-0.115129255F * room.line.loss_db[k]) * (1.0F / SpeckleField::kUnit);
     const std::size_t padded = samples + 2 * static_cast<std::size_t>(taps_reach_);
     room.part_re.assign(fine * padded, 0.0F);
     room.part_im.assign(fine * padded, 0.0F);
@@ -98,7 +100,7 @@ class PolarPainter {
 
   // Each fine sample where it shows, its phase with it.
   void lay_shifted(const std::int32_t* sums, std::size_t padded, Room& room) const {
-    const auto fine = static_cast<std::size_t>(field_.fine());
+    const auto fine = static_cast<std::size_t>(field_->fine());
     const auto count = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view_.samples) * fine);
     const float fine_per_mm = static_cast<float>(static_cast<double>(fine) / fan_.sample_mm);
     const float turns_per_mm = static_cast<float>(2.0 / wavelength_mm_);
@@ -141,7 +143,7 @@ class PolarPainter {
   Fan fan_;
   TissueAt tissue_at_;
   LineWalker walker_;
-  ScattererField field_;
+  std::unique_ptr<SpeckleField> field_;
   std::span<const float> below_skin_mm_;
   double frequency_mhz_, wavelength_mm_, sigma_mm_;
   std::vector<PulseTap> taps_;
@@ -151,12 +153,25 @@ class PolarPainter {
 
 }  // namespace
 
+std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const TissueAt& tissue_at) {
+  switch (view.method) {
+    case UltrasoundMethod::scatterers:
+      return std::make_unique<ScattererField>(view, tissue_at);
+    case UltrasoundMethod::lattice:
+      return std::make_unique<LatticeField>(view, tissue_at);
+    case UltrasoundMethod::thesis:
+      break;
+  }
+  return nullptr;
+}
+
 void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
                       std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
   check_view(view, depth_below_skin_mm);
   picture.beams = view.beams;
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
+  if (view.method == UltrasoundMethod::thesis) return thesis_polar(tissue, view, inserted, picture);
   const PolarPainter painter(tissue, view, inserted, depth_below_skin_mm, picture);
   // The same blocks for any number of threads. Wide enough that scatterers at their sides, which two blocks see,
   // are few; the arctangent's series wants them narrow.
@@ -173,12 +188,15 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   work();
 }
 
+float level_db_of(float amplitude) noexcept {
+  return 8.6858896F * float_log(std::max(amplitude, 1e-10F));
+}
+
 std::vector<float> polar_db(const PolarPicture& picture) {
   std::vector<float> db(picture.envelope.size());
   const auto beams = static_cast<std::size_t>(picture.beams), samples = static_cast<std::size_t>(picture.samples);
   for (std::size_t b = 0; b < beams; ++b)
-    for (std::size_t k = 0; k < samples; ++k)
-      db[k * beams + b] = 8.6858896F * float_log(std::max(picture.envelope[b * samples + k], 1e-10F));
+    for (std::size_t k = 0; k < samples; ++k) db[k * beams + b] = level_db_of(picture.envelope[b * samples + k]);
   return db;
 }
 

@@ -5,8 +5,9 @@
 namespace seldinger::imaging {
 
 const Probe* probe_named(std::string_view name) noexcept {
-  if (name == kC52v.name) return &kC52v;
-  return name == kL115v.name ? &kL115v : nullptr;
+  for (const Probe& probe : kProbes)
+    if (probe.name == name) return &probe;
+  return nullptr;
 }
 
 double elevation_fwhm_mm(const Probe& probe, double frequency_mhz, double depth_mm) noexcept {

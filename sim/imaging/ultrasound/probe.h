@@ -1,6 +1,7 @@
 // Probes: what the transducer is, and how wide its beam is at a depth.
 #pragma once
 
+#include <array>
 #include <string_view>
 
 namespace seldinger::imaging {
@@ -21,6 +22,14 @@ struct Probe {
 // (getparam). Aperture, F-number 2 and a pulse of 60 % of the frequency: design (half to all of the elements).
 inline constexpr Probe kC52v = {"C5-2v", 3.57, 128, 0.508, 49.57, 13.5, 60.0, 32.0, 2.0, 0.6};
 inline constexpr Probe kL115v = {"L11-5v", 7.6, 128, 0.300, 0.0, 5.0, 18.0, 19.2, 2.0, 0.6};
+// The two of Vidal's thesis (§4.6.1). It tells one number, the straight face of about 8 cm; with 128 elements a
+// real one would have grating lobes (pitch two wavelengths), which are not modelled: for comparison, not to learn
+// on. Its curve it measured on a picture; the Ultrasonix C5-2/60 of the PLUS toolkit stands in (60 mm, 56°). The
+// rest: design.
+inline constexpr Probe kThesisLinear = {"thesis-linear", 5.0, 128, 0.625, 0.0, 6.0, 25.0, 40.0, 2.0, 0.6};
+inline constexpr Probe kThesisCurved = {"thesis-curved", 3.5, 128, 0.458, 60.0, 13.5, 60.0, 29.0, 2.0, 0.6};
+
+inline constexpr std::array<Probe, 4> kProbes = {kC52v, kL115v, kThesisLinear, kThesisCurved};
 
 // Null when there is no probe of that name.
 const Probe* probe_named(std::string_view name) noexcept;

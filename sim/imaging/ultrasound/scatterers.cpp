@@ -10,11 +10,12 @@
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
 
-constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
+constexpr int kBands = 20;  // of depth, with one lattice and one thickness each
 // Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
 // samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
 constexpr double kMostTurns = 0.25;
@@ -91,7 +92,7 @@ template <bool curved>
 
 ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissue_at)
     : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double frequency_mhz = working_mhz(view);
   wavelength_mm_ = shaders::us_wavelength_mm(frequency_mhz);
   fine_ = std::max(1, static_cast<int>(std::ceil(2.0 * fan_.sample_mm / (wavelength_mm_ * kMostTurns))));
   const auto widths = [&](double depth_mm) {
@@ -107,8 +108,8 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     const double middle_mm = 0.5 * (band.from_mm + band.to_mm);
     const BeamWidth width = widths(middle_mm);
     // The widths go down to a focus and up again: the ends have the greatest.
-    band.half_thickness_mm =
-        shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm, widths(band.to_mm).elevation_sigma_mm);
+    band.half_thickness_mm = shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm,
+                                                                widths(band.to_mm).elevation_sigma_mm);
     // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
     const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
     const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
@@ -133,15 +134,6 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
       at.amplitude = static_cast<float>(kUnit * weight.w);
     }
   amplitude_ = speckle_amplitudes();
-}
-
-std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept {
-  std::array<float, volume::kTissueClasses> amplitude{};
-  for (std::size_t i = 0; i < amplitude.size(); ++i) {
-    const double db = acoustic_table()[i].scatter_db;
-    amplitude[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
-  }
-  return amplitude;
 }
 
 ScattererField::Lattice ScattererField::lattice_at(double depth_mm) const noexcept {

@@ -7,27 +7,21 @@
 #include <span>
 #include <vector>
 
-#include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/speckle.h"
 
 namespace seldinger::imaging {
 
 // What holds for a whole picture: per depth sample the beam's widths, per depth band the lattice.
-class ScattererField {
+class ScattererField final : public SpeckleField {
  public:
   ScattererField(const UltrasoundView& view, const TissueAt& tissue_at);
 
   // Fine samples to a sample: so many that the lattice's own mean, which turns by 2·fine/λ a fine sample, is well
   // below the Nyquist frequency and the pulse takes it away.
-  int fine() const noexcept { return fine_; }
+  int fine() const noexcept override { return fine_; }
 
-  // The sum, complex, in units of 1/kUnit, of beams [first, end): fine sample n of a beam is
-  // out[((beam − first)·samples·fine + n)·2]. Before loss and pulse; the phase is e^(−2πi·2·depth/λ). Whole
-  // numbers, so that the order of adding says nothing.
-  void add_beams(int first, int end, std::vector<std::int32_t>& out) const;
-
-  // With the pulse of unit energy, liver's mean square is 1. The least part of a sum that rounding can hide is
-  // 100 dB below liver; 80 dB above it there is still room.
-  static constexpr float kUnit = 524288.0F;
+  // The phase is e^(−2πi·2·depth/λ).
+  void add_beams(int first, int end, std::vector<std::int32_t>& out) const override;
 
   // The lattice at a depth: side of its cubes, and the key of their bits.
   struct Lattice {
@@ -49,7 +43,7 @@ class ScattererField {
   // beam from the face), a box around it in that frame, and where the lattice's cubes lie that touch the box.
   struct Tile {
     glm::dvec3 start_lps_mm, axes[3];
-    glm::dvec3 center_mm, half_mm;                    // of the box, in the frame; around centres of cubes
+    glm::dvec3 center_mm, half_mm;                      // of the box, in the frame; around centres of cubes
     glm::dvec3 center_lps_mm, center_cell, half_cells;  // the same in LPS, and in cubes' numbers
     int inner;  // the lattice's axis most across the picture: its rows are short and few are empty
   };
@@ -73,8 +67,5 @@ class ScattererField {
   std::vector<AtSample> at_sample_;
   std::array<float, volume::kTissueClasses> amplitude_;
 };
-
-// Amplitude of a class's speckle; liver's is 1.
-std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept;
 
 }  // namespace seldinger::imaging

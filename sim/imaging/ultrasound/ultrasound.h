@@ -66,7 +66,9 @@ constexpr double kContactMm = 1.0;
 void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
                       std::span<const float> depth_below_skin_mm, PolarPicture& picture);
 
-// contracts.md's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below −200.
+// contracts.md's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below kLeastDb.
+constexpr float kLeastDb = -200.0F;
+float level_db_of(float amplitude) noexcept;
 std::vector<float> polar_db(const PolarPicture& picture);
 
 // The receiver's own noise, on complex samples: what ends penetration. 120 dB of receiver below a mirror 61 dB
@@ -75,12 +77,20 @@ std::vector<float> polar_db(const PolarPicture& picture);
 constexpr double kReceiverNoiseDb = -60.0;
 void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture);
 
+// From a share of the dynamic range to a share of white: as it is, dark parts lifted, or middle greys spread.
+enum class GreyMap { linear, lifted, contrast };
+
 // How the console is set.
 struct UltrasoundKnobs {
   double gain_db = 0.0;
   double dynamic_range_db = 60.0;  // > 0
   std::array<double, 8> tgc_db{};  // from the face to the depth
+  GreyMap grey_map = GreyMap::linear;
+  bool flip = false;  // left for right
 };
+
+// Of each grey of the linear map.
+std::array<unsigned char, 256> grey_table(GreyMap map) noexcept;
 
 // White is this much above the liver's speckle, so that liver is a middle grey.
 constexpr double kWhiteDb = 25.0;
@@ -92,15 +102,16 @@ double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs,
 
 struct DisplaySize {
   int width_px = 800, height_px = 700;
+  double pixel_mm = 0.0;  // 0: the smallest at which the whole field fits
 };
 
-// The largest pixel_mm at which the whole field fits. top_mm ≤ 0: the sides of a curved face lie above its centre.
+// top_mm ≤ 0: the sides of a curved face lie above its centre.
 struct Screen {
   double pixel_mm, top_mm;
 };
 Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept;
 
-// From polar to the screen. Pixel (c, r) shows the point x = (c − (width − 1)/2)·pixel across and
+// From polar to the screen. Pixel (c, r) shows the point x = (c − (width − 1)/2)·pixel across (flipped: −x) and
 // z = top + (r + ½)·pixel below the face's centre. Built once for a probe, depth and size.
 class ScanConverter {
  public:
@@ -114,10 +125,22 @@ class ScanConverter {
   void grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
             std::vector<unsigned char>& grey) const;
 
+  // As polar_db, in the place of grey, never flipped; −200 outside the field.
+  std::vector<float> envelope_db(const PolarPicture& polar) const;
+
  private:
   struct Source {
     std::int32_t at = -1;  // of the sample before in the beam before; −1: outside the field
     std::uint16_t beam_65536 = 0, sample_65536 = 0;
+    float down() const noexcept { return static_cast<float>(sample_65536) * (1.0F / 65536.0F); }
+    // The envelope between two beams and two samples.
+    float level(const float* envelope, int samples) const noexcept {
+      const float* near = envelope + at;
+      const float* far = near + samples;
+      const float across = static_cast<float>(beam_65536) * (1.0F / 65536.0F);
+      const float above = near[0] + across * (far[0] - near[0]), below = near[1] + across * (far[1] - near[1]);
+      return above + down() * (below - above);
+    }
   };
   DisplaySize size_;
   int beams_, samples_;

@@ -14,6 +14,7 @@
 #include "sim/gpu/buffer.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
+#include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/ultrasound/pulse.h"
@@ -30,11 +31,16 @@ namespace {
 
 using shaders::kUsOutputs;
 using shaders::UsGreyParameters;
+using shaders::UsLatticeDepth;
+using shaders::UsLatticeParameters;
 using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
-static_assert(sizeof(UsScatterParameters) == 848 && sizeof(UsTile) == 304);
+using shaders::UsTissue;
+static_assert(sizeof(UsTissue) == 784 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 304);
+static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
+static_assert(shaders::kUsLinesPerBeam == LatticeField::kLinesPerBeam);
 static_assert(shaders::kUsMaxLesions == kMaxLesions && shaders::kUsPhases == kPhases);
 static_assert(volume::kTissueClasses <= 16);
 
@@ -75,35 +81,36 @@ class Storage {
   gpu::Buffer buffer_;
 };
 
-// Beams, fine samples and tissue as the scatterers' pass wants them.
-UsScatterParameters scatter_parameters(const TissueVolume& tissue, const UltrasoundView& view,
-                                       const Inserted& inserted, const ScattererField& field) {
+UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted) {
+  UsTissue t{};
+  const auto amplitude = speckle_amplitudes();
+  for (std::size_t i = 0; i < amplitude.size(); ++i) t.amplitude[i].x = amplitude[i];
+  for (const cases::Lesion& lesion : inserted.lesions) {
+    if (!is_shown(lesion)) continue;
+    t.lesion_sphere_mm[t.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
+    t.lesion_amplitude[t.lesion_count].x = amplitude[static_cast<std::size_t>(tissue_of_lesion(lesion.hu))];
+    ++t.lesion_count;
+  }
+  t.size_x = tissue.volume->size_voxels.x;
+  t.size_y = tissue.volume->size_voxels.y;
+  t.size_z = tissue.volume->size_voxels.z;
+  return t;
+}
+
+UsScatterParameters scatter_parameters(const UltrasoundView& view, int fine) {
   UsScatterParameters p{};
   const Fan fan = fan_of(view);
-  const auto amplitude = speckle_amplitudes();
-  for (std::size_t i = 0; i < amplitude.size(); ++i)
-    p.amplitude[i].x = amplitude[i];
-  const auto add = [&](const cases::Lesion& lesion) {
-    p.lesion_sphere_mm[p.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
-    p.lesion_amplitude[p.lesion_count].x = amplitude[static_cast<std::size_t>(tissue_of_lesion(lesion.hu))];
-    ++p.lesion_count;
-  };
-  for (const cases::Lesion& lesion : inserted.lesions)
-    if (is_shown(lesion)) add(lesion);
   p.beams = view.beams;
-  p.fine = field.fine();
-  p.fine_samples = view.samples * p.fine;
-  p.size_x = tissue.volume->size_voxels.x;
-  p.size_y = tissue.volume->size_voxels.y;
-  p.size_z = tissue.volume->size_voxels.z;
+  p.fine = fine;
+  p.fine_samples = view.samples * fine;
   p.curved = fan.curved ? 1 : 0;
   p.radius_mm = static_cast<float>(fan.radius_mm);
   p.beam_step = static_cast<float>(fan.beam_step);
   p.sample_mm = static_cast<float>(fan.sample_mm);
-  p.fine_per_mm = static_cast<float>(p.fine / fan.sample_mm);
+  p.fine_per_mm = static_cast<float>(fine / fan.sample_mm);
   const double wavelength_mm = shaders::us_wavelength_mm(working_mhz(view));
   p.phases_per_mm = static_cast<float>(2.0 / wavelength_mm * kPhases);
-  p.unit = ScattererField::kUnit;
+  p.unit = SpeckleField::kUnit;
   p.wavelength_mm = static_cast<float>(wavelength_mm);
   p.f_number = static_cast<float>(view.probe.f_number);
   p.aperture_mm = static_cast<float>(view.probe.aperture_mm);
@@ -111,6 +118,48 @@ UsScatterParameters scatter_parameters(const TissueVolume& tissue, const Ultraso
   p.height_mm = static_cast<float>(view.probe.height_mm);
   p.elevation_focus_mm = static_cast<float>(view.probe.elevation_focus_mm);
   return p;
+}
+
+UsLatticeParameters lattice_parameters(const UltrasoundView& view, const LatticeField& field,
+                                       const glm::dmat4& voxel_from_lps) {
+  UsLatticeParameters p{};
+  const Fan fan = fan_of(view);
+  const glm::dmat3 turn(voxel_from_lps);
+  p.lateral = vec4_from(fan.lateral);
+  p.axial = vec4_from(fan.axial);
+  p.index = vec4_from(glm::dvec3(voxel_from_lps * glm::dvec4(view.origin_lps_mm, 1.0)) + 0.5);
+  p.index_lateral = vec4_from(turn * fan.lateral);
+  p.index_axial = vec4_from(turn * fan.axial);
+  p.beams = view.beams;
+  p.samples = view.samples;
+  for (int k = 0; k < view.samples; ++k)
+    p.lines_before = std::max(p.lines_before, field.at_sample(k).lateral_reach);
+  p.lines = (view.beams - 1) * LatticeField::kLinesPerBeam + 2 * p.lines_before + 1;
+  p.curved = fan.curved ? 1 : 0;
+  p.radius_mm = static_cast<float>(fan.radius_mm);
+  p.first_beam = static_cast<float>(fan.first_beam);
+  p.beam_step = static_cast<float>(fan.beam_step);
+  p.sample_mm = static_cast<float>(fan.sample_mm);
+  p.unit = SpeckleField::kUnit;
+  return p;
+}
+
+std::vector<UsLatticeDepth> lattice_depths(const UltrasoundView& view, const LatticeField& field) {
+  std::vector<UsLatticeDepth> depths(static_cast<std::size_t>(view.samples));
+  for (int k = 0; k < view.samples; ++k) {
+    const LatticeField::AtSample& at = field.at_sample(k);
+    const glm::dvec3 cell = view.origin_lps_mm * static_cast<double>(at.per_mm), low = glm::floor(cell);
+    UsLatticeDepth& depth = depths[static_cast<std::size_t>(k)];
+    depth.part = vec4_from(cell - low, static_cast<double>(at.per_mm));
+    depth.cell_x = static_cast<int>(low.x);
+    depth.cell_y = static_cast<int>(low.y);
+    depth.cell_z = static_cast<int>(low.z);
+    depth.key = at.key;
+    depth.gain = at.gain;
+    depth.lateral_scale = at.lateral_scale;
+    depth.lateral_reach = at.lateral_reach;
+  }
+  return depths;
 }
 
 // Each scatterer belongs to one tile; those at the sides of the fan reach beams inside it.
@@ -131,8 +180,12 @@ std::vector<UsTile> tiles_of(const UltrasoundView& view, const ScattererField& f
       };
       const int inner = at.inner, outer = (inner + 1) % 3, other = (inner + 2) % 3;
       glm::ivec3 cube(glm::round(at.center_cell));
-      const auto first_of = [&](int l) { return static_cast<int>(std::ceil(at.center_cell[l] - at.half_cells[l])); };
-      const auto last_of = [&](int l) { return static_cast<int>(std::floor(at.center_cell[l] + at.half_cells[l])); };
+      const auto first_of = [&](int l) {
+        return static_cast<int>(std::ceil(at.center_cell[l] - at.half_cells[l]));
+      };
+      const auto last_of = [&](int l) {
+        return static_cast<int>(std::floor(at.center_cell[l] + at.half_cells[l]));
+      };
       cube[outer] = first_of(outer);
       cube[other] = first_of(other);
       glm::dvec3 edge[3];
@@ -141,8 +194,7 @@ std::vector<UsTile> tiles_of(const UltrasoundView& view, const ScattererField& f
       const glm::dvec3 corner_mm = in_frame(s * glm::dvec3(cube) - at.start_lps_mm);
       UsTile t{};
       t.corner_mm = vec4_from(corner_mm, band.half_thickness_mm);
-      t.from_box_mm =
-          vec4_from(in_frame(s * (glm::dvec3(cube) - at.center_cell)), band.from_mm);
+      t.from_box_mm = vec4_from(in_frame(s * (glm::dvec3(cube) - at.center_cell)), band.from_mm);
       t.half_box_mm = vec4_from(at.half_mm, band.to_mm);
       t.edge_x_mm = vec4_from(edge[0], middle);
       t.edge_y_mm = vec4_from(edge[1], from);
@@ -197,8 +249,7 @@ void walk_lines(const TissueVolume& tissue, const UltrasoundView& view, const In
     walker.walk(beam, touches(view, depth_below_skin_mm, beam), line);
     if (line.contact)
       for (std::size_t k = 0; k < samples; ++k)
-        lines.through[b * samples + k] =
-            std::exp(-0.115129255F * line.loss_db[k]) * (1.0F / ScattererField::kUnit);
+        lines.through[b * samples + k] = std::exp(-0.115129255F * line.loss_db[k]) * (1.0F / SpeckleField::kUnit);
     std::copy(line.shift_mm.begin(), line.shift_mm.end(),
               lines.shift_mm.begin() + static_cast<std::ptrdiff_t>(b * samples));
     lines.echo_counts[b] = static_cast<std::int32_t>(line.echoes.size());
@@ -211,8 +262,8 @@ void walk_lines(const TissueVolume& tissue, const UltrasoundView& view, const In
     for (const LineEcho& echo : echoes[b]) {
       const double turns = 2.0 * echo.depth_mm / wavelength_mm,
                    angle = -6.283185307179586 * (turns - std::floor(turns));
-      *to++ = glm::vec4(glm::dvec4(echo.depth_mm, echo.amplitude * std::cos(angle), echo.amplitude * std::sin(angle),
-                                   0.0));
+      *to++ = glm::vec4(
+          glm::dvec4(echo.depth_mm, echo.amplitude * std::cos(angle), echo.amplitude * std::sin(angle), 0.0));
     }
   }
 }
@@ -222,19 +273,26 @@ void walk_lines(const TissueVolume& tissue, const UltrasoundView& view, const In
 struct UltrasoundGpu::Parts {
   Parts(gpu::Context& context, const TissueVolume& the_tissue)
       : tissue(the_tissue),
-        classes(context, the_tissue.volume->size_voxels,
-                std::span(reinterpret_cast<const std::uint8_t*>(the_tissue.classes.data()),
-                          the_tissue.classes.size())),
+        voxel_from_lps(volume::voxel_from_lps(*the_tissue.volume)),
+        classes(
+            context, the_tissue.volume->size_voxels,
+            std::span(reinterpret_cast<const std::uint8_t*>(the_tissue.classes.data()), the_tissue.classes.size())),
         scatter(context, shader("ultrasound_scatter.comp")),
+        lattice_noise(context, shader("ultrasound_lattice_noise.comp")),
+        lattice_beams(context, shader("ultrasound_lattice_beams.comp")),
         shift(context, shader("ultrasound_shift.comp")),
         pulse(context, shader("ultrasound_pulse.comp")),
         pulse_shifted(context, shader("ultrasound_pulse_shifted.comp")),
         grey(context, shader("ultrasound_grey.comp")),
+        tissue_block(context, gpu::BufferUse::uniform, sizeof(UsTissue)),
+        lattice_parameters(context, gpu::BufferUse::uniform, sizeof(UsLatticeParameters)),
         scatter_parameters(context, gpu::BufferUse::uniform, sizeof(UsScatterParameters)),
         pulse_parameters(context, gpu::BufferUse::uniform, sizeof(UsPulseParameters)),
         grey_parameters(context, gpu::BufferUse::uniform, sizeof(UsGreyParameters)),
         phases(context, gpu::BufferUse::uniform, kPhases * sizeof(glm::vec4)),
         tiles(context),
+        depths(context),
+        noise(context),
         sums(context),
         weights(context),
         through(context),
@@ -244,55 +302,78 @@ struct UltrasoundGpu::Parts {
         laid(context),
         envelope(context),
         gain(context),
+        map(context),
         picture(context) {
     std::vector<glm::vec4> turns;
     for (const auto& [re, im] : imaging::phases()) turns.emplace_back(re, im, 0.0F, 0.0F);
     phases.write(std::as_bytes(std::span(turns)));
   }
 
-  void scatter_all(const UltrasoundView& view, const Inserted& inserted, const ScattererField& field);
+  void add_scatterers(const UltrasoundView& view, const ScattererField& field);
+  void add_lattice(const UltrasoundView& view, const LatticeField& field);
   void make_envelope(const UltrasoundView& view, const Inserted& inserted,
-                     std::span<const float> depth_below_skin_mm, const NoiseKey* noise);
+                     std::span<const float> depth_below_skin_mm, const NoiseKey* receiver);
 
   TissueVolume tissue;
+  glm::dmat4 voxel_from_lps;
   gpu::Texture classes;
-  gpu::Program scatter, shift, pulse, pulse_shifted, grey;
-  gpu::Buffer scatter_parameters, pulse_parameters, grey_parameters, phases;
-  Storage tiles, sums, weights, through, shift_mm, echo_counts, echoes, laid, envelope, gain, picture;
+  gpu::Program scatter, lattice_noise, lattice_beams, shift, pulse, pulse_shifted, grey;
+  gpu::Buffer tissue_block, lattice_parameters, scatter_parameters, pulse_parameters, grey_parameters, phases;
+  Storage tiles, depths, noise, sums, weights, through, shift_mm, echo_counts, echoes, laid, envelope, gain, map,
+      picture;
   Lines lines;
 };
 
-void UltrasoundGpu::Parts::scatter_all(const UltrasoundView& view, const Inserted& inserted,
-                                       const ScattererField& field) {
-  const UsScatterParameters parameters = imaging::scatter_parameters(tissue, view, inserted, field);
-  const std::vector<UsTile> all = tiles_of(view, field, volume::voxel_from_lps(*tissue.volume));
+void UltrasoundGpu::Parts::add_scatterers(const UltrasoundView& view, const ScattererField& field) {
+  const UsScatterParameters parameters = imaging::scatter_parameters(view, field.fine());
+  const std::vector<UsTile> all = tiles_of(view, field, voxel_from_lps);
   int most_rows = 1;
   for (const UsTile& tile : all) most_rows = std::max(most_rows, tile.rows_outer * tile.rows_middle);
   scatter_parameters.write(std::as_bytes(std::span(&parameters, 1)));
   tiles.write(all);
-  classes.bind(0);
+  sums.buffer().clear();
   scatter_parameters.bind(0);
-  phases.bind(1);
   tiles.buffer().bind(2);
   sums.buffer().bind(3);
   scatter.dispatch(groups(most_rows, kGroup), static_cast<int>(all.size()), 1);
 }
 
+void UltrasoundGpu::Parts::add_lattice(const UltrasoundView& view, const LatticeField& field) {
+  const UsLatticeParameters parameters = imaging::lattice_parameters(view, field, voxel_from_lps);
+  lattice_parameters.write(std::as_bytes(std::span(&parameters, 1)));
+  depths.write(lattice_depths(view, field));
+  noise.need(static_cast<std::size_t>(parameters.lines) * static_cast<std::size_t>(view.samples) *
+             sizeof(glm::vec2));
+  lattice_parameters.bind(0);
+  depths.buffer().bind(2);
+  noise.buffer().bind(3);
+  lattice_noise.dispatch(groups(parameters.lines, kGroup), view.samples, 1);
+  sums.buffer().bind(4);
+  lattice_beams.dispatch(groups(view.beams, kGroup), view.samples, 1);
+}
+
 void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inserted& inserted,
-                                         std::span<const float> depth_below_skin_mm, const NoiseKey* noise) {
+                                         std::span<const float> depth_below_skin_mm, const NoiseKey* receiver) {
   check_view(view, depth_below_skin_mm);
+  CHECK(view.method != UltrasoundMethod::thesis);
   const TissueAt tissue_at(tissue, inserted);
-  const ScattererField field(view, tissue_at);
-  const int fine = field.fine();
+  const std::unique_ptr<SpeckleField> field = speckle_field(view, tissue_at);
+  const int fine = field->fine();
   const std::size_t polar = static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples);
   sums.need(polar * static_cast<std::size_t>(fine) * sizeof(glm::ivec2));
-  sums.buffer().clear();
-  scatter_all(view, inserted, field);
+  const UsTissue block = imaging::tissue_block(tissue, view, inserted);
+  tissue_block.write(std::as_bytes(std::span(&block, 1)));
+  classes.bind(0);
+  tissue_block.bind(1);
+  phases.bind(2);
+  if (view.method == UltrasoundMethod::scatterers)
+    add_scatterers(view, static_cast<const ScattererField&>(*field));
+  else
+    add_lattice(view, static_cast<const LatticeField&>(*field));
 
   walk_lines(tissue, view, inserted, depth_below_skin_mm, lines);
   const Fan fan = fan_of(view);
-  const double mhz = working_mhz(view),
-               sigma_mm = beam_width(view.probe, mhz, view.focus_mm, 1.0).axial_sigma_mm;
+  const double mhz = working_mhz(view), sigma_mm = beam_width(view.probe, mhz, view.focus_mm, 1.0).axial_sigma_mm;
   const std::vector<PulseTap> taps = pulse_taps(sigma_mm, fan.sample_mm, fine);
   const auto padding = static_cast<std::size_t>((kUsOutputs - 1) * fine);
   std::vector<float> padded(taps.size() + 2 * padding, 0.0F);
@@ -304,10 +385,10 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   p.first_tap = taps.front().shift * fine + taps.front().part;
   p.taps = static_cast<int>(taps.size());
   p.most_echoes = lines.most_echoes;
-  if (noise != nullptr) {
+  if (receiver != nullptr) {
     p.noisy = 1;
-    p.noise_first = noise->first;
-    p.noise_second = noise->second;
+    p.noise_first = receiver->first;
+    p.noise_second = receiver->second;
     p.noise_mean_square = static_cast<float>(std::pow(10.0, kReceiverNoiseDb / 10.0));
   }
   p.sample_mm = static_cast<float>(fan.sample_mm);
@@ -321,7 +402,6 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   echoes.write(lines.echoes);
   envelope.need(polar * sizeof(float));
   pulse_parameters.bind(0);
-  phases.bind(1);
   if (!lines.shift_mm.empty()) {
     shift_mm.write(lines.shift_mm);
     laid.need(polar * static_cast<std::size_t>(fine) * sizeof(glm::vec2));
@@ -337,7 +417,8 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   echo_counts.buffer().bind(5);
   echoes.buffer().bind(6);
   envelope.buffer().bind(7);
-  (lines.shift_mm.empty() ? pulse : pulse_shifted).dispatch(groups(view.samples, kGroup * kUsOutputs), view.beams, 1);
+  (lines.shift_mm.empty() ? pulse : pulse_shifted)
+      .dispatch(groups(view.samples, kGroup * kUsOutputs), view.beams, 1);
 }
 
 UltrasoundGpu::UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue)
@@ -355,8 +436,8 @@ void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
 }
 
 void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm, const UltrasoundKnobs& knobs,
-                         DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey) {
+                         std::span<const float> depth_below_skin_mm, const UltrasoundKnobs& knobs, DisplaySize size,
+                         std::uint64_t frame, std::vector<unsigned char>& grey) {
   CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
   CHECK(knobs.dynamic_range_db > 0.0);
   Parts& parts = *parts_;
@@ -367,8 +448,7 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
   const Screen screen = screen_of(view, size);
   std::vector<float> gain(static_cast<std::size_t>(view.samples) + 1);
   for (int k = 0; k < view.samples; ++k)
-    gain[static_cast<std::size_t>(k)] =
-        static_cast<float>(display_gain_db(view, knobs, (k + 0.5) * fan.sample_mm));
+    gain[static_cast<std::size_t>(k)] = static_cast<float>(display_gain_db(view, knobs, (k + 0.5) * fan.sample_mm));
   gain.back() = gain[static_cast<std::size_t>(view.samples) - 1];
   UsGreyParameters p{};
   p.width_px = size.width_px;
@@ -385,6 +465,10 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
   p.black_db = static_cast<float>(kWhiteDb - knobs.dynamic_range_db);
   p.per_db = static_cast<float>(255.0 / knobs.dynamic_range_db);
   p.curved = fan.curved ? 1 : 0;
+  p.flipped = knobs.flip ? 1 : 0;
+  p.mapped = knobs.grey_map != GreyMap::linear ? 1 : 0;
+  const auto map = grey_table(knobs.grey_map);
+  parts.map.write(std::vector<std::uint32_t>(map.begin(), map.end()));
   parts.grey_parameters.write(std::as_bytes(std::span(&p, 1)));
   parts.gain.write(gain);
   const int words = groups(size.width_px, shaders::kUsPixels);
@@ -394,7 +478,8 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
   parts.grey_parameters.bind(0);
   parts.envelope.buffer().bind(1);
   parts.gain.buffer().bind(2);
-  parts.picture.buffer().bind(3);
+  parts.map.buffer().bind(3);
+  parts.picture.buffer().bind(4);
   parts.grey.dispatch(groups(words, kGroupPx), groups(size.height_px, kGroupPx), 1);
   grey.resize(bytes);
   parts.picture.buffer().read(std::as_writable_bytes(std::span(grey)));
@@ -410,10 +495,11 @@ void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
 std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
   Parts& p = *parts_;
   std::size_t bytes = 0;
-  for (const gpu::Buffer* buffer : {&p.scatter_parameters, &p.pulse_parameters, &p.grey_parameters, &p.phases})
+  for (const gpu::Buffer* buffer : {&p.tissue_block, &p.lattice_parameters, &p.scatter_parameters,
+                                    &p.pulse_parameters, &p.grey_parameters, &p.phases})
     bytes += buffer->size();
-  for (Storage* storage : {&p.tiles, &p.sums, &p.weights, &p.through, &p.shift_mm, &p.echo_counts,
-                           &p.echoes, &p.laid, &p.envelope, &p.gain, &p.picture})
+  for (Storage* storage : {&p.tiles, &p.depths, &p.noise, &p.sums, &p.weights, &p.through, &p.shift_mm,
+                           &p.echo_counts, &p.echoes, &p.laid, &p.envelope, &p.gain, &p.map, &p.picture})
     bytes += storage->buffer().size();
   return bytes;
 }

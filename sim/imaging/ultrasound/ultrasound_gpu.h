@@ -23,7 +23,8 @@ class UltrasoundGpu {
   void polar(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
              PolarPicture& picture);
 
-  // The same, add_receiver_noise(view.seed, frame) and ScanConverter(view, size).grey, and only the grey comes back.
+  // The same, add_receiver_noise(view.seed, frame) and ScanConverter(view, size).grey, and only the grey comes
+  // back.
   void grey(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
             const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey);
 

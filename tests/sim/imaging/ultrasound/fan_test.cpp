@@ -59,8 +59,8 @@ TEST(Probe, AFocusIsSharpestAndNeverSharperThanEverywhere) {
     EXPECT_GE(one, all - 1e-12);
     EXPECT_LE(one, all * std::sqrt(2.0));  // what is received stays in focus
   }
-  EXPECT_EQ(probe_named("C5-2v"), &kC52v);
-  EXPECT_EQ(probe_named("L11-5v"), &kL115v);
+  for (const Probe& probe : kProbes) EXPECT_EQ(probe_named(probe.name), &probe);
+  EXPECT_EQ(probe_named("L11-5v")->pitch_mm, 0.300);
   EXPECT_EQ(probe_named("X1"), nullptr);
 }
 
