@@ -33,6 +33,8 @@ constexpr Option kRenderOptions[] = {
     {"--backend", "gpu|cpu|reference", "default gpu where GL 4.3 has hardware, else cpu"},
     kLibrary,
     kJson};
+constexpr Option kSheetOptions[] = {
+    {"--out", "FILE.html", "the page"}, {"--backend", "gpu|cpu|reference", "as of render"}, kLibrary};
 constexpr Option kSimulateOptions[] = {
     kLibrary,
     {"--case", "ID", "the case"},
@@ -76,6 +78,7 @@ constexpr Command kCommands[] = {
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
     {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
+    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.", &run_sheet},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
      &run_simulate},
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",

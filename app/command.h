@@ -45,6 +45,7 @@ int run_case_list(const Arguments& arguments);
 int run_case_show(const Arguments& arguments);
 int run_case_lesion(const Arguments& arguments);
 int run_render(const Arguments& arguments);
+int run_sheet(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
 int run_score(const Arguments& arguments);
 int run_replay(const Arguments& arguments);

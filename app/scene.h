@@ -33,7 +33,7 @@ struct XrayView {
   XrayOutput output = XrayOutput::line_integral;
   int supersampling = 1;  // rays a pixel in each direction
 };
-enum class UltrasoundOutput { display, polar_db };
+enum class UltrasoundOutput { display, envelope_db, polar_db };
 struct UltrasoundSceneView {
   imaging::UltrasoundView view;
   imaging::UltrasoundKnobs knobs;
@@ -50,7 +50,7 @@ struct Scene {
   std::optional<View> view;
 };
 
-// All problems at once (`bad_scene`); `unsupported_view` for kinds that this version does not render. Relative
+// All problems at once (`bad_scene`). Relative
 // paths are those of `folder`. Fields that are not used are named in `unused`.
 base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
                                     std::vector<std::string>& unused);

@@ -9,6 +9,7 @@
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -119,6 +120,11 @@ std::vector<float> element_depths(const volume::Volume& volume, const imaging::U
   return depths;
 }
 
+// Of levels that nothing was added to: liver at the face is white, 128 dB below it black.
+unsigned char grey_of_db(float db) {
+  return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
+}
+
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
   if (!picture.backend.empty() && picture.backend != "cpu")
@@ -126,19 +132,17 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   picture.backend = "cpu";
   const imaging::UltrasoundView& view = scene.view;
   imaging::PolarPicture polar;
-  imaging::ultrasound_polar({&volume, classes}, view, inserted, element_depths(volume, view), polar);
+  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
+  imaging::ultrasound_polar({&volume, classes, echogenicity}, view, inserted, element_depths(volume, view), polar);
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};
     picture.unit = "dB";
     picture.values = imaging::polar_db(polar);
-    for (const float db : picture.values)
-      picture.grey.push_back(static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F)));
+    for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
   const imaging::ScanConverter converter(view, scene.size);
-  imaging::add_receiver_noise(view.seed, 1, polar);
-  converter.grey(view, scene.knobs, polar, picture.grey);
   const double middle_mm = converter.top_mm() + 0.5 * converter.height_px() * converter.pixel_mm();
   picture.plane = {view.origin_lps_mm + view.axial * middle_mm,
                    view.lateral,
@@ -146,6 +150,14 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
                    converter.pixel_mm(),
                    converter.width_px(),
                    converter.height_px()};
+  if (scene.output == UltrasoundOutput::envelope_db) {
+    picture.unit = "dB";
+    picture.values = converter.envelope_db(polar);
+    for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
+    return;
+  }
+  imaging::add_receiver_noise(view.seed, 1, polar);
+  converter.grey(view, scene.knobs, polar, picture.grey);
   picture.unit = "grey";
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }

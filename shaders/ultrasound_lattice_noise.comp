@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform usampler2DArray classes;  // one layer a slice
+layout(binding = 0) uniform usampler2DArray voxels;  // one layer a slice
 layout(std140, binding = 0) uniform Parameters { UsLatticeParameters parameters; };
 layout(std140, binding = 1) uniform Tissue { UsTissue tissue; };
 layout(std430, binding = 2) readonly buffer Depths { UsLatticeDepth depths[]; };

@@ -8,7 +8,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(binding = 0) uniform usampler2DArray classes;  // one layer a slice
+layout(binding = 0) uniform usampler2DArray voxels;  // one layer a slice
 layout(std140, binding = 0) uniform Parameters { UsScatterParameters parameters; };
 layout(std140, binding = 1) uniform Tissue { UsTissue tissue; };
 layout(std140, binding = 2) uniform Phases { vec4 phases[kUsPhases]; };

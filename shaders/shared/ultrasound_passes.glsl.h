@@ -19,6 +19,10 @@ struct UsTissue {
   int size_x;  // of the volume, voxels
   int size_y;
   int size_z;
+  int no_offset;        // the voxel's level at which the class's amplitude stands; the log of what a step more
+  float log_of_a_step;  // makes of it
+  int padding_1;
+  int padding_2;
 };
 
 struct UsScatterParameters {

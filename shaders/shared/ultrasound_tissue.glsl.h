@@ -1,10 +1,11 @@
-// How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have `classes`
-// and a block `tissue`.
+// How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have `voxels`
+// (class + 256 · level of the echo) and a block `tissue`.
 float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
   bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(tissue.size_x) &&
                 index.y < float(tissue.size_y) && index.z < float(tissue.size_z);
-  uint at = texelFetch(classes, inside ? ivec3(index) : ivec3(0), 0).x;
-  float amplitude = inside ? tissue.amplitude[at].x : 0.0;
+  uint at = texelFetch(voxels, inside ? ivec3(index) : ivec3(0), 0).x;
+  float offset = exp(float(int(at >> 8u) - tissue.no_offset) * tissue.log_of_a_step);
+  float amplitude = inside ? tissue.amplitude[at & 255u].x * offset : 0.0;
   // Backwards, so that the first lesion that contains the point is the last to write.
   for (int i = tissue.lesion_count - 1; i >= 0; --i) {
     vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;

@@ -22,13 +22,7 @@ std::size_t count(glm::ivec3 size) {
 Texture::Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t> values)
     : handles_(context.handles()) {
   CHECK(values.size() == count(size));
-  upload(size, GL_R16I, GL_RED_INTEGER, GL_SHORT, 2, values.data());
-}
-
-Texture::Texture(Context& context, glm::ivec3 size, std::span<const std::uint8_t> values)
-    : handles_(context.handles()) {
-  CHECK(values.size() == count(size));
-  upload(size, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, 1, values.data());
+  upload(size, GL_R16I, GL_RED_INTEGER, GL_SHORT, values.data());
 }
 
 Texture::Texture(const std::shared_ptr<Handles>& handles, glm::ivec3 size, std::span<const std::uint16_t> values,
@@ -37,9 +31,9 @@ Texture::Texture(const std::shared_ptr<Handles>& handles, glm::ivec3 size, std::
   CHECK(numbers == 1 || numbers == 2);
   CHECK(values.size() == count(size) * static_cast<std::size_t>(numbers));
   if (numbers == 1)
-    upload(size, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, 2, values.data());
+    upload(size, GL_R16UI, GL_RED_INTEGER, GL_UNSIGNED_SHORT, values.data());
   else
-    upload(size, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, 2, values.data());
+    upload(size, GL_RG16UI, GL_RG_INTEGER, GL_UNSIGNED_SHORT, values.data());
 }
 
 void Texture::check_size(const std::shared_ptr<Handles>& handles, glm::ivec3 size) {
@@ -53,7 +47,7 @@ void Texture::check_size(const std::shared_ptr<Handles>& handles, glm::ivec3 siz
                                   " voxels along a side");
 }
 
-void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type, int alignment,
+void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type,
                      const void* values) {
   check_size(handles_, size);
   glGenTextures(1, &name_);
@@ -65,7 +59,7 @@ void Texture::upload(glm::ivec3 size, unsigned int inner, unsigned int outer, un
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, alignment);  // rows follow each other without padding
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 2);  // rows of 16-bit numbers follow each other without padding
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, static_cast<GLint>(inner), size.x, size.y, size.z, 0, outer, type, values);
     handles_->check_errors("uploading a volume");
   } catch (...) {

@@ -1,5 +1,5 @@
-// A volume of integers as a stack of slices: of 16 bits signed (R16I, isampler2DArray in shaders) or unsigned
-// (R16UI, usampler2DArray; with two numbers a voxel RG16UI), or of 8 bits unsigned (R8UI). A stack and not a 3-D
+// A volume of 16-bit integers as a stack of slices: signed (R16I, isampler2DArray in shaders) or unsigned (R16UI,
+// usampler2DArray; with two numbers a voxel RG16UI). A stack and not a 3-D
 // texture, because textureGather exists for stacks only: it answers the 2×2 neighbours of a slice at once,
 // unfiltered and exact. Two of them instead of eight texelFetch bring a 512×512 trilinear picture with needle and
 // lesion from 16.3 to 10.1 ms of processor time (Mesa 22.3 llvmpipe).
@@ -19,7 +19,6 @@ class Texture {
   // `values` with x fastest, size.x·size.y·size.z of them. Throws base::Failure("gl") when the size exceeds
   // GL_MAX_TEXTURE_SIZE, GL_MAX_ARRAY_TEXTURE_LAYERS or memory.
   Texture(Context& context, glm::ivec3 size, std::span<const std::int16_t> values);
-  Texture(Context& context, glm::ivec3 size, std::span<const std::uint8_t> values);
   // With the handles of a context that may be gone; any thread's, made current on this one. `numbers` (1 or 2) a
   // voxel.
   Texture(const std::shared_ptr<Handles>& handles, glm::ivec3 size, std::span<const std::uint16_t> values,
@@ -34,8 +33,7 @@ class Texture {
   void bind(int unit) const;  // layout(binding = unit) in the shader; reads beyond a border repeat it
 
  private:
-  void upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type, int alignment,
-              const void* values);
+  void upload(glm::ivec3 size, unsigned int inner, unsigned int outer, unsigned int type, const void* values);
 
   std::shared_ptr<Handles> handles_;
   unsigned int name_ = 0;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "casedb/import/import.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/volume/classes.h"
 #include "tests/gpu_cpu/ultrasound_pair.h"
 
@@ -13,6 +14,7 @@ namespace {
 struct Patient {
   volume::Volume volume;
   std::vector<volume::TissueClass> classes;
+  std::vector<std::uint8_t> echogenicity;
 };
 
 Patient patient(const char* name) {
@@ -21,15 +23,16 @@ Patient patient(const char* name) {
     ADD_FAILURE() << name;
     return {};
   }
-  Patient p{std::move(source->volume), {}};
+  Patient p{std::move(source->volume), {}, {}};
   p.classes = volume::tissue_classes(p.volume);
+  p.echogenicity = echogenicity(p.volume, p.classes);
   return p;
 }
 
 void expect_alike(const Patient& p, UltrasoundView view, const Inserted& inserted) {
   ASSERT_FALSE(p.classes.empty());
   gpu::Context context;
-  const TissueVolume tissue{&p.volume, p.classes};
+  const TissueVolume tissue{&p.volume, p.classes, p.echogenicity};
   UltrasoundGpu gpu(context, tissue);
   for (const UltrasoundMethod method : {UltrasoundMethod::scatterers, UltrasoundMethod::lattice})
     for (const bool range_error : {false, true}) {

@@ -7,6 +7,7 @@
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 
 namespace seldinger::imaging {
 
@@ -57,6 +58,11 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   row_ = n.x;
   slice_ = row_ * n.y;
   classes_ = tissue.classes.data();
+  CHECK(tissue.echogenicity.empty() || tissue.echogenicity.size() == tissue.classes.size());
+  echogenicity_ = tissue.echogenicity.empty() ? nullptr : tissue.echogenicity.data();
+  amplitude_ = speckle_amplitudes();
+  for (std::size_t i = 0; i < offset_.size(); ++i)
+    offset_[i] = static_cast<float>(std::pow(10.0, echo_offset_db(static_cast<std::uint8_t>(i)) / 20.0));
 }
 
 glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept {

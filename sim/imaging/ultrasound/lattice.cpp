@@ -53,7 +53,6 @@ LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at
         (fan_.sample_mm * fan_.sample_mm);
     at.gain = static_cast<float>(1.0 / std::sqrt(2.0 * kNodeMeanSquare * lateral * axial));
   }
-  amplitude_ = speckle_amplitudes();
 }
 
 void LatticeField::noise_line(double beam, std::vector<float>& re, std::vector<float>& im) const {
@@ -62,7 +61,7 @@ void LatticeField::noise_line(double beam, std::vector<float>& re, std::vector<f
     const auto n = static_cast<std::size_t>(k);
     const AtSample& at = at_sample_[n];
     const glm::dvec3 p = start + ((k + 0.5) * fan_.sample_mm) * direction;
-    const float tissue = amplitude_[static_cast<std::size_t>(tissue_at_(p))];
+    const float tissue = tissue_at_.speckle(p);
     re[n] = im[n] = 0.0F;
     if (tissue == 0.0F) continue;
     const glm::dvec3 cell = p * static_cast<double>(at.per_mm), low = glm::floor(cell);

@@ -36,7 +36,6 @@ class LatticeField final : public SpeckleField {
   Fan fan_;
   int most_reach_ = 0;
   std::vector<AtSample> at_sample_;
-  std::array<float, volume::kTissueClasses> amplitude_;
 };
 
 }  // namespace seldinger::imaging

@@ -133,7 +133,6 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
       at.elevation_scale = static_cast<float>(weight.z) * kUsTablePerQ;
       at.amplitude = static_cast<float>(kUnit * weight.w);
     }
-  amplitude_ = speckle_amplitudes();
 }
 
 ScattererField::Lattice ScattererField::lattice_at(double depth_mm) const noexcept {
@@ -244,7 +243,7 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       if (from > to) continue;
       const glm::dvec3 p = start + static_cast<double>(chunk.x[n]) * x_axis +
                            static_cast<double>(chunk.y[n]) * y_axis + static_cast<double>(chunk.z[n]) * z_axis;
-      const float tissue = amplitude_[static_cast<std::size_t>(tissue_at_(p))];
+      const float tissue = tissue_at_.speckle(p);
       if (tissue == 0.0F) continue;
       const float amplitude = tissue * at.amplitude;
       const auto& turn = phase[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kPhases];

@@ -65,7 +65,6 @@ class ScattererField final : public SpeckleField {
   int fine_;
   std::vector<Band> bands_;
   std::vector<AtSample> at_sample_;
-  std::array<float, volume::kTissueClasses> amplitude_;
 };
 
 }  // namespace seldinger::imaging

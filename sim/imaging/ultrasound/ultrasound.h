@@ -48,7 +48,8 @@ struct UltrasoundView {
 // The tissue a picture is taken of. Both outlive the picture-taker.
 struct TissueVolume {
   const volume::Volume* volume = nullptr;
-  std::span<const volume::TissueClass> classes;  // of every voxel, in the volume's order
+  std::span<const volume::TissueClass> classes;     // of every voxel, in the volume's order
+  std::span<const std::uint8_t> echogenicity = {};  // as echogenicity.h makes it; empty: classes alone
 };
 
 // Envelope, linear: 1 is the root mean square of the speckle of liver at the face, at every depth without loss.

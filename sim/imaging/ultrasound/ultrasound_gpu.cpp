@@ -14,6 +14,7 @@
 #include "sim/gpu/buffer.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/phase.h"
@@ -37,7 +38,7 @@ using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
 using shaders::UsTissue;
-static_assert(sizeof(UsTissue) == 784 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 304);
+static_assert(sizeof(UsTissue) == 800 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 304);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
 static_assert(shaders::kUsLinesPerBeam == LatticeField::kLinesPerBeam);
@@ -81,6 +82,18 @@ class Storage {
   gpu::Buffer buffer_;
 };
 
+// Class and level of the echo in one number.
+std::vector<std::uint16_t> voxels_of(const TissueVolume& tissue) {
+  CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
+  CHECK(tissue.echogenicity.empty() || tissue.echogenicity.size() == tissue.classes.size());
+  std::vector<std::uint16_t> voxels(tissue.classes.size());
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    const unsigned level = tissue.echogenicity.empty() ? kNoEchoOffset : tissue.echogenicity[i];
+    voxels[i] = static_cast<std::uint16_t>(static_cast<unsigned>(tissue.classes[i]) | level << 8U);
+  }
+  return voxels;
+}
+
 UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted) {
   UsTissue t{};
   const auto amplitude = speckle_amplitudes();
@@ -94,6 +107,8 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
   t.size_x = tissue.volume->size_voxels.x;
   t.size_y = tissue.volume->size_voxels.y;
   t.size_z = tissue.volume->size_voxels.z;
+  t.no_offset = kNoEchoOffset;
+  t.log_of_a_step = static_cast<float>(kEchoStepDb * std::log(10.0) / 20.0);
   return t;
 }
 
@@ -274,9 +289,7 @@ struct UltrasoundGpu::Parts {
   Parts(gpu::Context& context, const TissueVolume& the_tissue)
       : tissue(the_tissue),
         voxel_from_lps(volume::voxel_from_lps(*the_tissue.volume)),
-        classes(
-            context, the_tissue.volume->size_voxels,
-            std::span(reinterpret_cast<const std::uint8_t*>(the_tissue.classes.data()), the_tissue.classes.size())),
+        voxels(context.handles(), the_tissue.volume->size_voxels, voxels_of(the_tissue)),
         scatter(context, shader("ultrasound_scatter.comp")),
         lattice_noise(context, shader("ultrasound_lattice_noise.comp")),
         lattice_beams(context, shader("ultrasound_lattice_beams.comp")),
@@ -316,7 +329,7 @@ struct UltrasoundGpu::Parts {
 
   TissueVolume tissue;
   glm::dmat4 voxel_from_lps;
-  gpu::Texture classes;
+  gpu::Texture voxels;
   gpu::Program scatter, lattice_noise, lattice_beams, shift, pulse, pulse_shifted, grey;
   gpu::Buffer tissue_block, lattice_parameters, scatter_parameters, pulse_parameters, grey_parameters, phases;
   Storage tiles, depths, noise, sums, weights, through, shift_mm, echo_counts, echoes, laid, envelope, gain, map,
@@ -363,7 +376,7 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   sums.need(polar * static_cast<std::size_t>(fine) * sizeof(glm::ivec2));
   const UsTissue block = imaging::tissue_block(tissue, view, inserted);
   tissue_block.write(std::as_bytes(std::span(&block, 1)));
-  classes.bind(0);
+  voxels.bind(0);
   tissue_block.bind(1);
   phases.bind(2);
   if (view.method == UltrasoundMethod::scatterers)

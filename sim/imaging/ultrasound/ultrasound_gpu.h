@@ -11,9 +11,9 @@
 
 namespace seldinger::imaging {
 
-// Holds the tissue's classes as a stack of integer 2-D textures, and its buffers between pictures. On the context's
-// thread; may outlive the context, not the tissue. Throws base::Failure("gl") when the volume exceeds the largest
-// texture or memory. Same input, same bits.
+// Holds the tissue, two bytes a voxel, as a stack of integer 2-D textures, and its buffers between pictures. On the
+// context's thread; may outlive the context, not the tissue. Throws base::Failure("gl") when the volume exceeds the
+// largest texture or memory. Same input, same bits.
 class UltrasoundGpu {
  public:
   UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue);
@@ -28,7 +28,7 @@ class UltrasoundGpu {
   void grey(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
             const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey);
 
-  // Of all buffers, beside the classes.
+  // Of all buffers, beside the tissue.
   std::size_t buffer_bytes() const noexcept;
 
  private:
