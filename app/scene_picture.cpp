@@ -10,6 +10,7 @@
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -127,13 +128,38 @@ unsigned char grey_of_db(float db) {
 
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
-  if (!picture.backend.empty() && picture.backend != "cpu")
-    std::fputs("note: ultrasound is the CPU's in this version\n", stderr);
-  picture.backend = "cpu";
   const imaging::UltrasoundView& view = scene.view;
-  imaging::PolarPicture polar;
   const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
-  imaging::ultrasound_polar({&volume, classes, echogenicity}, view, inserted, element_depths(volume, view), polar);
+  const imaging::TissueVolume tissue{&volume, classes, echogenicity};
+  const std::vector<float> depths = element_depths(volume, view);
+  const bool on_screen = scene.output == UltrasoundOutput::display;
+  constexpr std::uint64_t kFrame = 1;
+  imaging::PolarPicture polar;
+  const auto on_cpu = [&] {
+    imaging::ultrasound_polar(tissue, view, inserted, depths, polar);
+    if (on_screen) {
+      imaging::add_receiver_noise(view.seed, kFrame, polar);
+      imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
+    }
+    return true;
+  };
+  const auto on_gpu = [&](gpu::Context& context) {
+    imaging::UltrasoundGpu gpu(context, tissue);
+    if (on_screen)
+      gpu.grey(view, inserted, depths, scene.knobs, scene.size, kFrame, picture.grey);
+    else
+      gpu.polar(view, inserted, depths, polar);
+    return true;
+  };
+  const bool thesis = view.method == imaging::UltrasoundMethod::thesis;
+  if (picture.backend == "reference" || (picture.backend == "gpu" && thesis))
+    std::fputs("note: this ultrasound is the CPU's\n", stderr);
+  if (picture.backend == "cpu" || picture.backend == "reference" || thesis) {
+    picture.backend = "cpu";
+    on_cpu();
+  } else {
+    on_best(picture.backend, on_gpu, on_cpu);
+  }
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};
@@ -142,22 +168,20 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
     for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
-  const imaging::ScanConverter converter(view, scene.size);
-  const double middle_mm = converter.top_mm() + 0.5 * converter.height_px() * converter.pixel_mm();
+  const imaging::Screen screen = imaging::screen_of(view, scene.size);
+  const double middle_mm = screen.top_mm + 0.5 * scene.size.height_px * screen.pixel_mm;
   picture.plane = {view.origin_lps_mm + view.axial * middle_mm,
                    view.lateral,
                    view.axial,
-                   converter.pixel_mm(),
-                   converter.width_px(),
-                   converter.height_px()};
+                   screen.pixel_mm,
+                   scene.size.width_px,
+                   scene.size.height_px};
   if (scene.output == UltrasoundOutput::envelope_db) {
     picture.unit = "dB";
-    picture.values = converter.envelope_db(polar);
+    picture.values = imaging::ScanConverter(view, scene.size).envelope_db(polar);
     for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
-  imaging::add_receiver_noise(view.seed, 1, polar);
-  converter.grey(view, scene.knobs, polar, picture.grey);
   picture.unit = "grey";
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }
