@@ -255,9 +255,6 @@ TEST(Cli, BadScenesSayEverythingThatIsWrong) {
     write(scratch / "b.json", text);
     expect_refused(run(kProgram + " render " + (scratch / "b.json").string() + out, scratch), "bad_scene");
   }
-  write(scratch / "c.json", std::string("{") + kBall + R"(,"view": {"kind": "ultrasound", "origin_mm": [0, -60, 0],
-    "axial": [0, 1, 0], "lateral": [1, 0, 0], "method": "thesis"}})");
-  expect_refused(run(kProgram + " render " + (scratch / "c.json").string() + out, scratch), "unsupported_view");
   write(scratch / "d.json", R"({"volume": "none.nii.gz", "view": {"kind": "mpr", "center_mm": [0,0,0], "u": [1,0,0],
     "v": [0,1,0], "pixel_mm": 1, "size_px": [4, 4]}})");
   expect_refused(run(kProgram + " render " + (scratch / "d.json").string() + out, scratch), "not_found");

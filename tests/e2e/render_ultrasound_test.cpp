@@ -73,7 +73,7 @@ TEST(RenderUltrasound, SpeckleFallsByTheAttenuationAndIsTheSameAgain) {
   EXPECT_NEAR(level_db(20.0) - level_db(50.0), 2.0 * 0.5 * 7.6 * 3.0, 1.0);
 }
 
-TEST(RenderUltrasound, DisplayIsAPictureAndTheRestIsRefused) {
+TEST(RenderUltrasound, DisplayIsAPictureByEachMethod) {
   const auto scratch = fixtures::fresh_folder("render_ultrasound_display");
   Json scene = ball();
   scene["view"]["output"] = "display";
@@ -81,12 +81,14 @@ TEST(RenderUltrasound, DisplayIsAPictureAndTheRestIsRefused) {
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_EQ(Json::parse(ran.out).at("size_px"), Json({800, 700}));
   EXPECT_EQ(fixtures::whole_file(scratch / "p.png").substr(1, 3), "PNG");
+  std::vector<std::string> pictures{fixtures::whole_file(scratch / "p.png")};
   for (const char* method : {"lattice", "thesis"}) {
     scene["view"]["method"] = method;
-    const auto refused = render(scene, scratch, "q.png");
-    EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_EQ(refused.err.rfind("error: unsupported_view: ", 0), 0U) << refused.err;
+    ASSERT_EQ(render(scene, scratch, "m.png").exit_code, 0) << method;
+    pictures.push_back(fixtures::whole_file(scratch / "m.png"));
   }
+  EXPECT_NE(pictures[0], pictures[1]);
+  EXPECT_NE(pictures[1], pictures[2]);
   scene = ball();
   scene["view"]["depth_mm"] = -1;
   EXPECT_EQ(render(scene, scratch, "q.png").err.rfind("error: bad_scene: ", 0), 0U);
@@ -116,6 +118,81 @@ TEST(RenderUltrasound, TheGpuShowsWhatTheCpuShows) {
   }
   EXPECT_GT(lit, 50000);
   EXPECT_LE(apart, lit / 1000);
+}
+
+TEST(RenderUltrasound, TheEnvelopeLiesInItsPlace) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_envelope");
+  Json scene = ball();
+  scene["view"]["output"] = "envelope_db";
+  scene["view"]["size_px"] = {60, 40};
+  scene["view"]["pixel_mm"] = 0.5;
+  const auto ran = render(scene, scratch, "e.mha");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json told = Json::parse(ran.out);
+  EXPECT_EQ(told.at("unit"), "dB");
+  const std::string file = fixtures::whole_file(scratch / "e.mha");
+  EXPECT_NE(file.find("DimSize = 60 40 1"), std::string::npos);
+  EXPECT_NE(file.find("ElementSpacing = 0.5 0.5"), std::string::npos);
+}
+
+TEST(RenderUltrasound, ProbesOfTheScenesOwnAndPresets) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_probe");
+  Json scene = ball();
+  const auto png = [&](const Json& probe) {
+    scene["view"]["probe"] = probe;
+    const auto ran = render(scene, scratch, "p.png");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return fixtures::whole_file(scratch / "p.png");
+  };
+  const Json linear = {{"frequency_mhz", 7.6},       {"elements", 128},    {"pitch_mm", 0.3}, {"height_mm", 5.0},
+                       {"elevation_focus_mm", 18.0}, {"aperture_mm", 19.2}};
+  EXPECT_EQ(png(linear), png("L11-5v"));
+  EXPECT_NE(png("thesis-linear"), png("L11-5v"));
+  scene["view"]["probe"] = {{"radius_mm", 10.0}};
+  EXPECT_NE(render(scene, scratch, "q.png").err.find("view.probe.radius_mm"), std::string::npos);
+  scene["view"]["probe"] = "unknown";
+  EXPECT_NE(render(scene, scratch, "q.png").err.find("view.probe"), std::string::npos);
+  scene = ball();
+  scene["view"]["preset"] = "vessel";
+  EXPECT_EQ(render(scene, scratch, "v.png").exit_code, 0);
+  scene["view"]["preset"] = "brain";
+  EXPECT_EQ(render(scene, scratch, "q.png").exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
+}
+
+TEST(Sheet, PutsScenesSideBySide) {
+  const auto scratch = fixtures::fresh_folder("sheet");
+  Json scene = ball();
+  scene["view"]["size_px"] = {64, 48};
+  const auto write = [&](const char* name, const Json& json) { std::ofstream(scratch / name) << json.dump(); };
+  write("ball.json", scene);
+  Json sheet = {
+      {"title", "<One & two>"},
+      {"columns", {{{"name", "scatterers"}}, {{"name", "lattice"}, {"set", {{"view", {{"method", "lattice"}}}}}}}},
+      {"rows", {{{"name", "a ball"}, {"scene", "ball.json"}}}}};
+  const auto run = [&](const char* out) {
+    write("sheet.json", sheet);
+    return fixtures::run(
+        kProgram + " sheet " + (scratch / "sheet.json").string() + " --out " + (scratch / out).string(), scratch);
+  };
+  const auto ran = run("s.html");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const std::string page = fixtures::whole_file(scratch / "s.html");
+  EXPECT_NE(page.find("&lt;One &amp; two&gt;"), std::string::npos);
+  std::vector<std::string> pictures;
+  for (std::size_t at = page.find("base64,"); at != std::string::npos; at = page.find("base64,", at + 1))
+    pictures.push_back(page.substr(at + 7, page.find('"', at) - at - 7));
+  ASSERT_EQ(pictures.size(), 2U);
+  EXPECT_NE(pictures[0], pictures[1]);
+  for (const std::string& picture : pictures) {
+    EXPECT_EQ(picture.rfind("iVBORw0KGgo", 0), 0U);  // how every PNG begins
+    EXPECT_EQ(picture.size() % 4, 0U);
+  }
+  sheet["rows"][0]["scene"] = "none.json";
+  EXPECT_EQ(run("t.html").exit_code, 3);
+  sheet.erase("columns");
+  EXPECT_EQ(run("t.html").err.rfind("error: bad_sheet: ", 0), 0U);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "t.html"));
 }
 
 }  // namespace

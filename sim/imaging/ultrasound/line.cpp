@@ -131,9 +131,10 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   const double dz = fan_.sample_mm;
   for (std::size_t k = 0; k < count; ++k)
     line.tissue[k] = tissue_at_(start + ((static_cast<double>(k) + 0.5) * dz) * direction);
-  // Gel, unless there is gas beyond what a blurred skin can be.
+  // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam clips.
   std::size_t first = 0;
-  while (first < count && is_gas(line.tissue[first])) ++first;
+  for (std::size_t k = 0; k < count && static_cast<double>(k) * dz <= kGelMm; ++k)
+    if (k == first ? is_gas(line.tissue[k]) : line.tissue[k] == TissueClass::air) first = k + 1;
   if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
 
   const NeedleCrossing needle = needle_ != nullptr ? crossing(start, direction) : NeedleCrossing{};

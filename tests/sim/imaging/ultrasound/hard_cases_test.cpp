@@ -82,6 +82,25 @@ TEST(HardCase, ABlurredSkinIsCoupledByGel) {
   EXPECT_LT(at(picture, 64, 5), 1e-3F);  // gel is clear
 }
 
+// A beam along a slanted face leaves the first voxel of skin through a corner of air: no wall of gas.
+TEST(HardCase, ACornerOfAirAtTheSkinIsCoupledToo) {
+  const auto with = [](TissueClass corner) {
+    return scene(
+        [=](const glm::dvec3& p) {
+          if (p.y < 0.0) return TissueClass::air;
+          return std::abs(p.x) < 3.0 && p.y > 0.5 && p.y < 2.0 ? corner : TissueClass::liver;
+        },
+        {150, 200, 30}, 0.5);
+  };
+  UltrasoundView view = straight_view(40.0);
+  view.origin_lps_mm.y = 0.3;
+  const PolarPicture picture = polar_of(with(TissueClass::air), view);
+  EXPECT_NEAR(level_db(picture, 56, 72, 300, 1000), level_db(picture, 20, 36, 300, 1000), 2.0);  // gel takes nothing
+  // Gas in the body is gas, however near.
+  const PolarPicture gas = polar_of(with(TissueClass::gas), view);
+  EXPECT_LT(level_db(gas, 58, 70, 600, 1000), level_db(gas, 20, 36, 600, 1000) - 40.0);
+}
+
 TEST(HardCase, OutsideTheCtIsAir) {
   const Scene s = scene([](const glm::dvec3&) { return TissueClass::liver; }, {20, 40, 20}, 2.0);  // ±20 mm, to 50
   UltrasoundView view = curved_view();
