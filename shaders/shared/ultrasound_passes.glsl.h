@@ -14,7 +14,7 @@ SHARED_CONSTANT int kUsPhases = 1024;
 struct UsTissue {
   vec4 amplitude[16];                    // x: of each class
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
-  vec4 lesion_amplitude[kUsMaxLesions];  // x
+  vec4 lesion_amplitude[kUsMaxLesions];  // x; y: class
   int lesion_count;
   int size_x;  // of the volume, voxels
   int size_y;
@@ -42,6 +42,44 @@ struct UsScatterParameters {
   float focus_mm;
   float height_mm;
   float elevation_focus_mm;
+};
+
+// What the walk along beams is told.
+SHARED_CONSTANT int kUsMostInterfaces = 512;  // of a beam; deeper ones are left out
+SHARED_CONSTANT int kUsMostEchoes = 768;
+SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
+SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u;  // classes of tissue; and what lies before the first:
+SHARED_CONSTANT int kUsGel = 255;
+struct UsLineParameters {
+  vec4 of_class[16];        // x: impedance in MRayl; y: loss in dB a mm; z: how much deeper a mm shows
+  vec4 mm_per_voxel[3];     // xyz: of the volume's axes
+  int beams;
+  int samples;
+  int around;               // neighbours that tell the normal,
+  int close;                // and those, after them, that tell the place
+  float close_weight;       // of all of those together
+  float most_shift_mm;
+  float sample_mm;
+  float depth_mm;
+  float turns_per_mm;       // of the carrier, on the way there and back
+  float per_unit;           // what sums are counted in
+  float least_side_mm;      // of the sum that tells a normal
+  int shifts;
+};
+
+// A beam.
+struct UsBeam {
+  vec4 index;           // xyz: index + ½ of where it starts, the sum of two floats
+  vec4 index_rest;      // xyz
+  vec4 index_along;     // xyz: a sample, likewise
+  vec4 index_along_rest;
+  vec4 start_mm;        // xyz: from the view's origin
+  vec4 direction;       // xyz
+  float needle_mm;      // where the needle stands before it; < 0: nowhere
+  float needle_shadow_db;
+  int needle_echoes;
+  int contact;
+  vec4 needle_echo[kUsMostNeedleEchoes];  // depth, amplitude without loss, depth down to which loss counts
 };
 
 // A tile of scatterers: a band of depth, a few beams wide. Its frame: x across, y elevation, z along its middle beam.

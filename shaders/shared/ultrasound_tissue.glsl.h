@@ -1,3 +1,17 @@
+// The class of a voxel, or of the lesion that stands at its place; air outside the volume.
+uint class_at(ivec3 voxel, vec3 from_origin_mm) {
+  ivec3 size = ivec3(tissue.size_x, tissue.size_y, tissue.size_z);
+  bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, size));
+  uint found = texelFetch(voxels, inside ? voxel : ivec3(0), 0).x & 255u;
+  found = inside ? found : kUsAir;
+  for (int i = tissue.lesion_count - 1; i >= 0; --i) {
+    vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
+    float radius = tissue.lesion_sphere_mm[i].w;
+    found = dot(off, off) <= radius * radius ? uint(tissue.lesion_amplitude[i].y) : found;
+  }
+  return found;
+}
+
 // How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have `voxels`
 // (class + 256 · level of the echo) and a block `tissue`.
 float speckle_amplitude(vec3 index, vec3 from_origin_mm) {

@@ -88,6 +88,26 @@ TEST(UltrasoundParameters, OfTheLattice) {
   expect_offsets("ultrasound_lattice_beams.comp", "depths", depths, 2);
 }
 
+TEST(UltrasoundParameters, OfTheLines) {
+  const Offsets ours{FIELD(UsLineParameters, of_class),     FIELD(UsLineParameters, mm_per_voxel),
+                     FIELD(UsLineParameters, beams),        FIELD(UsLineParameters, samples),
+                     FIELD(UsLineParameters, around),       FIELD(UsLineParameters, close),
+                     FIELD(UsLineParameters, close_weight), FIELD(UsLineParameters, most_shift_mm),
+                     FIELD(UsLineParameters, sample_mm),    FIELD(UsLineParameters, depth_mm),
+                     FIELD(UsLineParameters, turns_per_mm), FIELD(UsLineParameters, per_unit),
+                     FIELD(UsLineParameters, shifts),       FIELD(UsLineParameters, least_side_mm)};
+  expect_offsets("ultrasound_lines.comp", "parameters", ours, 6);
+  expect_offsets("ultrasound_echoes.comp", "parameters", ours, 13);
+  const Offsets beams{FIELD(UsBeam, index),         FIELD(UsBeam, index_rest),
+                      FIELD(UsBeam, index_along),   FIELD(UsBeam, index_along_rest),
+                      FIELD(UsBeam, start_mm),      FIELD(UsBeam, direction),
+                      FIELD(UsBeam, needle_mm),     FIELD(UsBeam, needle_shadow_db),
+                      FIELD(UsBeam, needle_echoes), FIELD(UsBeam, contact),
+                      FIELD(UsBeam, needle_echo)};
+  expect_offsets("ultrasound_lines.comp", "beams", beams, beams.size());
+  expect_offsets("ultrasound_echoes.comp", "beams", beams, beams.size());
+}
+
 TEST(UltrasoundParameters, OfThePulse) {
   const Offsets ours{FIELD(UsPulseParameters, beams),        FIELD(UsPulseParameters, samples),
                      FIELD(UsPulseParameters, fine),         FIELD(UsPulseParameters, first_tap),

@@ -33,15 +33,17 @@ void expect_alike(const Patient& p, UltrasoundView view, const Inserted& inserte
   ASSERT_FALSE(p.classes.empty());
   gpu::Context context;
   const TissueVolume tissue{&p.volume, p.classes, p.echogenicity};
-  UltrasoundGpu gpu(context, tissue);
-  for (const UltrasoundMethod method : {UltrasoundMethod::scatterers, UltrasoundMethod::lattice})
-    for (const bool range_error : {false, true}) {
-      view.method = method;
-      view.range_error = range_error;
-      const ScreenPair pair = screen_pair(gpu, tissue, view, inserted, {}, {}, {480, 420});
-      EXPECT_TRUE(alike(pair)) << range_error;
-      EXPECT_GT(pair.lit, 0.15);
-    }
+  for (const LinesBy by : {LinesBy::cpu, LinesBy::gpu}) {
+    UltrasoundGpu gpu(context, tissue, by);
+    for (const UltrasoundMethod method : {UltrasoundMethod::scatterers, UltrasoundMethod::lattice})
+      for (const bool range_error : {false, true}) {
+        view.method = method;
+        view.range_error = range_error;
+        const ScreenPair pair = screen_pair(gpu, tissue, view, inserted, {}, {}, {480, 420});
+        EXPECT_TRUE(alike(pair)) << range_error;
+        EXPECT_GT(pair.lit, 0.15);
+      }
+  }
 }
 
 TEST(UltrasoundOfRealCt, TheLiverBetweenTheRibs) {

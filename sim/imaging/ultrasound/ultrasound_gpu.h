@@ -1,5 +1,6 @@
 // Ultrasound on the GPU (GL 4.3 compute): the picture of ultrasound_polar and ScanConverter, of the same numbers in
-// float. The CPU tells what lies along the beams (line.h); scatterers, pulse and screen are the GPU's.
+// float. Passes: what lies along the beams → scatterers or lattice → where sound of another speed shows them →
+// pulse and echoes → screen.
 #pragma once
 
 #include <memory>
@@ -11,12 +12,15 @@
 
 namespace seldinger::imaging {
 
+// Who walks along the beams (line.h): on llvmpipe the CPU's own walk of 1 to 3 ms is quicker than the shader's.
+enum class LinesBy { machine, cpu, gpu };  // machine: the GPU where GL has hardware
+
 // Holds the tissue, two bytes a voxel, as a stack of integer 2-D textures, and its buffers between pictures. On the
 // context's thread; may outlive the context, not the tissue. Throws base::Failure("gl") when the volume exceeds the
 // largest texture or memory. Same input, same bits.
 class UltrasoundGpu {
  public:
-  UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue);
+  UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by = LinesBy::machine);
   ~UltrasoundGpu();
 
   // As ultrasound_polar.

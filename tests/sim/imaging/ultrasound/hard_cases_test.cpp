@@ -22,7 +22,8 @@ TEST(HardCase, GasAtTheSkinIsDarkWithRingsAndNoNan) {
     expect_finite(picture);
     // Rings at the lens, half each time.
     for (int k = 1; k <= 5; ++k)
-      EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kLensMm))), kLensDb - (k - 1) * kLensDbPerLine, 1.5);
+      EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kUsLensMm))), kUsLensDb - (k - 1) * kUsLensDbPerLine,
+                  1.5);
     expect_dark_below(picture, view, 35.0, -60.0);
   }
 }
@@ -46,7 +47,8 @@ TEST(HardCase, AProbeInAirShowsItsLensAndNothingStale) {
   for (int b = 0; b < view.beams; ++b)
     for (int k = 0; k < view.samples; ++k) EXPECT_EQ(at(picture, b, k), at(picture, 0, k));
   for (int k = 1; k <= 5; ++k)
-    EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kLensMm))), kLensDb - (k - 1) * kLensDbPerLine, 1.5);
+    EXPECT_NEAR(decibels(at(picture, 64, sample_at(view, k * kUsLensMm))), kUsLensDb - (k - 1) * kUsLensDbPerLine,
+                1.5);
   expect_dark_below(picture, view, 35.0, -100.0);
 }
 
@@ -95,7 +97,8 @@ TEST(HardCase, ACornerOfAirAtTheSkinIsCoupledToo) {
   UltrasoundView view = straight_view(40.0);
   view.origin_lps_mm.y = 0.3;
   const PolarPicture picture = polar_of(with(TissueClass::air), view);
-  EXPECT_NEAR(level_db(picture, 56, 72, 300, 1000), level_db(picture, 20, 36, 300, 1000), 2.0);  // gel takes nothing
+  EXPECT_NEAR(level_db(picture, 56, 72, 300, 1000), level_db(picture, 20, 36, 300, 1000),
+              2.0);  // gel takes nothing
   // Gas in the body is gas, however near.
   const PolarPicture gas = polar_of(with(TissueClass::gas), view);
   EXPECT_LT(level_db(gas, 58, 70, 600, 1000), level_db(gas, 20, 36, 600, 1000) - 40.0);
@@ -127,8 +130,8 @@ TEST(HardCase, GasInTheDepthComesAgainAtTwiceItsDepth) {
     return decibels(most);
   };
   const double way_db = line_of(s, view, 64).loss_db[static_cast<std::size_t>(sample_at(view, 29.9))];
-  EXPECT_NEAR(level(60.0) - level(30.0), -kRepeatDb - way_db, 1.0);
-  EXPECT_NEAR(level(90.0) - level(60.0), -kRepeatDb - way_db, 1.0);
+  EXPECT_NEAR(level(60.0) - level(30.0), -kUsRepeatDb - way_db, 1.0);
+  EXPECT_NEAR(level(90.0) - level(60.0), -kUsRepeatDb - way_db, 1.0);
   EXPECT_LT(level(45.0), -60.0);
 }
 
