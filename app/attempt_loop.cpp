@@ -6,6 +6,7 @@
 #include "app/fluoroscopy.h"
 #include "app/frame_truth.h"
 #include "app/png.h"
+#include "app/ultrasound_sight.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
@@ -31,6 +32,10 @@ imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lp
   const cases::Instrument& instrument = scene.instrument;
   return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
           instrument.hu};
+}
+
+cases::ToolPose probe_of(const cases::PoseSample& pose) {
+  return {pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral};
 }
 
 imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose) {
@@ -72,8 +77,11 @@ class Attempt {
   std::uint64_t hash_ = 0;
 };
 
-cases::Recording run_mpr_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                                 const assessment::OperatorProfile& profile, std::uint64_t seed) {
+// Under a probe: `truth_of` tells what the picture shows of a state, at the picture's rate.
+template <typename TruthOf>
+cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                                   const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                   const TruthOf& truth_of) {
   assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
   Attempt attempt(scene);
   const cases::State& state = attempt.state();
@@ -86,8 +94,7 @@ cases::Recording run_mpr_attempt(const cases::Case& scene, const assessment::Pun
     new_frame = due >= frames;
     if (!new_frame) continue;
     frames = due + 1;
-    frame = frame_truth(state.t_s, view_of(scene, pose_of(state)),
-                        needle_of(scene, state.needle.tip_lps_mm, state.needle.direction), scene.lesions);
+    frame = truth_of(state);
     frame.live = !state.probe.frozen;
     attempt.picture(frame);
   }
@@ -126,8 +133,24 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                              const assessment::OperatorProfile& profile, std::uint64_t seed) {
-  return scene.picture.modality == cases::Modality::xray ? run_xray_attempt(scene, plan, profile, seed)
-                                                         : run_mpr_attempt(scene, plan, profile, seed);
+  const auto needle = [&](const cases::State& state) {
+    return needle_of(scene, state.needle.tip_lps_mm, state.needle.direction);
+  };
+  switch (scene.picture.modality) {
+    case cases::Modality::xray:
+      return run_xray_attempt(scene, plan, profile, seed);
+    case cases::Modality::ultrasound: {
+      const UltrasoundSight sight(scene);
+      return run_probe_attempt(scene, plan, profile, seed, [&](const cases::State& state) {
+        return frame_truth(state.t_s, sight.see(probe_of(pose_of(state)), needle(state)));
+      });
+    }
+    case cases::Modality::mpr:
+      break;
+  }
+  return run_probe_attempt(scene, plan, profile, seed, [&](const cases::State& state) {
+    return frame_truth(state.t_s, view_of(scene, pose_of(state)), needle(state), scene.lesions);
+  });
 }
 
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
@@ -166,14 +189,15 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
   if (recording.endpoint)
     for (const cases::PoseSample& one : recording.poses)
       if (one.t_s <= recording.endpoint->t_s) pose = one;
-  imaging::Inserted inserted;
-  inserted.lesions = scene.lesions;
-  inserted.needle = recording.endpoint
-                        ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
-                        : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
+  const imaging::NeedlePose needle =
+      recording.endpoint ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
+                         : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
+  if (scene.picture.modality == cases::Modality::ultrasound)
+    return UltrasoundSight(scene).picture_png(probe_of(pose), needle, recording.hashes.back(),
+                                              recording.frames.size());
   const imaging::MprView view = view_of(scene, pose);
-  const auto grey =
-      imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, inserted), kWindowCenterHu, kWindowWidthHu);
+  const auto grey = imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}),
+                                          kWindowCenterHu, kWindowWidthHu);
   return png_from_grey(grey, view.width_px, view.height_px);
 }
 

@@ -1,5 +1,5 @@
 // Turns the loop of one simulated attempt: operator → virtual device → step → pictures → operator, and records it.
-// By the case's modality the picture is a slice under the probe, or the fluoroscope's.
+// By the case's modality the picture is a slice or ultrasound under the probe, or the fluoroscope's.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
                                                            const cases::Recording& recording);
 
-// The picture when the trigger fell (or last), as PNG: the slice under the probe, or the fluoroscope's last image.
-// Empty where there is none.
+// The picture when the trigger fell (or last), as PNG: slice or ultrasound under the probe, or the fluoroscope's
+// last image. Empty where there is none.
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
 
 // Replays the inputs by this step version.

@@ -6,10 +6,12 @@
 #include <filesystem>
 
 #include "app/answers_json.h"
+#include "app/case_build.h"
 #include "app/command.h"
 #include "app/import_case.h"
 #include "app/serving.h"
 #include "app/simulation.h"
+#include "app/ultrasound_sight.h"
 #include "assessment/operators/lesion_site.h"
 #include "casedb/credentials.h"
 #include "sim/base/failure.h"
@@ -38,8 +40,8 @@ volume::Calyces calyces_of(const Arguments& arguments) {
 }
 
 cases::Modality modality_of(const Arguments& arguments) {
-  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
-  if (!modality) throw UsageError("--modality is mpr or xray");
+  const auto modality = casedb::modality_from(arguments.text("--modality", "ultrasound"));
+  if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   return *modality;
 }
 
@@ -74,18 +76,25 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   }
   imported->modality = modality;
   if (modality == cases::Modality::xray) imported->title += ", fluoroscopy";
+  if (modality == cases::Modality::mpr) imported->title += ", CT slices";
   return casedb::find_case(library, casedb::add_case(library, *imported));
 }
 
 base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const casedb::CaseRow& row) {
   auto lesions = casedb::list_lesions(library, row.case_id);
   if (!lesions.empty()) return lesions.front();
-  const auto volume = casedb::load_volume(library, row);
-  if (!volume) return volume.error();
-  const auto skin = casedb::load_skin(library, row);
-  if (!skin) return skin.error();
-  const auto site = assessment::find_lesion_site(*volume, cases::MeshIndex(*skin),
-                                                 assessment::lesion_rule(row.modality, row.position));
+  cases::Picture picture;
+  picture.modality = row.modality;
+  auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
+  if (!scene) return scene.error();
+  assessment::LesionRule rule = assessment::lesion_rule(row.modality, row.position);
+  if (row.modality == cases::Modality::ultrasound) {
+    if (const auto added = add_ultrasound_tissue(library, row, *scene); !added) return added.error();
+    rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
+      return UltrasoundSight(*scene).looks_from(plan, target);
+    };
+  }
+  const auto site = assessment::find_lesion_site(scene->volume, scene->skin_index, rule);
   if (!site) return site.error();
   const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);
   if (!lesion_id) return lesion_id.error();
@@ -164,7 +173,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
   std::printf("  unit\n");
   for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
     const assessment::MetricValue& first = answer.attempts.front().metrics[i];
-    if (first.reason == "not_xray") continue;  // of all three
+    if (!assessment::applies(first)) continue;
     std::printf("%-*s", width, first.id.c_str());
     for (const SimulatedAttempt& attempt : answer.attempts)
       for (const assessment::MetricValue& metric : attempt.metrics)

@@ -11,7 +11,7 @@ namespace seldinger::app {
 int run_import(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
-  if (!modality) throw UsageError("--modality is mpr or xray");
+  if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
   if (!position) throw UsageError("--position is supine or prone");
   std::optional<std::string> series;

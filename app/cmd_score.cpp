@@ -11,13 +11,21 @@
 #include "app/poses_csv.h"
 #include "app/scene.h"
 #include "app/simulation.h"
+#include "app/ultrasound_sight.h"
 #include "app/xray_sight.h"
 #include "casedb/import/surface.h"
+#include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 
 namespace seldinger::app {
 namespace {
 
 using Metrics = std::vector<assessment::MetricValue>;
+
+imaging::NeedlePose needle_of(const cases::Instrument& instrument) {
+  return {{},           {0.0, 0.0, 1.0}, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
+          instrument.hu};
+}
 
 // What the picture at each row's probe pose shows: the view's kind, depth and size (contracts.md, Attempts).
 void add_frames(const Scene& scene, const imaging::MprView& size, cases::Recording& recording) {
@@ -38,18 +46,36 @@ void add_frames(const Scene& scene, const XrayView& view, const volume::Volume& 
                 cases::Recording& recording) {
   XraySight sight(volume, view);
   imaging::Inserted inserted = scene.inserted;
-  if (!inserted.needle)
-    inserted.needle = imaging::NeedlePose{{},
-                                          {0.0, 0.0, 1.0},
-                                          scene.instrument.length_mm,
-                                          scene.instrument.radius_mm,
-                                          scene.instrument.inner_radius_mm,
-                                          scene.instrument.hu};
+  if (!inserted.needle) inserted.needle = needle_of(scene.instrument);
   for (const cases::PoseSample& pose : recording.poses) {
     inserted.needle->tip_lps_mm = pose.tip_lps_mm;
     inserted.needle->direction = glm::normalize(pose.needle_direction);
     recording.frames.push_back(frame_truth(pose.t_s, sight.see(inserted)));
   }
+}
+
+// As ultrasound with the view's probe, depth and settings shows it from each row's probe pose.
+base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_scene, const volume::Volume& volume,
+                              const cases::MeshIndex& skin, const std::string& library,
+                              cases::Recording& recording) {
+  const auto classes = classes_of(scene, volume, library);
+  if (!classes) return classes.error();
+  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
+  imaging::UltrasoundView view = of_scene.view;
+  imaging::Inserted inserted = scene.inserted;
+  if (!inserted.needle) inserted.needle = needle_of(scene.instrument);
+  for (const cases::PoseSample& pose : recording.poses) {
+    view.origin_lps_mm = pose.probe_origin_lps_mm;
+    view.axial = glm::normalize(pose.probe_axial);
+    const glm::dvec3 across = pose.probe_lateral - view.axial * glm::dot(pose.probe_lateral, view.axial);
+    view.lateral = glm::length(across) > 1e-6 ? glm::normalize(across) : base::perpendiculars(view.axial).u;
+    inserted.needle->tip_lps_mm = pose.tip_lps_mm;
+    inserted.needle->direction = glm::normalize(pose.needle_direction);
+    recording.frames.push_back(
+        frame_truth(pose.t_s, imaging::ultrasound_visible({&volume, *classes, echogenicity}, view, inserted,
+                                                          element_depths(skin, view, kContactStride))));
+  }
+  return {};
 }
 
 base::Result<Metrics> score_poses(const std::string& poses, const std::string& scene_path,
@@ -78,7 +104,10 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
     } else if (const auto* mpr = std::get_if<imaging::MprView>(&*scene->view)) {
       add_frames(*scene, *mpr, *recording);
     } else {
-      return base::Error{"unsupported_view", "this version scores poses in views of kind mpr and xray"};
+      built.picture.modality = cases::Modality::ultrasound;
+      const auto added = add_frames(*scene, std::get<UltrasoundSceneView>(*scene->view), *volume, built.skin_index,
+                                    library, *recording);
+      if (!added) return added.error();
     }
   }
   return measure(built, *recording);

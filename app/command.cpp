@@ -13,12 +13,13 @@ constexpr Option kJson{"--json", nullptr, "one JSON document on standard output,
 constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
                                    {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
                                    {"--routes", nullptr, "print the table of web routes (docs/routes.md)"}};
-constexpr Option kImportOptions[] = {kLibrary,
-                                     {"--title", "TEXT", "the case's title; never taken from the source"},
-                                     {"--series", "UID|N", "which series, when the folder holds several"},
-                                     {"--modality", "mpr|xray", "what the case is practised with; default mpr"},
-                                     {"--position", "supine|prone", "how the patient lies; default supine"},
-                                     kJson};
+constexpr Option kImportOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "the case's title; never taken from the source"},
+    {"--series", "UID|N", "which series, when the folder holds several"},
+    {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
+    {"--position", "supine|prone", "how the patient lies; default supine"},
+    kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
 constexpr Option kLibraryJson[] = {kLibrary, kJson};
@@ -52,16 +53,25 @@ constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--stage", "a,b", "import, mpr, xray, ultrasound, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
-    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
     {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kGoalsOptions[] = {
+    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
+    {"--quality", "fast|reference",
+     "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
+     "fast"},
+    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    kJson};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
-    {"--modality", "mpr|xray", "slices under a probe, or fluoroscopy; default mpr"},
+    {"--modality", "ultrasound|xray|mpr",
+     "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
@@ -78,7 +88,8 @@ constexpr Command kCommands[] = {
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
     {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
-    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.", &run_sheet},
+    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.",
+     &run_sheet},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
      &run_simulate},
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",
@@ -92,6 +103,9 @@ constexpr Command kCommands[] = {
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
+    {"goals ultrasound", "", 0, 0, kGoalsOptions,
+     "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+     &run_goals_ultrasound},
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},

@@ -20,4 +20,10 @@ cases::FrameTruth frame_truth(double t_s, const imaging::Visible& visible) noexc
   return truth;
 }
 
+cases::FrameTruth frame_truth(double t_s, const imaging::UltrasoundVisible& visible) noexcept {
+  cases::FrameTruth truth = frame_truth(t_s, visible.visible);
+  truth.near_plane = visible.near_plane;
+  return truth;
+}
+
 }  // namespace seldinger::app

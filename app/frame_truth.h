@@ -5,10 +5,12 @@
 
 #include "sim/case/recording.h"
 #include "sim/imaging/mpr/visibility.h"
+#include "sim/imaging/ultrasound/visible.h"
 
 namespace seldinger::app {
 
 cases::FrameTruth frame_truth(double t_s, const imaging::Visible& visible) noexcept;
+cases::FrameTruth frame_truth(double t_s, const imaging::UltrasoundVisible& visible) noexcept;
 
 cases::FrameTruth frame_truth(double t_s, const imaging::MprView& view, const imaging::NeedlePose& needle,
                               const std::vector<cases::Lesion>& lesions) noexcept;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/frame_truth.h"
+#include "app/ultrasound_sight.h"
 #include "app/xray_sight.h"
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
@@ -106,21 +107,6 @@ void render_xray(const volume::Volume& volume, const XrayView& view, const imagi
   }
 }
 
-// How deep below the skin each element of the probe lies; without a body all stand in air.
-std::vector<float> element_depths(const volume::Volume& volume, const imaging::UltrasoundView& view) {
-  const imaging::Probe& probe = view.probe;
-  std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
-  const auto skin = casedb::skin_surface(volume);
-  if (!skin) return depths;
-  const cases::MeshIndex index(*skin);
-  for (int element = 0; element < probe.elements; ++element) {
-    const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
-    depths[static_cast<std::size_t>(element)] =
-        static_cast<float>(-index.closest(imaging::point_of(view, beam, 0.0)).distance_mm);
-  }
-  return depths;
-}
-
 // Of levels that nothing was added to: liver at the face is white, 128 dB below it black.
 unsigned char grey_of_db(float db) {
   return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
@@ -129,14 +115,16 @@ unsigned char grey_of_db(float db) {
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
   const imaging::UltrasoundView& view = scene.view;
+  const auto skin = casedb::skin_surface(volume);  // without a body all elements stand in air
+  const std::vector<float> below_skin_mm =
+      element_depths(skin ? cases::MeshIndex(*skin) : cases::MeshIndex(), view);
   const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
   const imaging::TissueVolume tissue{&volume, classes, echogenicity};
-  const std::vector<float> depths = element_depths(volume, view);
   const bool on_screen = scene.output == UltrasoundOutput::display;
   constexpr std::uint64_t kFrame = 1;
   imaging::PolarPicture polar;
   const auto on_cpu = [&] {
-    imaging::ultrasound_polar(tissue, view, inserted, depths, polar);
+    imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar);
     if (on_screen) {
       imaging::add_receiver_noise(view.seed, kFrame, polar);
       imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
@@ -146,9 +134,9 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   const auto on_gpu = [&](gpu::Context& context) {
     imaging::UltrasoundGpu gpu(context, tissue);
     if (on_screen)
-      gpu.grey(view, inserted, depths, scene.knobs, scene.size, kFrame, picture.grey);
+      gpu.grey(view, inserted, below_skin_mm, scene.knobs, scene.size, kFrame, picture.grey);
     else
-      gpu.polar(view, inserted, depths, polar);
+      gpu.polar(view, inserted, below_skin_mm, polar);
     return true;
   };
   const bool thesis = view.method == imaging::UltrasoundMethod::thesis;
@@ -160,6 +148,7 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   } else {
     on_best(picture.backend, on_gpu, on_cpu);
   }
+  picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm).visible;
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};

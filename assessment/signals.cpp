@@ -1,7 +1,9 @@
 #include "assessment/signals.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
 #include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
@@ -13,6 +15,12 @@ bool near_unit(const glm::dvec3& v) {
 }
 
 }  // namespace
+
+double Signals::inserted_mm(std::size_t i) const {
+  const cases::SkinPassage& skin = passages[i];
+  return skin.in_body ? std::max(0.0, glm::dot(skin.tip_lps_mm - skin.entry_lps_mm, poses[i].needle_direction))
+                      : 0.0;
+}
 
 base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording) {
   CHECK(setting.skin != nullptr);

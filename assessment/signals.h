@@ -34,6 +34,8 @@ struct Signals {
   // Interval i runs from pose i to pose i + 1; a gap belongs to no denominator.
   double interval_s(std::size_t i) const { return poses[i + 1].t_s - poses[i].t_s; }
   bool gap(std::size_t i) const { return interval_s(i) > kGapSeconds + kTimeTolerance_s; }
+  // Along the needle from where it entered the skin to the tip; 0 outside.
+  double inserted_mm(std::size_t i) const;
   // Whether nothing is known between any two poses.
   bool only_gaps() const {
     for (std::size_t i = 0; i + 1 < poses.size(); ++i)

@@ -22,9 +22,11 @@ enum class Role { trainee, mentor, researcher, director, admin };
 std::string name_of(Role role);
 std::optional<Role> role_from(const std::string& name);
 
-// As the database and the command line write them: mpr, xray; supine, prone.
+// As the database and the command line write them: mpr, xray, ultrasound; supine, prone.
 std::string name_of(cases::Modality modality);
 std::optional<cases::Modality> modality_from(const std::string& name);
+// All of them, as a usage tells: "mpr, xray or ultrasound".
+std::string modality_names();
 std::string name_of(cases::PatientPosition position);
 std::optional<cases::PatientPosition> position_from(const std::string& name);
 

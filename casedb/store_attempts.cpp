@@ -43,6 +43,7 @@ void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::stri
   const cases::Picture& picture = attempt.picture;
   insert.bind("picture_modality", name_of(picture.modality)).bind("picture_depth_mm", picture.depth_mm);
   insert.bind("picture_width_mm", picture.width_mm).bind("picture_rate_hz", picture.rate_hz);
+  insert.bind("picture_probe", picture.probe.empty() ? std::nullopt : std::optional(picture.probe));
   insert.bind("started_us", attempt.started_us).bind("duration_s", attempt.duration_s);
   insert.bind("state", attempt.recording.endpoint ? "complete" : "unfinished");
   insert.bind("recording_chunks", static_cast<std::int64_t>(recording_chunks));
@@ -98,6 +99,7 @@ AttemptRow read_attempt(const Statement& from) {
   row.picture.depth_mm = from.real("picture_depth_mm");
   row.picture.width_mm = from.real("picture_width_mm");
   row.picture.rate_hz = from.real("picture_rate_hz");
+  row.picture.probe = from.text("picture_probe");
   row.approach = from.text("approach") == approach_name(cases::Approach::out_of_plane)
                      ? cases::Approach::out_of_plane
                      : cases::Approach::in_plane;

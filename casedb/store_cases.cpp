@@ -15,6 +15,7 @@ namespace seldinger::casedb {
 namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr const char* kModalities[] = {"mpr", "xray", "ultrasound"};  // in the order of cases::Modality
 
 std::string matrix_column(int row, int column) {
   return "lps_from_voxel_" + std::to_string(row) + std::to_string(column);
@@ -118,13 +119,20 @@ bool sound_lesion(const CaseRow& row, const cases::Lesion& lesion) {
 }  // namespace
 
 std::string name_of(cases::Modality modality) {
-  return modality == cases::Modality::xray ? "xray" : "mpr";
+  return kModalities[static_cast<std::size_t>(modality)];
 }
 
 std::optional<cases::Modality> modality_from(const std::string& name) {
-  if (name == "mpr") return cases::Modality::mpr;
-  if (name == "xray") return cases::Modality::xray;
+  for (std::size_t i = 0; i < std::size(kModalities); ++i)
+    if (name == kModalities[i]) return static_cast<cases::Modality>(i);
   return std::nullopt;
+}
+
+std::string modality_names() {
+  std::string names;
+  for (std::size_t i = 0; i < std::size(kModalities); ++i)
+    names += std::string(i == 0 ? "" : i + 1 == std::size(kModalities) ? " or " : ", ") + kModalities[i];
+  return names;
 }
 
 std::string name_of(cases::PatientPosition position) {

@@ -26,7 +26,7 @@ CREATE TABLE attempt (
   instrument_throw_mm REAL NOT NULL,
   instrument_notch_mm REAL NOT NULL,
   instrument_dead_tip_mm REAL NOT NULL,
-  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr', 'xray')),
+  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr', 'xray', 'ultrasound')),
   picture_depth_mm REAL NOT NULL,
   picture_width_mm REAL NOT NULL,
   picture_rate_hz REAL NOT NULL,
@@ -35,6 +35,7 @@ CREATE TABLE attempt (
   state TEXT NOT NULL CHECK (state IN ('complete', 'unfinished')), -- complete: the trigger fell
   recording_chunks INTEGER NOT NULL CHECK (recording_chunks > 0), -- how many belong to it
   picture_sha256 TEXT CHECK (length(picture_sha256) = 64), -- PNG in assets/ at the trigger; null: none
+  picture_probe TEXT, -- of ultrasound; null: another modality
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
@@ -124,9 +125,11 @@ CREATE TABLE training_case (
   -- names of files in assets/
   volume_sha256 TEXT NOT NULL CHECK (length(volume_sha256) = 64),
   skin_sha256 TEXT NOT NULL CHECK (length(skin_sha256) = 64),
-  labels_sha256 TEXT CHECK (length(labels_sha256) = 64) -- null: no labels
-, modality TEXT NOT NULL DEFAULT 'mpr' CHECK (modality IN ('mpr', 'xray')), patient_position TEXT NOT NULL DEFAULT 'supine'
-  CHECK (patient_position IN ('supine', 'prone')), classes_sha256 TEXT CHECK (length(classes_sha256) = 64)) STRICT;
+  labels_sha256 TEXT CHECK (length(labels_sha256) = 64), -- null: no labels
+  modality TEXT NOT NULL DEFAULT 'mpr' CHECK (modality IN ('mpr', 'xray', 'ultrasound')), -- what it is practised with
+  patient_position TEXT NOT NULL DEFAULT 'supine' CHECK (patient_position IN ('supine', 'prone')),
+  classes_sha256 TEXT CHECK (length(classes_sha256) = 64) -- null: from before schema 3
+) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 

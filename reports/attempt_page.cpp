@@ -36,16 +36,11 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n");
 }
 
-// What a fluoroscope spends says nothing where there was none: pages leave it out.
-bool applies(const casedb::MetricValue& metric) {
-  return metric.value.has_value() || metric.reason != "not_xray";
-}
-
 void add_definitions(Html& html, const casedb::AttemptRow& row) {
   Html items;
   for (const casedb::MetricValue& metric : row.metrics) {
     const std::string definition = metric_definition(metric.id);
-    if (definition.empty() || !applies(metric)) continue;
+    if (definition.empty() || !assessment::applies(metric)) continue;
     items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
   }
   if (items.empty()) return;
@@ -59,7 +54,7 @@ void add_metrics(Html& html, const casedb::AttemptRow& row) {
   for (const std::string& group : metric_groups()) {
     Html rows;
     for (const casedb::MetricValue& metric : row.metrics) {
-      if (metric_group(metric.id) != group || !applies(metric)) continue;
+      if (metric_group(metric.id) != group || !assessment::applies(metric)) continue;
       rows.raw("<tr><th scope=\"row\">")
           .text(metric_label(metric.id))
           .raw(" <span class=\"id\">")
@@ -91,11 +86,13 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
     const casedb::MetricValue* hit = find_metric(row.metrics, "hit");
     const std::string outcome = hit == nullptr ? "" : value_text(*hit);
     const bool xray = row.picture.modality == cases::Modality::xray;
+    const bool ultrasound = row.picture.modality == cases::Modality::ultrasound;
     html.raw("<figure><img src=\"/attempts/")
         .text(row.attempt_id)
         .raw("/picture.png\" alt=\"")
-        .text(xray ? "The fluoroscope's last image before the trigger fell, with the needle in it"
-                   : "Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .text(xray         ? "The fluoroscope's last image before the trigger fell, with the needle in it"
+              : ultrasound ? "Ultrasound picture under the probe when the trigger fell"
+                           : "Grey CT plane under the probe when the trigger fell, with the needle in it")
         .text(outcome == "Yes"  ? "; the target was hit"
               : outcome == "No" ? "; the target was missed"
                                 : "")
@@ -106,6 +103,12 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
       if (recording != nullptr)
         if (const auto text = image_text(recording->frames, fired_s)) html.raw(": ").text(*text);
       html.raw(".");
+    } else if (ultrasound) {
+      html.raw("Ultrasound at the moment of firing: probe ")
+          .text(row.picture.probe)
+          .raw(" at the upper edge, depth downwards, ")
+          .text(number_text(row.picture.depth_mm, 0))
+          .raw(" mm deep.");
     } else {
       html.raw("MPR under the probe at the moment of firing: probe at the upper edge, depth downwards, ")
           .text(number_text(row.picture.width_mm, 0))

@@ -26,6 +26,9 @@ std::string lesion_text(const cases::Lesion& lesion) {
 
 std::string picture_text(const cases::Picture& picture) {
   if (picture.modality == cases::Modality::xray) return "Fluoroscopy";
+  if (picture.modality == cases::Modality::ultrasound)
+    return "Ultrasound, probe " + picture.probe + ", " + number_text(picture.depth_mm, 0) + " mm deep, " +
+           number_text(picture.rate_hz, 0) + " pictures a second";
   return "MPR (a plane of the CT under the probe), " + number_text(picture.width_mm, 0) + " mm wide, " +
          number_text(picture.depth_mm, 0) + " mm deep";
 }

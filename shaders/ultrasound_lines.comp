@@ -33,6 +33,26 @@ uint class_of(int k) {
   return (classes[k >> 2] >> uint(8 * (k & 3))) & 255u;
 }
 
+uint class_at_sample(UsBeam at, double sample_number) {
+  dvec3 index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz);
+  dvec3 along = dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz);
+  float depth_mm = float(sample_number) * parameters.sample_mm;
+  return class_at(ivec3(floor(index + sample_number * along)), at.start_mm.xyz + depth_mm * at.direction.xyz);
+}
+
+// How far below the border of two samples that of their tissues lies, in samples.
+float late_samples(UsBeam at, int k, uint last) {
+  float above = -0.5;
+  float below = 0.5;
+  for (int i = 0; i < kUsBorderHalvings; ++i) {
+    float middle = 0.5 * (above + below);
+    bool is_last = class_at_sample(at, double(k) + double(middle)) == last;
+    above = is_last ? middle : above;
+    below = is_last ? below : middle;
+  }
+  return 0.5 * (above + below);
+}
+
 // Room for the echoes of an interface: gas comes again, and at the face rings in the lens.
 int echoes_of(float reflection, int k) {
   if (abs(reflection) < kUsRepeatsFrom) return 1;
@@ -49,14 +69,10 @@ void main() {
   int first = piece * piece_words * 4;
   int end = min(samples, first + piece_words * 4);
 
-  dvec3 index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz);
-  dvec3 along = dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz);
   for (int word = 0; word < piece_words; ++word) {
     uint four = 0u;
     for (int i = 0; i < 4; ++i) {
-      float depth_mm = (float(first + 4 * word + i) + 0.5) * parameters.sample_mm;
-      ivec3 voxel = ivec3(floor(index + (double(first + 4 * word + i) + 0.5lf) * along));
-      uint found = class_at(voxel, at.start_mm.xyz + depth_mm * at.direction.xyz);
+      uint found = class_at_sample(at, double(first + 4 * word + i) + 0.5lf);
       four |= (at.contact != 0 ? found : kUsAir) << uint(8 * i);
     }
     if (piece * piece_words + word < words) classes[piece * piece_words + word] = four;
@@ -89,6 +105,8 @@ void main() {
       bool past_gel = k >= gel_samples;
       float before = k > gel_samples ? parameters.of_class[last].x
                                      : us_is_matched(tissue_now.x) ? tissue_now.x : kUsMatchedMrayl;
+      float late_mm = k > gel_samples && now != last ? late_samples(at, k, last) * parameters.sample_mm : 0.0;
+      sum_db += late_mm * parameters.of_class[last].y;
       float reflection = past_gel ? us_reflection(before, tissue_now.x) : 0.0;
       bool is_interface = reflection != 0.0 && (k == 0 || us_is_heard(reflection)) && at.contact != 0;
       int echo_end = echo_count + echoes_of(reflection, k);
@@ -102,7 +120,7 @@ void main() {
       }
       interface_count += is_interface ? 1 : 0;
       echo_count = is_interface ? echo_end : echo_count;
-      sum_db += us_step_loss_db(reflection);
+      sum_db += us_step_loss_db(reflection) - late_mm * tissue_now.y;
       float middle_mm = (float(k) + 0.5) * parameters.sample_mm;
       bool needle_here = past_gel && at.needle_mm >= 0.0 && middle_mm >= at.needle_mm &&
                          !(k > gel_samples && middle_mm - parameters.sample_mm >= at.needle_mm);

@@ -107,10 +107,7 @@ Measured longest_advance_between_exposures(const Signals& signals) {
     for (; frame < signals.frames.size() && signals.frames[frame].t_s <= signals.poses[i].t_s; ++frame)
       exposed = exposed || signals.frames[frame].beam.has_value();
     if (exposed) lowest_mm = last_mm;
-    const double inserted_mm =
-        skin.in_body
-            ? std::max(0.0, glm::dot(skin.tip_lps_mm - skin.entry_lps_mm, signals.poses[i].needle_direction))
-            : 0.0;
+    const double inserted_mm = signals.inserted_mm(i);
     in_tissue = in_tissue || skin.in_body;
     // What starts inside has advanced before anybody looked; what happened in a gap is not known.
     if (i == 0 || signals.gap(i - 1)) lowest_mm = inserted_mm;

@@ -16,6 +16,11 @@ struct MetricValue {
   std::string reason;  // stable snake_case when null; empty otherwise
 };
 
+// Whether it could have a value under the attempt's modality. Answers of one that cannot are not shown to people.
+inline bool applies(const MetricValue& metric) {
+  return metric.value.has_value() || (metric.reason != "not_xray" && metric.reason != "not_ultrasound");
+}
+
 enum class Direction { none, lower_is_better, higher_is_better };
 
 // The number, or why there is none.

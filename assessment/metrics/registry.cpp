@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";
 constexpr const char* kJohnson = "Johnson et al., BJR 85 (2012) 555, doi 10.1259/bjr/47436030";
 
+constexpr const char* kPerk = "Perk Tutor's TargetsScanned: 5 mm in its code, 2 mm in its comment";
 constexpr const char* kDose =
     "IEC 60601-2-43 (what an interventional machine must tell); SIR's guidelines for patient radiation dose "
     "management, J. Vasc. Interv. Radiol. 20 (2009) S263";
@@ -69,7 +70,7 @@ constexpr MetricInfo kRegistry[] = {
      "Share of the time in tissue with a live picture in which the picture showed the needle's tip. A "
      "fluoroscope's "
      "picture is live from a pulse until the time to the next is over; a held image is not. Null: no_skin, "
-     "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane (of a slice).",
+     "under_1_s_in_tissue_with_a_live_picture, not_meaningful_out_of_plane (of a slice or ultrasound).",
      kVidal, &vis_needle},
     {"vis_target", 1, "share", "Target visible", Direction::higher_is_better,
      "As vis_needle, for the target. Null: no_skin, under_1_s_in_tissue_with_a_live_picture, no_target.", kVidal,
@@ -79,6 +80,21 @@ constexpr MetricInfo kRegistry[] = {
      "no_target, "
      "not_meaningful_out_of_plane.",
      kVidal, &vis_joint},
+    {"vis_joint_2_mm", 1, "share", "Both within 2 mm", Direction::higher_is_better,
+     "As vis_joint, by geometry alone: tip and target's centre within 2 mm of the picture's plane and inside its "
+     "field. Null: as vis_joint, not_ultrasound, near_plane_not_recorded.",
+     kPerk, &vis_joint_2_mm},
+    {"vis_joint_5_mm", 1, "share", "Both within 5 mm", Direction::higher_is_better,
+     "As vis_joint_2_mm, within 5 mm.", kPerk, &vis_joint_5_mm},
+    {"visible_needle_length", 1, "mm", "Visible needle length", Direction::higher_is_better,
+     "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
+     "vis_needle.",
+     kJohnson, &visible_needle_length},
+    {"advance_visible_share", 1, "share", "Advance visible", Direction::higher_is_better,
+     "Share of the way that the tip advanced in tissue while a live picture showed it; to and fro by under 1 mm is "
+     "no advance. Null: not_meaningful_under_xray, not_meaningful_out_of_plane, no_skin, no_picture, "
+     "under_1_mm_of_advance.",
+     "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share},
     {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Direction::lower_is_better,
      "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0. Null: not_xray, "
      "beam_not_recorded.",

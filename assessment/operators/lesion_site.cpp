@@ -31,11 +31,13 @@ std::vector<glm::dvec3> ball(double radius_mm, double step_mm) {
 
 LesionRule lesion_rule(cases::Modality modality, cases::PatientPosition position) {
   constexpr double kContrastAgentHu =
-      500.0;  // iodine in a calyx or a cavity; far above what a CT calls soft tissue
+      500.0;                        // iodine in a calyx or a cavity; far above what a CT calls soft tissue
+  constexpr double kFluidHu = 5.0;  // water, and what CT's noise makes of it
   LesionRule rule;
   rule.modality = modality;
   rule.position = position;
   if (modality == cases::Modality::xray) rule.contrast_hu = kContrastAgentHu;
+  if (modality == cases::Modality::ultrasound) rule.lesion_hu = kFluidHu;
   return rule;
 }
 
@@ -45,7 +47,9 @@ std::string describe(const LesionRule& rule) {
        << " mm below the skin, where soft tissue (mean " << rule.min_mean_hu << "–" << rule.max_mean_hu
        << " HU) is most homogeneous within " << rule.homogeneous_radius_mm
        << " mm, on a straight path free of bone and gas"
-       << (rule.modality == cases::Modality::xray ? ", filled with contrast agent" : "");
+       << (rule.modality == cases::Modality::xray         ? ", filled with contrast agent"
+           : rule.modality == cases::Modality::ultrasound ? ", filled with fluid, seen by a probe beside the path"
+                                                          : "");
   return text.str();
 }
 
@@ -98,10 +102,13 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
   for (const Candidate& candidate : candidates) {
     const double below_mm = -skin.closest_skin(candidate.center_lps_mm).distance_mm;
     if (below_mm < rule.min_depth_mm || below_mm > rule.max_depth_mm) continue;
+    LesionSite site;
+    site.lesion = {candidate.center_lps_mm, rule.radius_mm,
+                   rule.lesion_hu.value_or(std::round(candidate.mean_hu + rule.contrast_hu))};
+    if (rule.looks_from)
+      limits.looks_from = [&](const PuncturePlan& plan) { return rule.looks_from(plan, site.lesion); };
     const auto plan = plan_puncture(volume, skin, candidate.center_lps_mm, limits);
     if (!plan) continue;
-    LesionSite site;
-    site.lesion = {candidate.center_lps_mm, rule.radius_mm, std::round(candidate.mean_hu + rule.contrast_hu)};
     site.plan = *plan;
     site.skin_distance_mm = below_mm;
     site.mean_hu = candidate.mean_hu;

@@ -15,13 +15,16 @@ struct LesionRule {
   double homogeneous_radius_mm = 16.0;              // soft tissue around the centre
   double min_mean_hu = 30.0, max_mean_hu = 180.0;   // parenchyma with or without contrast agent
   double contrast_hu = -45.0;                       // the lesion against its surroundings
+  std::optional<double> lesion_hu{};                // instead: its own
   double grid_mm = 6.0;
   cases::Modality modality = cases::Modality::mpr;
   cases::PatientPosition position = cases::PatientPosition::supine;
+  // As PathLimits::looks_from, of a plan to this lesion.
+  std::function<std::optional<ProbeView>(const PuncturePlan&, const cases::Lesion&)> looks_from{};
 };
 
 // The rule of a case. Under xray soft tissue shows no soft lesion: there it is one filled with contrast agent, on a
-// path along which the machine can look.
+// path along which the machine can look. Under ultrasound it is a cyst, seen from a place beside the path.
 LesionRule lesion_rule(cases::Modality modality, cases::PatientPosition position);
 
 struct LesionSite {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -18,6 +19,11 @@ constexpr int kDirections = 600;
 constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
 constexpr double kProbeMinMm = 20.0;   // between probe's middle and entry: room for a hand
 constexpr double kProbeMaxDepthMm = 120.0;
+// What a plan under ultrasound is worth, in mm of needle seen at the target: so much for a mm of way over which the
+// tip shows, less so much for a dB of shadow on the target and for a mm from skin to target, needle's and probe's
+// (design).
+constexpr double kWayWorth = 0.5, kShadowPrice = 4.0, kDepthPrice = 0.3;
+constexpr int kWaysJudged = 32;  // so many free ways, from the shortest, are compared
 
 double tableward(const glm::dvec3& outward, cases::PatientPosition position) {
   return position == cases::PatientPosition::prone ? -outward.y : outward.y;
@@ -50,31 +56,58 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
   return true;
 }
 
-// Where a probe sees entry and target in its plane: on skin, some way beside the entry.
-bool place_probe(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way, const glm::dvec3& entry,
-                 cases::PatientPosition position, cases::ToolPose& probe) {
+// Where a probe sees entry and target in its plane: on skin, some way beside the entry. How good it is there;
+// nothing when there is no such place.
+std::optional<double> place_probe(const cases::MeshIndex& skin, const Way& way, const PathLimits& limits,
+                                  PuncturePlan& plan) {
   const auto [u, v] = base::perpendiculars(way.outward);
-  double best = 0.0;
-  for (const double tilt_deg : {50.0, 40.0, 60.0, 30.0})
+  std::vector<double> tilts_deg = {50.0, 40.0, 60.0, 30.0};
+  std::vector<double> rockings = {0.0};
+  if (limits.looks_from) {
+    tilts_deg.insert(tilts_deg.end(), {70.0, 80.0});  // shallow needles send more back
+    rockings = {0.0, 0.5, 1.0};
+  }
+  double best = -std::numeric_limits<double>::infinity();
+  ProbeView chosen;
+  for (const double tilt_deg : tilts_deg)
     for (int k = 0; k < 12; ++k) {
       const double azimuth = k * std::numbers::pi / 6.0, tilt = tilt_deg * std::numbers::pi / 180.0;
       const glm::dvec3 side = u * base::exact_cos(azimuth) + v * base::exact_sin(azimuth);
       const glm::dvec3 outward = way.outward * base::exact_cos(tilt) + side * base::exact_sin(tilt);
-      if (tableward(outward, position) > kMaxTableward) continue;
-      const auto hit = skin.first_hit(target, outward, kProbeMaxDepthMm);
+      if (tableward(outward, limits.position) > kMaxTableward) continue;
+      const auto hit = skin.first_hit(plan.target_lps_mm, outward, kProbeMaxDepthMm);
       if (!hit || hit->cut || hit->distance_mm < 5.0) continue;
-      const glm::dvec3 origin = target + outward * hit->distance_mm;
-      const double apart_mm = glm::length(origin - entry);
+      const glm::dvec3 origin = plan.target_lps_mm + outward * hit->distance_mm;
+      const double apart_mm = glm::length(origin - plan.entry_lps_mm);
       if (apart_mm < kProbeMinMm || apart_mm > 70.0) continue;
-      const double score = 1.0 / (hit->distance_mm + std::abs(apart_mm - 45.0));
-      if (score <= best) continue;
-      best = score;
-      probe.position_lps_mm = origin;
-      probe.axis = -outward;
-      const glm::dvec3 in_plane = -way.outward - probe.axis * glm::dot(-way.outward, probe.axis);
-      probe.side = glm::normalize(in_plane);
+      plan.probe.position_lps_mm = origin;
+      // Rocked in its plane, from looking straight at the target to standing upright on the skin, where all of its
+      // face touches.
+      const glm::dvec3 plane_normal = glm::normalize(glm::cross(outward, way.outward));
+      const glm::dvec3 inward = -skin.normal(hit->triangle),
+                       upright = inward - plane_normal * glm::dot(inward, plane_normal);
+      for (const double rocked : rockings) {
+        plan.probe.axis = glm::normalize((1.0 - rocked) * -outward + rocked * upright);
+        const glm::dvec3 in_plane = -way.outward - plan.probe.axis * glm::dot(-way.outward, plan.probe.axis);
+        plan.probe.side = glm::normalize(in_plane);
+        double score = 1.0 / (hit->distance_mm + std::abs(apart_mm - 45.0));
+        std::optional<ProbeView> view;
+        if (limits.looks_from) {
+          view = limits.looks_from(plan);
+          if (!view) continue;
+          score = view->needle_mm + kWayWorth * (plan.depth_mm - view->tip_shows_from_mm) -
+                  kShadowPrice * view->shadow_db - kDepthPrice * (plan.depth_mm + hit->distance_mm);
+        }
+        if (score <= best) continue;
+        best = score;
+        chosen = view.value_or(ProbeView{plan.probe, {}, 0.0, 0.0, 0.0});
+      }
     }
-  return best > 0.0;
+  if (std::isinf(best)) return std::nullopt;
+  plan.probe = chosen.probe;
+  plan.tip_shows_from_mm = chosen.tip_shows_from_mm;
+  if (limits.looks_from) plan.picture = chosen.picture;
+  return best;
 }
 
 }  // namespace
@@ -107,7 +140,11 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     ways.push_back({outward, hit->distance_mm});
   }
   std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.depth_mm < b.depth_mm; });
+  std::optional<PuncturePlan> best;
+  double best_score = 0.0;
+  int judged = 0;
   for (const Way& way : ways) {
+    if (judged == kWaysJudged) break;
     PuncturePlan plan;
     plan.target_lps_mm = target;
     plan.entry_lps_mm = target + way.outward * way.depth_mm;
@@ -116,9 +153,15 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     if (!free_path(volume, voxel_from_lps, target, way, limits)) continue;
     constexpr double kAsideMm = 150.0;
     plan.probe = {plan.entry_lps_mm + way.outward * kAsideMm, plan.direction, base::perpendiculars(way.outward).u};
-    if (!limits.needs_probe || place_probe(skin, target, way, plan.entry_lps_mm, limits.position, plan.probe))
-      return plan;
+    if (!limits.needs_probe) return plan;
+    const auto score = place_probe(skin, way, limits, plan);
+    if (score && !limits.looks_from) return plan;
+    judged += limits.looks_from ? 1 : 0;
+    if (!score || (best && *score <= best_score)) continue;
+    best = plan;
+    best_score = *score;
   }
+  if (best) return *best;
   return none;
 }
 

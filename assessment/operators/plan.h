@@ -1,7 +1,9 @@
 // A way to a target: skin entry, straight path, and where the probe stands to see both.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -18,6 +20,18 @@ struct PuncturePlan {
   glm::dvec3 direction{0.0};  // unit, entry → target
   double depth_mm = 0.0;      // entry to target
   cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target; without one, laid aside
+  std::optional<cases::Picture> picture{};  // to be set at that probe, where `looks_from` chose it
+  // From this insertion on the picture shows a tip that keeps to the plan; before, it is beside the picture.
+  double tip_shows_from_mm = 0.0;
+};
+
+// What a picture would show of a plan from where its probe touches the skin.
+struct ProbeView {
+  cases::ToolPose probe;  // as it is held there: pressed in
+  cases::Picture picture;
+  double tip_shows_from_mm = 0.0;  // as PuncturePlan's
+  double needle_mm = 0.0;          // of the shaft that is seen when the tip is at the target
+  double shadow_db = 0.0;          // ≥ 0: what ribs and gas above take from the target's echoes
 };
 
 struct PathLimits {
@@ -28,6 +42,9 @@ struct PathLimits {
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
   cases::PatientPosition position = cases::PatientPosition::supine;
   bool needs_probe = true;  // entry and target must be seen in one plane from a place on the skin
+  // Told by whoever makes pictures; nothing: the target is not seen from there, or the probe is in the way. Left
+  // empty, every place on the skin will do.
+  std::function<std::optional<ProbeView>(const PuncturePlan&)> looks_from{};
   // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
   double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };
@@ -39,7 +56,8 @@ constexpr double kBullsEyeLaoDeg = 55.0, kBullsEyeCranialDeg = 35.0;
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position);
 
 // The shortest straight path to the target that starts on skin (not a cut cap, not the side on the table), is free
-// of bone and gas, and can be seen. The same for the same scene. Refused: `no_path`.
+// of bone and gas, and can be seen. Where `looks_from` judges, the probe stands where most of the way and of the
+// needle shows. The same for the same scene. Refused: `no_path`.
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target_lps_mm, const PathLimits& limits = {});
 

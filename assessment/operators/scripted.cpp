@@ -13,10 +13,12 @@ namespace {
 
 constexpr double kStartMm = 60.0;  // the needle waits this far outside the entry
 constexpr double kDriftLowHz = 0.03, kDriftHighHz = 0.15;
-constexpr double kSweepMm = 15.0;        // the probe's first search, out of plane
-constexpr double kRealignSeconds = 0.6;  // time constant of bringing the tip back into the picture
-constexpr double kLearnedShare = 0.4;    // of the error about the target left after one look at a miss
-constexpr double kOutsideMm = 8.0;       // a full withdrawal ends this far outside
+constexpr double kSweepMm = 15.0;         // the probe's first search, out of plane
+constexpr double kRealignSeconds = 0.6;   // time constant of bringing the tip back into the picture
+constexpr double kLearnedShare = 0.4;     // of the error about the target left after one look at a miss
+constexpr double kOutsideMm = 8.0;        // a full withdrawal ends this far outside
+constexpr double kLostMm = 5.0;           // a tip is missed from so far on after it should have appeared
+constexpr double kPatienceSeconds = 4.0;  // of searching; then the needle goes on, unseen
 
 }  // namespace
 
@@ -77,6 +79,7 @@ void ScriptedOperator::decide(const cases::State& state) {
       break;
     case Phase::look: {
       if (since_s < 3.0 * profile_.reaction_delay_s) break;
+      if (!tip_seen() && !going_blind_) break;  // searched for before the trigger
       // Only a tip in the picture can be seen to have missed.
       const glm::dvec3 miss = believed_target_ - state.needle.tip_lps_mm;
       const double beside_mm = glm::length(glm::cross(miss, state.needle.direction));
@@ -105,12 +108,16 @@ void ScriptedOperator::decide(const cases::State& state) {
 }
 
 void ScriptedOperator::move(const cases::State& state, double dt_s) {
-  const bool lost = phase_ == Phase::advance && inserted_mm_ > 5.0 && !tip_seen();
+  const bool lost = !tip_seen() && (phase_ == Phase::look ||
+                                    (phase_ == Phase::advance && inserted_mm_ > plan_.tip_shows_from_mm + kLostMm));
   if (!lost) {
     decided_blind_ = going_blind_ = false;
   } else if (!decided_blind_) {
     decided_blind_ = true;
     going_blind_ = rng_.uniform() < profile_.blind_advance_share;
+    lost_since_s_ = t_s_;
+  } else if (t_s_ - lost_since_s_ > kPatienceSeconds) {
+    going_blind_ = true;
   }
   switch (phase_) {
     case Phase::approach:

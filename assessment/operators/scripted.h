@@ -46,6 +46,7 @@ class ScriptedOperator {
   double withdraw_to_mm_ = 0.0;
   int redirections_ = 0;
   bool going_blind_ = false, decided_blind_ = false;
+  double lost_since_s_ = 0.0;
   double alignment_ = 1.0;  // share of the probe's drift not yet corrected
   double follow_mm_ = 0.0;  // the probe's way out of the planned plane, after the tip
   UnsteadyHand hand_;

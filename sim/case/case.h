@@ -1,6 +1,7 @@
 // Case: everything that is fixed once a scene is loaded. Built once, then only const&.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
 #include "sim/case/patient_position.h"
+#include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::cases {
@@ -34,19 +36,24 @@ struct Lesion {
 };
 
 enum class Approach { in_plane, out_of_plane };
-enum class Modality { mpr, xray };
+enum class Modality { mpr, xray, ultrasound };
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.
+// ultrasound: the probe's; its width says nothing, its rate is a physical one.
 struct Picture {
   Modality modality = Modality::mpr;
   double depth_mm = 150.0;
   double width_mm = 150.0;
   double rate_hz = 30.0;
+  std::string probe{};  // ultrasound: its name
 };
 
 struct Case {
   volume::Volume volume;
+  // Of every voxel, in the volume's order; only where ultrasound is to be seen, else empty.
+  std::vector<volume::TissueClass> classes;
+  std::vector<std::uint8_t> echogenicity;  // as imaging makes it of volume and classes
   Mesh skin;
   MeshIndex skin_index;
   std::vector<Lesion> lesions;  // [0] is the target

@@ -11,7 +11,7 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 2, kFormatWithoutFluoroscope = 1;
+constexpr std::uint32_t kFormat = 3, kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
 constexpr double kChunkSeconds = 2.0;
 constexpr std::uint32_t kMaxRows = 1'000'000;  // per chunk: bounds what damaged bytes can make us allocate
 
@@ -34,7 +34,30 @@ std::size_t frame_columns(bool fluoroscope) {
 
 // Bits of a row's one word of yes and no.
 enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
-enum FrameBit : unsigned { kLive = 1, kNeedleTip = 2, kTarget = 4, kBeam = 8, kArmMoving = 16, kHand = 32 };
+enum FrameBit : unsigned {
+  kLive = 1,
+  kNeedleTip = 2,
+  kTarget = 4,
+  kBeam = 8,
+  kArmMoving = 16,
+  kHand = 32,
+  kNearPlane = 64,
+  kTip2Mm = 128,
+  kTarget2Mm = 256,
+  kTip5Mm = 512,
+  kTarget5Mm = 1024
+};
+
+std::uint64_t bits_of(const std::optional<NearPlane>& near_plane) {
+  if (!near_plane) return 0;
+  return kNearPlane | (near_plane->tip_2_mm ? kTip2Mm : 0U) | (near_plane->target_2_mm ? kTarget2Mm : 0U) |
+         (near_plane->tip_5_mm ? kTip5Mm : 0U) | (near_plane->target_5_mm ? kTarget5Mm : 0U);
+}
+std::optional<NearPlane> near_plane_of(std::uint64_t bits) {
+  if ((bits & kNearPlane) == 0) return std::nullopt;
+  return NearPlane{(bits & kTip2Mm) != 0, (bits & kTarget2Mm) != 0, (bits & kTip5Mm) != 0,
+                   (bits & kTarget5Mm) != 0};
+}
 
 void put(std::uint64_t*& at, double value) {
   *at++ = std::bit_cast<std::uint64_t>(value);
@@ -201,7 +224,8 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
     put(at, frame.needle_length_mm);
     const BeamTruth beam = frame.beam.value_or(BeamTruth{});
     *at++ = (frame.live ? kLive : 0U) | (frame.needle_tip ? kNeedleTip : 0U) | (frame.target ? kTarget : 0U) |
-            (frame.beam ? kBeam : 0U) | (beam.arm_moving ? kArmMoving : 0U) | (beam.hand_in_beam ? kHand : 0U);
+            (frame.beam ? kBeam : 0U) | (beam.arm_moving ? kArmMoving : 0U) | (beam.hand_in_beam ? kHand : 0U) |
+            bits_of(frame.near_plane);
     if (fluoroscope) put(at, beam);
   }
   append_table(raw, rows, frame_columns(fluoroscope));
@@ -256,9 +280,9 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (!raw || raw->size() < sizeof header) return base::Error{"damaged", where + " cannot be read"};
     std::memcpy(&header, raw->data(), sizeof header);
     if (header.magic != kMagic) return base::Error{"damaged", where + " cannot be read"};
-    if (header.format != kFormat && header.format != kFormatWithoutFluoroscope)
+    if (header.format < kFormatWithoutFluoroscope || header.format > kFormat)
       return base::Error{"recording_version", where + " has an unknown format"};
-    if (header.fluoroscope > (header.format == kFormat ? 1U : 0U))
+    if (header.fluoroscope > (header.format == kFormatWithoutFluoroscope ? 0U : 1U))
       return base::Error{"damaged", where + " cannot be read"};
     const bool fluoroscope = header.fluoroscope == 1;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
@@ -315,6 +339,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       frame.live = (bits & kLive) != 0;
       frame.needle_tip = (bits & kNeedleTip) != 0;
       frame.target = (bits & kTarget) != 0;
+      if (header.format > kFormatWithoutNearPlane) frame.near_plane = near_plane_of(bits);
       if (!fluoroscope) continue;
       const BeamTruth beam = get_beam(at);
       if ((bits & kBeam) == 0) continue;

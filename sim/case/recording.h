@@ -36,6 +36,13 @@ struct BeamTruth {
   bool operator==(const BeamTruth&) const = default;
 };
 
+// Whether tip and target's centre lie within 2 mm and 5 mm of the plane, inside the picture's field: nothing else is
+// asked. What others count as seen (Perk Tutor: 5 mm; its documentation: 2 mm).
+struct NearPlane {
+  bool tip_2_mm = false, target_2_mm = false, tip_5_mm = false, target_5_mm = false;
+  bool operator==(const NearPlane&) const = default;
+};
+
 // What one picture showed (contracts.md, "What a picture shows").
 struct FrameTruth {
   double t_s = 0.0;
@@ -43,7 +50,8 @@ struct FrameTruth {
   bool needle_tip = false;
   bool target = false;
   double needle_length_mm = 0.0;
-  std::optional<BeamTruth> beam{};  // of a fluoroscope's pulse; none for a held image and other modalities
+  std::optional<BeamTruth> beam{};        // of a fluoroscope's pulse; none for a held image and other modalities
+  std::optional<NearPlane> near_plane{};  // of ultrasound; none for other modalities and before format 3
   bool joint() const noexcept { return needle_tip && target; }
 };
 
@@ -71,9 +79,9 @@ struct RecordingChunk {
   std::vector<std::byte> data;
 };
 
-// Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Format 2:
-// a chunk in which the fluoroscope was used holds its inputs, exposures and beams too. Format 1, which had none, is
-// read as well.
+// Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Since
+// format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3 frames
+// of ultrasound say what was near its plane. Formats 1 and 2, without, are read as well.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 // Refused: `damaged` (checksum, codec), `incomplete` (a sequence number is missing), `recording_version`.

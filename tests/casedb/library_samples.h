@@ -119,7 +119,7 @@ inline NewAttempt sample_attempt(const std::string& case_id, const std::string& 
   attempt.seed = 0xfedcba9876543210ULL;
   attempt.program_version = "0.1.0";
   attempt.instrument = {cases::InstrumentKind::core, 160.1, 0.62, 0.41, 2999.5, 21.9, 17.9, 4.1};
-  attempt.picture = {cases::Modality::mpr, 120.3, 110.7, 25.0};
+  attempt.picture = {cases::Modality::mpr, 120.3, 110.7, 25.0, ""};
   attempt.approach = cases::Approach::out_of_plane;
   attempt.started_us = 1'700'000'000'123'456;
   attempt.duration_s = 4.321;
@@ -167,7 +167,7 @@ inline std::string difference(const cases::Recording& a, const cases::Recording&
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
     const cases::FrameTruth &p = a.frames[i], &q = b.frames[i];
     if (!same_bits(p.t_s, q.t_s) || p.live != q.live || p.needle_tip != q.needle_tip || p.target != q.target ||
-        !same_bits(p.needle_length_mm, q.needle_length_mm) || p.beam != q.beam)
+        !same_bits(p.needle_length_mm, q.needle_length_mm) || p.beam != q.beam || p.near_plane != q.near_plane)
       return "frame " + std::to_string(i);
   }
   if (a.endpoint.has_value() != b.endpoint.has_value()) return "endpoint";

@@ -82,11 +82,15 @@ TEST_F(SchemaTest, ALibraryOfTheFirstSchemaKeepsEverything) {
   EXPECT_EQ(database.integer("SELECT count(*) FROM training_case WHERE modality = 'mpr' AND "
                              "patient_position = 'supine' AND classes_sha256 IS NULL"),
             1);
+  EXPECT_EQ(database.integer("SELECT count(*) FROM attempt WHERE picture_probe IS NULL"), kAttempts);
   EXPECT_EQ(database.integer("SELECT count(*) FROM pragma_foreign_key_check"), 0);
   EXPECT_EQ(database.text("PRAGMA integrity_check"), "ok");
   EXPECT_EQ(sum_of(database), sum_of(library_.database())) << "as if made new";
-  for (const char* change : {"UPDATE attempt SET seed = 1", "DELETE FROM attempt",
-                             "UPDATE metric_value SET value = 0", "UPDATE attempt SET picture_modality = 'us'"})
+  for (const char* change :
+       {"UPDATE attempt SET seed = 1", "DELETE FROM attempt", "UPDATE metric_value SET value = 0",
+        "UPDATE attempt SET picture_modality = 'us'", "UPDATE training_case SET modality = 'xray'",
+        "UPDATE training_case SET hu_min = 0", "UPDATE training_case SET classes_sha256 = volume_sha256",
+        "DELETE FROM training_case"})
     EXPECT_TRUE(refused_by_constraint([&] { database.run(change); })) << change;
   EXPECT_TRUE(refused_by_constraint([&] {
     database.run("INSERT INTO recording_chunk VALUES ('" + std::string(36, 'x') + "', 0, 0, x'00')");

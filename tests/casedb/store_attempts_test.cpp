@@ -94,6 +94,21 @@ TEST_F(StoreAttemptsTest, AnAttemptUnderXrayComesBackBitForBit) {
   EXPECT_TRUE(loaded->inputs[7].fluoroscope.pedal);
 }
 
+TEST_F(StoreAttemptsTest, AnAttemptUnderUltrasoundKeepsItsProbe) {
+  NewAttempt attempt = sample();
+  attempt.picture = {cases::Modality::ultrasound, 85.0, 0.0, 60.0, "C5-2v"};
+  attempt.recording.frames[3].near_plane = cases::NearPlane{true, false, true, true};
+  const std::string attempt_id = add(attempt);
+  const cases::Picture picture = find_attempt(library_, attempt_id).value().picture;
+  EXPECT_EQ(picture.modality, cases::Modality::ultrasound);
+  EXPECT_EQ(picture.probe, "C5-2v");
+  EXPECT_EQ(picture.depth_mm, 85.0);
+  EXPECT_EQ(find_attempt(library_, add(sample())).value().picture.probe, "");
+  const auto loaded = load_recording(library_, attempt_id);
+  ASSERT_TRUE(loaded.has_value());
+  EXPECT_EQ(difference(attempt.recording, *loaded), "");
+}
+
 TEST_F(StoreAttemptsTest, AScoreOfNothingIsNotZero) {
   const AttemptRow row = find_attempt(library_, add(sample())).value();
   ASSERT_EQ(row.metrics.size(), 4U);  // in the order given

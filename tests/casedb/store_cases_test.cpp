@@ -29,8 +29,14 @@ TEST_F(StoreCasesTest, KeepsWhatItIsPractisedWithAndHowThePatientLies) {
 }
 
 TEST_F(StoreCasesTest, NamesOfModalitiesAndPositionsComeBack) {
-  for (const auto modality : {cases::Modality::mpr, cases::Modality::xray})
+  for (const auto modality : {cases::Modality::mpr, cases::Modality::xray, cases::Modality::ultrasound}) {
     EXPECT_EQ(modality_from(name_of(modality)), modality);
+    EXPECT_NE(modality_names().find(name_of(modality)), std::string::npos);
+    NewCase one = sample_case();
+    one.modality = modality;
+    EXPECT_EQ(find_case(library_, add_case(library_, one)).value().modality, modality);
+  }
+  EXPECT_EQ(modality_names(), "mpr, xray or ultrasound");
   for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone})
     EXPECT_EQ(position_from(name_of(position)), position);
   EXPECT_FALSE(modality_from("XRAY").has_value());
@@ -123,7 +129,8 @@ TEST_F(StoreCasesTest, ACaseFromBeforeTheClassesGetsTheSameOnes) {
     case_id = add_case(library, sample);
     stored = load_classes(library, find_case(library, case_id).value()).value();
     library.database().run(
-        "DROP TRIGGER training_case_keeps_its_classes; "
+        "DROP VIEW attempt_summary; ALTER TABLE attempt DROP COLUMN picture_probe; "
+        "CREATE VIEW attempt_summary AS SELECT * FROM attempt; DROP TRIGGER training_case_keeps_its_classes; "
         "ALTER TABLE training_case DROP COLUMN classes_sha256; PRAGMA user_version = 2");
   }
   EXPECT_EQ(stored[100], volume::TissueClass::liver);

@@ -121,6 +121,16 @@ double offset_db(double hu, double around_hu, bool enhanced) {
 
 }  // namespace
 
+const std::array<float, 256>& echo_offset_amplitudes() {
+  static const auto kTable = [] {
+    std::array<float, 256> table;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      table[i] = static_cast<float>(std::pow(10.0, echo_offset_db(static_cast<std::uint8_t>(i)) / 20.0));
+    return table;
+  }();
+  return kTable;
+}
+
 std::vector<std::uint8_t> echogenicity(const volume::Volume& volume, std::span<const volume::TissueClass> classes,
                                        int threads) {
   CHECK(classes.size() == volume.hu.size());

@@ -22,6 +22,9 @@ constexpr double echo_offset_db(std::uint8_t level) noexcept {
   return kEchoStepDb * (static_cast<int>(level) - static_cast<int>(kNoEchoOffset));
 }
 
+// 10^(offset/20) of every byte.
+const std::array<float, 256>& echo_offset_amplitudes();
+
 // Of the voxels of class soft_tissue; none elsewhere. Same input, same bytes, for any number of threads (0: as many
 // as cores).
 std::vector<std::uint8_t> echogenicity(const volume::Volume& volume, std::span<const volume::TissueClass> classes,

@@ -1,5 +1,6 @@
 #include "sim/imaging/ultrasound/fan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -45,6 +46,14 @@ bool is_shown(const cases::Lesion& lesion) noexcept {
   return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0;
 }
 
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept {
+  if (depth_below_skin_mm.empty()) return true;
+  const double last = static_cast<double>(depth_below_skin_mm.size() - 1);
+  const auto element =
+      static_cast<std::size_t>(std::clamp((beam + 0.5) * view.probe.elements / view.beams, 0.0, last));
+  return depth_below_skin_mm[element] >= static_cast<float>(-kContactMm);
+}
+
 TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
   CHECK(inserted.lesions.size() <= kMaxLesions);
@@ -61,8 +70,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   CHECK(tissue.echogenicity.empty() || tissue.echogenicity.size() == tissue.classes.size());
   echogenicity_ = tissue.echogenicity.empty() ? nullptr : tissue.echogenicity.data();
   amplitude_ = speckle_amplitudes();
-  for (std::size_t i = 0; i < offset_.size(); ++i)
-    offset_[i] = static_cast<float>(std::pow(10.0, echo_offset_db(static_cast<std::uint8_t>(i)) / 20.0));
+  offset_ = echo_offset_amplitudes().data();
 }
 
 glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept {

@@ -24,6 +24,9 @@ struct Fan {
 Fan fan_of(const UltrasoundView& view) noexcept;
 
 bool is_shown(const cases::Lesion& lesion) noexcept;  // finite, with a radius
+// Whether the element in the middle of a beam's aperture is in contact; `beam` is continuous. An empty list: all
+// are.
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;
 
 // Tissue at points; outside the volume there is air.
 class TissueAt {
@@ -73,7 +76,7 @@ class TissueAt {
   const volume::TissueClass* classes_;
   const std::uint8_t* echogenicity_;
   std::array<float, volume::kTissueClasses> amplitude_;
-  std::array<float, 256> offset_;
+  const float* offset_;
 };
 
 }  // namespace seldinger::imaging

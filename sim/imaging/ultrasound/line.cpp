@@ -14,10 +14,6 @@ namespace {
 using shaders::us_amplitude, shaders::kUsDeadDb, shaders::kUsLensLines, shaders::kUsGelMm;
 using volume::TissueClass;
 
-bool is_gas(TissueClass tissue) {
-  return tissue == TissueClass::air || tissue == TissueClass::gas;
-}
-
 // Five voxels, within reason: fewer and the steps of voxels show in the normal.
 constexpr double kNormalVoxels = 5.0, kLeastNormalMm = 3.0, kMostNormalMm = 6.0;
 constexpr double kPlaceVoxels = 2.5;
@@ -132,12 +128,18 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
     const double mrayl = table_[tissue].impedance_mrayl;
+    double late_mm = 0.0;  // how far below the samples' border the tissues' lies
+    if (k > first && line.tissue[k] != line.tissue[k - 1]) {
+      late_mm = border_mm(start, direction, k, line) - static_cast<double>(k) * dz;
+      sum_db = std::min(kUsDeadDb, sum_db + late_mm * loss_db_mm_[static_cast<std::size_t>(line.tissue[k - 1])]);
+    }
     if (k == first && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;
     if (mrayl != before_mrayl && sum_db < kUsDeadDb) {
       add_interface(start, direction, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
       sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
       before_mrayl = mrayl;
     }
+    sum_db -= late_mm * loss_db_mm_[tissue];
     if (!needle_above && needle.depth_mm >= 0.0 && (static_cast<double>(k) + 0.5) * dz >= needle.depth_mm) {
       needle_above = true;
       sum_db += needle.shadow_db;
@@ -152,6 +154,16 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
     line.echoes.push_back({echo.depth_mm, echo.amplitude * us_amplitude(-static_cast<double>(line.loss_db[k]))});
   }
   if (view_.range_error) shift(first, line);
+}
+
+double LineWalker::border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample,
+                             const Line& line) const {
+  double above = (static_cast<double>(sample) - 0.5) * fan_.sample_mm, below = above + fan_.sample_mm;
+  for (int i = 0; i < shaders::kUsBorderHalvings; ++i) {
+    const double middle = 0.5 * (above + below);
+    (tissue_at_(start + middle * direction) == line.tissue[sample - 1] ? above : below) = middle;
+  }
+  return 0.5 * (above + below);
 }
 
 // Sound that was slower than the scanner assumes comes later, and shows deeper (ultrasound.md §3: 10 mm of fat,

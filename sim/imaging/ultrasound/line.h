@@ -18,6 +18,10 @@ using shaders::kUsInterfaceConeRad, shaders::kUsInterfaceDb, shaders::kUsInterfa
 constexpr double kNeedleShadowDb = 10.0;
 constexpr double kTailDbPerLine = 5.0;  // of a comet tail (design, 4 to 6)
 
+constexpr bool is_gas(volume::TissueClass tissue) noexcept {
+  return tissue == volume::TissueClass::air || tissue == volume::TissueClass::gas;
+}
+
 struct LineEcho {
   double depth_mm;   // as it shows
   double amplitude;  // of the envelope's peak, loss included
@@ -78,6 +82,7 @@ class LineWalker {
   Plane plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const;
   void add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample, double before_mrayl,
                      double after_mrayl, double loss_db, Line& line) const;
+  double border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;
   void shift(std::size_t first, Line& line) const;

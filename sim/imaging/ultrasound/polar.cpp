@@ -47,7 +47,7 @@ class PolarPainter {
   void paint(int first, int end, Room& room) const {
     field_->add_beams(first, end, room.sums);
     for (int beam = first; beam < end; ++beam) {
-      walker_.walk(beam, touches(view_, below_skin_mm_, beam), room.line);
+      walker_.walk(beam, beam_touches(view_, below_skin_mm_, beam), room.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
       paint_line(room.sums.data() + static_cast<std::size_t>(beam - first) * samples *
                                         static_cast<std::size_t>(field_->fine()) * 2,

@@ -245,7 +245,7 @@ std::vector<UsBeam> beams_of(const UltrasoundView& view, const LineWalker& walke
     split(glm::dmat3(voxel_from_lps) * (fan.sample_mm * direction), beam.index_along, beam.index_along_rest);
     beam.start_mm = vec4_from(start - view.origin_lps_mm);
     beam.direction = vec4_from(direction);
-    beam.contact = touches(view, depth_below_skin_mm, b) ? 1 : 0;
+    beam.contact = beam_touches(view, depth_below_skin_mm, b) ? 1 : 0;
     const NeedleLine needle = walker.needle_line(b);
     beam.needle_mm = static_cast<float>(needle.depth_mm);
     beam.needle_shadow_db = static_cast<float>(needle.shadow_db);
@@ -274,7 +274,7 @@ Lines walked_lines(const UltrasoundView& view, const LineWalker& walker,
   Line line;
   for (std::size_t b = 0; b < beams; ++b) {
     const int beam = static_cast<int>(b);
-    walker.walk(beam, touches(view, depth_below_skin_mm, beam), line);
+    walker.walk(beam, beam_touches(view, depth_below_skin_mm, beam), line);
     if (line.contact)
       for (std::size_t k = 0; k < samples; ++k)
         lines.through[b * samples + k] = std::exp(-0.115129255F * line.loss_db[k]) * (1.0F / SpeckleField::kUnit);

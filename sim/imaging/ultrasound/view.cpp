@@ -23,10 +23,4 @@ double working_mhz(const UltrasoundView& view) noexcept {
   return view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
 }
 
-bool touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, int beam) noexcept {
-  if (depth_below_skin_mm.empty()) return true;
-  const auto element = static_cast<std::size_t>((beam + 0.5) * view.probe.elements / view.beams);
-  return depth_below_skin_mm[std::min(element, depth_below_skin_mm.size() - 1)] >= static_cast<float>(-kContactMm);
-}
-
 }  // namespace seldinger::imaging

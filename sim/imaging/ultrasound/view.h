@@ -13,7 +13,4 @@ void check_view(const UltrasoundView& view, std::span<const float> depth_below_s
 // The view's own frequency, or else the probe's.
 double working_mhz(const UltrasoundView& view) noexcept;
 
-// Whether the element under a beam has contact.
-bool touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, int beam) noexcept;
-
 }  // namespace seldinger::imaging

@@ -260,6 +260,59 @@ TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {
   EXPECT_EQ(value(recording, "vis_joint", s).reason, "no_target");
 }
 
+TEST(Visibility, NearThePlaneIsOfUltrasoundThatWasRecordedSo) {
+  auto recording = straight([](double) { return 30.0; }, 10.0);
+  AttemptSetting s = setting();
+  s.modality = cases::Modality::ultrasound;
+  for (auto& frame : recording.frames)
+    frame.near_plane = cases::NearPlane{frame.t_s < 2.0, frame.t_s >= 1.0, frame.t_s < 6.0, true};
+  EXPECT_NEAR(number(recording, "vis_joint_2_mm", s), 0.1, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_joint_5_mm", s), 0.6, 1e-9);
+  EXPECT_EQ(value(recording, "vis_joint_2_mm").reason, "not_ultrasound");
+  EXPECT_FALSE(applies(value(recording, "vis_joint_2_mm")));
+  recording.frames[7].near_plane.reset();
+  EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "near_plane_not_recorded");
+  EXPECT_TRUE(applies(value(recording, "vis_joint_5_mm", s)));
+  s.approach = cases::Approach::out_of_plane;
+  EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "not_meaningful_out_of_plane");
+}
+
+TEST(Visibility, TheNeedlesLengthIsAMeanOverTheTime) {
+  auto recording = straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 10.0);
+  for (auto& frame : recording.frames) frame.needle_length_mm = frame.t_s < 4.0 ? 40.0 : 8.0;
+  EXPECT_NEAR(number(recording, "visible_needle_length"), (2.0 * 40.0 + 6.0 * 8.0) / 8.0, 1e-9);
+}
+
+TEST(AdvanceVisibleShare, CountsWayNotTime) {
+  // 20 mm seen, parked in view for long, 30 mm unseen.
+  auto recording =
+      straight([](double t) { return t < 2.0   ? 10.0 * t
+                                     : t < 8.0 ? 20.0
+                                               : 20.0 + 15.0 * (t - 8.0); }, 10.0);
+  for (auto& frame : recording.frames) frame.needle_tip = frame.t_s < 8.0;
+  EXPECT_NEAR(number(recording, "advance_visible_share"), 0.4, 1e-9);
+  for (auto& frame : recording.frames) frame.live = frame.t_s < 1.0;
+  EXPECT_NEAR(number(recording, "advance_visible_share"), 0.2, 1e-9) << "a frozen picture shows nothing";
+}
+
+TEST(AdvanceVisibleShare, WithdrawnWayCountsAgainAndJiggleDoesNot) {
+  // Down 30, up 20, down 20, seen the second time only.
+  auto recording = straight(
+      [](double t) { return t < 3.0   ? 10.0 * t
+                            : t < 5.0 ? 30.0 - 10.0 * (t - 3.0)
+                                      : 10.0 + 10.0 * (t - 5.0); },
+      7.0);
+  for (auto& frame : recording.frames) frame.needle_tip = frame.t_s >= 5.0;
+  EXPECT_NEAR(number(recording, "advance_visible_share"), 19.0 / 49.0, 1e-9) << "less 1 mm of play";
+  auto still = straight([](double t) { return 30.0 + 0.49 * std::sin(40.0 * t); }, 7.0);
+  EXPECT_EQ(value(still, "advance_visible_share").reason, "under_1_mm_of_advance");
+  still.frames.clear();
+  EXPECT_EQ(value(still, "advance_visible_share").reason, "no_picture");
+  AttemptSetting s = setting();
+  s.modality = cases::Modality::xray;
+  EXPECT_EQ(value(recording, "advance_visible_share", s).reason, "not_meaningful_under_xray");
+}
+
 TEST(TimeTotal, RunsFromTheFirstPoseToTheEndpoint) {
   auto recording = straight([](double t) { return ramp(t, 20.0); }, 5.0);
   for (auto& pose : recording.poses) pose.t_s += 100.0;
@@ -288,7 +341,7 @@ TEST(Signals, BadPosesAreRefused) {
 cases::Recording lively() {
   auto recording = straight(
       [](double t) {
-        return t < 2.0   ? -20.0 + 15.0 * t
+        return t < 2.0   ? -20.0 + 16.0 * t
                : t < 5.0 ? 12.0 * (t - 1.0)
                : t < 6.0 ? 48.0 - 12.0 * (t - 5.0)
                          : 36.0 + 9.0 * (t - 6.0);

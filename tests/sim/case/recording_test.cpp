@@ -102,6 +102,7 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.frames[i].target, b.frames[i].target);
     EXPECT_EQ(a.frames[i].needle_length_mm, b.frames[i].needle_length_mm);
     EXPECT_EQ(a.frames[i].beam, b.frames[i].beam);
+    EXPECT_EQ(a.frames[i].near_plane, b.frames[i].near_plane);
   }
 }
 
@@ -124,6 +125,23 @@ TEST(Recording, OfAFluoroscopeComesBackBitForBit) {
     ASSERT_TRUE(back.has_value()) << from;
     expect_same(recording, *back);
   }
+}
+
+// Every fourth frame says nothing of the plane; the others every combination.
+Recording random_ultrasound_recording(std::size_t ticks, std::uint64_t seed) {
+  Recording recording = random_recording(ticks, seed);
+  for (std::size_t i = 0; i < recording.frames.size(); ++i)
+    if (i % 4 != 0)
+      recording.frames[i].near_plane = NearPlane{(i & 1U) != 0, (i & 2U) != 0, (i & 4U) != 0, (i & 8U) != 0};
+  return recording;
+}
+
+TEST(Recording, WhatWasNearThePlaneComesBack) {
+  const Recording recording = random_ultrasound_recording(6500, 31);
+  ASSERT_GT(recording.frames.size(), 64U);
+  const auto back = recording_from_chunks(chunks_from_recording(recording));
+  ASSERT_TRUE(back.has_value());
+  expect_same(recording, *back);
 }
 
 TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
@@ -151,7 +169,8 @@ std::vector<std::byte> table_of_format_1(const std::vector<std::vector<std::uint
   return out;
 }
 
-RecordingChunk chunk_of_format_1(const Recording& recording, std::uint32_t format = 1, std::uint32_t reserved = 0) {
+RecordingChunk chunk_of_format_1(const Recording& recording, std::uint32_t format = 1, std::uint32_t reserved = 0,
+                                 std::uint64_t more_bits = 0) {
   const auto word = [](double value) { return std::bit_cast<std::uint64_t>(value); };
   const auto add = [&](std::vector<std::uint64_t>& row, const glm::dvec3& p) {
     for (int axis = 0; axis < 3; ++axis) row.push_back(word(p[axis]));
@@ -173,8 +192,9 @@ RecordingChunk chunk_of_format_1(const Recording& recording, std::uint32_t forma
       add(row, p);
   }
   for (const FrameTruth& frame : recording.frames)
-    frames.push_back({word(frame.t_s), word(frame.needle_length_mm),
-                      (frame.live ? 1U : 0U) + (frame.needle_tip ? 2U : 0U) + (frame.target ? 4U : 0U)});
+    frames.push_back(
+        {word(frame.t_s), word(frame.needle_length_mm),
+         (frame.live ? 1U : 0U) + (frame.needle_tip ? 2U : 0U) + (frame.target ? 4U : 0U) + more_bits});
   const std::uint32_t head[8] = {0x524c4453,
                                  format,
                                  recording.step_version,
@@ -207,9 +227,20 @@ TEST(Recording, OfFormat1IsRead) {
   for (const Inputs& inputs : back->inputs) ASSERT_EQ(inputs.fluoroscope, FluoroscopeInputs{});
 }
 
+TEST(Recording, OfFormat2SaysNothingOfThePlane) {
+  const Recording recording = random_recording(1500, 14);
+  // The bits that format 3 gave a meaning.
+  const auto old = recording_from_chunks(std::vector{chunk_of_format_1(recording, 2, 0, 64 + 128 + 1024)});
+  ASSERT_TRUE(old.has_value());
+  expect_same(recording, *old);
+  const auto now = recording_from_chunks(std::vector{chunk_of_format_1(recording, 3, 0, 64 + 128 + 1024)});
+  ASSERT_TRUE(now.has_value());
+  EXPECT_EQ(now->frames[0].near_plane, (NearPlane{true, false, false, true}));
+}
+
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 3U, 77U})
+  for (const std::uint32_t format : {0U, 4U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")

@@ -1,0 +1,156 @@
+#include "app/ultrasound_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/png.h"
+#include "sim/base/check.h"
+#include "sim/imaging/ultrasound/console.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kLinearToMm = 35.0;
+constexpr double kTargetShare = 0.6, kDepthStepMm = 5.0, kLeastDepthMm = 30.0;
+constexpr double kScreenHz = 60.0;
+// A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Tissue
+// does not give way yet; the picture begins so much deeper.
+constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
+constexpr double kBesideFaceMm = 3.0;  // room for the needle
+constexpr double kWayStepMm = 4.0;
+
+const imaging::Probe& probe_of(const cases::Picture& picture) {
+  const imaging::Probe* probe = imaging::probe_named(picture.probe);
+  CHECK(probe != nullptr);
+  return *probe;
+}
+
+double half_face_mm(const imaging::Probe& probe) {
+  const double half_mm = 0.5 * probe.elements * probe.pitch_mm;
+  return probe.radius_mm > 0.0 ? probe.radius_mm * std::sin(half_mm / probe.radius_mm) : half_mm;
+}
+
+double press_mm(const imaging::Probe& probe) {
+  return probe.radius_mm > 0.0 ? kPressCurvedMm : kPressStraightMm;
+}
+
+}  // namespace
+
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride) {
+  const imaging::Probe& probe = view.probe;
+  std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
+  if (skin.empty()) return depths;
+  CHECK(stride >= 1);
+  std::uint32_t hint = 0;
+  const auto depth_of = [&](int element) {
+    const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
+    const cases::Closest near = skin.closest(imaging::point_of(view, beam, 0.0), hint);
+    hint = near.triangle;
+    return static_cast<float>(-near.distance_mm);
+  };
+  const int last = probe.elements - 1;
+  float before = depth_of(0);
+  depths[0] = before;
+  for (int from = 0; from < last; from += stride) {
+    const int to = std::min(last, from + stride);
+    const float next = depth_of(to);
+    for (int element = from + 1; element <= to; ++element)
+      depths[static_cast<std::size_t>(element)] =
+          before + (next - before) * static_cast<float>(element - from) / static_cast<float>(to - from);
+    before = next;
+  }
+  return depths;
+}
+
+cases::Picture ultrasound_picture(double target_below_skin_mm) {
+  const imaging::Probe& probe = target_below_skin_mm <= kLinearToMm ? imaging::kL115v : imaging::kC52v;
+  cases::Picture picture;
+  picture.modality = cases::Modality::ultrasound;
+  picture.probe = std::string(probe.name);
+  const double deep_mm = (target_below_skin_mm - press_mm(probe)) / kTargetShare;
+  picture.depth_mm = std::max(kLeastDepthMm, kDepthStepMm * std::round(deep_mm / kDepthStepMm));
+  picture.width_mm = 0.0;
+  picture.rate_hz = std::min(kScreenHz, imaging::frame_rate_hz(picture.depth_mm, imaging::UltrasoundView{}.beams));
+  return picture;
+}
+
+UltrasoundSight::UltrasoundSight(const cases::Case& scene)
+    : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
+  CHECK(scene.classes.size() == scene.volume.hu.size());
+}
+
+imaging::UltrasoundView UltrasoundSight::view_of(const cases::Picture& picture,
+                                                 const cases::ToolPose& probe) const {
+  imaging::UltrasoundView view;
+  view.probe = probe_of(picture);
+  view.depth_mm = picture.depth_mm;
+  view.origin_lps_mm = probe.position_lps_mm;
+  view.axial = probe.axis;
+  view.lateral = probe.side;
+  return view;
+}
+
+imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const {
+  const cases::Instrument& instrument = scene_.instrument;
+  return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
+          instrument.hu};
+}
+
+imaging::UltrasoundVisible UltrasoundSight::see(const cases::Picture& picture, const cases::ToolPose& probe,
+                                                const imaging::Inserted& inserted) const {
+  const imaging::UltrasoundView view = view_of(picture, probe);
+  return imaging::ultrasound_visible(tissue_, view, inserted,
+                                     element_depths(scene_.skin_index, view, kContactStride));
+}
+
+imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe,
+                                                const imaging::NeedlePose& needle) const {
+  return see(scene_.picture, probe, {needle, scene_.lesions});
+}
+
+std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
+                                                                 const cases::Lesion& target) const {
+  const cases::ToolPose& touching = plan.probe;
+  const cases::Picture picture =
+      ultrasound_picture(glm::dot(target.center_lps_mm - touching.position_lps_mm, touching.axis));
+  const imaging::Probe& probe = probe_of(picture);
+  const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
+  if (beside_mm < half_face_mm(probe) + kBesideFaceMm) return std::nullopt;
+  cases::ToolPose held = touching;
+  held.position_lps_mm += press_mm(probe) * touching.axis;
+  const auto with_tip_at = [&](double inserted_mm) {
+    const glm::dvec3 tip_lps_mm = plan.entry_lps_mm + inserted_mm * plan.direction;
+    return see(picture, held, {needle_at(tip_lps_mm, plan.direction), {target}}).visible;
+  };
+  const imaging::Visible seen = with_tip_at(plan.depth_mm);
+  if (!seen.joint) return std::nullopt;
+  double shows_from_mm = plan.depth_mm;
+  while (shows_from_mm > kWayStepMm && with_tip_at(shows_from_mm - kWayStepMm).needle_tip)
+    shows_from_mm -= kWayStepMm;
+  const imaging::UltrasoundView view = view_of(picture, held);
+  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}},
+                                                           element_depths(scene_.skin_index, view, kContactStride));
+  return assessment::ProbeView{held, picture, shows_from_mm, seen.needle_length_mm,
+                               std::max(0.0, -level.transmission_db)};
+}
+
+std::vector<std::byte> UltrasoundSight::picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                                    std::uint64_t seed, std::uint64_t frame) const {
+  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  imaging::PolarPicture polar;
+  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
+                            polar);
+  imaging::add_receiver_noise(seed, frame, polar);
+  const imaging::ScanConverter converter(view, {});
+  std::vector<unsigned char> grey;
+  converter.grey(view, {}, polar, grey);
+  // Without the empty rows below a wide field.
+  const int rows =
+      std::min(converter.height_px(),
+               static_cast<int>(std::ceil((view.depth_mm - converter.top_mm()) / converter.pixel_mm())));
+  grey.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(converter.width_px()));
+  return png_from_grey(grey, converter.width_px(), rows);
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,54 @@
+// What a person sees of a case by ultrasound: from a probe's pose to the picture, and to what is told of it. The
+// one place where attempts meet ultrasound imaging.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "assessment/operators/plan.h"
+#include "sim/case/case.h"
+#include "sim/case/mesh_index.h"
+#include "sim/imaging/ultrasound/visible.h"
+
+namespace seldinger::app {
+
+constexpr int kContactStride = 8;  // elements; 4 mm of a curved face, over which skin hardly bends
+
+// How deep below the skin each of the probe's elements lies, mm; an empty skin: all stand in air. Asked of every
+// `stride`-th element, between them linear.
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view,
+                                  int stride = 1);
+
+// How a target so deep below the skin, along the probe's axis, is looked at: by the linear probe down to 35 mm,
+// else by the curved one, at a depth of which the target lies at 1/2 to 2/3, as fast as sound allows up to the
+// screen's 60 Hz.
+cases::Picture ultrasound_picture(double target_below_skin_mm);
+
+class UltrasoundSight {
+ public:
+  // The scene has its tissue (add_ultrasound_tissue; CHECK) and outlives it.
+  explicit UltrasoundSight(const cases::Case& scene);
+
+  // PathLimits::looks_from, by the picture that ultrasound_picture chooses there, with this target.
+  std::optional<assessment::ProbeView> looks_from(const assessment::PuncturePlan& plan,
+                                                  const cases::Lesion& target) const;
+
+  // In the scene's picture, with its lesions.
+  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle) const;
+  // As the screen shows it, PNG. `seed` and `frame` are the receiver's noise.
+  std::vector<std::byte> picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                     std::uint64_t seed, std::uint64_t frame) const;
+
+ private:
+  imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ToolPose& probe) const;
+  imaging::UltrasoundVisible see(const cases::Picture& picture, const cases::ToolPose& probe,
+                                 const imaging::Inserted& inserted) const;
+  imaging::NeedlePose needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const;
+
+  const cases::Case& scene_;
+  imaging::TissueVolume tissue_;
+};
+
+}  // namespace seldinger::app

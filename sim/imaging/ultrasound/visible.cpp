@@ -1,0 +1,253 @@
+#include "sim/imaging/ultrasound/visible.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/needle_echo.h"
+
+namespace seldinger::imaging {
+namespace {
+
+using volume::TissueClass;
+
+constexpr double kWalkMm = 0.5;                     // along a beam: below a voxel of most CT
+constexpr double kAroundMm = 2.0;                   // how far the eye looks for a needle's background
+constexpr double kBesideMm = 3.0;                   // from the target's side to what it is compared with
+constexpr double kNearMm = 2.0, kLessNearMm = 5.0;  // of the geometric rules (recording.h)
+
+double power(double db) {
+  return std::pow(10.0, 0.1 * db);
+}
+double decibels(double of_power) {
+  return 10.0 * std::log10(std::max(of_power, 1e-40));
+}
+
+// Where a point lies in the picture.
+struct Place {
+  double beam, depth_mm, off_plane_mm;
+};
+
+class Sight {
+ public:
+  Sight(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+        std::span<const float> depth_below_skin_mm)
+      : view_(view),
+        fan_(fan_of(view)),
+        tissue_at_(tissue, inserted),
+        table_(acoustic_table(view.attenuation_db_cm_mhz)),
+        below_skin_mm_(depth_below_skin_mm),
+        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+    for (std::size_t i = 0; i < table_.size(); ++i) {
+      loss_db_mm_[i] =
+          shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
+    }
+  }
+
+  Place place(const glm::dvec3& p_lps_mm) const {
+    const glm::dvec3 d = p_lps_mm - fan_.origin_lps_mm;
+    const BeamAndDepth at = beam_and_depth(view_, glm::dot(d, fan_.lateral), glm::dot(d, fan_.axial));
+    return {at.beam, at.depth_mm, glm::dot(d, fan_.elevation)};
+  }
+  // The same borders as the screen's (ScanConverter); not with NaN.
+  bool in_field(const Place& at) const {
+    return at.beam >= -0.5 && at.beam <= view_.beams - 0.5 && at.depth_mm >= 0.0 && at.depth_mm <= view_.depth_mm;
+  }
+  bool in_slice(const Place& at, double more_mm) const {
+    return std::abs(at.off_plane_mm) <= more_mm + 0.5 * slice_mm(at.depth_mm);
+  }
+  double slice_mm(double depth_mm) const { return elevation_fwhm_mm(view_.probe, frequency_mhz_, depth_mm); }
+  double slice_sigma_mm(double depth_mm) const { return slice_mm(depth_mm) / shaders::kUsFwhmPerSigma; }
+  double made_up_db(double depth_mm) const {
+    return shaders::us_loss_db_per_mm(kAssumedAttenuationDbCmMhz, 1.0, frequency_mhz_) * depth_mm;
+  }
+  double beams_of(double across_mm, double depth_mm) const { return across_mm / fan_.beam_spacing_mm(depth_mm); }
+
+  // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
+  double loss_db(double beam, double depth_mm) const {
+    if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
+    const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
+    const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
+    const double dz = depth_mm / steps;
+    const auto tissue = [&](double z_mm) { return tissue_at_(start + z_mm * direction); };
+    // A blurred skin is gel, unless there is gas beyond what it can be.
+    constexpr double kStepMm = 0.25 * kWalkMm;
+    double gel_mm = 0.0;
+    for (double z_mm = 0.0; z_mm <= shaders::kUsGelMm; z_mm += kStepMm)
+      if (z_mm == gel_mm ? is_gas(tissue(z_mm)) : tissue(z_mm) == TissueClass::air) gel_mm = z_mm + kStepMm;
+    if (gel_mm > shaders::kUsGelMm) gel_mm = 0.0;
+    double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
+    bool at_face = true;
+    for (int k = 0; k < steps && sum_db < shaders::kUsDeadDb; ++k) {
+      const double z_mm = (k + 0.5) * dz;
+      if (z_mm < gel_mm) continue;
+      const auto here = static_cast<std::size_t>(tissue(z_mm));
+      const double mrayl = table_[here].impedance_mrayl;
+      if (at_face && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;  // matched, as LineWalker has it
+      at_face = false;
+      if (mrayl != before_mrayl) {
+        sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
+        before_mrayl = mrayl;
+      }
+      sum_db += loss_db_mm_[here] * dz;
+    }
+    return std::min(sum_db, shaders::kUsDeadDb);
+  }
+
+  // Mean square echo of the tissue in the plane, without loss; liver's is 1.
+  double scatter(double beam, double depth_mm) const {
+    const double amplitude =
+        static_cast<double>(tissue_at_.speckle(fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam)));
+    return amplitude * amplitude;
+  }
+  double scatter_around(const Place& at) const {
+    const double aside = beams_of(kAroundMm, at.depth_mm);
+    return 0.2 * (scatter(at.beam, at.depth_mm) + scatter(at.beam - aside, at.depth_mm) +
+                  scatter(at.beam + aside, at.depth_mm) + scatter(at.beam, at.depth_mm - kAroundMm) +
+                  scatter(at.beam, at.depth_mm + kAroundMm));
+  }
+
+  // Amplitude of the needle's echo without loss, at a place on its shaft or at its tip.
+  double needle_amplitude(const NeedlePose& needle, const Place& at, bool tip) const {
+    const glm::dvec3 along = glm::normalize(needle.direction);
+    const double sine = std::min(1.0, std::abs(glm::dot(along, fan_.direction(at.beam))));
+    const NeedleEcho echo = needle_echo(view_, needle.radius_mm, at.depth_mm, std::asin(sine));
+    const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
+    if (!tip) return echo.shaft() * std::exp(-0.5 * y * y);
+    const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
+    const double off_beam = at.beam - std::clamp(std::round(at.beam), 0.0, view_.beams - 1.0);
+    const double x = off_beam * fan_.beam_spacing_mm(at.depth_mm) / width.lateral_sigma_mm;
+    return std::max(echo.tip * std::exp(-0.5 * x * x), echo.shaft()) * std::exp(-0.5 * y * y);
+  }
+
+  // Levels at a place, loss included; the walk is spared where speckle alone hides the needle.
+  bool needle_stands_out(const NeedlePose& needle, const Place& at, bool tip) const {
+    const double echo_db = decibels(std::pow(needle_amplitude(needle, at, tip), 2.0));
+    if (echo_db < decibels(scatter_around(at)) + kNeedleAboveDb) return false;
+    return echo_db - loss_db(at.beam, at.depth_mm) >= kReceiverNoiseDb + kNeedleAboveDb;
+  }
+
+  NeedleLevel level(const NeedlePose& needle, double behind_tip_mm) const {
+    const Place at = place(needle.tip_lps_mm - behind_tip_mm * glm::normalize(needle.direction));
+    NeedleLevel level;
+    level.in_field = in_field(at);
+    level.off_plane_mm = at.off_plane_mm;
+    if (!level.in_field) return level;
+    const double loss = loss_db(at.beam, at.depth_mm);
+    level.echo_db = decibels(std::pow(needle_amplitude(needle, at, behind_tip_mm == 0.0), 2.0)) - loss;
+    level.background_db = std::max(decibels(scatter_around(at)) - loss, kReceiverNoiseDb);
+    return level;
+  }
+
+  double visible_shaft_mm(const NeedlePose& needle) const {
+    const int steps = std::clamp(static_cast<int>(std::ceil(needle.length_mm / kShaftStepMm)), 1, 1000);
+    const double step_mm = needle.length_mm / steps;
+    const glm::dvec3 along = glm::normalize(needle.direction);
+    int seen = 0;
+    for (int i = 0; i < steps; ++i) {
+      const Place at = place(needle.tip_lps_mm - ((i + 0.5) * step_mm) * along);
+      seen += in_field(at) && needle_stands_out(needle, at, false) ? 1 : 0;
+    }
+    return seen * step_mm;
+  }
+
+  // Decision 0013.
+  TargetLevel level(const cases::Lesion& target) const {
+    const Place at = place(target.center_lps_mm);
+    TargetLevel level;
+    level.in_field = in_field(at);
+    level.off_plane_mm = at.off_plane_mm;
+    if (!level.in_field || !(target.radius_mm > 0.0)) return level;
+    const double z_mm = at.depth_mm, r_mm = target.radius_mm;
+    double through = 0.0;
+    for (const double across : {-0.5, 0.0, 0.5})
+      through += power(-loss_db(at.beam + beams_of(across * r_mm, z_mm), z_mm)) / 3.0;
+    level.transmission_db = decibels(through) + made_up_db(z_mm);
+    double beside = 0.0, beside_lossless = 0.0;
+    for (const double across_mm : {-r_mm - kBesideMm, r_mm + kBesideMm}) {
+      const double beam = at.beam + beams_of(across_mm, z_mm);
+      const double mean =
+          (scatter(beam, z_mm - 0.5 * r_mm) + scatter(beam, z_mm) + scatter(beam, z_mm + 0.5 * r_mm)) / 3.0;
+      beside_lossless += 0.5 * mean;
+      beside += 0.5 * mean * power(-loss_db(beam, z_mm));
+    }
+    // The slice, thicker than the target or beside it, fills it with the tissue around: speckle's power is weighted
+    // by exp(−(y/σ)²).
+    const double sigma_mm = slice_sigma_mm(z_mm), y_mm = at.off_plane_mm;
+    const double share = 0.5 * (std::erf((y_mm + r_mm) / sigma_mm) - std::erf((y_mm - r_mm) / sigma_mm));
+    const double own = power(table_[static_cast<std::size_t>(tissue_of_lesion(target.hu))].scatter_db);
+    const double noise = power(kReceiverNoiseDb);
+    level.contrast_db =
+        decibels(through * (share * own + (1.0 - share) * beside_lossless) + noise) - decibels(beside + noise);
+    return level;
+  }
+
+ private:
+  const UltrasoundView& view_;
+  Fan fan_;
+  TissueAt tissue_at_;
+  AcousticTable table_;
+  std::array<double, volume::kTissueClasses> loss_db_mm_;
+  std::span<const float> below_skin_mm_;
+  double frequency_mhz_;
+};
+
+const NeedlePose* usable_needle(const Inserted& inserted) {
+  return inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr;
+}
+
+}  // namespace
+
+double TargetLevel::cnr() const noexcept {
+  return std::abs(contrast_db) / (kSpeckleDb / std::sqrt(kCellsSeen));
+}
+
+UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
+                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm) {
+  const Sight sight(tissue, view, inserted, depth_below_skin_mm);
+  UltrasoundVisible seen;
+  if (const NeedlePose* needle = usable_needle(inserted)) {
+    const Place tip = sight.place(needle->tip_lps_mm);
+    if (sight.in_field(tip)) {
+      seen.near_plane.tip_2_mm = std::abs(tip.off_plane_mm) <= kNearMm;
+      seen.near_plane.tip_5_mm = std::abs(tip.off_plane_mm) <= kLessNearMm;
+      seen.visible.needle_tip = sight.in_slice(tip, 0.0) && sight.needle_stands_out(*needle, tip, true);
+    }
+    seen.visible.needle_length_mm = sight.visible_shaft_mm(*needle);
+  }
+  if (!inserted.lesions.empty()) {
+    const cases::Lesion& target = inserted.lesions.front();
+    const Place center = sight.place(target.center_lps_mm);
+    if (sight.in_field(center)) {
+      seen.near_plane.target_2_mm = std::abs(center.off_plane_mm) <= kNearMm;
+      seen.near_plane.target_5_mm = std::abs(center.off_plane_mm) <= kLessNearMm;
+      if (sight.in_slice(center, target.radius_mm)) {
+        const TargetLevel level = sight.level(target);
+        seen.visible.target = level.transmission_db >= kLeastTransmissionDb && level.cnr() >= kLeastCnr;
+      }
+    }
+  }
+  seen.visible.joint = seen.visible.needle_tip && seen.visible.target;
+  return seen;
+}
+
+NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                         std::span<const float> depth_below_skin_mm, double behind_tip_mm) {
+  const NeedlePose* needle = usable_needle(inserted);
+  return needle == nullptr ? NeedleLevel{}
+                           : Sight(tissue, view, inserted, depth_below_skin_mm).level(*needle, behind_tip_mm);
+}
+
+TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                         std::span<const float> depth_below_skin_mm) {
+  return inserted.lesions.empty()
+             ? TargetLevel{}
+             : Sight(tissue, view, inserted, depth_below_skin_mm).level(inserted.lesions.front());
+}
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,59 @@
+// What an ultrasound picture shows (contracts.md), from expected levels without speckle: nothing is rendered and no
+// seed matters. The laws are the picture's own: its beam (probe.h), its needle (needle_echo.h), its tissue.
+//
+// Needle: the echo, weakened by how far it lies off the plane (and a tip by how far off its nearest beam), against
+// the speckle around it under the same loss, or the receiver's noise. Target: see docs/decisions/0013. Left out:
+// the needle's own weak shadow and its tail, echoes of interfaces, the speed of sound.
+#pragma once
+
+#include <span>
+
+#include "sim/case/recording.h"
+#include "sim/imaging/mpr/visibility.h"
+#include "sim/imaging/ultrasound/ultrasound.h"
+
+namespace seldinger::imaging {
+
+// contracts.md, "What a picture shows is told".
+constexpr double kNeedleAboveDb = 6.0;
+constexpr double kLeastTransmissionDb = -12.0;
+constexpr double kLeastCnr = 1.0;
+
+// Standard deviation of speckle on the log picture: 10·π/(√6·ln 10) dB, a cell (ultrasound.md §2.5).
+constexpr double kSpeckleDb = 5.57;
+// Over so many cells of speckle the eye averages: 2 × 2 (design; decision 0013).
+constexpr double kCellsSeen = 4.0;
+
+struct UltrasoundVisible {
+  Visible visible;
+  cases::NearPlane near_plane;
+};
+
+// The target is inserted.lesions[0]. depth_below_skin_mm: as ultrasound_polar. Poses that are not finite show
+// nothing. The shaft is looked at every kShaftStepMm.
+constexpr double kShaftStepMm = 2.0;
+UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
+                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm);
+
+// The numbers behind it.
+struct NeedleLevel {
+  bool in_field = false;
+  double off_plane_mm = 0.0;
+  double echo_db = 0.0;        // as it arrives; liver's speckle at the face is 0
+  double background_db = 0.0;  // likewise, not below the receiver's noise
+};
+// At a point of the shaft `behind_tip_mm`, ≥ 0; 0: the tip, which shows as the bevel or as the shaft's end.
+NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                         std::span<const float> depth_below_skin_mm, double behind_tip_mm);
+
+struct TargetLevel {
+  bool in_field = false;
+  double off_plane_mm = 0.0;
+  double transmission_db = 0.0;  // two-way, beyond what the scanner makes up for depth; may be above 0
+  double contrast_db = 0.0;      // of its mean level to that beside it, noise included
+  double cnr() const noexcept;
+};
+TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                         std::span<const float> depth_below_skin_mm);
+
+}  // namespace seldinger::imaging
