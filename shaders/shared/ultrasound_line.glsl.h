@@ -54,10 +54,10 @@ SHARED real us_lens_line(int line) {
   return us_amplitude(kUsLensDb - real(line - 1) * kUsLensDbPerLine);
 }
 
-// A sheet or a ball no wider than a voxel has the same on both sides: where the sum of sides times ways is less than
-// this share of what it can be, no normal can be told, and what is there is taken to face the beam (design). A plane has
-// about a half.
-SHARED_CONSTANT real kUsLeastSide = 0.01;
+// A sheet or a ball no wider than a voxel has the same on both sides, and rounding would tell its normal: where the sum
+// of sides times ways is less than this share of what it can be, what is there is taken to face the beam (design). A
+// plane has about a half.
+SHARED_CONSTANT real kUsLeastSide = 1e-4;
 
 // How far off the middle of a ball of weights 1 − r²/1.44R² a plane lies that leaves the sum `after` on one side
 // (counted + and −): twice the way times the weight of a slice. `all`: of all weights; `square`: of them times the way

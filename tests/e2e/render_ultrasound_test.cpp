@@ -120,6 +120,20 @@ TEST(RenderUltrasound, TheGpuShowsWhatTheCpuShows) {
   EXPECT_LE(apart, lit / 1000);
 }
 
+// No GL: asked for it fails loudly, otherwise the CPU takes over. Never an image from nowhere.
+TEST(RenderUltrasound, WithoutGlTheGpuFailsAndTheCpuServes) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_no_gl");
+  std::ofstream(scratch / "scene.json") << ball();
+  const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " + kProgram + " render " +
+                              (scratch / "scene.json").string() + " --out " + (scratch / "p.mha").string();
+  const auto asked = run(command + " --backend gpu", scratch);
+  EXPECT_EQ(asked.exit_code, 4) << asked.err;
+  EXPECT_EQ(asked.err.rfind("error: gl: ", 0), 0U) << asked.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "p.mha"));
+  EXPECT_EQ(run(command, scratch).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "p.mha"));
+}
+
 TEST(RenderUltrasound, TheEnvelopeLiesInItsPlace) {
   const auto scratch = fixtures::fresh_folder("render_ultrasound_envelope");
   Json scene = ball();

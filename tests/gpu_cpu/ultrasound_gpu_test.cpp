@@ -2,6 +2,7 @@
 // same speckle, grey by grey.
 #include <limits>
 
+#include "sim/volume/phantom.h"
 #include "tests/gpu_cpu/ultrasound_pair.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
@@ -58,6 +59,35 @@ TEST_P(UltrasoundOnGpu, IsTheCpuInLiverAndInLayers) {
     gpu_many.polar(view, {}, {}, gpu);
     EXPECT_TRUE(alike(polar_of(many, view), gpu, 0.005));
   }
+}
+
+// The last tissue on the way to the front from the middle.
+glm::dvec3 front_of(const volume::Volume& volume, const std::vector<TissueClass>& classes) {
+  glm::ivec3 at = volume.size_voxels / 2, skin = at;
+  for (; at.y >= 0; --at.y)
+    if (classes[volume.index(at.x, at.y, at.z)] != TissueClass::air) skin = at;
+  return glm::dvec3(volume.lps_from_voxel * glm::dvec4(skin, 1.0));
+}
+
+TEST_P(UltrasoundOnGpu, IsTheCpuOnTheTorsoByEveryProbe) {
+  const volume::Phantom torso = volume::make_phantom({.spacing_mm = glm::dvec3(3.0)});
+  const std::vector<TissueClass> classes = volume::tissue_classes(torso.volume, &torso.labels);
+  const TissueVolume tissue{&torso.volume, classes, {}};
+  UltrasoundGpu gpu(context_, tissue, GetParam());
+  for (const Probe& probe : kProbes)
+    for (const UltrasoundMethod method : {UltrasoundMethod::scatterers, UltrasoundMethod::lattice})
+      for (const bool range_error : {false, true}) {
+        UltrasoundView view = slanted(straight_view(probe.radius_mm > 0.0 ? 120.0 : 50.0));
+        view.probe = probe;
+        view.method = method;
+        view.range_error = range_error;
+        view.origin_lps_mm = front_of(torso.volume, classes);
+        Inserted inserted;
+        inserted.needle = NeedlePose{.tip_lps_mm = view.origin_lps_mm + 30.0 * view.axial,
+                                     .direction = glm::normalize(view.axial + view.lateral)};
+        inserted.lesions.push_back({view.origin_lps_mm + 28.0 * view.axial - 8.0 * view.lateral, 5.0, 0.0});
+        EXPECT_TRUE(alike(screen_pair(gpu, tissue, view, inserted))) << probe.name << ' ' << range_error;
+      }
 }
 
 TEST_P(UltrasoundOnGpu, IsTheCpuAtTheSizeOfAConsole) {

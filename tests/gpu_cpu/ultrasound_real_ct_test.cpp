@@ -29,8 +29,16 @@ Patient patient(const char* name) {
   return p;
 }
 
-void expect_alike(const Patient& p, UltrasoundView view, const Inserted& inserted) {
+// A needle through the picture and a cyst beside it, with sliders off their middle.
+void expect_alike(const Patient& p, UltrasoundView view, double needle_mm) {
   ASSERT_FALSE(p.classes.empty());
+  Inserted inserted;
+  inserted.needle = NeedlePose{
+      .tip_lps_mm = view.origin_lps_mm + needle_mm * view.axial,
+      .direction = glm::normalize(view.axial + 0.8 * view.lateral + 0.01 * glm::cross(view.axial, view.lateral))};
+  inserted.lesions.push_back({view.origin_lps_mm + (needle_mm - 5.0) * view.axial - 9.0 * view.lateral, 5.0, 0.0});
+  UltrasoundKnobs knobs;
+  knobs.tgc_db = {-6.0, 2.0, 0.0, 3.0, -3.0, 4.0, 0.0, 6.0};
   gpu::Context context;
   const TissueVolume tissue{&p.volume, p.classes, p.echogenicity};
   for (const LinesBy by : {LinesBy::cpu, LinesBy::gpu}) {
@@ -39,8 +47,8 @@ void expect_alike(const Patient& p, UltrasoundView view, const Inserted& inserte
       for (const bool range_error : {false, true}) {
         view.method = method;
         view.range_error = range_error;
-        const ScreenPair pair = screen_pair(gpu, tissue, view, inserted, {}, {}, {480, 420});
-        EXPECT_TRUE(alike(pair)) << range_error;
+        const ScreenPair pair = screen_pair(gpu, tissue, view, inserted, {}, knobs, {480, 420});
+        EXPECT_TRUE(alike(pair)) << view.probe.name << ' ' << range_error;
         EXPECT_GT(pair.lit, 0.15);
       }
   }
@@ -51,11 +59,12 @@ TEST(UltrasoundOfRealCt, TheLiverBetweenTheRibs) {
   view.origin_lps_mm = {-149.4, -55.5, -506.0};
   view.axial = glm::normalize(glm::dvec3(0.7021, 0.7121, 0.0));
   view.lateral = glm::normalize(glm::dvec3(0.7121, -0.7021, 0.0));
-  Inserted inserted;
-  inserted.needle =
-      NeedlePose{.tip_lps_mm = view.origin_lps_mm + 50.0 * view.axial,
-                 .direction = glm::normalize(view.axial + 0.8 * view.lateral + glm::dvec3(0.0, 0.0, 0.01))};
-  expect_alike(patient("ct-abdomen-pelvis/abdomen_pelvis_2x.mha"), view, inserted);
+  const Patient abdomen = patient("ct-abdomen-pelvis/abdomen_pelvis_2x.mha");
+  for (const Probe& probe : kProbes) {
+    view.probe = probe;
+    view.depth_mm = probe.radius_mm > 0.0 ? 150.0 : 60.0;
+    expect_alike(abdomen, view, probe.radius_mm > 0.0 ? 50.0 : 30.0);
+  }
 }
 
 TEST(UltrasoundOfRealCt, TheNeckWithALinearProbe) {
@@ -74,7 +83,7 @@ TEST(UltrasoundOfRealCt, TheNeckWithALinearProbe) {
   view.origin_lps_mm = glm::dvec3(neck.volume.lps_from_voxel * glm::dvec4(at, 1.0));
   view.axial = {0.0, 1.0, 0.0};
   view.lateral = {1.0, 0.0, 0.0};
-  expect_alike(neck, view, {});
+  expect_alike(neck, view, 20.0);
 }
 
 }  // namespace

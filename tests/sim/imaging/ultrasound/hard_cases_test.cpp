@@ -165,6 +165,24 @@ TEST(HardCase, OneVoxelOfCalcificationShadowsItsOwnBeamsOnly) {
   EXPECT_NEAR(shadowed * 0.3, 2.0, 0.35);  // 2 mm
 }
 
+// It has liver on both sides alike: no normal can be told, and rounding must not invent one.
+TEST(HardCase, ASheetOfOneVoxelFacesTheBeam) {
+  const Scene s =
+      scene([](const glm::dvec3& p) { return p.y > 20.0 && p.y < 22.0 ? TissueClass::bone : TissueClass::liver; });
+  const UltrasoundView view = straight_view();
+  const Line line = line_of(s, view, 64);
+  ASSERT_EQ(line.echoes.size(), 2U);
+  for (const LineEcho& echo : line.echoes) EXPECT_NEAR(echo.depth_mm, 21.0, 2.0);
+  const auto mrayl = [](TissueClass tissue) {
+    return acoustic_table()[static_cast<std::size_t>(tissue)].impedance_mrayl;
+  };
+  const double reflection = shaders::us_reflection(mrayl(TissueClass::liver), mrayl(TissueClass::bone));
+  EXPECT_NEAR(line.echoes[0].amplitude,
+              reflection * shaders::us_interface_law(1.0) *
+                  shaders::us_amplitude(kUsInterfaceDb - shaders::us_loss_db_per_mm(0.5, 1.0, 7.6) * 20.0),
+              0.3);
+}
+
 TEST(HardCase, AnisotropicVoxelsOfASlantedPatient) {
   Scene s;
   const double c = std::cos(0.4), n = std::sin(0.4);
