@@ -257,8 +257,10 @@ class Stage {
     on_gpu.backend = "gpu";
     on_gpu.device = context_->renderer();
     time_into(on_gpu, 1, [&] { fresh.grey(view, inserted, {}, {}, kDisplay, kFrame, shown); });
-    on_gpu.error = bench_number(static_cast<double>(fresh.buffer_bytes()) / kBytesPerMb);
+    const auto mb_of = [](std::size_t bytes) { return static_cast<double>(bytes) / kBytesPerMb; };
+    on_gpu.error = bench_number(mb_of(fresh.buffer_bytes() + fresh.tissue_bytes()));
     on_gpu.error_unit = memory.error_unit;
+    on_gpu.reference = "buffers and the tissue's texture, " + bench_number(mb_of(fresh.tissue_bytes()));
     rows_.push_back(on_gpu);
   }
 

@@ -1,5 +1,6 @@
 // Echoes of the interfaces that ultrasound_lines.comp listed, of the needle, and of the lens of a face in air. An
-// invocation is a place in a beam's list; neighbours in a work group are neighbouring beams, which have lists alike.
+// invocation is a place in a beam's list; neighbours in a work group are neighbouring beams, which have lists
+// alike.
 #version 430 core
 #extension GL_GOOGLE_include_directive : enable
 #include "shared/ultrasound_line.glsl.h"

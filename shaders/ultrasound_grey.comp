@@ -1,5 +1,5 @@
-// From the envelope to the screen: scan conversion, gain, logarithm, grey. Each invocation makes four pixels side by
-// side.
+// From the envelope to the screen: scan conversion, gain, logarithm, grey. Each invocation makes four pixels side
+// by side.
 #version 430 core
 #extension GL_GOOGLE_include_directive : enable
 #include "shared/ultrasound.glsl.h"

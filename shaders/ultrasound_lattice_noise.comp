@@ -1,5 +1,5 @@
-// Complex noise of the lattice, times what the tissue gives back, on lines between and beside the beams. A work group
-// is at one depth, so that what holds there is read once.
+// Complex noise of the lattice, times what the tissue gives back, on lines between and beside the beams. A work
+// group is at one depth, so that what holds there is read once.
 #version 430 core
 #extension GL_GOOGLE_include_directive : enable
 #include "shared/ultrasound_lattice.glsl.h"

@@ -1,5 +1,5 @@
-// The tissue along each beam, and what sound loses on the way: a work group a beam, an invocation a piece of it; sums of
-// dB, piece by piece in order. Interfaces that are worth their echo are listed for ultrasound_echoes.comp.
+// The tissue along each beam, and what sound loses on the way: a work group a beam, an invocation a piece of it;
+// sums of dB, piece by piece in order. Interfaces that are worth their echo are listed for ultrasound_echoes.comp.
 #version 430 core
 #extension GL_GOOGLE_include_directive : enable
 #include "shared/ultrasound_line.glsl.h"

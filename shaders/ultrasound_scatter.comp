@@ -1,5 +1,5 @@
-// Scatterers of a lattice in tissue coordinates laid into the beams that see them. One invocation goes along one row of
-// cubes of a tile. Sums are whole numbers, so that the order of adding says nothing.
+// Scatterers of a lattice in tissue coordinates laid into the beams that see them. One invocation goes along one
+// row of cubes of a tile. Sums are whole numbers, so that the order of adding says nothing.
 #version 430 core
 #extension GL_GOOGLE_include_directive : enable
 #include "shared/ultrasound.glsl.h"

@@ -1,5 +1,5 @@
-// Where in its cube of the lattice a scatterer lies, and how a tile of the picture sees it. In float in both languages:
-// the CPU does eight at a time.
+// Where in its cube of the lattice a scatterer lies, and how a tile of the picture sees it. In float in both
+// languages: the CPU does eight at a time.
 #ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 #define SELDINGER_SHADERS_SHARED_ULTRASOUND_CUBE
 

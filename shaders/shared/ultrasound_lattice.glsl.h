@@ -14,9 +14,9 @@ SHARED float us_node_im(uint bits) {
   return (float(int(bits & 65535u)) + 0.5F) * (1.0F / 32768.0F) - 1.0F;
 }
 
-// x + iy: the noise in a cell of this seed, parts of its edges in [0, 1] away from its first node. z: divided by this it
-// has a node's mean square everywhere; interpolation averages, and a plane's brightness would depend on where it cuts
-// cells.
+// x + iy: the noise in a cell of this seed, parts of its edges in [0, 1] away from its first node. z: divided by
+// this it has a node's mean square everywhere; interpolation averages, and a plane's brightness would depend on
+// where it cuts cells.
 SHARED vec4 us_lattice_noise(uint seed, float x, float y, float z) {
   float re = 0.0F;
   float im = 0.0F;

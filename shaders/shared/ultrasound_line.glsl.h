@@ -40,7 +40,8 @@ SHARED real us_interface_law(real cosine) {
   return us_mirror(acos(cosine), kUsInterfaceConeRad) + us_amplitude(kUsInterfaceRoughDb) * cosine;
 }
 
-// Echoes of strong reflectors come again from between them and the face, so much weaker each time (design, 10 to 15).
+// Echoes of strong reflectors come again from between them and the face, so much weaker each time (design, 10 to
+// 15).
 SHARED_CONSTANT real kUsRepeatDb = 12.0;
 SHARED_CONSTANT real kUsRepeatsFrom = 0.9;  // |R|: gas
 SHARED_CONSTANT int kUsMostAgain = 4;       // the echo itself is the first
@@ -54,15 +55,15 @@ SHARED real us_lens_line(int line) {
   return us_amplitude(kUsLensDb - real(line - 1) * kUsLensDbPerLine);
 }
 
-// A sheet or a ball no wider than a voxel has the same on both sides, and rounding would tell its normal: where the sum
-// of sides times ways is less than this share of what it can be, what is there is taken to face the beam (design). A
-// plane has about a half.
+// A sheet or a ball no wider than a voxel has the same on both sides, and rounding would tell its normal: where the
+// sum of sides times ways is less than this share of what it can be, what is there is taken to face the beam
+// (design). A plane has about a half.
 SHARED_CONSTANT real kUsLeastSide = 1e-4;
 
 // How far off the middle of a ball of weights 1 − r²/1.44R² a plane lies that leaves the sum `after` on one side
-// (counted + and −): twice the way times the weight of a slice. `all`: of all weights; `square`: of them times the way
-// along the normal, squared. A slice through the middle has 0.87 of what a Gaussian's of the same weight and spread
-// would have.
+// (counted + and −): twice the way times the weight of a slice. `all`: of all weights; `square`: of them times the
+// way along the normal, squared. A slice through the middle has 0.87 of what a Gaussian's of the same weight and
+// spread would have.
 SHARED real us_plane_off(real after, real all, real square) {
   return after / (real(2.0 * 0.87) * all / sqrt(real(6.283185307) * square / all));
 }

@@ -1,5 +1,5 @@
-// What the passes of ultrasound on the GPU are told: uniform blocks (std140) and the tiles of scatterers (std430, the
-// same offsets, as it holds nothing but vec4 and fours of numbers).
+// What the passes of ultrasound on the GPU are told: uniform blocks (std140) and the tiles of scatterers (std430,
+// the same offsets, as it holds nothing but vec4 and fours of numbers).
 #ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_PASSES
 #define SELDINGER_SHADERS_SHARED_ULTRASOUND_PASSES
 
@@ -51,58 +51,59 @@ SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
 SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u;  // classes of tissue; and what lies before the first:
 SHARED_CONSTANT int kUsGel = 255;
 struct UsLineParameters {
-  vec4 of_class[16];        // x: impedance in MRayl; y: loss in dB a mm; z: how much deeper a mm shows
-  vec4 mm_per_voxel[3];     // xyz: of the volume's axes
+  vec4 of_class[16];     // x: impedance in MRayl; y: loss in dB a mm; z: how much deeper a mm shows
+  vec4 mm_per_voxel[3];  // xyz: of the volume's axes
   int beams;
   int samples;
-  int around;               // neighbours that tell the normal,
-  int close;                // and those, after them, that tell the place
-  float close_weight;       // of all of those together
+  int around;          // neighbours that tell the normal,
+  int close;           // and those, after them, that tell the place
+  float close_weight;  // of all of those together
   float most_shift_mm;
   float sample_mm;
   float depth_mm;
-  float turns_per_mm;       // of the carrier, on the way there and back
-  float per_unit;           // what sums are counted in
-  float least_side_mm;      // of the sum that tells a normal
+  float turns_per_mm;   // of the carrier, on the way there and back
+  float per_unit;       // what sums are counted in
+  float least_side_mm;  // of the sum that tells a normal
   int shifts;
 };
 
 // A beam.
 struct UsBeam {
-  vec4 index;           // xyz: index + ½ of where it starts, the sum of two floats
-  vec4 index_rest;      // xyz
-  vec4 index_along;     // xyz: a sample, likewise
+  vec4 index;        // xyz: index + ½ of where it starts, the sum of two floats
+  vec4 index_rest;   // xyz
+  vec4 index_along;  // xyz: a sample, likewise
   vec4 index_along_rest;
-  vec4 start_mm;        // xyz: from the view's origin
-  vec4 direction;       // xyz
-  float needle_mm;      // where the needle stands before it; < 0: nowhere
+  vec4 start_mm;    // xyz: from the view's origin
+  vec4 direction;   // xyz
+  float needle_mm;  // where the needle stands before it; < 0: nowhere
   float needle_shadow_db;
   int needle_echoes;
   int contact;
   vec4 needle_echo[kUsMostNeedleEchoes];  // depth, amplitude without loss, depth down to which loss counts
 };
 
-// A tile of scatterers: a band of depth, a few beams wide. Its frame: x across, y elevation, z along its middle beam.
+// A tile of scatterers: a band of depth, a few beams wide. Its frame: x across, y elevation, z along its middle
+// beam.
 struct UsTile {
-  vec4 corner_mm;           // xyz: of the first row's cube 0; w: half thickness
-  vec4 from_box_mm;         // xyz: that cube's centre from the box's centre; w: where the band begins
-  vec4 half_box_mm;         // xyz; w: where the band ends
-  vec4 edge_x_mm;           // xyz: of a cube, along the lattice's x; w: the middle beam
-  vec4 edge_y_mm;           // xyz; w: scatterers from this beam on are the tile's
-  vec4 edge_z_mm;           // xyz; w: to before this one
-  vec4 outer_mm;            // xyz: to the next row, outer axis; w: the cube's side
-  vec4 middle_mm;           // xyz
-  vec4 inner_mm;            // xyz: to the next cube of a row
-  vec4 index;               // xyz: index + ½ of the frame's origin
-  vec4 index_x;             // xyz: per mm of x
-  vec4 index_y;             // xyz
-  vec4 index_z;             // xyz
-  vec4 origin_mm;           // xyz: the frame's origin from the view's
-  vec4 axis_x;              // xyz
-  vec4 axis_y;              // xyz
-  vec4 axis_z;              // xyz
-  uint seed;                // of the first row's cube 0
-  uint step_outer;          // to the next row's
+  vec4 corner_mm;    // xyz: of the first row's cube 0; w: half thickness
+  vec4 from_box_mm;  // xyz: that cube's centre from the box's centre; w: where the band begins
+  vec4 half_box_mm;  // xyz; w: where the band ends
+  vec4 edge_x_mm;    // xyz: of a cube, along the lattice's x; w: the middle beam
+  vec4 edge_y_mm;    // xyz; w: scatterers from this beam on are the tile's
+  vec4 edge_z_mm;    // xyz; w: to before this one
+  vec4 outer_mm;     // xyz: to the next row, outer axis; w: the cube's side
+  vec4 middle_mm;    // xyz
+  vec4 inner_mm;     // xyz: to the next cube of a row
+  vec4 index;        // xyz: index + ½ of the frame's origin
+  vec4 index_x;      // xyz: per mm of x
+  vec4 index_y;      // xyz
+  vec4 index_z;      // xyz
+  vec4 origin_mm;    // xyz: the frame's origin from the view's
+  vec4 axis_x;       // xyz
+  vec4 axis_y;       // xyz
+  vec4 axis_z;       // xyz
+  uint seed;         // of the first row's cube 0
+  uint step_outer;   // to the next row's
   uint step_middle;
   uint step_inner;
   int rows_outer;
@@ -148,16 +149,16 @@ struct UsLatticeDepth {
 struct UsPulseParameters {
   int beams;
   int samples;
-  int fine;        // fine samples in a sample
-  int first_tap;   // fine sample k·fine + first_tap is the first that counts for sample k
-  int taps;        // weights are padded with zeros, (kUsOutputs − 1)·fine on either side
+  int fine;         // fine samples in a sample
+  int first_tap;    // fine sample k·fine + first_tap is the first that counts for sample k
+  int taps;         // weights are padded with zeros, (kUsOutputs − 1)·fine on either side
   int most_echoes;  // room for a beam's
   int noisy;
   uint noise_first;  // the noise's key
   uint noise_second;
   float noise_mean_square;
   float sample_mm;
-  float sigma_mm;        // of the pulse
+  float sigma_mm;  // of the pulse
   float fine_per_mm;
   float phases_per_mm;
   int padding_1;

@@ -1,7 +1,7 @@
-// From sums to the envelope: loss, pulse on the complex baseband, echoes, receiver noise. Each invocation makes some
-// samples of a beam, one after the other, and takes each fine sample for all of them at once. ultrasound_pulse.comp and
-// ultrasound_pulse_shifted.comp differ in where fine samples come from: from the sums, or from where sound of another
-// speed shows them (ULTRASOUND_SHIFTED).
+// From sums to the envelope: loss, pulse on the complex baseband, echoes, receiver noise. Each invocation makes
+// some samples of a beam, one after the other, and takes each fine sample for all of them at once.
+// ultrasound_pulse.comp and ultrasound_pulse_shifted.comp differ in where fine samples come from: from the sums, or
+// from where sound of another speed shows them (ULTRASOUND_SHIFTED).
 #include "noise.glsl.h"
 #include "ultrasound.glsl.h"
 #include "ultrasound_passes.glsl.h"

@@ -12,8 +12,8 @@ uint class_at(ivec3 voxel, vec3 from_origin_mm) {
   return found;
 }
 
-// How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have `voxels`
-// (class + 256 · level of the echo) and a block `tissue`.
+// How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have
+// `voxels` (class + 256 · level of the echo) and a block `tissue`.
 float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
   bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(tissue.size_x) &&
                 index.y < float(tissue.size_y) && index.z < float(tissue.size_z);

@@ -307,4 +307,8 @@ std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
   return bytes;
 }
 
+std::size_t UltrasoundGpu::tissue_bytes() const noexcept {
+  return parts_->tissue.classes.size() * sizeof(std::uint16_t);
+}
+
 }  // namespace seldinger::imaging

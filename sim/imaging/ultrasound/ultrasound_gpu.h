@@ -32,8 +32,9 @@ class UltrasoundGpu {
   void grey(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
             const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey);
 
-  // Of all buffers, beside the tissue.
+  // On the GPU: the buffers, which grow to what a picture needs, and the tissue.
   std::size_t buffer_bytes() const noexcept;
+  std::size_t tissue_bytes() const noexcept;
 
  private:
   struct Parts;
