@@ -25,7 +25,7 @@ shared int gel_samples;
 shared int listed_interfaces;
 shared int listed_echoes;
 shared float piece_loss_db[kPieces];
-shared float piece_shift_mm[kPieces];
+shared double piece_shift_mm[kPieces];
 shared int piece_interfaces[kPieces];
 shared int piece_echoes[kPieces];
 
@@ -94,13 +94,15 @@ void main() {
 
   // Twice: sums of the pieces, then what stands at each sample.
   float sum_db = 0.0;
-  float sum_mm = 0.0;
+  // In double, as the CPU has it: shifts in tissue of one kind end half way between samples, where rounding would lay
+  // speckle on either.
+  double sum_mm = 0.0lf;
   int interface_count = 0;
   int echo_count = 0;
   for (int round = 0; round < 2; ++round) {
     for (int k = first; k < end; ++k) {
       uint now = class_of(k);
-      vec3 tissue_now = parameters.of_class[now].xyz;
+      vec4 tissue_now = parameters.of_class[now];
       uint last = class_of(max(k - 1, 0));
       bool past_gel = k >= gel_samples;
       float before = k > gel_samples ? parameters.of_class[last].x
@@ -126,12 +128,12 @@ void main() {
                          !(k > gel_samples && middle_mm - parameters.sample_mm >= at.needle_mm);
       sum_db += needle_here ? at.needle_shadow_db : 0.0;
       float step_db = past_gel ? tissue_now.y * parameters.sample_mm : 0.0;
-      float step_mm = past_gel ? tissue_now.z * parameters.sample_mm : 0.0;
+      double step_mm = past_gel ? double(tissue_now.z) + double(tissue_now.w) : 0.0lf;
       if (round == 1) {
         float db = min(kUsDeadDb, sum_db + 0.5 * step_db);
         loss_db[beam * samples + k] = db;
         through[beam * samples + k] = at.contact != 0 ? us_amplitude(-db) * parameters.per_unit : 0.0;
-        if (parameters.shifts != 0) shift_mm[beam * samples + k] = at.contact != 0 ? sum_mm + 0.5 * step_mm : 0.0;
+        if (parameters.shifts != 0) shift_mm[beam * samples + k] = at.contact != 0 ? float(sum_mm + 0.5lf * step_mm) : 0.0;
       }
       sum_db += step_db;
       sum_mm += step_mm;
@@ -145,12 +147,12 @@ void main() {
     barrier();
     if (round == 0 && piece == 0) {
       sum_db = 0.0;
-      sum_mm = 0.0;
+      sum_mm = 0.0lf;
       interface_count = 0;
       echo_count = 0;
       for (int i = 0; i < kPieces; ++i) {
         float db = piece_loss_db[i];
-        float mm = piece_shift_mm[i];
+        double mm = piece_shift_mm[i];
         int its_interfaces = piece_interfaces[i];
         int its_echoes = piece_echoes[i];
         piece_loss_db[i] = sum_db;

@@ -51,7 +51,8 @@ SHARED_CONSTANT int kUsMostNeedleEchoes = 10;
 SHARED_CONSTANT uint kUsAir = 0u, kUsGas = 1u;  // classes of tissue; and what lies before the first:
 SHARED_CONSTANT int kUsGel = 255;
 struct UsLineParameters {
-  vec4 of_class[16];     // x: impedance in MRayl; y: loss in dB a mm; z: how much deeper a mm shows
+  vec4
+      of_class[16];  // x: impedance in MRayl; y: loss in dB a mm; z, w: their sum is how much deeper a sample shows
   vec4 mm_per_voxel[3];  // xyz: of the volume's axes
   int beams;
   int samples;

@@ -42,11 +42,13 @@ glm::vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {
   return glm::vec4(glm::dvec4(xyz, w));
 }
 
-// A value as its first 24 binary digits and the rest.
-void split(const glm::dvec3& value, glm::vec4& high, glm::vec4& rest) {
+// The first 24 binary digits of a value; what is left is the rest.
+double first_digits(double value) {
   constexpr std::uint64_t kKept = ~((std::uint64_t{1} << 29) - 1);
-  glm::dvec3 kept;
-  for (int i = 0; i < 3; ++i) kept[i] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value[i]) & kKept);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kKept);
+}
+void split(const glm::dvec3& value, glm::vec4& high, glm::vec4& rest) {
+  const glm::dvec3 kept(first_digits(value.x), first_digits(value.y), first_digits(value.z));
   high = vec4_from(kept);
   rest = vec4_from(value - kept);
 }
@@ -213,7 +215,8 @@ UsLineParameters line_parameters(const TissueVolume& tissue, const UltrasoundVie
   UsLineParameters p{};
   for (std::size_t i = 0; i < volume::kTissueClasses; ++i) {
     const LineWalker::OfClass of = walker.of_class(i);
-    p.of_class[i] = vec4_from({of.impedance_mrayl, of.loss_db_mm, of.shift_per_mm});
+    const double shift_mm = of.shift_per_mm * fan_of(view).sample_mm, kept_mm = first_digits(shift_mm);
+    p.of_class[i] = vec4_from({of.impedance_mrayl, of.loss_db_mm, kept_mm}, shift_mm - kept_mm);
   }
   for (int axis = 0; axis < 3; ++axis)
     p.mm_per_voxel[axis] = vec4_from(glm::dvec3(tissue.volume->lps_from_voxel[axis]));
