@@ -10,6 +10,7 @@
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -42,7 +43,7 @@ class Sight {
         tissue_at_(tissue, inserted),
         table_(acoustic_table(view.attenuation_db_cm_mhz)),
         below_skin_mm_(depth_below_skin_mm),
-        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+        frequency_mhz_(working_mhz(view)) {
     for (std::size_t i = 0; i < table_.size(); ++i) {
       loss_db_mm_[i] =
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
