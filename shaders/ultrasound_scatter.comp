@@ -72,7 +72,8 @@ void main() {
                   abs(at_mm.y) < tile.corner_mm.w && beam >= tile.edge_y_mm.w && beam < tile.edge_z_mm.w &&
                   q_y < 512.0;
     float amplitude = inside ? amplitude_at(tile, at_mm) * at.w : 0.0;
-    uint phase = uint(depth_mm * parameters.phases_per_mm) & uint(kUsPhases - 1);
+    uint turned = us_lattice_turned(bits) * uint(kUsPhases / 2);
+    uint phase = (uint(depth_mm * parameters.phases_per_mm) + turned) & uint(kUsPhases - 1);
     vec2 value = amplitude * phases[phase].xy;
     int from = max(0, int(ceil(beam - at.y)));
     int to = amplitude == 0.0 ? -1 : min(parameters.beams - 1, int(floor(beam + at.y)));

@@ -76,6 +76,12 @@ SHARED uint us_lattice_bits(uint seed) {
   return mix_32(seed);
 }
 
+// Whether a scatterer's echo is turned over (0 or 1), by the last bit of where it is, which is far below a wavelength:
+// so no step of scatterers sends back an echo beside the one that its impedance makes.
+SHARED uint us_lattice_turned(uint bits) {
+  return bits & 1u;
+}
+
 // What a person sees of a level: black at top − range, white at top.
 SHARED real us_grey(real level_db, real top_db, real range_db) {
   return clamp(real(255.0) * (level_db - top_db + range_db) / range_db, real(0.0), real(255.0));
