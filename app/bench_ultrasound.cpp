@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 #include "app/bench.h"
 #include "app/goals_answer.h"
 #include "app/ultrasound_goals/goal.h"
 #include "casedb/import/import.h"
+#include "sim/base/failure.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
 
@@ -23,6 +27,8 @@ using imaging::UltrasoundMethod;
 using imaging::UltrasoundView;
 
 constexpr imaging::DisplaySize kDisplay{800, 700};
+constexpr double kBytesPerMb = 1024.0 * 1024.0;
+constexpr std::uint64_t kFrame = 1;
 constexpr double kMostShare = 100.0;  // an error that cannot be measured is charted as that
 
 // What is timed: the probe on a patient, a needle and a lesion in the picture.
@@ -87,13 +93,30 @@ double peak_growth_mb(const std::function<void()>& work) {
   return in_status("VmHWM:") - before;
 }
 
+// Of the pixels that either shows, how many are more than a grey apart, in %.
+double apart_percent(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+  std::size_t lit = 0, apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    lit += a[i] > 0 || b[i] > 0;
+    apart += std::abs(int{a[i]} - int{b[i]}) > 1;
+  }
+  return 100.0 * static_cast<double>(apart) / static_cast<double>(std::max<std::size_t>(lit, 1));
+}
+
 class Stage {
  public:
-  Stage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 11), rows_(rows) {}
+  Stage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 11), rows_(rows) {
+    try {
+      context_.emplace();
+    } catch (const base::Failure& failure) {
+      std::fprintf(stderr, "no GL here: %s\n", failure.what());
+    }
+  }
 
   // Errors do not depend on the patient: worked out once a setting.
   void chart(const Patient& patient, const Probe& probe, bool with_errors) {
     const goals::Setting middle = setting_of(UltrasoundMethod::scatterers, probe);
+    if (context_) gpu_.emplace(*context_, patient.tissue());
     for (const UltrasoundMethod method : kUltrasoundMethods) point(patient, setting_of(method, probe), with_errors);
     for (const int beams : quick_ ? std::vector<int>{64, 256} : std::vector<int>{64, 256, 512})
       for (const UltrasoundMethod method : kUltrasoundMethods) {
@@ -114,6 +137,7 @@ class Stage {
       point(patient, setting, with_errors);
     }
     parts(patient, middle);
+    gpu_.reset();
   }
 
  private:
@@ -166,6 +190,27 @@ class Stage {
       row.reference = what.empty() ? "" : "goal " + what;
       rows_.push_back(row);
     }
+    if (gpu_ && setting.method != UltrasoundMethod::thesis) point_on_gpu(patient, setting, view, inserted);
+  }
+
+  // With the receiver's noise, which the GPU's picture never lacks.
+  void point_on_gpu(const Patient& patient, const goals::Setting& setting, const UltrasoundView& view,
+                    const imaging::Inserted& inserted) {
+    PolarPicture polar;
+    std::vector<unsigned char> by_cpu, by_gpu;
+    imaging::ultrasound_polar(patient.tissue(), view, inserted, {}, polar);
+    imaging::add_receiver_noise(view.seed, kFrame, polar);
+    imaging::ScanConverter(view, kDisplay).grey(view, {}, polar, by_cpu);
+    const auto work = [&] { gpu_->grey(view, inserted, {}, {}, kDisplay, kFrame, by_gpu); };
+    work();  // warm
+    BenchRow row = row_of(patient, setting, 1);
+    row.backend = "gpu";
+    row.device = context_->renderer();
+    time_into(row, n_, work);
+    row.error = bench_number(apart_percent(by_cpu, by_gpu));
+    row.error_unit = "% of lit pixels over a grey apart";
+    row.reference = "the cpu's picture";
+    rows_.push_back(row);
   }
 
   // Of the setting in the middle: what the screen costs alone, and the memory of a picture.
@@ -180,7 +225,7 @@ class Stage {
     BenchRow grey = row_of(patient, setting, 1);
     grey.method = "noise and grey alone, 800x700";
     time_into(grey, n_, [&] {
-      imaging::add_receiver_noise(1, 1, polar);
+      imaging::add_receiver_noise(view.seed, kFrame, polar);
       converter.grey(view, {}, polar, shown);
     });
     rows_.push_back(grey);
@@ -203,11 +248,27 @@ class Stage {
     memory.error = bench_number(mb);
     memory.error_unit = "MB beside the volume";
     rows_.push_back(memory);
+    if (!gpu_) return;
+    // By now the buffers are as large as any setting of this chart made them; a fresh one holds what this one
+    // needs.
+    imaging::UltrasoundGpu fresh(*context_, patient.tissue());
+    BenchRow on_gpu = row_of(patient, setting, 1);
+    on_gpu.method = memory.method;
+    on_gpu.backend = "gpu";
+    on_gpu.device = context_->renderer();
+    time_into(on_gpu, 1, [&] { fresh.grey(view, inserted, {}, {}, kDisplay, kFrame, shown); });
+    const auto mb_of = [](std::size_t bytes) { return static_cast<double>(bytes) / kBytesPerMb; };
+    on_gpu.error = bench_number(mb_of(fresh.buffer_bytes() + fresh.tissue_bytes()));
+    on_gpu.error_unit = memory.error_unit;
+    on_gpu.reference = "buffers and the tissue's texture, " + bench_number(mb_of(fresh.tissue_bytes()));
+    rows_.push_back(on_gpu);
   }
 
   bool quick_;
   int n_;
   std::vector<BenchRow>& rows_;
+  std::optional<gpu::Context> context_;
+  std::optional<imaging::UltrasoundGpu> gpu_;  // of the patient that is charted
 };
 
 Patient patient_of(std::string name, const volume::Volume& volume, const volume::LabelMap* labels) {

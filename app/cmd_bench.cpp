@@ -244,7 +244,7 @@ std::string csv(const std::vector<Row>& rows) {
     text += row.stage + ',' + quoted(row.method) + ',' + quoted(row.setting) + ',' + row.backend + ',' +
             quoted(row.device) + ',' + row.size + ',' + std::to_string(row.n) + ',' + bench_number(row.ms_median) +
             ',' + bench_number(row.ms_min) + ',' + bench_number(row.ms_max) + ',' + row.error + ',' +
-            row.error_unit + ',' + quoted(row.reference) + '\n';
+            quoted(row.error_unit) + ',' + quoted(row.reference) + '\n';
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
@@ -113,17 +114,40 @@ unsigned char grey_of_db(float db) {
 
 void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
                        const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
-  if (!picture.backend.empty() && picture.backend != "cpu")
-    std::fputs("note: ultrasound is the CPU's in this version\n", stderr);
-  picture.backend = "cpu";
   const imaging::UltrasoundView& view = scene.view;
   const auto skin = casedb::skin_surface(volume);  // without a body all elements stand in air
   const std::vector<float> below_skin_mm =
       element_depths(skin ? cases::MeshIndex(*skin) : cases::MeshIndex(), view);
-  imaging::PolarPicture polar;
   const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
   const imaging::TissueVolume tissue{&volume, classes, echogenicity};
-  imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar);
+  const bool on_screen = scene.output == UltrasoundOutput::display;
+  constexpr std::uint64_t kFrame = 1;
+  imaging::PolarPicture polar;
+  const auto on_cpu = [&] {
+    imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar);
+    if (on_screen) {
+      imaging::add_receiver_noise(view.seed, kFrame, polar);
+      imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
+    }
+    return true;
+  };
+  const auto on_gpu = [&](gpu::Context& context) {
+    imaging::UltrasoundGpu gpu(context, tissue);
+    if (on_screen)
+      gpu.grey(view, inserted, below_skin_mm, scene.knobs, scene.size, kFrame, picture.grey);
+    else
+      gpu.polar(view, inserted, below_skin_mm, polar);
+    return true;
+  };
+  const bool thesis = view.method == imaging::UltrasoundMethod::thesis;
+  if (picture.backend == "reference" || (picture.backend == "gpu" && thesis))
+    std::fputs("note: this ultrasound is the CPU's\n", stderr);
+  if (picture.backend == "cpu" || picture.backend == "reference" || thesis) {
+    picture.backend = "cpu";
+    on_cpu();
+  } else {
+    on_best(picture.backend, on_gpu, on_cpu);
+  }
   picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm).visible;
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
@@ -133,22 +157,20 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
     for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
-  const imaging::ScanConverter converter(view, scene.size);
-  const double middle_mm = converter.top_mm() + 0.5 * converter.height_px() * converter.pixel_mm();
+  const imaging::Screen screen = imaging::screen_of(view, scene.size);
+  const double middle_mm = screen.top_mm + 0.5 * scene.size.height_px * screen.pixel_mm;
   picture.plane = {view.origin_lps_mm + view.axial * middle_mm,
                    view.lateral,
                    view.axial,
-                   converter.pixel_mm(),
-                   converter.width_px(),
-                   converter.height_px()};
+                   screen.pixel_mm,
+                   scene.size.width_px,
+                   scene.size.height_px};
   if (scene.output == UltrasoundOutput::envelope_db) {
     picture.unit = "dB";
-    picture.values = converter.envelope_db(polar);
+    picture.values = imaging::ScanConverter(view, scene.size).envelope_db(polar);
     for (const float db : picture.values) picture.grey.push_back(grey_of_db(db));
     return;
   }
-  imaging::add_receiver_noise(view.seed, 1, polar);
-  converter.grey(view, scene.knobs, polar, picture.grey);
   picture.unit = "grey";
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }

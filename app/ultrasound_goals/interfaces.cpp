@@ -23,8 +23,8 @@ const imaging::Acoustics& acoustics(TissueClass tissue) {
 
 // line.h's law, amplitude.
 double angle_law(double tilt_rad) {
-  return shaders::us_mirror(tilt_rad, imaging::kInterfaceConeRad) +
-         std::pow(10.0, imaging::kInterfaceRoughDb / 20.0) * std::cos(tilt_rad);
+  return shaders::us_mirror(tilt_rad, imaging::kUsInterfaceConeRad) +
+         std::pow(10.0, imaging::kUsInterfaceRoughDb / 20.0) * std::cos(tilt_rad);
 }
 
 // ∫envelope² between two depths; the first and last sample count by the share of them inside.
@@ -60,7 +60,7 @@ double reflection_error_db(const Setting& setting, TissueClass above, TissueClas
                                 ? 0.0
                                 : shaders::us_loss_db_per_mm(acoustics(above).attenuation_db_cm_mhz,
                                                              acoustics(above).exponent, frequency_mhz(view));
-  const double peak = std::pow(10.0, (imaging::kInterfaceDb) / 20.0) * reflection;
+  const double peak = std::pow(10.0, (imaging::kUsInterfaceDb) / 20.0) * reflection;
   // Frames until chance is a fifth of the tolerance: |s + e|² varies by 2s²e² + s⁴.
   const double s2 = std::pow(10.0, 0.1 * std::max(acoustics(above).scatter_db, acoustics(below).scatter_db));
   const double relative2 = (2.0 * s2 * peak * peak + s2 * s2) / std::pow(peak, 4.0);
@@ -139,7 +139,7 @@ void measure_angle_law(const Setting& setting, Readings& readings) {
       const double reach_mm = 4.0 * sigma_mm + 0.1 + 0.6 * std::sqrt(1.0 - facing * facing) / facing;
       const double energy = energy_mm(picture, view, b, depth_mm - reach_mm, depth_mm + reach_mm);
       const double found_db = 10.0 * std::log10(std::max(energy, 1e-30) / (std::sqrt(M_PI) * sigma_mm));
-      const double wanted_db = imaging::kInterfaceDb + reflection_db +
+      const double wanted_db = imaging::kUsInterfaceDb + reflection_db +
                                decibels(angle_law(std::acos(std::min(1.0, facing)))) - loss_db_mm * depth_mm;
       sum += (found_db - wanted_db) * (found_db - wanted_db);
       ++count;

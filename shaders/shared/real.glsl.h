@@ -30,6 +30,7 @@ using glm::mat4;
 using glm::max;
 using glm::min;
 using glm::vec4;
+using std::sqrt;
 using uint = std::uint32_t;
 }  // namespace seldinger::shaders
 

@@ -3,7 +3,8 @@
 #ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND
 #define SELDINGER_SHADERS_SHARED_ULTRASOUND
 
-#include "real.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+#include "noise.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+#include "real.glsl.h"
 
 SHARED_BEGIN
 
@@ -64,13 +65,6 @@ SHARED real us_step_loss_db(real reflection) {
   return real(-8.685889638) * log(through);
 }
 
-// 32 bits out of 32, both ways round (Wellons' hash-prospector, "lowbias32").
-SHARED uint us_mix(uint x) {
-  x = (x ^ (x >> 16u)) * 0x7feb352du;
-  x = (x ^ (x >> 15u)) * 0x846ca68bu;
-  return x ^ (x >> 16u);
-}
-
 // The lattice: one scatterer in each cube of side s, anywhere in it: 11 + 10 + 11 bits of where. Along any axis the
 // seed of the next cube is the last one's plus a constant. (Primes of Collet's xxHash, only for being odd and
 // unrelated.)
@@ -79,21 +73,13 @@ SHARED uint us_lattice_seed(uint key, int i, int j, int k) {
   return key + uint(i) * kUsStepI + uint(j) * kUsStepJ + uint(k) * kUsStepK;
 }
 SHARED uint us_lattice_bits(uint seed) {
-  return us_mix(seed);
+  return mix_32(seed);
 }
 
 // Whether a scatterer's echo is turned over (0 or 1), by the last bit of where it is, which is far below a wavelength:
 // so no step of scatterers sends back an echo beside the one that its impedance makes.
 SHARED uint us_lattice_turned(uint bits) {
   return bits & 1u;
-}
-
-// Noise on a node of a lattice, both parts uniform in [−1, 1).
-SHARED real us_node_re(uint bits) {
-  return (real(int(bits >> 16u)) + real(0.5)) * real(1.0 / 32768.0) - real(1.0);
-}
-SHARED real us_node_im(uint bits) {
-  return (real(int(bits & 65535u)) + real(0.5)) * real(1.0 / 32768.0) - real(1.0);
 }
 
 // What a person sees of a level: black at top − range, white at top.
@@ -104,6 +90,28 @@ SHARED real us_grey(real level_db, real top_db, real range_db) {
 // Eight sliders, the first at the face, the last at the depth; linear between. `at` is slider number in [0, 7].
 SHARED real us_between(real low, real high, real at) {
   return low + (at - floor(at)) * (high - low);
+}
+
+// Of a curved face, in the picture's plane, x across and z below the face's centre: the tangent of half the angle from
+// the axis (half, so that z < −R is right too), and the depth.
+SHARED real us_half_tangent(real x_mm, real z_mm, real radius_mm) {
+  real from_center_mm = z_mm + radius_mm;
+  return x_mm / (sqrt(x_mm * x_mm + from_center_mm * from_center_mm) + from_center_mm);
+}
+SHARED real us_from_face_mm(real x_mm, real z_mm, real radius_mm) {
+  real from_center_mm = z_mm + radius_mm;
+  return sqrt(x_mm * x_mm + from_center_mm * from_center_mm) - radius_mm;
+}
+
+// What a beam gives a scatterer at one depth: x · (beams off)² and z · y² are −log of its weight, which is taken for
+// nothing y beams off; w: of one scatterer, so that ∫ over the beam's width, squared, is the cube's volume: with
+// ∫exp(−x²/σ²) = √π·σ in each of the two directions.
+SHARED real4 us_beam_weight(real lateral_sigma_mm, real elevation_sigma_mm, real beam_spacing_mm, real cube_mm,
+                            real reach_sigmas) {
+  real lateral = beam_spacing_mm / lateral_sigma_mm;
+  return real4(
+      real(0.5) * lateral * lateral, reach_sigmas / lateral, real(0.5) / (elevation_sigma_mm * elevation_sigma_mm),
+      sqrt(cube_mm * cube_mm * cube_mm / (real(3.141592653589793) * lateral_sigma_mm * elevation_sigma_mm)));
 }
 
 // How far off the normal a mirror at a depth still sends sound back into the aperture, of half width a: ½·atan(a/z).

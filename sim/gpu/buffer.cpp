@@ -44,6 +44,13 @@ void Buffer::bind(int binding) const {
   glBindBufferBase(target_of(use_), static_cast<GLuint>(binding), name_);
 }
 
+void Buffer::clear() {
+  handles_->make_current();
+  glBindBuffer(target_of(use_), name_);
+  glClearBufferData(target_of(use_), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr);
+  handles_->check_errors("clearing a buffer");
+}
+
 void Buffer::write(std::span<const std::byte> bytes) {
   CHECK(bytes.size() <= bytes_);
   handles_->make_current();

@@ -21,6 +21,7 @@ class Buffer {
   std::size_t size() const noexcept { return bytes_; }
   void resize(std::size_t bytes);  // the content is lost; throws base::Failure("gl") when out of memory
   void bind(int binding) const;    // layout(binding = …) of the block in the shader
+  void clear();                    // all bits 0
   void write(std::span<const std::byte> bytes);  // from the beginning
   void read(std::span<std::byte> bytes) const;   // from the beginning; waits for the programs before it
 

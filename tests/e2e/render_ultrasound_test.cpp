@@ -41,11 +41,12 @@ Json ball() {
             {"output", "polar_db"}}}};
 }
 
-fixtures::Ran render(const Json& scene, const std::filesystem::path& scratch, const char* file) {
+fixtures::Ran render(const Json& scene, const std::filesystem::path& scratch, const char* file,
+                     const std::string& options = "") {
   std::ofstream(scratch / "scene.json") << scene;
-  return run(
-      kProgram + " render " + (scratch / "scene.json").string() + " --out " + (scratch / file).string() + " --json",
-      scratch);
+  return run(kProgram + " render " + (scratch / "scene.json").string() + " --out " + (scratch / file).string() +
+                 " --json" + options,
+             scratch);
 }
 
 TEST(RenderUltrasound, SpeckleFallsByTheAttenuationAndIsTheSameAgain) {
@@ -92,6 +93,45 @@ TEST(RenderUltrasound, DisplayIsAPictureByEachMethod) {
   scene["view"]["depth_mm"] = -1;
   EXPECT_EQ(render(scene, scratch, "q.png").err.rfind("error: bad_scene: ", 0), 0U);
   EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
+}
+
+// One grey, on all but a thousandth of the pixels (contracts.md's cross-backend promise).
+TEST(RenderUltrasound, TheGpuShowsWhatTheCpuShows) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_gpu");
+  Json scene = ball();
+  scene["view"]["output"] = "display";
+  std::vector<std::vector<float>> grey;
+  for (const std::string backend : {"cpu", "gpu"}) {
+    const std::string file = backend + ".mha";
+    const auto ran = render(scene, scratch, file.c_str(), " --backend " + backend);
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(Json::parse(ran.out).at("backend"), backend);
+    const std::string bytes = fixtures::whole_file(scratch / file);
+    grey.emplace_back(800 * 700);
+    ASSERT_GT(bytes.size(), grey.back().size() * 4);
+    std::memcpy(grey.back().data(), bytes.data() + bytes.size() - grey.back().size() * 4, grey.back().size() * 4);
+  }
+  int lit = 0, apart = 0;
+  for (std::size_t i = 0; i < grey[0].size(); ++i) {
+    lit += grey[0][i] > 0.0F;
+    apart += !(std::abs(grey[0][i] - grey[1][i]) <= 1.0F);
+  }
+  EXPECT_GT(lit, 50000);
+  EXPECT_LE(apart, lit / 1000);
+}
+
+// No GL: asked for it fails loudly, otherwise the CPU takes over. Never an image from nowhere.
+TEST(RenderUltrasound, WithoutGlTheGpuFailsAndTheCpuServes) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_no_gl");
+  std::ofstream(scratch / "scene.json") << ball();
+  const std::string command = "__EGL_VENDOR_LIBRARY_DIRS=/nowhere " + kProgram + " render " +
+                              (scratch / "scene.json").string() + " --out " + (scratch / "p.mha").string();
+  const auto asked = run(command + " --backend gpu", scratch);
+  EXPECT_EQ(asked.exit_code, 4) << asked.err;
+  EXPECT_EQ(asked.err.rfind("error: gl: ", 0), 0U) << asked.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "p.mha"));
+  EXPECT_EQ(run(command, scratch).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(scratch / "p.mha"));
 }
 
 TEST(RenderUltrasound, TheEnvelopeLiesInItsPlace) {

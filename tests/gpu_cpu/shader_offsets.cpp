@@ -7,7 +7,8 @@
 
 namespace seldinger::imaging {
 
-std::map<std::string, std::size_t> offsets_from_compiler(const base::EmbeddedFile& shader) {
+std::map<std::string, std::size_t> offsets_from_compiler(const base::EmbeddedFile& shader,
+                                                         const std::string& block) {
   const std::filesystem::path folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "shader_offsets";
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / shader.name;
@@ -20,7 +21,7 @@ std::map<std::string, std::size_t> offsets_from_compiler(const base::EmbeddedFil
   while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
     std::array<char, 64> field{};
     std::size_t offset = 0;
-    if (std::sscanf(line.data(), "parameters.%63[a-z_]: offset %zu", field.data(), &offset) == 2)
+    if (std::sscanf(line.data(), (block + ".%63[a-z_]: offset %zu").c_str(), field.data(), &offset) == 2)
       offsets[field.data()] = offset;
   }
   if (pclose(pipe) != 0) return {};

@@ -7,13 +7,14 @@
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 #include "sim/imaging/xray/noise.h"
 
 namespace seldinger::imaging {
 
 double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs, double depth_mm) noexcept {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double frequency_mhz = working_mhz(view);
   const double at = std::clamp(7.0 * depth_mm / view.depth_mm, 0.0, 7.0);
   const auto low = static_cast<std::size_t>(at);
   return knobs.gain_db +
@@ -38,28 +39,31 @@ void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& p
   }
 }
 
-ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
-    : size_(size), beams_(view.beams), samples_(view.samples) {
-  CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
+Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept {
   const Fan fan = fan_of(view);
   // From the outer edge of the first beam to that of the last.
   const double half = 0.5 * view.beams * fan.beam_step;
   const double half_width_mm =
       fan.curved ? (fan.radius_mm + view.depth_mm) * std::sin(std::min(half, 1.5707963)) : half;
-  top_mm_ = fan.curved ? -fan.radius_mm * (1.0 - std::cos(half)) : 0.0;
-  pixel_mm_ = size.pixel_mm > 0.0
-                  ? size.pixel_mm
-                  : std::max(2.0 * half_width_mm / size.width_px, (view.depth_mm - top_mm_) / size.height_px);
+  const double top_mm = fan.curved ? -fan.radius_mm * (1.0 - std::cos(half)) : 0.0;
+  const double whole_mm = std::max(2.0 * half_width_mm / size.width_px, (view.depth_mm - top_mm) / size.height_px);
+  return {size.pixel_mm > 0.0 ? size.pixel_mm : whole_mm, top_mm};
+}
+
+ScanConverter::ScanConverter(const UltrasoundView& view, DisplaySize size)
+    : size_(size), beams_(view.beams), samples_(view.samples), screen_(screen_of(view, size)) {
+  CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
+  const double sample_mm = fan_of(view).sample_mm;
   sources_.resize(static_cast<std::size_t>(size.width_px) * static_cast<std::size_t>(size.height_px));
   std::size_t pixel = 0;
   for (int r = 0; r < size.height_px; ++r)
     for (int c = 0; c < size.width_px; ++c, ++pixel) {
-      const double x_mm = (c - 0.5 * (size.width_px - 1)) * pixel_mm_, z_mm = top_mm_ + (r + 0.5) * pixel_mm_;
+      const double x_mm = (c - 0.5 * (size.width_px - 1)) * pixel_mm(), z_mm = top_mm() + (r + 0.5) * pixel_mm();
       const BeamAndDepth at = beam_and_depth(view, x_mm, z_mm);
       if (at.beam < -0.5 || at.beam > view.beams - 0.5 || at.depth_mm < 0.0 || at.depth_mm > view.depth_mm)
         continue;
       const double beam = std::clamp(at.beam, 0.0, view.beams - 1.0),
-                   sample = std::clamp(at.depth_mm / fan.sample_mm - 0.5, 0.0, view.samples - 1.0);
+                   sample = std::clamp(at.depth_mm / sample_mm - 0.5, 0.0, view.samples - 1.0);
       const int b = std::min(static_cast<int>(beam), view.beams - 2),
                 k = std::min(static_cast<int>(sample), view.samples - 2);
       const auto share = [](double fraction) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
@@ -41,6 +42,10 @@ Fan fan_of(const UltrasoundView& view) noexcept {
   return fan;
 }
 
+bool is_shown(const cases::Lesion& lesion) noexcept {
+  return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0;
+}
+
 bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept {
   if (depth_below_skin_mm.empty()) return true;
   const double last = static_cast<double>(depth_below_skin_mm.size() - 1);
@@ -53,7 +58,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
   CHECK(inserted.lesions.size() <= kMaxLesions);
   for (const cases::Lesion& lesion : inserted.lesions)
-    if (base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0)
+    if (is_shown(lesion))
       lesions_.push_back({lesion.center_lps_mm, lesion.radius_mm * lesion.radius_mm, tissue_of_lesion(lesion.hu)});
   const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;
@@ -64,10 +69,7 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   classes_ = tissue.classes.data();
   CHECK(tissue.echogenicity.empty() || tissue.echogenicity.size() == tissue.classes.size());
   echogenicity_ = tissue.echogenicity.empty() ? nullptr : tissue.echogenicity.data();
-  for (std::size_t i = 0; i < amplitude_.size(); ++i) {
-    const double db = acoustic_table()[i].scatter_db;
-    amplitude_[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
-  }
+  amplitude_ = speckle_amplitudes();
   offset_ = echo_offset_amplitudes().data();
 }
 
@@ -79,10 +81,8 @@ glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) no
 BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept {
   const Fan fan = fan_of(view);
   if (!fan.curved) return {(x_mm - fan.first_beam) / fan.beam_step, z_mm};
-  const double from_center_mm = z_mm + fan.radius_mm, r_mm = std::hypot(x_mm, from_center_mm);
-  const double half =
-      base::exact_atan(x_mm / (r_mm + from_center_mm));  // of the angle, so that z < −R is right too
-  return {(2.0 * half - fan.first_beam) / fan.beam_step, r_mm - fan.radius_mm};
+  const double half = base::exact_atan(shaders::us_half_tangent(x_mm, z_mm, fan.radius_mm));
+  return {(2.0 * half - fan.first_beam) / fan.beam_step, shaders::us_from_face_mm(x_mm, z_mm, fan.radius_mm)};
 }
 
 }  // namespace seldinger::imaging

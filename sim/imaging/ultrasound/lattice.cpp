@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "shaders/shared/ultrasound.glsl.h"
+#include "shaders/shared/ultrasound_lattice.glsl.h"
 #include "sim/base/hash.h"
+#include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 
 namespace seldinger::imaging {
@@ -22,7 +24,7 @@ constexpr double kAlikeVariance = 0.3842;
 
 LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at)
     : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double frequency_mhz = working_mhz(view);
   at_sample_.resize(static_cast<std::size_t>(view.samples));
   for (int k = 0; k < view.samples; ++k) {
     const double depth_mm = (k + 0.5) * fan_.sample_mm;
@@ -66,20 +68,10 @@ void LatticeField::noise_line(double beam, std::vector<float>& re, std::vector<f
     const glm::vec3 part(cell - low);
     const std::uint32_t seed =
         shaders::us_lattice_seed(at.key, static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(low.z));
-    for (std::uint32_t corner = 0; corner < 8; ++corner) {
-      const bool i = corner & 1U, j = corner & 2U, l = corner & 4U;
-      const std::uint32_t bits = shaders::us_lattice_bits(
-          seed + (i ? shaders::kUsStepI : 0U) + (j ? shaders::kUsStepJ : 0U) + (l ? shaders::kUsStepK : 0U));
-      const float weight =
-          (i ? part.x : 1.0F - part.x) * (j ? part.y : 1.0F - part.y) * (l ? part.z : 1.0F - part.z);
-      re[n] += weight * static_cast<float>(shaders::us_node_re(bits));
-      im[n] += weight * static_cast<float>(shaders::us_node_im(bits));
-    }
-    // Between nodes interpolation averages; without this a plane's brightness would depend on where it cuts cells.
-    const glm::vec3 rest = 1.0F - part, square = part * part + rest * rest;
-    const float level = tissue * at.gain / std::sqrt(square.x * square.y * square.z);
-    re[n] *= level;
-    im[n] *= level;
+    const glm::vec4 noise = shaders::us_lattice_noise(seed, part.x, part.y, part.z);
+    const float level = tissue * at.gain / noise.z;
+    re[n] = level * noise.x;
+    im[n] = level * noise.y;
   }
 }
 

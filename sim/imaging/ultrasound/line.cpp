@@ -6,25 +6,17 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
 
+using shaders::us_amplitude, shaders::kUsDeadDb, shaders::kUsLensLines, shaders::kUsGelMm;
 using volume::TissueClass;
-
-double amplitude(double db) {
-  return std::pow(10.0, db / 20.0);
-}
-
-double decibels_of(double amplitude) {
-  return 20.0 * std::log10(std::max(amplitude, 1e-12));
-}
 
 // Five and a half voxels, within reason: fewer and the steps of voxels show in the normal.
 constexpr double kNormalVoxels = 5.5, kLeastNormalMm = 3.3, kMostNormalMm = 6.6;
-constexpr double kPlaceVoxels = 2.5, kSliceShare = 0.87;
-// Interfaces whose echo is this far below liver's speckle are not worth their normal.
-constexpr double kLeastEchoDb = -10.0;
+constexpr double kPlaceVoxels = 2.5;
 
 }  // namespace
 
@@ -48,7 +40,8 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
       most_shift_mm_(std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z)),
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
-      frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+      frequency_mhz_(working_mhz(view)) {
+  for (const Neighbour& n : around_) least_side_mm_ += shaders::kUsLeastSide * n.weight * glm::length(n.offset_mm);
   for (std::size_t i = 0; i < table_.size(); ++i) {
     loss_db_mm_[i] =
         shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
@@ -69,7 +62,7 @@ std::vector<LineWalker::Neighbour> LineWalker::neighbours(const volume::Volume& 
       for (int i = -reach.x; i <= reach.x; ++i) {
         const glm::dvec3 part = glm::dvec3(i, j, k) * spacing / glm::max(glm::dvec3(radius_mm), spacing);
         const double weight = 1.0 - glm::dot(part, part) / 1.44;
-        if (glm::dot(part, part) <= 1.0) all.push_back({step * glm::dvec3(i, j, k), weight});
+        if (glm::dot(part, part) <= 1.0) all.push_back({{i, j, k}, step * glm::dvec3(i, j, k), weight});
       }
   return all;
 }
@@ -87,8 +80,9 @@ LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before
   Plane plane;
   for (const Neighbour& n : around_) plane.normal += side_at(n) * n.offset_mm;
   const double length = glm::length(plane.normal);
-  if (!(length > 0.0)) return plane;
+  if (!(length > least_side_mm_)) return {};
   plane.normal /= length;
+  plane.is_told = true;
   double after = 0.0, all = 0.0, square = 0.0;
   for (const Neighbour& n : close_) {
     const double along = glm::dot(n.offset_mm, plane.normal);
@@ -96,28 +90,25 @@ LineWalker::Plane LineWalker::plane_at(const glm::dvec3& p_lps_mm, double before
     all += n.weight;
     square += n.weight * along * along;
   }
-  // A plane d off the middle of a ball leaves 2·d·(weight of a slice) more on one side. The slice through the
-  // middle of a ball of weights 1 − r²/1.44R² has 0.87 of what a Gaussian's of the same weight and spread would
-  // have.
   const glm::dvec3 index = glm::dvec3(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
   const glm::dvec3 center = glm::dvec3(lps_from_voxel_ * glm::dvec4(glm::floor(index + 0.5), 1.0));
-  const double slice = kSliceShare * all / std::sqrt(6.283185307 * square / all);
   plane.has_place = square > 1e-9;
-  if (plane.has_place) plane.off_mm = glm::dot(center - p_lps_mm, plane.normal) - after / (2.0 * slice);
+  if (plane.has_place)
+    plane.off_mm = glm::dot(center - p_lps_mm, plane.normal) - shaders::us_plane_off(after, all, square);
   return plane;
 }
 
 void LineWalker::walk(int beam, bool contact, Line& line) const {
   const auto count = static_cast<std::size_t>(view_.samples);
   line.tissue.resize(count);
-  line.loss_db.assign(count, static_cast<float>(kDeadDb));
+  line.loss_db.assign(count, static_cast<float>(kUsDeadDb));
   line.shift_mm.clear();
   line.echoes.clear();
   line.contact = contact;
   if (!contact) {
     std::fill(line.tissue.begin(), line.tissue.end(), TissueClass::air);
-    for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
-      line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
+    for (int k = 1; k * kUsLensMm < view_.depth_mm && k <= kUsLensLines; ++k)
+      line.echoes.push_back({k * kUsLensMm, shaders::us_lens_line(k)});
     return;
   }
   const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
@@ -127,14 +118,12 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam
   // clips.
   std::size_t first = 0;
-  for (std::size_t k = 0; k < count && static_cast<double>(k) * dz <= kGelMm; ++k)
+  for (std::size_t k = 0; k < count && static_cast<double>(k) * dz <= kUsGelMm; ++k)
     if (k == first ? is_gas(line.tissue[k]) : line.tissue[k] == TissueClass::air) first = k + 1;
-  if (first == count || static_cast<double>(first) * dz > kGelMm) first = 0;
+  if (first == count || static_cast<double>(first) * dz > kUsGelMm) first = 0;
 
-  const NeedleCrossing needle = needle_ != nullptr ? crossing(start, direction) : NeedleCrossing{};
-  const double shadow_db =
-      needle.covered > 0.0 ? -20.0 * std::log10(1.0 - needle.covered * (1.0 - amplitude(-kNeedleShadowDb))) : 0.0;
-  double sum_db = 0.0, before_mrayl = kMatchedMrayl;
+  const NeedleLine needle = needle_line(beam);
+  double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
   bool needle_above = false;
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
@@ -142,11 +131,10 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
     double late_mm = 0.0;  // how far below the samples' border the tissues' lies
     if (k > first && line.tissue[k] != line.tissue[k - 1]) {
       late_mm = border_mm(start, direction, k, line) - static_cast<double>(k) * dz;
-      sum_db = std::min(kDeadDb, sum_db + late_mm * loss_db_mm_[static_cast<std::size_t>(line.tissue[k - 1])]);
+      sum_db = std::min(kUsDeadDb, sum_db + late_mm * loss_db_mm_[static_cast<std::size_t>(line.tissue[k - 1])]);
     }
-    // The skin of gel and lens is matched: only what reflects much shows at the face.
-    if (k == first && mrayl > 0.5 && mrayl < 3.0) before_mrayl = mrayl;
-    if (mrayl != before_mrayl && sum_db < kDeadDb) {
+    if (k == first && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;
+    if (mrayl != before_mrayl && sum_db < kUsDeadDb) {
       add_interface(start, direction, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
       sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
       before_mrayl = mrayl;
@@ -154,23 +142,24 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
     sum_db -= late_mm * loss_db_mm_[tissue];
     if (!needle_above && needle.depth_mm >= 0.0 && (static_cast<double>(k) + 0.5) * dz >= needle.depth_mm) {
       needle_above = true;
-      sum_db += shadow_db;
+      sum_db += needle.shadow_db;
     }
     const double step_db = loss_db_mm_[tissue] * dz;
-    line.loss_db[k] = static_cast<float>(std::min(kDeadDb, sum_db + 0.5 * step_db));
-    sum_db = std::min(kDeadDb, sum_db + step_db);
+    line.loss_db[k] = static_cast<float>(std::min(kUsDeadDb, sum_db + 0.5 * step_db));
+    sum_db = std::min(kUsDeadDb, sum_db + step_db);
   }
   for (std::size_t k = 0; k < first; ++k) line.loss_db[k] = 0.0F;
-  if (needle_ != nullptr) add_needle(needle, line);
+  for (const NeedleLine::Echo& echo : needle.echoes) {
+    const auto k = static_cast<std::size_t>(std::clamp(echo.loss_at_mm / dz - 0.5, 0.0, view_.samples - 1.0));
+    line.echoes.push_back({echo.depth_mm, echo.amplitude * us_amplitude(-static_cast<double>(line.loss_db[k]))});
+  }
   if (view_.range_error) shift(first, line);
 }
 
-// Between the middles of two samples of different tissue, to a sixteenth of a sample: of 7.6 MHz a sample of bone
-// takes half a decibel.
 double LineWalker::border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample,
                              const Line& line) const {
   double above = (static_cast<double>(sample) - 0.5) * fan_.sample_mm, below = above + fan_.sample_mm;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < shaders::kUsBorderHalvings; ++i) {
     const double middle = 0.5 * (above + below);
     (tissue_at_(start + middle * direction) == line.tissue[sample - 1] ? above : below) = middle;
   }
@@ -204,27 +193,25 @@ void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direct
   const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
   double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
   if (sample > 0) {
-    if (decibels_of(std::abs(reflection)) + kInterfaceDb < kLeastEchoDb) return;
+    if (!shaders::us_is_heard(reflection)) return;
     const Plane plane = plane_at(start + depth_mm * direction, before_mrayl, after_mrayl);
     const double along = glm::dot(plane.normal, direction);
-    cosine = std::clamp(std::abs(along), 0.0, 1.0);
+    if (plane.is_told) cosine = std::clamp(std::abs(along), 0.0, 1.0);
     // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
-    if (plane.has_place && cosine > 0.3)
+    if (plane.has_place && cosine > shaders::kUsLeastPlaceCosine)
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));
   }
-  const double tilt_rad = std::acos(cosine);
-  const double law = shaders::us_mirror(tilt_rad, kInterfaceConeRad) + amplitude(kInterfaceRoughDb) * cosine;
-  const double face = reflection * law * amplitude(kInterfaceDb - loss_db);
+  const double face = reflection * shaders::us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_db);
   line.echoes.push_back({depth_mm, face});
-  if (std::abs(reflection) < kRepeatsFrom || depth_mm <= 0.0) {
+  if (std::abs(reflection) < shaders::kUsRepeatsFrom || depth_mm <= 0.0) {
     // Gas at the face itself rings in the lens.
-    if (std::abs(reflection) >= kRepeatsFrom)
-      for (int k = 1; k * kLensMm < view_.depth_mm && k <= 20; ++k)
-        line.echoes.push_back({k * kLensMm, amplitude(kLensDb - (k - 1) * kLensDbPerLine)});
+    if (std::abs(reflection) >= shaders::kUsRepeatsFrom)
+      for (int k = 1; k * kUsLensMm < view_.depth_mm && k <= kUsLensLines; ++k)
+        line.echoes.push_back({k * kUsLensMm, shaders::us_lens_line(k)});
     return;
   }
-  for (int again = 2; again * depth_mm < view_.depth_mm && again <= 4; ++again)
-    line.echoes.push_back({again * depth_mm, face * amplitude(-(again - 1) * (kRepeatDb + loss_db))});
+  for (int again = 2; again * depth_mm < view_.depth_mm && again <= shaders::kUsMostAgain; ++again)
+    line.echoes.push_back({again * depth_mm, face * shaders::us_repeat(again, loss_db)});
 }
 
 LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const glm::dvec3& direction) const {
@@ -277,24 +264,28 @@ LineWalker::NeedleCrossing LineWalker::crossing(const glm::dvec3& start, const g
   return at;
 }
 
-void LineWalker::add_needle(const NeedleCrossing& at, Line& line) const {
-  const auto loss_at = [&](double depth_mm) {
-    const auto k = static_cast<std::size_t>(std::clamp(depth_mm / fan_.sample_mm - 0.5, 0.0, view_.samples - 1.0));
-    return static_cast<double>(line.loss_db[k]);
-  };
+NeedleLine LineWalker::needle_line(int beam) const {
+  NeedleLine line;
+  if (needle_ == nullptr) return line;
+  const NeedleCrossing at = crossing(fan_.start_lps_mm(beam), fan_.direction(beam));
+  line.depth_mm = at.depth_mm;
+  if (at.covered > 0.0)
+    line.shadow_db = -20.0 * std::log10(1.0 - at.covered * (1.0 - us_amplitude(-kNeedleShadowDb)));
   if (at.depth_mm >= 0.0) {
     const NeedleEcho echo = needle_echo(view_, needle_->radius_mm, at.depth_mm, at.tilt_rad);
-    const double through = at.weight * amplitude(-loss_at(at.depth_mm));
-    line.echoes.push_back({at.depth_mm, echo.shaft() * through});
+    line.echoes.push_back({at.depth_mm, echo.shaft() * at.weight, at.depth_mm});
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
                                                              : 2.0 * needle_->radius_mm * 1540.0 / 5790.0;
-    for (int n = 1; n <= 8 && echo.mirror > echo.rough; ++n)
-      line.echoes.push_back({at.depth_mm + n * spacing_mm, echo.mirror * through * amplitude(-n * kTailDbPerLine)});
+    for (int n = 1; n <= kMostTailLines && echo.mirror > echo.rough; ++n)
+      line.echoes.push_back(
+          {at.depth_mm + n * spacing_mm, echo.mirror * at.weight * us_amplitude(-n * kTailDbPerLine), at.depth_mm});
   }
   if (at.tip_depth_mm >= 0.0)
-    line.echoes.push_back({at.tip_depth_mm, needle_echo(view_, needle_->radius_mm, at.tip_depth_mm, 0.0).tip *
-                                                at.tip_weight * amplitude(-loss_at(at.tip_depth_mm))});
+    line.echoes.push_back({at.tip_depth_mm,
+                           needle_echo(view_, needle_->radius_mm, at.tip_depth_mm, 0.0).tip * at.tip_weight,
+                           at.tip_depth_mm});
+  return line;
 }
 
 }  // namespace seldinger::imaging

@@ -6,52 +6,17 @@
 #include <thread>
 
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/base/check.h"
-#include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/pulse.h"
 #include "sim/imaging/ultrasound/scatterers.h"
 #include "sim/imaging/ultrasound/thesis.h"
+#include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 
 namespace seldinger::imaging {
 namespace {
-
-void check_view(const UltrasoundView& view, std::span<const float> depth_below_skin_mm) {
-  CHECK(view.beams >= 1 && view.beams <= 4096 && view.samples >= 1 && view.samples <= 16384);
-  CHECK(view.depth_mm > 0.0 && view.depth_mm <= 400.0 && view.frequency_mhz >= 0.0 && view.focus_mm >= 0.0);
-  CHECK(view.scatterers_per_cell > 0.0);
-  CHECK(base::is_finite(view.origin_lps_mm) && glm::length(view.origin_lps_mm) <= 1e8);  // lattice numbers are ints
-  CHECK(std::abs(glm::length(view.axial) - 1.0) < 1e-6 && std::abs(glm::length(view.lateral) - 1.0) < 1e-6);
-  CHECK(std::abs(glm::dot(view.axial, view.lateral)) < 1e-6);
-  CHECK(depth_below_skin_mm.empty() || depth_below_skin_mm.size() == static_cast<std::size_t>(view.probe.elements));
-}
-
-// The pulse on the complex baseband, as a filter from fine samples to samples. Scatterers lie in the fine sample
-// that they fall in, which widens by a box of one: the kernel is narrower by that (variance fine²/12). ∫h² = 1.
-struct PulseTap {
-  int part, shift;  // fine sample (k + shift)·fine + part counts for sample k
-  float weight;
-};
-std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
-  const double fine_mm = sample_mm / fine;
-  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
-  CHECK(variance > 0.0);
-  const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
-  std::vector<PulseTap> taps;
-  double energy = 0.0;
-  for (int shift = -reach; shift <= reach; ++shift)
-    for (int part = 0; part < fine; ++part) {
-      const double off_mm = (shift * fine + part + 0.5 - 0.5 * fine) * fine_mm;
-      if (std::abs(off_mm) > 3.5 * sigma_mm) continue;
-      const double h = std::exp(-0.5 * off_mm * off_mm / variance);
-      energy += h * h * fine_mm;
-      taps.push_back({part, shift, static_cast<float>(h)});
-    }
-  for (PulseTap& tap : taps) tap.weight /= static_cast<float>(std::sqrt(energy));
-  return taps;
-}
 
 // One thread's room for a block of beams.
 struct Room {
@@ -71,7 +36,7 @@ class PolarPainter {
         walker_(view, tissue_at_, *tissue.volume, inserted),
         field_(speckle_field(view, tissue_at_)),
         below_skin_mm_(depth_below_skin_mm),
-        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz),
+        frequency_mhz_(working_mhz(view)),
         wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
         sigma_mm_(beam_width(view.probe, frequency_mhz_, view.focus_mm, 1.0).axial_sigma_mm),
         taps_(pulse_taps(sigma_mm_, fan_.sample_mm, field_->fine())),

@@ -6,15 +6,16 @@
 #include <glm/geometric.hpp>
 
 #include "shaders/shared/ultrasound.glsl.h"
+#include "shaders/shared/ultrasound_cube.glsl.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
 #include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kReach = 2.5;  // σ, where the Gaussians end: 0.04 % of their energy is beyond
-constexpr int kBands = 20;      // of depth, with one lattice and one thickness each
+constexpr int kBands = 20;  // of depth, with one lattice and one thickness each
 // Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
 // samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
 constexpr double kMostTurns = 0.25;
@@ -22,12 +23,13 @@ constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
 
 // exp(−q), q up to the end of two Gaussians.
-constexpr float kPerQ = kTable / (0.5F * 2.0F * 6.25F);
+using shaders::kUsTablePerQ;
+static_assert(kUsTablePerQ == kTable / (0.5F * 2.0F * 6.25F));
 struct Tables {
   std::array<float, kTable + 1> gauss;
   Tables() {
     for (std::size_t i = 0; i <= kTable; ++i)
-      gauss[i] = static_cast<float>(base::exact_exp(-(static_cast<double>(i) + 0.5) / kPerQ));
+      gauss[i] = static_cast<float>(base::exact_exp(-(static_cast<double>(i) + 0.5) / kUsTablePerQ));
   }
 };
 const Tables& tables() {
@@ -57,9 +59,7 @@ template <bool curved>
 [[gnu::always_inline]] inline void place(const TileFrame& f, Chunk& chunk) noexcept {
   for (int n = 0; n < chunk.count; ++n) {
     const std::uint32_t bits = shaders::us_lattice_bits(chunk.seed[n]);
-    const float u = (static_cast<float>(static_cast<std::int32_t>(bits >> 21)) + 0.5F) * (1.0F / 2048.0F);
-    const float v = (static_cast<float>(static_cast<std::int32_t>((bits >> 11) & 1023U)) + 0.5F) * (1.0F / 1024.0F);
-    const float w = (static_cast<float>(static_cast<std::int32_t>(bits & 2047U)) + 0.5F) * (1.0F / 2048.0F);
+    const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
     const float x = chunk.x[n] + u * f.a[0] + v * f.b[0] + w * f.c[0];
     const float y = chunk.y[n] + u * f.a[1] + v * f.b[1] + w * f.c[1];
     const float z = chunk.z[n] + u * f.a[2] + v * f.b[2] + w * f.c[2];
@@ -67,9 +67,7 @@ template <bool curved>
     if constexpr (curved) {
       const float from_center = z + f.radius;
       depth = std::sqrt(x * x + from_center * from_center) - f.radius;
-      // A tile is a few degrees wide: arctangent by its series, 1e-7 at 12°.
-      const float t = x / from_center, t2 = t * t;
-      const float angle = t * (1.0F - t2 * (0.33333333F - t2 * (0.2F - t2 * (0.14285714F - t2 * 0.11111111F))));
+      const float angle = shaders::us_narrow_angle(x / from_center);
       beam = f.beam_middle + angle * f.per_radian;
     } else {
       beam = f.beam_middle + x * f.per_radian;
@@ -96,7 +94,7 @@ template <bool curved>
 
 ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissue_at)
     : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
-  const double frequency_mhz = view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
+  const double frequency_mhz = working_mhz(view);
   wavelength_mm_ = shaders::us_wavelength_mm(frequency_mhz);
   fine_ = std::max(1, static_cast<int>(std::ceil(2.0 * fan_.sample_mm / (wavelength_mm_ * kMostTurns))));
   const auto widths = [&](double depth_mm) {
@@ -112,8 +110,8 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     const double middle_mm = 0.5 * (band.from_mm + band.to_mm);
     const BeamWidth width = widths(middle_mm);
     // The widths go down to a focus and up again: the ends have the greatest.
-    band.half_thickness_mm =
-        kReach * std::max(widths(band.from_mm).elevation_sigma_mm, widths(band.to_mm).elevation_sigma_mm);
+    band.half_thickness_mm = shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm,
+                                                                widths(band.to_mm).elevation_sigma_mm);
     // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
     const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
     const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
@@ -129,15 +127,13 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     for (int k = band.first_sample; k < band.end_sample; ++k) {
       const double depth_mm = (k + 0.5) * fan_.sample_mm, spacing_mm = fan_.beam_spacing_mm(depth_mm);
       const BeamWidth width = widths(depth_mm);
-      const double lateral = spacing_mm / width.lateral_sigma_mm;
+      const auto weight = shaders::us_beam_weight(width.lateral_sigma_mm, width.elevation_sigma_mm, spacing_mm,
+                                                  band.spacing_mm, shaders::kUsReachSigmas);
       AtSample& at = at_sample_[static_cast<std::size_t>(k)];
-      at.lateral_scale = static_cast<float>(0.5 * lateral * lateral) * kPerQ;
-      at.lateral_reach = static_cast<float>(kReach / lateral);
-      at.elevation_scale = static_cast<float>(0.5 / (width.elevation_sigma_mm * width.elevation_sigma_mm)) * kPerQ;
-      // ∫exp(−x²/σ²) = √π·σ in each of the two directions.
-      at.amplitude = static_cast<float>(
-          kUnit * std::sqrt(band.spacing_mm * band.spacing_mm * band.spacing_mm /
-                            (3.141592653589793 * width.lateral_sigma_mm * width.elevation_sigma_mm)));
+      at.lateral_scale = static_cast<float>(weight.x) * kUsTablePerQ;
+      at.lateral_reach = static_cast<float>(weight.y);
+      at.elevation_scale = static_cast<float>(weight.z) * kUsTablePerQ;
+      at.amplitude = static_cast<float>(kUnit * weight.w);
     }
 }
 
@@ -154,17 +150,20 @@ void ScattererField::add_beams(int first, int end, std::vector<std::int32_t>& ou
   for (const Band& band : bands_) add_band(band, first, end, out);
 }
 
-void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
-  // The tile's frame: x across, y elevation, z along its middle beam from the face.
-  const double middle = 0.5 * (first + end - 1);
-  const glm::dvec3 start = fan_.start_lps_mm(middle), z_axis = fan_.direction(middle), y_axis = fan_.elevation,
-                   x_axis = fan_.curved ? glm::cross(y_axis, z_axis) : fan_.lateral;
+float ScattererField::most_reach(const Band& band) const noexcept {
   float reach = 0.0F;
   for (int k = band.first_sample; k < band.end_sample; ++k)
     reach = std::max(reach, at_sample_[static_cast<std::size_t>(k)].lateral_reach);
-  const double beams_half = 0.5 * (end - 1 - first) + static_cast<double>(reach);
+  return reach;
+}
+
+ScattererField::Tile ScattererField::tile(const Band& band, double middle, double beams_half) const noexcept {
+  Tile t;
+  t.start_lps_mm = fan_.start_lps_mm(middle);
+  const glm::dvec3 z_axis = fan_.direction(middle), y_axis = fan_.elevation,
+                   x_axis = fan_.curved ? glm::cross(y_axis, z_axis) : fan_.lateral;
+  t.axes[0] = x_axis, t.axes[1] = y_axis, t.axes[2] = z_axis;
   const double wide = beams_half * fan_.beam_step;  // half, radians or mm
-  // A box around the tile.
   glm::dvec3 low, high;
   if (fan_.curved) {
     const double half_mm = (fan_.radius_mm + band.to_mm) * std::sin(wide);
@@ -175,21 +174,30 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
     high = {wide, band.half_thickness_mm, band.to_mm};
   }
   const double s = band.spacing_mm;
-  const glm::dvec3 axes[3] = {x_axis, y_axis, z_axis};
-  // Around the centres of cubes that touch the box.
-  glm::dvec3 center_box = 0.5 * (low + high), half_box = 0.5 * (high - low);
-  glm::dvec3 half_cells{0.0};
+  t.center_mm = 0.5 * (low + high);
+  t.half_mm = 0.5 * (high - low);
+  t.half_cells = glm::dvec3(0.0);
   for (int a = 0; a < 3; ++a) {
-    half_box[a] += 0.5 * s * (std::abs(axes[a].x) + std::abs(axes[a].y) + std::abs(axes[a].z));
-    for (int l = 0; l < 3; ++l) half_cells[l] += half_box[a] * std::abs(axes[a][l]) / s;
+    t.half_mm[a] += 0.5 * s * (std::abs(t.axes[a].x) + std::abs(t.axes[a].y) + std::abs(t.axes[a].z));
+    for (int l = 0; l < 3; ++l) t.half_cells[l] += t.half_mm[a] * std::abs(t.axes[a][l]) / s;
   }
-  const glm::dvec3 center_lps = start + center_box.x * x_axis + center_box.y * y_axis + center_box.z * z_axis;
-  const glm::dvec3 center_cell = center_lps / s - 0.5;  // in cubes' numbers
-  // Innermost the axis most across the picture: its rows are short and few are empty.
-  int inner = 0;
+  t.center_lps_mm = t.start_lps_mm + t.center_mm.x * x_axis + t.center_mm.y * y_axis + t.center_mm.z * z_axis;
+  t.center_cell = t.center_lps_mm / s - 0.5;
+  t.inner = 0;
   for (int l = 1; l < 3; ++l)
-    if (std::abs(y_axis[l]) > std::abs(y_axis[inner])) inner = l;
-  const int outer = (inner + 1) % 3, middle_axis = (inner + 2) % 3;
+    if (std::abs(y_axis[l]) > std::abs(y_axis[t.inner])) t.inner = l;
+  return t;
+}
+
+void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
+  const double middle = 0.5 * (first + end - 1);
+  const float reach = most_reach(band);
+  const Tile tile = this->tile(band, middle, 0.5 * (end - 1 - first) + static_cast<double>(reach));
+  const glm::dvec3 start = tile.start_lps_mm, x_axis = tile.axes[0], y_axis = tile.axes[1], z_axis = tile.axes[2];
+  const auto& axes = tile.axes;
+  const glm::dvec3 &half_box = tile.half_mm, &center_cell = tile.center_cell, &half_cells = tile.half_cells;
+  const double s = band.spacing_mm;
+  const int inner = tile.inner, outer = (inner + 1) % 3, middle_axis = (inner + 2) % 3;
 
   TileFrame f{};
   f.radius = static_cast<float>(fan_.radius_mm);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/imaging/ultrasound/speckle.h"
@@ -29,12 +30,26 @@ class ScattererField final : public SpeckleField {
   };
   Lattice lattice_at(double depth_mm) const noexcept;
 
- private:
+  // A layer of depth with one lattice and one thickness.
   struct Band {
     double from_mm, to_mm, half_thickness_mm, spacing_mm;
     std::uint32_t key;
     int first_sample, end_sample;
   };
+  std::span<const Band> bands() const noexcept { return bands_; }
+  float most_reach(const Band& band) const noexcept;  // beams
+
+  // The part of a band within `beams_half` of beam `middle`: its frame (x across, y elevation, z along its middle
+  // beam from the face), a box around it in that frame, and where the lattice's cubes lie that touch the box.
+  struct Tile {
+    glm::dvec3 start_lps_mm, axes[3];
+    glm::dvec3 center_mm, half_mm;                      // of the box, in the frame; around centres of cubes
+    glm::dvec3 center_lps_mm, center_cell, half_cells;  // the same in LPS, and in cubes' numbers
+    int inner;  // the lattice's axis most across the picture: its rows are short and few are empty
+  };
+  Tile tile(const Band& band, double middle, double beams_half) const noexcept;
+
+ private:
   struct AtSample {
     float lateral_scale;    // of (beams off)²: Σ index of the Gaussian's table
     float lateral_reach;    // beams

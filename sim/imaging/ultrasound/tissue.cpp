@@ -50,6 +50,15 @@ AcousticTable acoustic_table(std::optional<double> soft_attenuation_db_cm_mhz) {
   return table;
 }
 
+std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept {
+  std::array<float, volume::kTissueClasses> amplitude{};
+  for (std::size_t i = 0; i < amplitude.size(); ++i) {
+    const double db = acoustic_table()[i].scatter_db;
+    amplitude[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
+  }
+  return amplitude;
+}
+
 volume::TissueClass tissue_of_lesion(double hu) noexcept {
   using enum volume::TissueClass;
   if (!(hu >= -500.0)) return gas;  // also NaN

@@ -24,6 +24,9 @@ const AcousticTable& acoustic_table() noexcept;
 // The table with every soft class's coefficient replaced and its exponent 1 (contracts.md); finite, ≥ 0.
 AcousticTable acoustic_table(std::optional<double> soft_attenuation_db_cm_mhz);
 
+// Amplitude of each class's speckle; liver's is 1.
+std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept;
+
 // What an inserted lesion of this HU is to sound.
 volume::TissueClass tissue_of_lesion(double hu) noexcept;
 

@@ -106,6 +106,12 @@ struct DisplaySize {
   double pixel_mm = 0.0;  // 0: the smallest at which the whole field fits
 };
 
+// top_mm ≤ 0: the sides of a curved face lie above its centre.
+struct Screen {
+  double pixel_mm, top_mm;
+};
+Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept;
+
 // From polar to the screen. Pixel (c, r) shows the point x = (c − (width − 1)/2)·pixel across (flipped: −x) and
 // z = top + (r + ½)·pixel below the face's centre. Built once for a probe, depth and size.
 class ScanConverter {
@@ -113,8 +119,8 @@ class ScanConverter {
   ScanConverter(const UltrasoundView& view, DisplaySize size);
   int width_px() const noexcept { return size_.width_px; }
   int height_px() const noexcept { return size_.height_px; }
-  double pixel_mm() const noexcept { return pixel_mm_; }
-  double top_mm() const noexcept { return top_mm_; }  // ≤ 0: the sides of a curved face lie above its centre
+  double pixel_mm() const noexcept { return screen_.pixel_mm; }
+  double top_mm() const noexcept { return screen_.top_mm; }
 
   // Grey, 0 outside the field; the envelope is interpolated, then its logarithm taken. NaN shows as 255.
   void grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
@@ -139,7 +145,7 @@ class ScanConverter {
   };
   DisplaySize size_;
   int beams_, samples_;
-  double pixel_mm_, top_mm_;
+  Screen screen_;
   std::vector<Source> sources_;
 };
 

@@ -10,6 +10,7 @@
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -42,7 +43,7 @@ class Sight {
         tissue_at_(tissue, inserted),
         table_(acoustic_table(view.attenuation_db_cm_mhz)),
         below_skin_mm_(depth_below_skin_mm),
-        frequency_mhz_(view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz) {
+        frequency_mhz_(working_mhz(view)) {
     for (std::size_t i = 0; i < table_.size(); ++i) {
       loss_db_mm_[i] =
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
@@ -70,7 +71,7 @@ class Sight {
 
   // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
   double loss_db(double beam, double depth_mm) const {
-    if (!beam_touches(view_, below_skin_mm_, beam)) return kDeadDb;
+    if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
     const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
@@ -78,17 +79,17 @@ class Sight {
     // A blurred skin is gel, unless there is gas beyond what it can be.
     constexpr double kStepMm = 0.25 * kWalkMm;
     double gel_mm = 0.0;
-    for (double z_mm = 0.0; z_mm <= kGelMm; z_mm += kStepMm)
+    for (double z_mm = 0.0; z_mm <= shaders::kUsGelMm; z_mm += kStepMm)
       if (z_mm == gel_mm ? is_gas(tissue(z_mm)) : tissue(z_mm) == TissueClass::air) gel_mm = z_mm + kStepMm;
-    if (gel_mm > kGelMm) gel_mm = 0.0;
-    double sum_db = 0.0, before_mrayl = kMatchedMrayl;
+    if (gel_mm > shaders::kUsGelMm) gel_mm = 0.0;
+    double sum_db = 0.0, before_mrayl = shaders::kUsMatchedMrayl;
     bool at_face = true;
-    for (int k = 0; k < steps && sum_db < kDeadDb; ++k) {
+    for (int k = 0; k < steps && sum_db < shaders::kUsDeadDb; ++k) {
       const double z_mm = (k + 0.5) * dz;
       if (z_mm < gel_mm) continue;
       const auto here = static_cast<std::size_t>(tissue(z_mm));
       const double mrayl = table_[here].impedance_mrayl;
-      if (at_face && mrayl > 0.5 && mrayl < 3.0) before_mrayl = mrayl;  // matched, as LineWalker has it
+      if (at_face && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;  // matched, as LineWalker has it
       at_face = false;
       if (mrayl != before_mrayl) {
         sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
@@ -96,7 +97,7 @@ class Sight {
       }
       sum_db += loss_db_mm_[here] * dz;
     }
-    return std::min(sum_db, kDeadDb);
+    return std::min(sum_db, shaders::kUsDeadDb);
   }
 
   // Mean square echo of the tissue in the plane, without loss; liver's is 1.

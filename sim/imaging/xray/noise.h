@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "shaders/shared/noise.glsl.h"
+
 namespace seldinger::imaging {
 
 struct NoiseKey {
@@ -11,15 +13,9 @@ struct NoiseKey {
 };
 NoiseKey noise_key(std::uint64_t seed, std::uint64_t frame) noexcept;
 
-// 32 bits of pixel `pixel`: two rounds of an integer hash, one before and one after the frame's key comes in again.
-constexpr std::uint32_t noise_bits(NoiseKey key, std::uint32_t pixel) noexcept {
-  // Multipliers and shifts: Wellons' search for low-bias 32-bit permutations (hash-prospector, "lowbias32").
-  const auto mix = [](std::uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352dU;
-    x = (x ^ (x >> 15)) * 0x846ca68bU;
-    return x ^ (x >> 16);
-  };
-  return mix(mix(pixel ^ key.first) + key.second);
+// 32 bits of pixel `pixel`.
+inline std::uint32_t noise_bits(NoiseKey key, std::uint32_t pixel) noexcept {
+  return shaders::noise_bits_of(key.first, key.second, pixel);
 }
 
 // Below this mean, counts are drawn by inversion of the distribution function; above, by Cornish and Fisher's

@@ -95,7 +95,7 @@ TEST(Goal4, ReflectionIsThatOfTheImpedances) {
       const LineEcho& echo = line.echoes.front();
       EXPECT_NEAR(echo.depth_mm, 20.0, view.depth_mm / samples);
       const double wanted = shaders::us_reflection(impedance(above), impedance(below));
-      const double normal_db = kInterfaceDb + decibels(1.0 + std::pow(10.0, kInterfaceRoughDb / 20.0));
+      const double normal_db = kUsInterfaceDb + decibels(1.0 + std::pow(10.0, kUsInterfaceRoughDb / 20.0));
       const double before_db = line.loss_db[static_cast<std::size_t>(sample_at(view, 19.0))];
       const double error = decibels(std::abs(echo.amplitude)) - normal_db - decibels(std::abs(wanted)) + before_db;
       EXPECT_NEAR(error, 0.0, 0.1) << samples;
@@ -156,9 +156,9 @@ TEST(Goal5, AnglesFollowTheLaw) {
         {100, 140, 20}, 1.0);
     UltrasoundView view = straight_view(100.0);
     view.attenuation_db_cm_mhz = 0.0;
-    const double wanted = decibels(std::exp(-std::pow(tilt / kInterfaceConeRad, 2)) +
-                                   std::pow(10.0, kInterfaceRoughDb / 20.0) * std::cos(tilt)) +
-                          kInterfaceDb + decibels(shaders::us_reflection(1.66, 7.8));
+    const double wanted = decibels(std::exp(-std::pow(tilt / kUsInterfaceConeRad, 2)) +
+                                   std::pow(10.0, kUsInterfaceRoughDb / 20.0) * std::cos(tilt)) +
+                          kUsInterfaceDb + decibels(shaders::us_reflection(1.66, 7.8));
     double worst = 0.0;
     for (int b = 4; b < view.beams; b += 5) {
       const Line line = line_of(s, view, b);

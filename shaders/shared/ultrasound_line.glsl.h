@@ -1,0 +1,75 @@
+// What lies along one beam, formulas and numbers: interfaces, their echoes and what comes of them again.
+#ifndef SELDINGER_SHADERS_SHARED_ULTRASOUND_LINE
+#define SELDINGER_SHADERS_SHARED_ULTRASOUND_LINE
+
+#include "ultrasound.glsl.h"  // beside this file: the one path that glslang and g++ both resolve
+
+SHARED_BEGIN
+
+SHARED_CONSTANT real kUsDeadDb = 400.0;  // nothing comes back; keeps sums finite
+
+// Gel and lens are matched to the skin: only what reflects much shows at the face.
+SHARED_CONSTANT real kUsMatchedMrayl = 1.65;
+SHARED bool us_is_matched(real mrayl) {
+  return mrayl > real(0.5) && mrayl < real(3.0);
+}
+// Air down to here under an element in contact is a CT's blurred skin, and coupled by gel.
+SHARED_CONSTANT real kUsGelMm = 3.0;
+
+// Where tissues meet between the middles of two samples is told by so many halvings: to a sixteenth of a sample. Of
+// 7.6 MHz a sample of bone takes half a decibel.
+SHARED_CONSTANT int kUsBorderHalvings = 4;
+
+SHARED real us_amplitude(real db) {
+  return pow(real(10.0), db / real(20.0));
+}
+
+// Level of the echo of a mirror across a thick interface, at normal incidence without loss, above liver's speckle.
+// A mirror would be 61 dB above it: backscatter 3.7e-6·f^1.4 /mm/sr (calf liver), pulse 0.3 mm, F/2 by h/z; the
+// interfaces of organs are rough and give 40 (design).
+SHARED_CONSTANT real kUsInterfaceDb = 40.0;
+SHARED_CONSTANT real kUsInterfaceConeRad = 0.2618;  // 15°: how far off the normal it still shines (design)
+SHARED_CONSTANT real kUsInterfaceRoughDb = -26.0;   // of its part that goes everywhere, as the cosine (design)
+// Interfaces whose echo is this far below liver's speckle are not worth their normal.
+SHARED_CONSTANT real kUsLeastEchoDb = -10.0;
+SHARED bool us_is_heard(real reflection) {
+  return abs(reflection) >= us_amplitude(kUsLeastEchoDb - kUsInterfaceDb);
+}
+// Share of the echo that comes back at this cosine of the angle off the normal.
+SHARED real us_interface_law(real cosine) {
+  return us_mirror(acos(cosine), kUsInterfaceConeRad) + us_amplitude(kUsInterfaceRoughDb) * cosine;
+}
+
+// Echoes of strong reflectors come again from between them and the face, so much weaker each time (design, 10 to
+// 15).
+SHARED_CONSTANT real kUsRepeatDb = 12.0;
+SHARED_CONSTANT real kUsRepeatsFrom = 0.9;  // |R|: gas
+SHARED_CONSTANT int kUsMostAgain = 4;       // the echo itself is the first
+SHARED real us_repeat(int again, real loss_db) {
+  return us_amplitude(-real(again - 1) * (kUsRepeatDb + loss_db));
+}
+// A face in air shows its own lens: a line every 1.5 mm, half each time (design).
+SHARED_CONSTANT real kUsLensMm = 1.5, kUsLensDb = 40.0, kUsLensDbPerLine = 6.0;
+SHARED_CONSTANT int kUsLensLines = 20;
+SHARED real us_lens_line(int line) {
+  return us_amplitude(kUsLensDb - real(line - 1) * kUsLensDbPerLine);
+}
+
+// A sheet or a ball no wider than a voxel has the same on both sides, and rounding would tell its normal: where the
+// sum of sides times ways is less than this share of what it can be, what is there is taken to face the beam
+// (design). A plane has about a half.
+SHARED_CONSTANT real kUsLeastSide = 1e-4;
+
+// How far off the middle of a ball of weights 1 − r²/1.44R² a plane lies that leaves the sum `after` on one side
+// (counted + and −): twice the way times the weight of a slice. `all`: of all weights; `square`: of them times the
+// way along the normal, squared. A slice through the middle has 0.87 of what a Gaussian's of the same weight and
+// spread would have.
+SHARED real us_plane_off(real after, real all, real square) {
+  return after / (real(2.0 * 0.87) * all / sqrt(real(6.283185307) * square / all));
+}
+// A plane seen from its side says nothing of where along the beam it is.
+SHARED_CONSTANT real kUsLeastPlaceCosine = 0.3;
+
+SHARED_END
+
+#endif

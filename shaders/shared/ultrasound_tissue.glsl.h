@@ -1,0 +1,30 @@
+// The class of a voxel, or of the lesion that stands at its place; air outside the volume.
+uint class_at(ivec3 voxel, vec3 from_origin_mm) {
+  ivec3 size = ivec3(tissue.size_x, tissue.size_y, tissue.size_z);
+  bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, size));
+  uint found = texelFetch(voxels, inside ? voxel : ivec3(0), 0).x & 255u;
+  found = inside ? found : kUsAir;
+  for (int i = tissue.lesion_count - 1; i >= 0; --i) {
+    vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
+    float radius = tissue.lesion_sphere_mm[i].w;
+    found = dot(off, off) <= radius * radius ? uint(tissue.lesion_amplitude[i].y) : found;
+  }
+  return found;
+}
+
+// How much speckle comes from a place: lesions before the volume, nothing outside it. For shaders that have
+// `voxels` (class + 256 · level of the echo) and a block `tissue`.
+float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
+  bool inside = index.x >= 0.0 && index.y >= 0.0 && index.z >= 0.0 && index.x < float(tissue.size_x) &&
+                index.y < float(tissue.size_y) && index.z < float(tissue.size_z);
+  uint at = texelFetch(voxels, inside ? ivec3(index) : ivec3(0), 0).x;
+  float offset = exp(float(int(at >> 8u) - tissue.no_offset) * tissue.log_of_a_step);
+  float amplitude = inside ? tissue.amplitude[at & 255u].x * offset : 0.0;
+  // Backwards, so that the first lesion that contains the point is the last to write.
+  for (int i = tissue.lesion_count - 1; i >= 0; --i) {
+    vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
+    float radius = tissue.lesion_sphere_mm[i].w;
+    amplitude = dot(off, off) <= radius * radius ? tissue.lesion_amplitude[i].x : amplitude;
+  }
+  return amplitude;
+}

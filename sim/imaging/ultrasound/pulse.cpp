@@ -1,0 +1,28 @@
+#include "sim/imaging/ultrasound/pulse.h"
+
+#include <cmath>
+
+#include "sim/base/check.h"
+
+namespace seldinger::imaging {
+
+std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
+  const double fine_mm = sample_mm / fine;
+  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
+  CHECK(variance > 0.0);
+  const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
+  std::vector<PulseTap> taps;
+  double energy = 0.0;
+  for (int shift = -reach; shift <= reach; ++shift)
+    for (int part = 0; part < fine; ++part) {
+      const double off_mm = (shift * fine + part + 0.5 - 0.5 * fine) * fine_mm;
+      if (std::abs(off_mm) > 3.5 * sigma_mm) continue;
+      const double h = std::exp(-0.5 * off_mm * off_mm / variance);
+      energy += h * h * fine_mm;
+      taps.push_back({part, shift, static_cast<float>(h)});
+    }
+  for (PulseTap& tap : taps) tap.weight /= static_cast<float>(std::sqrt(energy));
+  return taps;
+}
+
+}  // namespace seldinger::imaging
