@@ -52,6 +52,15 @@ constexpr Option kScoreOptions[] = {kLibrary,
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
+constexpr Option kInsertOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin", "a half space of it, behind its capsule"},
+    {"--speed-mm-s", "V", "the needle's speed"},
+    {"--depth-mm", "D", "how deep, from the first touch of the undeformed capsule"},
+    {"--hold-s", "T", "rest at that depth; default 0"},
+    {"--retract", nullptr, "then pull back to depth 0"},
+    {"--gauge", "G", "16 to 25; default 22"},
+    {"--relaxation", nullptr, "held tissue relaxes"},
+    {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", "import, mpr, xray, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
@@ -92,6 +101,8 @@ constexpr Command kCommands[] = {
     {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
+    {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
+     &run_haptics_insert},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},

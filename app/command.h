@@ -55,6 +55,7 @@ int run_user_add(const Arguments& arguments);
 int run_user_list(const Arguments& arguments);
 int run_user_passwd(const Arguments& arguments);
 int run_user_disable(const Arguments& arguments);
+int run_haptics_insert(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);
 int run_demo(const Arguments& arguments);

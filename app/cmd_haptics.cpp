@@ -1,0 +1,57 @@
+// haptics insert: force against depth of a needle in one tissue, without hardware.
+#include <cstdio>
+#include <string>
+
+#include "app/command.h"
+#include "app/file.h"
+#include "sim/haptics/insertion.h"
+
+namespace seldinger::app {
+namespace {
+
+// A day of samples makes no file that anyone reads.
+constexpr double kMostSamples = 5e6;
+
+// The rows a needle can be driven into.
+const haptics::NeedleTissue& tissue_named(const std::string& name) {
+  const haptics::NeedleTissue* tissue = haptics::find_needle_tissue(name);
+  if (tissue != nullptr && !tissue->impenetrable) return *tissue;
+  std::string known;
+  for (const haptics::NeedleTissue& one : haptics::needle_tissues())
+    if (!one.impenetrable) known += std::string(known.empty() ? "" : "|") + one.name;
+  throw UsageError("--tissue must be " + known);
+}
+
+double positive(const Arguments& arguments, const char* option) {
+  arguments.required(option);
+  const double value = arguments.number(option, 0.0);
+  if (!(value > 0.0)) throw UsageError(std::string(option) + " must be above 0");
+  return value;
+}
+
+}  // namespace
+
+int run_haptics_insert(const Arguments& arguments) {
+  const std::string out = arguments.required("--out");
+  const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue"));
+  const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
+  haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s"),
+                               positive(arguments, "--depth-mm"), arguments.number("--hold-s", 0.0),
+                               arguments.has("--retract")};
+  if (!(insertion.hold_s >= 0.0)) throw UsageError("--hold-s must not be below 0");
+  haptics::NeedleSettings settings;
+  settings.relaxation = arguments.has("--relaxation");
+  if (!(haptics::insertion_samples(insertion, settings) <= kMostSamples))
+    return refuse({"too_long", "the insertion takes more than 5,000,000 samples of 1 ms", {}});
+
+  std::string csv = "t_s,depth_mm,force_axial_n\n";
+  for (const haptics::InsertionSample& sample : haptics::insert(insertion, settings)) {
+    char line[96];
+    std::snprintf(line, sizeof line, "%.3f,%.6f,%.6f\n", sample.t_s, sample.depth_mm, sample.force.axial_n);
+    csv += line;
+  }
+  write_file(out, csv);
+  return kDone;
+}
+
+}  // namespace seldinger::app
