@@ -2,6 +2,8 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "sim/imaging/ultrasound/echogenicity.h"
+
 namespace seldinger::app {
 
 base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
@@ -13,11 +15,6 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   auto skin = casedb::load_skin(library, row);
   if (!skin) return skin.error();
   cases::Case scene;
-  if (picture.modality == cases::Modality::ultrasound) {
-    auto classes = casedb::load_classes(library, row);
-    if (!classes) return classes.error();
-    scene.classes = std::move(*classes);
-  }
   scene.volume = std::move(*volume);
   scene.skin = std::move(*skin);
   scene.skin_index = cases::MeshIndex(scene.skin);
@@ -30,6 +27,14 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
   scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
   return scene;
+}
+
+base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
+  auto classes = casedb::load_classes(library, row);
+  if (!classes) return classes.error();
+  scene.classes = std::move(*classes);
+  scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
+  return {};
 }
 
 }  // namespace seldinger::app

@@ -7,12 +7,15 @@
 
 namespace seldinger::app {
 
-// Loads volume and skin of a stored case, under ultrasound its tissue classes too; the lesion becomes the target.
+// Loads volume and skin of a stored case; the lesion becomes the target.
 // The fluoroscope is the built-in machine, its isocentre at the volume's middle; how the patient lies is the
 // case's.
 base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
                                      const std::optional<cases::Lesion>& target,
                                      const cases::Instrument& instrument, const cases::Picture& picture,
                                      cases::Approach approach);
+
+// What ultrasound of the case is made of; replay and scoring do without.
+base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene);
 
 }  // namespace seldinger::app

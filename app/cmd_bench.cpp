@@ -248,12 +248,21 @@ std::string csv(const std::vector<Row>& rows) {
   return text;
 }
 
+// What a chart is of: rows with the same can be compared.
+std::string scene_of(const Row& row) {
+  if (row.stage == "xray") return row.setting.substr(0, row.setting.find(' '));
+  if (row.stage == "ultrasound") return row.setting.substr(0, row.setting.find(' ', row.setting.find(' ') + 1));
+  return row.size;
+}
+
 // Stages that chart one against the other: rows with an error, one chart for each scene, one thread and GL alone.
 std::string frontier(const std::vector<Row>& rows) {
   std::vector<reports::FrontierPoint> points;
   for (const Row& row : rows) {
-    if (row.error.empty() || row.device == "2 threads" || row.method == "fluoroscopy chain") continue;
-    const std::string scene = row.stage == "xray" ? row.setting.substr(0, row.setting.find(' ')) : row.size;
+    if (row.error.empty() || row.device == "2 threads" || row.method == "fluoroscopy chain" ||
+        row.method == "peak memory of a picture")
+      continue;
+    const std::string scene = scene_of(row);
     const std::string detail = row.setting.size() > scene.size() ? row.setting.substr(scene.size()) : "";
     const std::string where = row.backend == "gpu" ? " gpu" : "";
     points.push_back({row.stage + ", " + scene + ", " + row.error_unit, row.method, row.method + detail + where,
@@ -268,15 +277,15 @@ int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
   std::vector<std::string> stages;
-  std::string list = arguments.text("--stage", "import,mpr,xray,step");
+  std::string list = arguments.text("--stage", "import,mpr,xray,ultrasound,step");
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     stages.push_back(list.substr(begin, comma - begin));
     begin = comma + 1;
   }
   for (const std::string& stage : stages)
-    if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "step")
-      throw UsageError("--stage knows import, mpr, xray and step");
+    if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "ultrasound" && stage != "step")
+      throw UsageError("--stage knows import, mpr, xray, ultrasound and step");
   std::vector<Row> rows;
   for (const std::string& stage : stages) {
     std::fprintf(stderr, "bench %s …\n", stage.c_str());
@@ -284,6 +293,7 @@ int run_bench(const Arguments& arguments) {
     if (stage == "import") done = bench_import(arguments, quick, rows);
     if (stage == "mpr") bench_mpr(quick, rows);
     if (stage == "xray") done = bench_xray(arguments, quick, rows);
+    if (stage == "ultrasound") done = bench_ultrasound(arguments, quick, rows);
     if (stage == "step") done = bench_step(quick, rows);
     if (!done) return refuse(done.error());
   }

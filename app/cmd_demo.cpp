@@ -40,7 +40,7 @@ volume::Calyces calyces_of(const Arguments& arguments) {
 }
 
 cases::Modality modality_of(const Arguments& arguments) {
-  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
+  const auto modality = casedb::modality_from(arguments.text("--modality", "ultrasound"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   return *modality;
 }
@@ -76,7 +76,7 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   }
   imported->modality = modality;
   if (modality == cases::Modality::xray) imported->title += ", fluoroscopy";
-  if (modality == cases::Modality::ultrasound) imported->title += ", ultrasound";
+  if (modality == cases::Modality::mpr) imported->title += ", CT slices";
   return casedb::find_case(library, casedb::add_case(library, *imported));
 }
 
@@ -85,13 +85,15 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   if (!lesions.empty()) return lesions.front();
   cases::Picture picture;
   picture.modality = row.modality;
-  const auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
+  auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
   if (!scene) return scene.error();
   assessment::LesionRule rule = assessment::lesion_rule(row.modality, row.position);
-  if (row.modality == cases::Modality::ultrasound)
+  if (row.modality == cases::Modality::ultrasound) {
+    if (const auto added = add_ultrasound_tissue(library, row, *scene); !added) return added.error();
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return UltrasoundSight(*scene).looks_from(plan, target);
     };
+  }
   const auto site = assessment::find_lesion_site(scene->volume, scene->skin_index, rule);
   if (!site) return site.error();
   const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);

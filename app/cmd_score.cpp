@@ -15,6 +15,7 @@
 #include "app/xray_sight.h"
 #include "casedb/import/surface.h"
 #include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
 
 namespace seldinger::app {
 namespace {
@@ -59,6 +60,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
                               cases::Recording& recording) {
   const auto classes = classes_of(scene, volume, library);
   if (!classes) return classes.error();
+  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
   imaging::UltrasoundView view = of_scene.view;
   imaging::Inserted inserted = scene.inserted;
   if (!inserted.needle) inserted.needle = needle_of(scene.instrument);
@@ -70,7 +72,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
     inserted.needle->tip_lps_mm = pose.tip_lps_mm;
     inserted.needle->direction = glm::normalize(pose.needle_direction);
     recording.frames.push_back(
-        frame_truth(pose.t_s, imaging::ultrasound_visible({&volume, *classes}, view, inserted,
+        frame_truth(pose.t_s, imaging::ultrasound_visible({&volume, *classes, echogenicity}, view, inserted,
                                                           element_depths(skin, view, kContactStride))));
   }
   return {};

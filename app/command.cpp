@@ -62,16 +62,25 @@ constexpr Option kInsertOptions[] = {
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, step; default all"},
+    {"--stage", "a,b", "import, mpr, xray, ultrasound, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
-    {"--ct", "SOURCE", "what import reads, and a patient for xray; default the built-in case"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
     {"--out", "DIR", "where results.csv goes"}};
+constexpr Option kGoalsOptions[] = {
+    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
+    {"--quality", "fast|reference",
+     "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
+     "fast"},
+    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    kJson};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
-    {"--modality", "mpr|xray|ultrasound", "slices under a probe, fluoroscopy, or ultrasound; default mpr"},
+    {"--modality", "ultrasound|xray|mpr",
+     "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
@@ -88,7 +97,8 @@ constexpr Command kCommands[] = {
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
     {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
-    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.", &run_sheet},
+    {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.",
+     &run_sheet},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",
      &run_simulate},
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",
@@ -104,6 +114,9 @@ constexpr Command kCommands[] = {
     {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
      &run_haptics_insert},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
+    {"goals ultrasound", "", 0, 0, kGoalsOptions,
+     "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+     &run_goals_ultrasound},
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},

@@ -29,10 +29,12 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
   auto scene = build_case(library, *row, found->lesion, instrument, picture, cases::Approach::in_plane);
   if (!scene) return scene.error();
   assessment::PathLimits limits = assessment::path_limits(row->modality, row->position);
-  if (row->modality == cases::Modality::ultrasound)
+  if (row->modality == cases::Modality::ultrasound) {
+    if (const auto added = add_ultrasound_tissue(library, *row, *scene); !added) return added.error();
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
       return UltrasoundSight(*scene).looks_from(plan, found->lesion);
     };
+  }
   const auto plan =
       assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();

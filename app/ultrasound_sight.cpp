@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/png.h"
-#include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
+#include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
 namespace {
@@ -71,13 +71,12 @@ cases::Picture ultrasound_picture(double target_below_skin_mm) {
   const double deep_mm = (target_below_skin_mm - press_mm(probe)) / kTargetShare;
   picture.depth_mm = std::max(kLeastDepthMm, kDepthStepMm * std::round(deep_mm / kDepthStepMm));
   picture.width_mm = 0.0;
-  // c/(2·depth·beams): one line after the other.
-  const double way_mm = 2.0 * picture.depth_mm * imaging::UltrasoundView{}.beams;
-  picture.rate_hz = std::min(kScreenHz, 1e6 * shaders::kUsSpeedMmPerUs / way_mm);
+  picture.rate_hz = std::min(kScreenHz, imaging::frame_rate_hz(picture.depth_mm, imaging::UltrasoundView{}.beams));
   return picture;
 }
 
-UltrasoundSight::UltrasoundSight(const cases::Case& scene) : scene_(scene) {
+UltrasoundSight::UltrasoundSight(const cases::Case& scene)
+    : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
   CHECK(scene.classes.size() == scene.volume.hu.size());
 }
 
@@ -101,7 +100,7 @@ imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, con
 imaging::UltrasoundVisible UltrasoundSight::see(const cases::Picture& picture, const cases::ToolPose& probe,
                                                 const imaging::Inserted& inserted) const {
   const imaging::UltrasoundView view = view_of(picture, probe);
-  return imaging::ultrasound_visible({&scene_.volume, scene_.classes}, view, inserted,
+  return imaging::ultrasound_visible(tissue_, view, inserted,
                                      element_depths(scene_.skin_index, view, kContactStride));
 }
 
@@ -130,9 +129,8 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   while (shows_from_mm > kWayStepMm && with_tip_at(shows_from_mm - kWayStepMm).needle_tip)
     shows_from_mm -= kWayStepMm;
   const imaging::UltrasoundView view = view_of(picture, held);
-  const imaging::TargetLevel level =
-      imaging::target_level({&scene_.volume, scene_.classes}, view, {std::nullopt, {target}},
-                            element_depths(scene_.skin_index, view, kContactStride));
+  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}},
+                                                           element_depths(scene_.skin_index, view, kContactStride));
   return assessment::ProbeView{held, picture, shows_from_mm, seen.needle_length_mm,
                                std::max(0.0, -level.transmission_db)};
 }
@@ -141,8 +139,8 @@ std::vector<std::byte> UltrasoundSight::picture_png(const cases::ToolPose& probe
                                                     std::uint64_t seed, std::uint64_t frame) const {
   const imaging::UltrasoundView view = view_of(scene_.picture, probe);
   imaging::PolarPicture polar;
-  imaging::ultrasound_polar({&scene_.volume, scene_.classes}, view, {needle, scene_.lesions},
-                            element_depths(scene_.skin_index, view), polar);
+  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
+                            polar);
   imaging::add_receiver_noise(seed, frame, polar);
   const imaging::ScanConverter converter(view, {});
   std::vector<unsigned char> grey;

@@ -1,6 +1,7 @@
 // Case: everything that is fixed once a scene is loaded. Built once, then only const&.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -50,7 +51,9 @@ struct Picture {
 
 struct Case {
   volume::Volume volume;
-  std::vector<volume::TissueClass> classes;  // of every voxel; under ultrasound only, else empty
+  // Of every voxel, in the volume's order; only where ultrasound is to be seen, else empty.
+  std::vector<volume::TissueClass> classes;
+  std::vector<std::uint8_t> echogenicity;  // as imaging makes it of volume and classes
   Mesh skin;
   MeshIndex skin_index;
   std::vector<Lesion> lesions;  // [0] is the target

@@ -33,9 +33,10 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
     {"casedb", {"sim/base", "sim/volume", "sim/case", "assessment"}},
     {"reports", {"sim/base", "sim/volume", "sim/case", "assessment", "casedb"}},
     {"web", {"sim/base", "sim/volume", "sim/case", "assessment", "casedb", "reports"}},
+    {"app/ultrasound_goals", {"shaders/shared", "sim/base", "sim/volume", "sim/case", "sim/gpu", "sim/imaging"}},
     {"app",
-     {"sim/base", "sim/volume", "sim/case", "sim/tissue", "sim/gpu", "sim/imaging", "sim/haptics", "sim/devices",
-      "sim/engine", "assessment", "casedb", "reports", "web"}},
+     {"app/ultrasound_goals", "sim/base", "sim/volume", "sim/case", "sim/tissue", "sim/gpu", "sim/imaging",
+      "sim/haptics", "sim/devices", "sim/engine", "assessment", "casedb", "reports", "web"}},
 };
 
 // A third-party header (by how its include begins) and the only places that may include it (file or folder

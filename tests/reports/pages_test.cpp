@@ -136,6 +136,24 @@ TEST(AttemptPage, OfASliceLeavesOutWhatAFluoroscopeSpends) {
   EXPECT_THAT(html, HasSubstr("In plane"));
 }
 
+TEST(AttemptPage, OfUltrasoundNamesItsProbe) {
+  AttemptView view = sample_attempt();
+  view.row.picture = {cases::Modality::ultrasound, 85.0, 0.0, 60.0, "C5-2v"};
+  view.row.metrics.push_back({"vis_joint_2_mm", 1, 0.5, "share", ""});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("Ultrasound, probe C5-2v, 85 mm deep, 60 pictures a second"));
+  EXPECT_THAT(html, HasSubstr("Ultrasound at the moment of firing: probe C5-2v"));
+  EXPECT_THAT(html, HasSubstr("Both within 2 mm"));
+  EXPECT_THAT(html, HasSubstr("In plane"));
+  EXPECT_THAT(html, Not(HasSubstr("MPR")));
+}
+
+TEST(AttemptPage, OfASliceLeavesOutTheRulesOfUltrasound) {
+  AttemptView view = sample_attempt();
+  view.row.metrics.push_back({"vis_joint_2_mm", 1, std::nullopt, "share", "not_ultrasound"});
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("Both within 2 mm")));
+}
+
 TEST(AttemptPage, WithoutMetricsOrPictureSaysSo) {
   AttemptView view = sample_attempt();
   view.row.metrics.clear();

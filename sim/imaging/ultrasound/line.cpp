@@ -139,6 +139,11 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   for (std::size_t k = first; k < count; ++k) {
     const auto tissue = static_cast<std::size_t>(line.tissue[k]);
     const double mrayl = table_[tissue].impedance_mrayl;
+    double late_mm = 0.0;  // how far below the samples' border the tissues' lies
+    if (k > first && line.tissue[k] != line.tissue[k - 1]) {
+      late_mm = border_mm(start, direction, k, line) - static_cast<double>(k) * dz;
+      sum_db = std::min(kDeadDb, sum_db + late_mm * loss_db_mm_[static_cast<std::size_t>(line.tissue[k - 1])]);
+    }
     // The skin of gel and lens is matched: only what reflects much shows at the face.
     if (k == first && mrayl > 0.5 && mrayl < 3.0) before_mrayl = mrayl;
     if (mrayl != before_mrayl && sum_db < kDeadDb) {
@@ -146,6 +151,7 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
       sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
       before_mrayl = mrayl;
     }
+    sum_db -= late_mm * loss_db_mm_[tissue];
     if (!needle_above && needle.depth_mm >= 0.0 && (static_cast<double>(k) + 0.5) * dz >= needle.depth_mm) {
       needle_above = true;
       sum_db += shadow_db;
@@ -157,6 +163,18 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   for (std::size_t k = 0; k < first; ++k) line.loss_db[k] = 0.0F;
   if (needle_ != nullptr) add_needle(needle, line);
   if (view_.range_error) shift(first, line);
+}
+
+// Between the middles of two samples of different tissue, to a sixteenth of a sample: of 7.6 MHz a sample of bone
+// takes half a decibel.
+double LineWalker::border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample,
+                             const Line& line) const {
+  double above = (static_cast<double>(sample) - 0.5) * fan_.sample_mm, below = above + fan_.sample_mm;
+  for (int i = 0; i < 4; ++i) {
+    const double middle = 0.5 * (above + below);
+    (tissue_at_(start + middle * direction) == line.tissue[sample - 1] ? above : below) = middle;
+  }
+  return 0.5 * (above + below);
 }
 
 // Sound that was slower than the scanner assumes comes later, and shows deeper (ultrasound.md §3: 10 mm of fat,

@@ -69,6 +69,7 @@ class LineWalker {
   Plane plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const;
   void add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample, double before_mrayl,
                      double after_mrayl, double loss_db, Line& line) const;
+  double border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;
   void add_needle(const NeedleCrossing& at, Line& line) const;

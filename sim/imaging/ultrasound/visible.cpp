@@ -46,7 +46,6 @@ class Sight {
     for (std::size_t i = 0; i < table_.size(); ++i) {
       loss_db_mm_[i] =
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
-      scatter_[i] = table_[i].scatter_db > kNoScatterDb ? power(table_[i].scatter_db) : 0.0;
     }
   }
 
@@ -181,7 +180,7 @@ class Sight {
     // by exp(−(y/σ)²).
     const double sigma_mm = slice_sigma_mm(z_mm), y_mm = at.off_plane_mm;
     const double share = 0.5 * (std::erf((y_mm + r_mm) / sigma_mm) - std::erf((y_mm - r_mm) / sigma_mm));
-    const double own = scatter_[static_cast<std::size_t>(tissue_of_lesion(target.hu))];
+    const double own = power(table_[static_cast<std::size_t>(tissue_of_lesion(target.hu))].scatter_db);
     const double noise = power(kReceiverNoiseDb);
     level.contrast_db =
         decibels(through * (share * own + (1.0 - share) * beside_lossless) + noise) - decibels(beside + noise);
@@ -193,7 +192,7 @@ class Sight {
   Fan fan_;
   TissueAt tissue_at_;
   AcousticTable table_;
-  std::array<double, volume::kTissueClasses> loss_db_mm_, scatter_;
+  std::array<double, volume::kTissueClasses> loss_db_mm_;
   std::span<const float> below_skin_mm_;
   double frequency_mhz_;
 };

@@ -7,6 +7,7 @@
 #include "assessment/operators/lesion_site.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
+#include "assessment/operators/scripted.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 
@@ -68,6 +69,85 @@ TEST(PlanPuncture, ATargetShutInBoneHasNone) {
   ASSERT_FALSE(plan.has_value());
   EXPECT_EQ(plan.error().code, "no_path");
   EXPECT_FALSE(plan_puncture(volume, cases::MeshIndex(), {0, -50, 0}).has_value());
+}
+
+TEST(PlanPuncture, TakesTheProbesPlaceFromWhoLooks) {
+  PathLimits limits;
+  int asked = 0;
+  // Worth the more, the nearer to a place; held 7 mm deeper.
+  const glm::dvec3 liked(40, -80, 10);
+  limits.looks_from = [&](const PuncturePlan& plan) -> std::optional<ProbeView> {
+    ++asked;
+    if (plan.probe.position_lps_mm.x < 0.0) return std::nullopt;
+    ProbeView view;
+    view.probe = plan.probe;
+    view.probe.position_lps_mm += 7.0 * plan.probe.axis;
+    view.picture.probe = "some";
+    view.needle_mm = 1000.0 - 10.0 * glm::length(plan.probe.position_lps_mm - liked);
+    view.tip_shows_from_mm = 12.0;
+    return view;
+  };
+  const auto plan = plan_puncture(ball({}), skin(), {0, -50, 0}, limits);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_GT(asked, 100);
+  const glm::dvec3 touching = plan->probe.position_lps_mm - 7.0 * plan->probe.axis;
+  EXPECT_NEAR(skin().closest(touching).distance_mm, 0.0, 1e-6);
+  EXPECT_LT(glm::length(touching - liked), 25.0);
+  EXPECT_EQ(plan->tip_shows_from_mm, 12.0);
+  ASSERT_TRUE(plan->picture.has_value());
+  EXPECT_EQ(plan->picture->probe, "some");
+  limits.looks_from = [](const PuncturePlan&) { return std::optional<ProbeView>(); };
+  EXPECT_EQ(plan_puncture(ball({}), skin(), {0, -50, 0}, limits).error().code, "no_path");
+}
+
+TEST(FindLesionSite, UnderUltrasoundItIsACystThatIsSeen) {
+  LesionRule rule = lesion_rule(cases::Modality::ultrasound, cases::PatientPosition::supine);
+  glm::dvec3 refused(0.0);
+  rule.looks_from = [&](const PuncturePlan& plan, const cases::Lesion& target) -> std::optional<ProbeView> {
+    EXPECT_EQ(target.hu, 5.0);
+    if (refused == glm::dvec3(0.0)) refused = target.center_lps_mm;
+    if (target.center_lps_mm == refused) return std::nullopt;
+    ProbeView view;
+    view.probe = plan.probe;
+    return view;
+  };
+  const auto site = find_lesion_site(ball({}), skin(), rule);
+  ASSERT_TRUE(site.has_value());
+  EXPECT_EQ(site->lesion.hu, 5.0);
+  EXPECT_NE(site->lesion.center_lps_mm, refused);
+  EXPECT_TRUE(site->plan.picture.has_value());
+}
+
+TEST(ScriptedOperator, GoesOnAfterSearchingForATipThatNeverShows) {
+  PuncturePlan plan;
+  plan.target_lps_mm = {0, -50, 0};
+  plan.entry_lps_mm = {0, -100, 0};
+  plan.direction = {0, 1, 0};
+  plan.depth_mm = 50.0;
+  plan.probe = {{40, -90, 0}, {0, 1, 0}, {1, 0, 0}};
+  for (const double shows_from_mm : {0.0, 30.0}) {
+    plan.tip_shows_from_mm = shows_from_mm;
+    ScriptedOperator person(*named_profile("expert"), plan, cases::Instrument{}, 1);
+    cases::State state;
+    cases::FrameTruth blind;
+    double stood_at_mm = -1.0;
+    double before_mm = -100.0;
+    while (!person.done() && state.t_s < 120.0) {
+      state.t_s += 0.001;
+      blind.t_s = state.t_s;
+      const cases::Inputs inputs = person.act(state, &blind, 0.001);
+      state.needle.tip_lps_mm = inputs.needle.position_lps_mm;
+      state.needle.direction = inputs.needle.axis;
+      // Where the advance pauses for half a second.
+      if (static_cast<int>(state.t_s * 1000.0) % 500 == 0) {
+        const double depth_mm = state.needle.tip_lps_mm.y + 100.0;
+        if (stood_at_mm < 0.0 && depth_mm > 0.0 && depth_mm - before_mm < 1.0) stood_at_mm = depth_mm;
+        before_mm = depth_mm;
+      }
+    }
+    EXPECT_TRUE(person.done()) << "nobody waits for ever";
+    EXPECT_NEAR(stood_at_mm, shows_from_mm + 5.0, 3.0) << "misses the tip only where it should show";
+  }
 }
 
 TEST(PlanPuncture, NeverEntersTheBackOfASupinePatient) {

@@ -11,32 +11,11 @@ PolarPicture flat(const UltrasoundView& view, float level) {
 }
 
 TEST(Goal14, ARampOfSixtyDecibelsIsAllGreys) {
-  UltrasoundView view = straight_view();
-  view.beams = 601;
-  const ScanConverter converter(view, {601, 600});
-  double worst = 0.0;
-  // A tenth of a decibel a beam; a beam is wider than a pixel, so that its own value shows in its middle.
-  PolarPicture polar = flat(view, 0.0F);
-  for (int b = 0; b < view.beams; ++b)
-    for (int k = 0; k < view.samples; ++k) {
-      const double depth_mm = (k + 0.5) * view.depth_mm / view.samples;
-      polar.envelope[static_cast<std::size_t>(b * view.samples + k)] = static_cast<float>(
-          std::pow(10.0, (kWhiteDb - 60.0 + 0.1 * b - display_gain_db(view, {}, depth_mm)) / 20.0));
-    }
-  std::vector<unsigned char> grey;
-  converter.grey(view, {}, polar, grey);
-  const int r = 300;
-  int seen = 0;
-  for (int c = 0; c < 601; ++c) {
-    const BeamAndDepth at =
-        beam_and_depth(view, (c - 300) * converter.pixel_mm(), (r + 0.5) * converter.pixel_mm());
-    if (at.beam < 0.0 || at.beam > 600.0) continue;
-    ++seen;
-    worst = std::max(worst, std::abs(grey[static_cast<std::size_t>(r * 601 + c)] - 255.0 * at.beam / 600.0));
+  for (const Probe& probe : kProbes) {
+    app::goals::Setting setting = practised(probe);
+    setting.quality = app::goals::Quality::reference;  // half a level is rounding, and nothing beyond
+    expect_holds(setting, &app::goals::measure_grey);
   }
-  printf("goal 14: grey off by at most %.3f over %d levels\n", worst, seen);
-  EXPECT_GT(seen, 300);
-  EXPECT_LE(worst, 0.51);  // half a level is rounding
 }
 
 TEST(Display, LiverIsMiddleGreyAtEveryDepth) {

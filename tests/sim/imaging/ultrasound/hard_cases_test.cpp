@@ -221,5 +221,132 @@ TEST(HardCase, LookingFromEverySideIsTheSameLiver) {
   }
 }
 
+TEST(HardCase, GrazingASurfaceIsFinite) {
+  for (const double tilt_deg : {80.0, 85.0, 89.0, 90.0}) {
+    const double tilt = tilt_deg * M_PI / 180.0;
+    const glm::dvec3 normal(std::sin(tilt), std::cos(tilt), 0.0);
+    const Scene s = scene(
+        [&](const glm::dvec3& p) {
+          return glm::dot(p - glm::dvec3(0.3, 20.0, 0.0), normal) < 0.0 ? TissueClass::liver : TissueClass::bone;
+        },
+        {60, 80, 20}, 1.0);
+    for (const UltrasoundView& view : {curved_view(50.0), straight_view()}) {
+      const PolarPicture picture = polar_of(s, view);
+      expect_finite(picture);
+      // Beams wholly on liver's side do not know of it.
+      const PolarPicture without = polar_of(all_of(TissueClass::liver), view);
+      if (tilt_deg == 90.0 && !fan_of(view).curved) {
+        for (int k = 0; k < view.samples; ++k) EXPECT_NEAR(at(picture, 20, k), at(without, 20, k), 1e-6F);
+      }
+    }
+  }
+}
+
+TEST(HardCase, AMetalClipIsBrightAndShadows) {
+  Scene s = all_of(TissueClass::liver);
+  const glm::dvec3 index = glm::dvec3(volume::voxel_from_lps(s.volume) * glm::dvec4(1.0, 31.0, 0.5, 1.0));
+  const glm::ivec3 v(glm::floor(index + 0.5));
+  const std::size_t clip = s.volume.index(v.x, v.y, v.z);
+  s.classes[clip] = TissueClass::metal;
+  s.volume.hu[clip] = 30000;
+  UltrasoundView view = straight_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  view.origin_lps_mm.z = 0.5;
+  const PolarPicture picture = polar_of(s, view), without = polar_of(all_of(TissueClass::liver), view);
+  expect_finite(picture);
+  const int beam = static_cast<int>(1.0 / 0.3 + 63.5);
+  float most = 0.0F;
+  // Within its voxel: one alone has no wall to lie on.
+  for (int k = sample_at(view, 29.9); k < sample_at(view, 32.1); ++k) most = std::max(most, at(picture, beam, k));
+  EXPECT_GT(decibels(most), 20.0);
+  const auto level = [&](const PolarPicture& p) {
+    return level_db(p, beam - 1, beam + 2, sample_at(view, 36.0), sample_at(view, 49.0));
+  };
+  EXPECT_LT(level(picture), level(without) - 20.0);
+}
+
+// A scanner that maps its brightest echo to white dims everything when bone comes in.
+TEST(HardCase, BoneInSomeBeamsLeavesTheOthersGreys) {
+  const Scene bone =
+      scene([](const glm::dvec3& p) { return p.x > 8.0 && p.y > 10.0 ? TissueClass::bone : TissueClass::liver; });
+  const UltrasoundView view = straight_view();
+  const ScanConverter converter(view, {256, 256});
+  std::vector<unsigned char> with, without;
+  converter.grey(view, {}, polar_of(bone, view), with);
+  converter.grey(view, {}, polar_of(all_of(TissueClass::liver), view), without);
+  int compared = 0;
+  for (int r = 0; r < 256; ++r)
+    for (int c = 0; c < 256; ++c) {
+      const double x_mm = (c - 127.5) * converter.pixel_mm();
+      if (x_mm > 5.0) continue;
+      ++compared;
+      ASSERT_EQ(with[static_cast<std::size_t>(r * 256 + c)], without[static_cast<std::size_t>(r * 256 + c)]);
+    }
+  EXPECT_GT(compared, 10000);
+}
+
+// Between a sample that is loud and one that is silent the screen shows half the amplitude, not half the decibels.
+TEST(HardCase, LevelsAreInterpolatedBeforeTheirLogarithm) {
+  UltrasoundView view = straight_view();
+  view.beams = 8;
+  PolarPicture polar{view.beams, view.samples, {}};
+  for (int b = 0; b < view.beams; ++b)
+    polar.envelope.insert(polar.envelope.end(), static_cast<std::size_t>(view.samples), b == 3 ? 1.0F : 0.0F);
+  const ScanConverter converter(view, {800, 400});
+  std::vector<unsigned char> grey;
+  converter.grey(view, {}, polar, grey);
+  int halves = 0;
+  for (int c = 0; c < 800; ++c) {
+    const double z_mm = converter.top_mm() + 200.5 * converter.pixel_mm();
+    const BeamAndDepth place = beam_and_depth(view, (c - 399.5) * converter.pixel_mm(), z_mm);
+    if (std::abs(place.beam - 3.5) > 0.02) continue;
+    ++halves;
+    const double share = 4.0 - place.beam;
+    EXPECT_NEAR(grey[static_cast<std::size_t>(200 * 800 + c)],
+                255.0 * (decibels(share) + display_gain_db(view, {}, z_mm) - kWhiteDb + 60.0) / 60.0, 1.0);
+  }
+  EXPECT_GE(halves, 1);
+}
+
+TEST(HardCase, SlidersFarBeyondTheirRangeEndAtBlackAndWhite) {
+  const UltrasoundView view = straight_view();
+  const PolarPicture polar = polar_of(all_of(TissueClass::liver), view);
+  const ScanConverter converter(view, {100, 100});
+  UltrasoundKnobs knobs;
+  std::vector<unsigned char> grey;
+  knobs.tgc_db.fill(400.0);
+  converter.grey(view, knobs, polar, grey);
+  EXPECT_EQ(grey[50 * 100 + 50], 255);
+  knobs.tgc_db.fill(-400.0);
+  converter.grey(view, knobs, polar, grey);
+  EXPECT_EQ(*std::max_element(grey.begin(), grey.end()), 0);
+}
+
+TEST(HardCase, AnObliqueWallInThickSlicesStaysAWall) {
+  // 0.7 × 0.7 × 5 mm voxels, a wall of bone leaning along all three axes.
+  Scene s;
+  s.volume = volume::make_volume({120, 160, 16}, {0.7, 0.7, 5.0}, glm::dmat3(1.0), {-42.0, -30.0, -37.5});
+  s.classes.resize(s.volume.hu.size());
+  const glm::dvec3 normal = glm::normalize(glm::dvec3(0.15, 1.0, 0.1));
+  for (int k = 0; k < 16; ++k)
+    for (int j = 0; j < 160; ++j)
+      for (int i = 0; i < 120; ++i) {
+        const glm::dvec3 p(s.volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0));
+        s.classes[s.volume.index(i, j, k)] =
+            glm::dot(p - glm::dvec3(0.0, 25.0, 0.0), normal) < 0.0 ? TissueClass::liver : TissueClass::bone;
+      }
+  UltrasoundView view = straight_view();
+  view.attenuation_db_cm_mhz = 0.0;
+  int seen = 0;
+  for (int b = 4; b < view.beams; b += 5) {
+    const Line line = line_of(s, view, b);
+    ASSERT_FALSE(line.echoes.empty()) << b;
+    const double x_mm = point_of(view, b, 0.0).x;
+    EXPECT_NEAR(line.echoes.front().depth_mm, 25.0 - x_mm * normal.x / normal.y, 0.7) << b;
+    ++seen;
+  }
+  EXPECT_GE(seen, 20);
+}
+
 }  // namespace
 }  // namespace seldinger::imaging

@@ -9,46 +9,8 @@ double impedance(TissueClass tissue) {
   return acoustic_table()[static_cast<std::size_t>(tissue)].impedance_mrayl;
 }
 
-// Slope of speckle's level over depth, dB/cm, from frames of different tissue.
-double slope_db_cm(const Scene& s, UltrasoundView view, double from_mm, double to_mm) {
-  const int rows = 60;
-  std::vector<double> sum(rows, 0.0);
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    view.seed = seed;
-    const PolarPicture picture = polar_of(s, view);
-    for (int i = 0; i < rows; ++i) {
-      const double low = from_mm + (to_mm - from_mm) * i / rows,
-                   high = from_mm + (to_mm - from_mm) * (i + 1) / rows;
-      for (int k = sample_at(view, low); k < sample_at(view, high); ++k)
-        for (int b = 0; b < view.beams; ++b)
-          sum[static_cast<std::size_t>(i)] += std::log10(std::max(1e-12F, at(picture, b, k))) * 20.0 /
-                                              (sample_at(view, high) - sample_at(view, low)) / view.beams / 6.0;
-    }
-  }
-  double zz = 0, zl = 0;
-  for (int i = 0; i < rows; ++i) {
-    const double z_cm = 0.1 * (to_mm - from_mm) * ((i + 0.5) / rows - 0.5);
-    zz += z_cm * z_cm;
-    zl += z_cm * sum[static_cast<std::size_t>(i)];
-  }
-  return -zl / zz;
-}
-
 TEST(Goal2, AttenuationOfThePictureIsTwoWay) {
-  const Scene liver = all_of(TissueClass::liver);
-  double worst = 0.0;
-  for (const auto& [alpha, frequency_mhz] :
-       std::vector<std::pair<double, double>>{{0.5, 2.0}, {0.5, 3.57}, {1.0, 5.0}, {2.0, 3.57}, {0.7, 7.0}}) {
-    UltrasoundView view = curved_view();
-    view.frequency_mhz = frequency_mhz;
-    view.attenuation_db_cm_mhz = alpha;
-    const double wanted = 2.0 * alpha * frequency_mhz;
-    const double to_mm = std::min(145.0, 10.0 * 100.0 / wanted);  // within 100 dB
-    const double error = slope_db_cm(liver, view, 5.0, to_mm) / wanted - 1.0;
-    EXPECT_LE(std::abs(error), 0.01) << alpha << " dB/cm/MHz at " << frequency_mhz;
-    worst = std::max(worst, std::abs(error));
-  }
-  printf("goal 2: slope off by at most %.2f %%\n", 100.0 * worst);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_attenuation);
 }
 
 TEST(Goal2, TheSumsAreExact) {
@@ -67,8 +29,7 @@ TEST(Goal2, TheSumsAreExact) {
     if (z > 70.0) db += shaders::us_step_loss_db(shaders::us_reflection(1.66, 1.67));
     worst = std::max(worst, std::abs(db - line.loss_db[static_cast<std::size_t>(k)]));
   }
-  // Half a sample where tissues meet: 0.06 mm of 0.2·7.6·0.46 dB/mm.
-  EXPECT_LE(worst, 0.1);
+  EXPECT_LE(worst, 0.01);  // a sixteenth of a sample where tissues meet
   printf("goal 2: sums off by at most %.4f dB of %.0f\n", worst, double{line.loss_db.back()});
 }
 
@@ -111,6 +72,10 @@ TEST(Goal3, TheEdgeOfAShadowIsWithinHalfABeam) {
   const int low = sample_at(view, 35.0), high = sample_at(view, 49.0);
   while (first_dark < view.beams && level_db(picture, first_dark, first_dark + 1, low, high) > -20.0) ++first_dark;
   EXPECT_NEAR(first_dark - 0.5, 63.5, 0.5);
+}
+
+TEST(Goal3, EdgeAndDepthOfAShadowInThePicture) {
+  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_shadow);
 }
 
 TEST(Goal4, ReflectionIsThatOfTheImpedances) {
@@ -162,6 +127,21 @@ TEST(Goal4, TheEchoOfThePictureIsTheLines) {
   EXPECT_NEAR(decibels(peak), decibels(line.echoes.front().amplitude), 0.2);
 }
 
+TEST(Goal4, EchoesOfThePictureAreThoseOfTheImpedances) {
+  for (const Probe& probe : kRealProbes) {
+    app::goals::Setting setting = practised(probe);
+    setting.quick = true;
+    // The tenth pair is weaker than the speckle around it and needs hundreds of frames: `seldinger goals`.
+    const app::goals::Readings readings = readings_of(setting, &app::goals::measure_reflection);
+    ASSERT_EQ(readings.size(), 2U);
+    expect_holds(setting, readings[0]);
+  }
+}
+
+TEST(Goal5, TheEchoesOfThePictureFollowTheLaw) {
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_angle_law);
+}
+
 TEST(Goal5, AnglesFollowTheLaw) {
   // A tilted plane in voxels of 1 mm: what the normals, found from voxels, make of the law.
   double sum = 0.0;
@@ -203,25 +183,7 @@ TEST(Goal5, AnglesFollowTheLaw) {
 }
 
 TEST(Goal10, BehindACystItIsBrighter) {
-  const Scene s = scene([](const glm::dvec3& p) {
-    return std::abs(p.x) < 20.0 && p.y > 40.0 && p.y < 60.0 ? TissueClass::fluid : TissueClass::liver;
-  });
-  UltrasoundView view = curved_view(100.0);
-  view.frequency_mhz = 3.5;
-  view.attenuation_db_cm_mhz = 0.5;
-  double behind = 0.0, beside = 0.0;
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    view.seed = seed;
-    const PolarPicture picture = polar_of(s, view);
-    const int low = sample_at(view, 64.0), high = sample_at(view, 96.0);
-    behind += level_db(picture, 54, 74, low, high) / 6.0;
-    beside += 0.5 * (level_db(picture, 4, 24, low, high) + level_db(picture, 104, 124, low, high)) / 6.0;
-  }
-  // 7 dB less what fluid itself and its two walls take; beams at an angle pass a little more of it.
-  const double walls = 2.0 * shaders::us_step_loss_db(shaders::us_reflection(1.66, 1.5));
-  const double wanted = 7.0 - 0.2 * 0.002 * 3.5 * 3.5 * 20.0 - walls;
-  printf("goal 10: enhancement %.2f dB, expected %.2f\n", behind - beside, wanted);
-  EXPECT_NEAR(behind - beside, wanted, 0.5);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_enhancement);
 }
 
 }  // namespace

@@ -2,56 +2,13 @@
 // place, summed for every sample of a beam. No tiles, tables, fine samples or whole numbers.
 #include <complex>
 
+#include "app/ultrasound_goals/plane_scatterers.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/scatterers.h"
 #include "ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {
-
-struct Scatterer {
-  double beam, depth_mm, y_mm, amplitude;
-};
-
-// All that lie within `reach_mm` of the plane, amplitude √(cube's volume).
-std::vector<Scatterer> all_scatterers(const UltrasoundView& view, const ScattererField& field, double reach_mm) {
-  const Fan fan = fan_of(view);
-  glm::dvec3 low(1e9), high(-1e9);
-  for (int b = -8; b <= view.beams + 8; ++b)
-    for (const double depth_mm : {0.0, view.depth_mm})
-      for (const double y_mm : {-reach_mm, reach_mm}) {
-        const glm::dvec3 p = fan.start_lps_mm(b) + depth_mm * fan.direction(b) + y_mm * fan.elevation;
-        low = glm::min(low, p), high = glm::max(high, p);
-      }
-  // An arc bulges beyond its ends.
-  low -= 2.0, high += 2.0;
-  low = glm::min(low, view.origin_lps_mm), high = glm::max(high, view.origin_lps_mm + view.depth_mm * view.axial);
-  std::vector<Scatterer> all;
-  std::vector<std::uint32_t> keys;
-  for (double depth_mm = 0.0; depth_mm < view.depth_mm; depth_mm += 0.05) {
-    const ScattererField::Lattice lattice = field.lattice_at(depth_mm);
-    if (std::find(keys.begin(), keys.end(), lattice.key) != keys.end()) continue;
-    keys.push_back(lattice.key);
-    const double s = lattice.spacing_mm;
-    const glm::ivec3 first(glm::floor(low / s)), last(glm::floor(high / s));
-    for (int i = first.x; i <= last.x; ++i)
-      for (int j = first.y; j <= last.y; ++j)
-        for (int k = first.z; k <= last.z; ++k) {
-          const std::uint32_t bits = shaders::us_lattice_bits(shaders::us_lattice_seed(lattice.key, i, j, k));
-          const glm::dvec3 in_cube((static_cast<double>(bits >> 21) + 0.5) / 2048.0,
-                                   (static_cast<double>((bits >> 11) & 1023U) + 0.5) / 1024.0,
-                                   (static_cast<double>(bits & 2047U) + 0.5) / 2048.0);
-          const glm::dvec3 p = s * (glm::dvec3(i, j, k) + in_cube) - view.origin_lps_mm;
-          const double y_mm = glm::dot(p, fan.elevation);
-          if (std::abs(y_mm) > reach_mm) continue;
-          const BeamAndDepth at = beam_and_depth(view, glm::dot(p, view.lateral), glm::dot(p, view.axial));
-          if (at.depth_mm < 0.0 || at.depth_mm >= view.depth_mm) continue;
-          if (field.lattice_at(at.depth_mm).key != lattice.key) continue;
-          all.push_back({at.beam, at.depth_mm, y_mm, std::sqrt(s * s * s)});
-        }
-  }
-  return all;
-}
 
 TEST(Reference, TheFastSumIsTheDefinition) {
   for (UltrasoundView view : {curved_view(50.0), straight_view(15.0)}) {
@@ -66,16 +23,17 @@ TEST(Reference, TheFastSumIsTheDefinition) {
     const ScattererField field(view, tissue_at);
     const PolarPicture fast = polar_of(liver, view);
     const double wavelength_mm = shaders::us_wavelength_mm(view.probe.frequency_mhz);
-    const std::vector<Scatterer> scatterers = all_scatterers(
+    const std::vector<app::goals::PlaneScatterer> scatterers = app::goals::scatterers_in(
         view, field,
-        4.0 * std::max(beam_width(view.probe, view.probe.frequency_mhz, 0, 0.01).elevation_sigma_mm,
-                       beam_width(view.probe, view.probe.frequency_mhz, 0, view.depth_mm).elevation_sigma_mm));
+        {-8.0, view.beams + 8.0, 0.0, view.depth_mm,
+         4.0 * std::max(beam_width(view.probe, view.probe.frequency_mhz, 0, 0.01).elevation_sigma_mm,
+                        beam_width(view.probe, view.probe.frequency_mhz, 0, view.depth_mm).elevation_sigma_mm)});
     ASSERT_GT(scatterers.size(), 10000U);
     const Fan fan = fan_of(view);
     std::vector<double> wanted, found;
     for (const int beam : {0, 1, 30, 63, 64, 101, 127}) {
       std::vector<std::complex<double>> signal(static_cast<std::size_t>(view.samples));
-      for (const Scatterer& s : scatterers) {
+      for (const app::goals::PlaneScatterer& s : scatterers) {
         const BeamWidth w = beam_width(view.probe, view.probe.frequency_mhz, 0, std::max(s.depth_mm, 0.01));
         const double u = (s.beam - beam) * fan.beam_spacing_mm(s.depth_mm) / w.lateral_sigma_mm,
                      v = s.y_mm / w.elevation_sigma_mm;

@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "app/ultrasound_goals/goal.h"
+#include "app/ultrasound_goals/polar_levels.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
 
@@ -16,28 +18,19 @@ namespace seldinger::imaging {
 
 using volume::TissueClass;
 
-struct Scene {
-  volume::Volume volume;
-  std::vector<TissueClass> classes;
-  TissueVolume tissue() const { return {&volume, classes}; }
-};
+using app::goals::at;
+using app::goals::correlation;
+using app::goals::decibels;
+using app::goals::level_db;
+using app::goals::sample_at;
+using Scene = app::goals::TissueBlock;
 
-// From 30 mm above the face to below the depth; `class_at` is asked at voxel centres.
 inline Scene scene(const std::function<TissueClass(const glm::dvec3&)>& class_at, glm::ivec3 size = {150, 120, 30},
                    double voxel_mm = 2.0) {
-  Scene s;
-  s.volume =
-      volume::make_volume(size, glm::dvec3(voxel_mm), glm::dmat3(1.0),
-                          {-0.5 * (size.x - 1) * voxel_mm, -30.0 + 0.5 * voxel_mm, -0.5 * (size.z - 1) * voxel_mm});
-  s.classes.resize(s.volume.hu.size());
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x; ++i)
-        s.classes[s.volume.index(i, j, k)] = class_at(glm::dvec3(s.volume.lps_from_voxel * glm::dvec4(i, j, k, 1)));
-  return s;
+  return app::goals::tissue_block(class_at, size, voxel_mm);
 }
 inline Scene all_of(TissueClass tissue) {
-  return scene([=](const glm::dvec3&) { return tissue; });
+  return app::goals::block_of(tissue);
 }
 
 inline UltrasoundView curved_view(double depth_mm = 150.0) {
@@ -59,11 +52,6 @@ inline PolarPicture polar_of(const Scene& s, const UltrasoundView& view, const I
   return picture;
 }
 
-inline float at(const PolarPicture& picture, int beam, int sample) {
-  return picture.envelope[static_cast<std::size_t>(beam) * static_cast<std::size_t>(picture.samples) +
-                          static_cast<std::size_t>(sample)];
-}
-
 inline Line line_of(const Scene& s, const UltrasoundView& view, int beam, const Inserted& inserted = {}) {
   const TissueAt tissue_at(s.tissue(), inserted);
   const LineWalker walker(view, tissue_at, s.volume, inserted);
@@ -72,32 +60,30 @@ inline Line line_of(const Scene& s, const UltrasoundView& view, int beam, const 
   return line;
 }
 
-inline double decibels(double amplitude) {
-  return 20.0 * std::log10(amplitude);
+// What a goal's function tells; `holds` asserts of one reading.
+inline app::goals::Readings readings_of(const app::goals::Setting& setting,
+                                        void (*measure)(const app::goals::Setting&, app::goals::Readings&)) {
+  app::goals::Readings readings;
+  measure(setting, readings);
+  for (const app::goals::Reading& reading : readings)
+    printf("goal %d: %s, %s: %.4g %s of %g\n", reading.goal, reading.probe.c_str(), reading.what.c_str(),
+           reading.off, reading.unit, reading.tolerance(setting.quality));
+  return readings;
 }
-
-inline int sample_at(const UltrasoundView& view, double depth_mm) {
-  return static_cast<int>(depth_mm / view.depth_mm * view.samples);
+inline void expect_holds(const app::goals::Setting& setting, const app::goals::Reading& reading) {
+  EXPECT_TRUE(reading.holds(setting.quality))
+      << reading.probe << ": " << reading.what << " is off by " << reading.off << " " << reading.unit;
 }
-
-// Mean square of the envelope, in dB.
-inline double level_db(const PolarPicture& picture, int first_beam, int end_beam, int first_sample,
-                       int end_sample) {
-  double sum = 0.0;
-  for (int b = first_beam; b < end_beam; ++b)
-    for (int k = first_sample; k < end_sample; ++k) sum += double{at(picture, b, k)} * at(picture, b, k);
-  return 10.0 * std::log10(sum / ((end_beam - first_beam) * (end_sample - first_sample)));
+inline void expect_holds(const app::goals::Setting& setting,
+                         void (*measure)(const app::goals::Setting&, app::goals::Readings&)) {
+  const app::goals::Readings readings = readings_of(setting, measure);
+  ASSERT_FALSE(readings.empty());
+  for (const app::goals::Reading& reading : readings) expect_holds(setting, reading);
 }
-
-// Correlation of two equally long rows of numbers.
-inline double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
-  const double n = static_cast<double>(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum_a += a[i], sum_b += b[i];
-    aa += a[i] * a[i], bb += b[i] * b[i], ab += a[i] * b[i];
-  }
-  return (ab - sum_a * sum_b / n) / std::sqrt((aa - sum_a * sum_a / n) * (bb - sum_b * sum_b / n));
+inline app::goals::Setting practised(const Probe& probe) {
+  return app::goals::Setting::of(UltrasoundMethod::scatterers, probe, app::goals::Quality::fast);
 }
+// Those that are learnt on; `seldinger goals` measures the thesis' two as well.
+constexpr Probe kRealProbes[] = {kC52v, kL115v};
 
 }  // namespace seldinger::imaging

@@ -1,0 +1,49 @@
+// goals ultrasound.
+#include <algorithm>
+#include <cstdio>
+
+#include "app/command.h"
+#include "app/goals_answer.h"
+
+namespace seldinger::app {
+
+int run_goals_ultrasound(const Arguments& arguments) {
+  const std::string quality_text = arguments.text("--quality", "fast");
+  if (quality_text != "fast" && quality_text != "reference") throw UsageError("--quality is fast or reference");
+  const goals::Quality quality = quality_text == "fast" ? goals::Quality::fast : goals::Quality::reference;
+  const std::string method_text = arguments.text("--method", "scatterers");
+  std::vector<imaging::UltrasoundMethod> methods;
+  for (const imaging::UltrasoundMethod method : kUltrasoundMethods)
+    if (method_text == "all" || method_text == name_of(method)) methods.push_back(method);
+  if (methods.empty()) throw UsageError("--method is scatterers, lattice, thesis or all");
+  std::vector<imaging::Probe> probes;
+  for (const imaging::Probe& probe : imaging::kProbes)
+    if (!arguments.has("--probe") || arguments.text("--probe") == probe.name) probes.push_back(probe);
+  if (probes.empty()) throw UsageError("--probe is C5-2v, L11-5v, thesis-linear or thesis-curved");
+
+  std::vector<GoalsOfMethod> answer;
+  bool holds = true;
+  for (const imaging::UltrasoundMethod method : methods) {
+    GoalsOfMethod measured{name_of(method), quality, {}};
+    for (const imaging::Probe& probe : probes) {
+      goals::Setting setting = goals::Setting::of(method, probe, quality);
+      setting.quick = arguments.has("--quick");
+      for (const goals::Goal& goal : goals::ultrasound_goals()) {
+        std::fprintf(stderr, "%s, %s: %s …\n", measured.method.c_str(), probe.name.data(), goal.name);
+        goal.measure(setting, measured.readings);
+      }
+    }
+    std::stable_sort(measured.readings.begin(), measured.readings.end(),
+                     [](const goals::Reading& a, const goals::Reading& b) { return a.goal < b.goal; });
+    for (const goals::Reading& reading : measured.readings)
+      holds = holds && (method != imaging::UltrasoundMethod::scatterers || reading.holds(quality));
+    answer.push_back(std::move(measured));
+  }
+  if (arguments.has("--json"))
+    std::fputs(json_of_goals(answer).c_str(), stdout);
+  else
+    for (const GoalsOfMethod& measured : answer) std::fputs(goals_table(measured).c_str(), stdout);
+  return holds ? kDone : kCheckFailed;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,26 @@
+// The answer of `goals ultrasound`: a table for people, a document for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/ultrasound_goals/goal.h"
+
+namespace seldinger::app {
+
+struct GoalsOfMethod {
+  std::string method;
+  goals::Quality quality;
+  goals::Readings readings;  // by goal, then probe
+};
+
+// One row a reading: measured, both tolerances, measured over the asked tolerance, holds or not.
+std::string goals_table(const GoalsOfMethod& measured);
+std::string json_of_goals(const std::vector<GoalsOfMethod>& measured);
+
+// "scatterers", "lattice", "thesis", and back; nothing for another name.
+const char* name_of(imaging::UltrasoundMethod method) noexcept;
+constexpr imaging::UltrasoundMethod kUltrasoundMethods[] = {
+    imaging::UltrasoundMethod::scatterers, imaging::UltrasoundMethod::lattice, imaging::UltrasoundMethod::thesis};
+
+}  // namespace seldinger::app

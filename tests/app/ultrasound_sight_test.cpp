@@ -1,0 +1,199 @@
+// Tests of app/ultrasound_sight and of attempts under ultrasound in app/attempt_loop: a ball of tissue with a cyst.
+#include "app/ultrasound_sight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/attempt_loop.h"
+#include "assessment/operators/plan.h"
+#include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kBallMm = 100.0;
+
+// With a cyst 55 mm below the skin; a plate of bone, as wide as asked for, 25 mm above it.
+cases::Case make_ball(double bone_half_mm) {
+  volume::AnalyticVolume analytic;
+  analytic.size_voxels = {88, 88, 88};
+  analytic.spacing_mm = {2.5, 2.5, 2.5};
+  analytic.origin_mm = {-108.75, -108.75, -108.75};
+  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, kBallMm}, 50.0, ""});
+  if (bone_half_mm > 0.0) {
+    volume::Shape& plate = analytic.shapes.emplace_back();
+    plate.geometry = volume::Box{{-bone_half_mm, -74, -bone_half_mm}, {bone_half_mm, -66, bone_half_mm}};
+    plate.hu = 900.0;
+  }
+  cases::Case scene;
+  scene.volume = volume::rasterize(analytic);
+  scene.classes = volume::tissue_classes(scene.volume);
+  scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
+  scene.skin = fixtures::sphere_mesh({0, 0, 0}, kBallMm, 5);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  scene.lesions.push_back({{0.0, -45.0, 0.0}, 6.0, 5.0});
+  scene.picture.modality = cases::Modality::ultrasound;
+  return scene;
+}
+
+const cases::Case& ball() {
+  static const cases::Case kBall = make_ball(0.0);
+  return kBall;
+}
+
+base::Result<assessment::PuncturePlan> plan_of(const cases::Case& scene) {
+  const UltrasoundSight sight(scene);
+  assessment::PathLimits limits =
+      assessment::path_limits(cases::Modality::ultrasound, cases::PatientPosition::supine);
+  limits.looks_from = [&](const assessment::PuncturePlan& plan) {
+    return sight.looks_from(plan, scene.lesions[0]);
+  };
+  return assessment::plan_puncture(scene.volume, scene.skin_index, scene.lesions[0].center_lps_mm, limits);
+}
+
+// The ball with the plan's picture.
+struct Planned {
+  cases::Case scene = make_ball(0.0);
+  assessment::PuncturePlan plan;
+  Planned() {
+    const auto found = plan_of(scene);
+    EXPECT_TRUE(found.has_value());
+    if (!found) return;
+    plan = *found;
+    scene.picture = *plan.picture;
+  }
+};
+Planned& planned() {
+  static Planned made;
+  return made;
+}
+
+imaging::UltrasoundView view_at(const cases::ToolPose& probe, const imaging::Probe& of) {
+  imaging::UltrasoundView view;
+  view.probe = of;
+  view.origin_lps_mm = probe.position_lps_mm;
+  view.axial = probe.axis;
+  view.lateral = probe.side;
+  return view;
+}
+
+TEST(ElementDepths, AreThoseBelowASphere) {
+  for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v}) {
+    const auto view = view_at({{0, -kBallMm + 8.0, 0}, {0, 1, 0}, {1, 0, 0}}, probe);
+    const auto exact = element_depths(ball().skin_index, view),
+               few = element_depths(ball().skin_index, view, kContactStride);
+    ASSERT_EQ(exact.size(), static_cast<std::size_t>(probe.elements));
+    ASSERT_EQ(few.size(), exact.size());
+    for (int element = 0; element < probe.elements; ++element) {
+      const double from_middle_mm = (element - 63.5) * probe.pitch_mm;
+      glm::dvec3 place(from_middle_mm, -92.0, 0);
+      if (probe.radius_mm > 0.0) {
+        const double angle = from_middle_mm / probe.radius_mm;
+        place = {probe.radius_mm * std::sin(angle), -92.0 - probe.radius_mm * (1.0 - std::cos(angle)), 0};
+      }
+      const auto i = static_cast<std::size_t>(element);
+      EXPECT_NEAR(exact[i], kBallMm - glm::length(place), 0.2) << probe.name << " " << element;  // a faceted ball
+      EXPECT_NEAR(few[i], exact[i], 0.25) << probe.name << " " << element;
+    }
+  }
+  for (const float depth : element_depths(cases::MeshIndex(), view_at({}, imaging::kC52v)))
+    EXPECT_LT(depth, -100.0F);
+}
+
+TEST(UltrasoundPicture, ChoosesProbeAndDepthByTheTarget) {
+  for (double below_mm = 12.0; below_mm <= 130.0; below_mm += 1.0) {
+    const cases::Picture picture = ultrasound_picture(below_mm);
+    EXPECT_EQ(picture.modality, cases::Modality::ultrasound);
+    EXPECT_EQ(picture.probe, below_mm <= 35.0 ? "L11-5v" : "C5-2v");
+    const double share = (below_mm - (below_mm <= 35.0 ? 3.0 : 10.0)) / picture.depth_mm;
+    if (picture.depth_mm > 30.0) {
+      EXPECT_GE(share, 0.5) << below_mm;
+      EXPECT_LE(share, 2.0 / 3.0) << below_mm;
+    } else {
+      EXPECT_LE(share, 2.0 / 3.0) << below_mm;
+    }
+    // 1540 m/s, there and back, 128 lines; 60 Hz is the screen's.
+    EXPECT_NEAR(picture.rate_hz, std::min(60.0, 1540e3 / (2.0 * picture.depth_mm * 128)), 1e-9);
+  }
+}
+
+TEST(UltrasoundPlan, SeesTargetAndTipFromItsProbe) {
+  const assessment::PuncturePlan& plan = planned().plan;
+  const cases::Case& scene = planned().scene;
+  const UltrasoundSight sight(scene);
+  const cases::Instrument needle;
+  const auto seen = sight.see(plan.probe, {plan.target_lps_mm, plan.direction, needle.length_mm, needle.radius_mm,
+                                           needle.inner_radius_mm, needle.hu});
+  EXPECT_TRUE(seen.visible.joint);
+  EXPECT_TRUE(seen.near_plane.tip_2_mm && seen.near_plane.target_2_mm) << "needle and target lie in its plane";
+  EXPECT_LT(plan.tip_shows_from_mm, plan.depth_mm);
+  // Beside the face, not through it; the probe pressed into the skin.
+  EXPECT_GT(std::abs(glm::dot(plan.entry_lps_mm - plan.probe.position_lps_mm, plan.probe.side)), 30.0);
+  EXPECT_NEAR(scene.skin_index.closest(plan.probe.position_lps_mm).distance_mm, -10.0, 2.0);
+  EXPECT_NEAR(glm::dot(plan.probe.axis, plan.probe.side), 0.0, 1e-9);
+}
+
+TEST(UltrasoundPlan, LooksPastAPlateOfBone) {
+  const cases::Case screened = make_ball(14.0);
+  ASSERT_GT(volume::count_classes(screened.classes)[static_cast<std::size_t>(volume::TissueClass::bone)], 50U);
+  // Straight from above nothing is seen.
+  assessment::PuncturePlan above;
+  above.target_lps_mm = screened.lesions[0].center_lps_mm;
+  above.direction = glm::normalize(glm::dvec3(1.0, 0.6, 0.0));
+  above.depth_mm = 60.0;
+  above.entry_lps_mm = above.target_lps_mm - above.depth_mm * above.direction;
+  above.probe = {{0, -kBallMm, 0}, {0, 1, 0}, {1, 0, 0}};
+  EXPECT_FALSE(UltrasoundSight(screened).looks_from(above, screened.lesions[0]).has_value());
+  EXPECT_TRUE(UltrasoundSight(ball()).looks_from(above, ball().lesions[0]).has_value());
+  const auto plan = plan_of(screened);
+  ASSERT_TRUE(plan.has_value()) << "from the side it is";
+  EXPECT_LT(glm::dot(plan->probe.axis, glm::dvec3(0, 1, 0)), 0.95);
+}
+
+TEST(UltrasoundPlan, ATargetThatSoundCannotTellHasNone) {
+  cases::Case same = make_ball(0.0);
+  same.lesions[0].hu = 50.0;
+  const auto plan = plan_of(same);
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_EQ(plan.error().code, "no_path");
+}
+
+TEST(UltrasoundAttempt, IsRecordedAtTheRateOfSoundAndReplayable) {
+  const Planned& p = planned();
+  const auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 3);
+  ASSERT_TRUE(recording.endpoint.has_value());
+  const double seconds = static_cast<double>(recording.inputs.size()) * recording.dt_s;
+  EXPECT_NEAR(static_cast<double>(recording.frames.size()), seconds * p.scene.picture.rate_hz, 2.0);
+  std::size_t tips = 0;
+  for (const cases::FrameTruth& frame : recording.frames) {
+    ASSERT_TRUE(frame.near_plane.has_value());
+    tips += frame.needle_tip ? 1 : 0;
+  }
+  EXPECT_GT(tips, recording.frames.size() / 10);
+  // Replay needs no tissue.
+  cases::Case bare = p.scene;
+  bare.classes.clear();
+  bare.echogenicity.clear();
+  EXPECT_TRUE(replay(bare, recording).same);
+  const auto stored = cases::recording_from_chunks(cases::chunks_from_recording(recording));
+  ASSERT_TRUE(stored.has_value());
+  const auto a = measure(p.scene, recording), b = measure(bare, *stored);
+  ASSERT_TRUE(a.has_value() && b.has_value());
+  for (std::size_t i = 0; i < a->size(); ++i) EXPECT_EQ((*a)[i].value, (*b)[i].value) << (*a)[i].id;
+}
+
+TEST(UltrasoundAttempt, HasThePictureOfItsEndpoint) {
+  const Planned& p = planned();
+  const auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 4);
+  const auto png = picture_at_endpoint(p.scene, recording);
+  ASSERT_GT(png.size(), 10'000U);
+  EXPECT_EQ(png[1], std::byte{'P'});
+  EXPECT_EQ(png, picture_at_endpoint(p.scene, recording)) << "noise is the attempt's own";
+}
+
+}  // namespace
+}  // namespace seldinger::app
