@@ -5,6 +5,7 @@
 #include "app/command.h"
 #include "app/file.h"
 #include "sim/haptics/insertion.h"
+#include "sim/volume/classes.h"
 
 namespace seldinger::app {
 namespace {
@@ -12,14 +13,15 @@ namespace {
 // A day of samples makes no file that anyone reads.
 constexpr double kMostSamples = 5e6;
 
-// The rows a needle can be driven into.
+// The row of a class that a needle can be driven into.
 const haptics::NeedleTissue& tissue_named(const std::string& name) {
-  const haptics::NeedleTissue* tissue = haptics::find_needle_tissue(name);
-  if (tissue != nullptr && !tissue->impenetrable) return *tissue;
   std::string known;
-  for (const haptics::NeedleTissue& one : haptics::needle_tissues())
-    if (!one.impenetrable) known += std::string(known.empty() ? "" : "|") + one.name;
-  throw UsageError("--tissue must be " + known);
+  for (const haptics::NeedleTissueRow& row : haptics::needle_tissues()) {
+    if (!(row.needle.rupture_n > 0.0)) continue;
+    if (name == volume::about(row.tissue).name) return row.needle;
+    known += std::string(known.empty() ? "" : ", ") + volume::about(row.tissue).name;
+  }
+  throw UsageError("--tissue is one of " + known);
 }
 
 double positive(const Arguments& arguments, const char* option) {

@@ -53,7 +53,7 @@ constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
 constexpr Option kInsertOptions[] = {
-    {"--tissue", "kidney|liver|muscle|fat|skin", "a half space of it, behind its capsule"},
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
     {"--speed-mm-s", "V", "the needle's speed"},
     {"--depth-mm", "D", "how deep, from the first touch of the undeformed capsule"},
     {"--hold-s", "T", "rest at that depth; default 0"},

@@ -27,14 +27,16 @@ std::vector<InsertionSample> insert(const Insertion& insertion, const NeedleSett
   const auto held = static_cast<long long>(ticks(insertion.hold_s, settings.tick_s));
   const long long last = way + held + (insertion.retract ? way : 0);
   const NeedleLayer layer{0.0, insertion.tissue};
-  NeedleLaw law({&layer, 1}, settings);
+  const NeedleLaw law(settings);
+  NeedleTrack track;
   std::vector<InsertionSample> samples;
   samples.reserve(static_cast<std::size_t>(last) + 1);
   for (long long i = 0; i <= last; ++i) {
     const double in_mm = std::min(insertion.depth_mm, static_cast<double>(i) * step_mm);
     const double out_mm = static_cast<double>(std::max(0LL, i - way - held)) * step_mm;
     const double depth_mm = std::max(0.0, in_mm - out_mm);
-    samples.push_back({static_cast<double>(i) * settings.tick_s, depth_mm, law.advance(depth_mm)});
+    samples.push_back(
+        {static_cast<double>(i) * settings.tick_s, depth_mm, law.advance({&layer, 1}, depth_mm, track)});
   }
   return samples;
 }

@@ -20,7 +20,7 @@ struct InsertionSample {
   NeedleForce force;
 };
 
-// How many samples there will be: one per tick, from t = 0 at depth 0.
+// How many samples there will be: one per tick, from t = 0 at depth 0. Not finite or too many: do not insert.
 double insertion_samples(const Insertion& insertion, const NeedleSettings& settings);
 
 std::vector<InsertionSample> insert(const Insertion& insertion, const NeedleSettings& settings);

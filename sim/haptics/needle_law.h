@@ -6,7 +6,6 @@
 // nothing is cut that was cut. Only + − × ÷: the same bits everywhere.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 
@@ -15,13 +14,11 @@
 
 namespace seldinger::haptics {
 
-// Tissue from start_mm of depth along the path, to the next layer's start.
+// Tissue along the needle's path, from start_mm of depth to the next layer's start.
 struct NeedleLayer {
   double start_mm;
   NeedleTissue tissue;
 };
-
-inline constexpr std::size_t kMostNeedleLayers = 16;
 
 struct NeedleSettings {
   double tick_s = 0.001;
@@ -32,58 +29,48 @@ struct NeedleSettings {
   bool relaxation = false;  // of tissue held in a stretch
 };
 
+// What a needle's way has left behind: all that must be kept from tick to tick. A new one: nothing touched yet.
+struct NeedleTrack {
+  std::size_t opened = 0;  // layers entered; the tip is in the last of them
+  double cut_mm = 0.0;     // where the tip's wall stands: how far along the undeformed path tissue is cut
+  double shaft_n = 0.0, falling_n = 0.0, damper_n = 0.0;
+  double last_depth_mm = 0.0, last_elastic_n = 0.0;
+  bool begun = false;  // false: last_* say nothing yet
+};
+
 // Newtons; > 0 resists insertion.
 struct NeedleForce {
   double axial_n = 0.0;  // what the hand feels: the sum of the following
   double tip_n = 0.0;    // ≥ 0
   double shaft_n = 0.0;
-  double rupture_n = 0.0;  // what is left of the fall after a rupture; decays within 40 ms
+  double falling_n = 0.0;  // what is left of the fall after a rupture; decays within 40 ms
   double damper_n = 0.0;
-  bool ruptured = false;  // in this tick: the declared event
+  bool ruptured = false;  // the tip entered a layer in this tick: the declared event
 };
 
 class NeedleLaw {
  public:
-  // `layers`: 1 to kMostNeedleLayers, by rising start; stiffness, tick and cutoff > 0 (CHECKed).
-  NeedleLaw(std::span<const NeedleLayer> layers, const NeedleSettings& settings);
+  // CHECKs that tick, stiffness and cutoff are > 0 and damping ≥ 0.
+  explicit NeedleLaw(const NeedleSettings& settings);
 
-  // One tick: the tip is now at depth_mm along the path. Allocates nothing.
-  NeedleForce advance(double depth_mm) noexcept;
-
-  // As before the first touch: a new track.
-  void reset() noexcept;
-
-  // How much of the needle is in tissue, mm.
-  double inserted_mm(double depth_mm) const noexcept;
-  // Capsules opened so far.
-  std::size_t ruptures() const noexcept { return opened_; }
+  // One tick: the tip is now at depth_mm along the path. `path`: by rising start; it may change from tick to tick
+  // but for the layers that the track has entered (CHECKed to be there). Allocates nothing.
+  NeedleForce advance(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
 
  private:
-  struct Layer {
-    double start_mm, slope_n_mm;
-    double tip_stiffness_n_mm, tip_limit_n, tip_reach_mm;  // reach: the stretch at which the wall is cut
-    double rupture_n, dent_mm;
-    double wall_n_mm;  // > 0: impenetrable
-  };
+  struct Tip;  // what the tissue at the tip does
 
-  double next_start_mm() const noexcept;
-  double tip_force_n(double depth_mm) const noexcept;
-  double friction_limit_n(double length_mm) const noexcept;
+  Tip tip_of(const NeedleTissue& tissue) const noexcept;
   double shaft_stiffness_n_mm(double length_mm) const noexcept;
-  void cut(double depth_mm) noexcept;
-  void relax(double limit_n, double stiffness_n_mm, double depth_mm) noexcept;
+  double tip_force_n(std::span<const NeedleLayer> path, double depth_mm, const NeedleTrack& track) const noexcept;
+  void cut(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
+  void slide(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
 
   NeedleSettings settings_;
-  std::array<Layer, kMostNeedleLayers> layers_{};
-  std::size_t count_;
-  double damper_share_, rupture_keep_, damper_time_s_;
-
-  // What changes from tick to tick.
-  std::size_t opened_ = 0;  // the tip is in layer opened_ − 1
-  double anchor_mm_ = 0.0;  // where the tip's wall stands: the deepest cut
-  double shaft_n_ = 0.0, rupture_n_ = 0.0, damper_n_ = 0.0;
-  double last_depth_mm_ = 0.0, last_elastic_n_ = 0.0;
-  bool started_ = false;
+  double damper_share_, falling_keep_, damper_time_s_;
 };
+
+// How much of the needle is in tissue, mm.
+double inserted_mm(std::span<const NeedleLayer> path, double depth_mm, const NeedleTrack& track) noexcept;
 
 }  // namespace seldinger::haptics

@@ -1,22 +1,27 @@
-// What a needle feels in each tissue: plateau line, capsule, stiffness; every row says where its numbers come from.
+// What a needle feels in each tissue class: plateau line, capsule, stiffness; every row says where its numbers come
+// from.
 #pragma once
 
 #include <span>
-#include <string_view>
 
 #include "sim/case/gauge.h"
+#include "sim/volume/classes.h"
 
 namespace seldinger::haptics {
 
-// Forces of a Chiba needle of 22 G driven along its axis; x is depth in mm from the first touch.
+// Forces on a Chiba needle driven along its axis; x is depth in mm from the first touch. All ≥ 0.
 struct NeedleTissue {
-  const char* name;
-  double slope_n_mm;          // plateau force = slope · x + intercept: shaft friction per mm,
-  double intercept_n;         // and what the tip takes to cut
-  double tip_stiffness_n_mm;  // of the tissue before the tip, before it is cut
-  double rupture_n;           // force on the tip at which the tissue's capsule opens
-  double dent_mm;             // how far the capsule gives way before
-  bool impenetrable;          // bone: nothing opens or is cut
+  double slope_n_mm = 0.0;          // plateau force = slope · x + intercept: shaft friction per mm,
+  double intercept_n = 0.0;         // and what the tip takes to cut
+  double tip_stiffness_n_mm = 0.0;  // of the tissue before the tip, before it is cut; > slope where intercept > 0
+  double rupture_n = 0.0;           // force on the tip at which the tissue's capsule opens; 0: there is none
+  double dent_mm = 0.0;             // how far the capsule gives way before
+  bool impenetrable = false;        // bone, metal: nothing opens or is cut
+};
+
+struct NeedleTissueRow {
+  volume::TissueClass tissue;
+  NeedleTissue needle;  // at kTableGauge
   const char* provenance;
   const char* validated_against;
 };
@@ -24,10 +29,11 @@ struct NeedleTissue {
 // One gauge, to which the rows belong (contracts.md; the thesis names none).
 inline constexpr int kTableGauge = 22;
 
-std::span<const NeedleTissue> needle_tissues();
+// One row per class, in the classes' order.
+std::span<const NeedleTissueRow, volume::kTissueClasses> needle_tissues() noexcept;
 
-// nullptr for a name that is not in the table.
-const NeedleTissue* find_needle_tissue(std::string_view name);
+// Of the class's row.
+const NeedleTissue& needle_tissue(volume::TissueClass tissue) noexcept;
 
 // The row for another gauge: forces grow in proportion to the outer diameter (design; Jiang, J Biomech 2014,
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).

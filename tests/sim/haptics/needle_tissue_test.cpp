@@ -3,42 +3,52 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 
 namespace seldinger::haptics {
 namespace {
 
+using volume::TissueClass;
+
 TEST(NeedleTissues, HoldTheThesisLines) {
-  EXPECT_EQ(find_needle_tissue("kidney")->slope_n_mm, 0.010);
-  EXPECT_EQ(find_needle_tissue("kidney")->intercept_n, 1.53);
-  EXPECT_EQ(find_needle_tissue("liver")->slope_n_mm, 0.020);
-  EXPECT_EQ(find_needle_tissue("liver")->intercept_n, 0.38);
-  EXPECT_EQ(find_needle_tissue("aluminium"), nullptr);
+  EXPECT_EQ(needle_tissue(TissueClass::kidney).slope_n_mm, 0.010);
+  EXPECT_EQ(needle_tissue(TissueClass::kidney).intercept_n, 1.53);
+  EXPECT_EQ(needle_tissue(TissueClass::liver).slope_n_mm, 0.020);
+  EXPECT_EQ(needle_tissue(TissueClass::liver).intercept_n, 0.38);
+}
+
+TEST(NeedleTissues, EveryClassHasItsRow) {
+  for (std::size_t i = 0; i < volume::kTissueClasses; ++i)
+    EXPECT_EQ(needle_tissues()[i].tissue, static_cast<TissueClass>(i)) << i;
+  for (const TissueClass hard : {TissueClass::bone, TissueClass::metal})
+    EXPECT_TRUE(needle_tissue(hard).impenetrable);
+  for (const TissueClass empty : {TissueClass::air, TissueClass::gas, TissueClass::fluid})
+    EXPECT_EQ(needle_tissue(empty).intercept_n + needle_tissue(empty).slope_n_mm, 0.0);
 }
 
 TEST(NeedleTissues, EveryRowSaysWhereItComesFromAndIsPhysical) {
-  std::set<std::string> names;
-  for (const NeedleTissue& tissue : needle_tissues()) {
-    EXPECT_TRUE(names.insert(tissue.name).second) << tissue.name;
-    EXPECT_NE(std::string(tissue.provenance), "") << tissue.name;
-    EXPECT_NE(std::string(tissue.validated_against), "") << tissue.name;
-    EXPECT_GT(tissue.tip_stiffness_n_mm, 0.0) << tissue.name;
-    if (tissue.impenetrable) continue;
-    EXPECT_GE(tissue.slope_n_mm, 0.0) << tissue.name;
-    EXPECT_GT(tissue.dent_mm, 0.0) << tissue.name;
+  for (const NeedleTissueRow& row : needle_tissues()) {
+    const std::string name = volume::about(row.tissue).name;
+    const NeedleTissue& tissue = row.needle;
+    EXPECT_NE(std::string(row.provenance), "") << name;
+    EXPECT_NE(std::string(row.validated_against), "") << name;
+    if (tissue.impenetrable || tissue.rupture_n == 0.0) continue;
+    EXPECT_GT(tissue.slope_n_mm, 0.0) << name;
+    EXPECT_GT(tissue.tip_stiffness_n_mm, 2.0 * tissue.slope_n_mm) << name;
+    EXPECT_GT(tissue.dent_mm, 0.0) << name;
     EXPECT_GT(tissue.rupture_n, tissue.intercept_n + tissue.slope_n_mm * tissue.dent_mm)
-        << tissue.name << ": a capsule is felt as a fall";
+        << name << ": a capsule is felt as a fall";
   }
 }
 
 TEST(NeedleTissues, ThickerNeedlesTakeMoreForce) {
-  const NeedleTissue& liver = *find_needle_tissue("liver");
+  const NeedleTissue& liver = needle_tissue(TissueClass::liver);
   const NeedleTissue same = at_gauge(liver, *cases::gauge(22)), thick = at_gauge(liver, *cases::gauge(18));
   EXPECT_EQ(same.intercept_n, liver.intercept_n);
   EXPECT_NEAR(thick.intercept_n / liver.intercept_n, 1.270 / 0.718, 1e-12);
   EXPECT_NEAR(thick.slope_n_mm / liver.slope_n_mm, 1.270 / 0.718, 1e-12);
   EXPECT_NEAR(thick.rupture_n / liver.rupture_n, 1.270 / 0.718, 1e-12);
+  EXPECT_EQ(thick.dent_mm, liver.dent_mm);
 }
 
 }  // namespace
