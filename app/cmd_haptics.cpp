@@ -1,4 +1,5 @@
 // haptics insert: force against depth of a needle in one tissue, without hardware.
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -24,10 +25,14 @@ const haptics::NeedleTissue& tissue_named(const std::string& name) {
   throw UsageError("--tissue is one of " + known);
 }
 
-double positive(const Arguments& arguments, const char* option) {
+// Beyond these no hand moves and no needle reaches (design).
+constexpr double kMostSpeedMmS = 1000.0, kMostDepthMm = 400.0;
+
+double positive(const Arguments& arguments, const char* option, double most) {
   arguments.required(option);
   const double value = arguments.number(option, 0.0);
-  if (!(value > 0.0)) throw UsageError(std::string(option) + " must be above 0");
+  if (!(value > 0.0 && value <= most))
+    throw UsageError(std::string(option) + " is above 0 and at most " + std::to_string(std::lround(most)));
   return value;
 }
 
@@ -37,8 +42,8 @@ int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue"));
   const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
-  haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s"),
-                               positive(arguments, "--depth-mm"), arguments.number("--hold-s", 0.0),
+  haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s", kMostSpeedMmS),
+                               positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
                                arguments.has("--retract")};
   if (!(insertion.hold_s >= 0.0)) throw UsageError("--hold-s must not be below 0");
   haptics::NeedleSettings settings;
