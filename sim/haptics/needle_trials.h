@@ -1,0 +1,28 @@
+// The situations in which a needle's law must come to rest, and the laws that are put into them: ours and the
+// thesis'. `seldinger haptics stability` and the tests ask the same.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/haptics/settling.h"
+
+namespace seldinger::haptics {
+
+struct NeedleSituation {
+  const char* name;
+  std::vector<NeedleLayer> path;
+  double to_mm, back_mm = 0.0, speed_mm_s = 0.0;  // as a Trial's
+};
+
+const std::vector<NeedleSituation>& needle_situations();
+
+// Our law, as stiff as the device allows.
+Settling settle_needle(const NeedleSituation& situation, const HapticDevice& device, const Hand& hand);
+
+// A hand drives the needle on in the kidney at the thesis' 500 mm/min. By our law; by the thesis' with the mean of
+// m ticks.
+Settling drive_needle(const HapticDevice& device, const Hand& hand);
+Settling drive_thesis(const HapticDevice& device, const Hand& hand, int m);
+
+}  // namespace seldinger::haptics
