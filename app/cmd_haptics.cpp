@@ -1,10 +1,12 @@
-// haptics insert: force against depth of a needle in one tissue, without hardware.
+// haptics insert: force against depth of a needle in one tissue, without hardware. haptics stability: does what the
+// hand feels come to rest?
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "app/command.h"
 #include "app/file.h"
+#include "app/stability_answer.h"
 #include "sim/haptics/insertion.h"
 #include "sim/volume/classes.h"
 
@@ -59,6 +61,12 @@ int run_haptics_insert(const Arguments& arguments) {
   }
   write_file(out, csv);
   return kDone;
+}
+
+int run_haptics_stability(const Arguments& arguments) {
+  const haptics::StabilitySurvey survey = haptics::survey_stability();
+  std::fputs((arguments.has("--json") ? json_of_stability(survey) : markdown_of_stability(survey)).c_str(), stdout);
+  return survey.holds() ? kDone : kCheckFailed;
 }
 
 }  // namespace seldinger::app

@@ -23,6 +23,7 @@ constexpr Option kImportOptions[] = {
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
 constexpr Option kLibraryJson[] = {kLibrary, kJson};
+constexpr Option kJsonOnly[] = {kJson};
 constexpr Option kLibraryOnly[] = {kLibrary};
 constexpr Option kLesionOptions[] = {kLibrary,
                                      {"--center-mm", "X,Y,Z", "centre, LPS"},
@@ -113,6 +114,9 @@ constexpr Command kCommands[] = {
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
     {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
      &run_haptics_insert},
+    {"haptics stability", "", 0, 0, kJsonOnly,
+     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not (docs/stability.md).",
+     &run_haptics_stability},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
      "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",

@@ -38,8 +38,11 @@ const std::vector<NeedleSituation>& needle_situations() {
   return situations;
 }
 
-Settling settle_needle(const NeedleSituation& situation, const HapticDevice& device, const Hand& hand) {
-  const NeedleLaw law(needle_settings(device));
+Settling settle_needle(const NeedleSituation& situation, const HapticDevice& device, const Hand& hand,
+                       double factor) {
+  NeedleSettings settings = needle_settings(device);
+  settings.stiffness_n_mm *= factor;
+  const NeedleLaw law(settings);
   NeedleTrack track;
   Trial trial{device, hand};
   trial.to_mm = situation.to_mm;

@@ -17,8 +17,9 @@ struct NeedleSituation {
 
 const std::vector<NeedleSituation>& needle_situations();
 
-// Our law, as stiff as the device allows.
-Settling settle_needle(const NeedleSituation& situation, const HapticDevice& device, const Hand& hand);
+// Our law, `factor` times as stiff as it is for the device.
+Settling settle_needle(const NeedleSituation& situation, const HapticDevice& device, const Hand& hand,
+                       double factor = 1.0);
 
 // A hand drives the needle on in the kidney at the thesis' 500 mm/min. By our law; by the thesis' with the mean of
 // m ticks.

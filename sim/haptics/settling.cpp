@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace seldinger::haptics {
 namespace {
@@ -35,12 +36,15 @@ struct Line {
   }
 };
 
+// One count of the encoder, but for rounding.
+double still_mm(const HapticDevice& device) {
+  return device.encoder_mm > 0.0 ? device.encoder_mm * (1.0 + 1e-9) : kStillMm;
+}
+
 }  // namespace
 
 bool Settling::settled(const HapticDevice& device) const noexcept {
-  // A count more than the encoder's own, for the rounding of a sum.
-  const double still_mm = device.encoder_mm > 0.0 ? device.encoder_mm * (1.0 + 1e-9) : kStillMm;
-  return position_mm <= still_mm && force_n <= kStillN;
+  return position_mm <= still_mm(device) && force_n <= kStillN;
 }
 
 Settling settle(const Trial& trial, const ForceLaw& law) {
@@ -63,6 +67,7 @@ Settling settle(const Trial& trial, const ForceLaw& law) {
   HandWill will{at_mm, trial.drive_mm_s, trial.push_n};
   Range position, force;
   Line line;
+  std::vector<double> way_mm;
   bool finite = true;
   const auto ticks = static_cast<int>(std::lround(trial.seconds / kTickS));
   const int watched = ticks - static_cast<int>(std::lround(trial.watched_s / kTickS));
@@ -74,11 +79,15 @@ Settling settle(const Trial& trial, const ForceLaw& law) {
     bench.hold(force_n, will);
     will.at_mm = at_mm + trial.drive_mm_s * kTickS * (tick + 1);
     result.least_work_mj = std::min(result.least_work_mj, work_mj + bench.work_mj());
+    way_mm.push_back(bench.at_mm());
     if (tick < watched) continue;
     position.add(bench.at_mm());
     force.add(bench.motor_n());
     line.add(tick * kTickS, bench.motor_n());
   }
+  for (std::size_t i = 0; i < way_mm.size(); ++i)
+    if (std::abs(way_mm[i] - way_mm.back()) > still_mm(trial.device))
+      result.rest_s = kTickS * static_cast<double>(i + 1);
   result.position_mm = finite ? position.high - position.low : NAN;
   result.force_n = finite ? force.high - force.low : NAN;
   result.unrest_n = finite ? line.deviation() : NAN;

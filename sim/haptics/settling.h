@@ -26,6 +26,7 @@ struct Settling {
   double position_mm = 0.0,
          force_n = 0.0;        // peak to peak while watched, at the end; NaN when anything was not finite
   double unrest_n = 0.0;       // standard deviation of the motors' force from a straight line, while watched
+  double rest_s = 0.0;         // when it was last further than a count from where it ends
   double least_work_mj = 0.0;  // the least that hands had put in at any tick, since from_mm
   double most_step_n = 0.0;    // of the law's force from tick to tick, after the ideal hand
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "tests/fixtures/process.h"
@@ -95,6 +96,21 @@ TEST(HapticsInsert, RefusesWhatIsNoInsertionAndWritesNothing) {
                           scratch)
                 .exit_code,
             4);
+}
+
+// To renew it: seldinger haptics stability > docs/stability.md
+TEST(HapticsStability, HoldsAndIsWhatTheDocumentSays) {
+  const auto scratch = fixtures::fresh_folder("haptics_stability");
+  const auto page = fixtures::run(kProgram + " haptics stability", scratch);
+  EXPECT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.out, fixtures::whole_file(std::string(SELDINGER_SOURCE_DIR) + "/docs/stability.md"));
+  const auto answer = fixtures::run(kProgram + " haptics stability --json", scratch);
+  EXPECT_EQ(answer.exit_code, 0);
+  const auto json = nlohmann::json::parse(answer.out);
+  EXPECT_EQ(json.at("holds"), true);
+  ASSERT_EQ(json.at("needle_at_rest").size(), 600U);
+  for (const auto& row : json.at("needle_at_rest")) EXPECT_EQ(row.at("holds"), true) << row;
+  EXPECT_EQ(json.at("walls").size(), 2U * 4U * 5U * 13U);
 }
 
 }  // namespace

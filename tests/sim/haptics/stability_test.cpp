@@ -87,6 +87,17 @@ TEST(Stability, TheNeedleComesToRestUnderAnyHand) {
   }
 }
 
+// S2: the law as shipped keeps its margin, not only the formula.
+TEST(Stability, TheNeedleRestsAtItsMarginTimesTheStiffness) {
+  for (HapticDevice device : haptic_devices()) {
+    device.coulomb_n = 0.02;
+    for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks)
+      for (const NeedleSituation& situation : needle_situations())
+        EXPECT_TRUE(settle_needle(situation, device, *find_hand("none"), kStiffnessMargin).settled(device))
+            << told(device, *find_hand("none"), situation);
+  }
+}
+
 struct Mutant {
   double stiffness = 1.0, damping = 1.0, sign = 1.0;
 };
