@@ -5,7 +5,7 @@
 #include <set>
 
 #include "app/scene.h"
-#include "app/scene_reader.h"
+#include "app/scene_fields_json.h"
 #include "sim/case/gauge.h"
 
 namespace seldinger::app {

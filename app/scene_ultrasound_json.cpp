@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "app/scene_reader.h"
+#include "app/scene_fields_json.h"
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
