@@ -34,7 +34,7 @@ std::string devices_table() {
         "| %s | %.3f | %.2f | %.0f | %d | %.3f | %.3f | %s |\n", device.name, device.mass_kg, device.coulomb_n,
         1000.0 * device.encoder_mm, device.delay_ticks,
         stiffness_bound_n_mm(device.damping_n_s_mm + kWallDampingNSMm, kTickS, device.delay_ticks * kTickS),
-        needle_settings(device).stiffness_n_mm, device.provenance);
+        stiffness_n_mm(device), device.provenance);
   return text;
 }
 
@@ -57,15 +57,16 @@ std::string longest(const std::vector<RestRow>& rows, const RestRow& bench, cons
 
 std::string rest_table(const StabilitySurvey& survey) {
   std::string text =
-      "\n## The needle at rest\n\nThe needle is brought somewhere, then left to a hand that pushes on with 1 N, or "
-      "to "
-      "none: ";
-  for (const NeedleSituation& situation : needle_situations())
-    text += std::string(&situation == &needle_situations().front() ? "" : "; ") + situation.name;
+      "\n## Needle and probe at rest\n\nThe tool is brought somewhere, then left to a hand that pushes on with 1 N "
+      "(sideways 0.1 N), or to none: ";
+  for (std::size_t i = 0; i < survey.rest.size() && same_bench(survey.rest[i], survey.rest[0]) &&
+                          survey.rest[i].hand.name == survey.rest[0].hand.name;
+       ++i)
+    text += std::string(i == 0 ? "" : "; ") + survey.rest[i].situation;
   text +=
       ". The time in s until it stays within one count of the encoder, the longest of these. **never**: it moves "
       "by "
-      "more or its force by 0.1 N after 4 s, it gives more than 1 mJ, or its force steps by more than 0.15 N in a "
+      "more or its force by 0.1 N after 3 s, it gives more than 1 mJ, or its force steps by more than 0.15 N in a "
       "tick.\n\n| device | dry friction, N | delay, ms |";
   std::string line = "|---|---|---|";
   for (const Hand& hand : hands()) {
@@ -94,8 +95,7 @@ std::string margin_table(const StabilitySurvey& survey) {
       kLeastCoulombN);
   for (const MarginRow& row : survey.margins)
     text += formatted("| %s | %d | %.3f | %.1f | %s |\n", row.device.name, row.device.delay_ticks,
-                      needle_settings(row.device).stiffness_n_mm, row.rests_at,
-                      row.fails == nullptr ? "nowhere" : row.fails);
+                      stiffness_n_mm(row.device), row.rests_at, row.fails == nullptr ? "nowhere" : row.fails);
   return text;
 }
 
@@ -146,8 +146,8 @@ std::string failures(const StabilitySurvey& survey) {
   std::string text = "\n## Where each law fails\n\n";
   const auto failed = static_cast<int>(
       std::count_if(survey.rest.begin(), survey.rest.end(), [](const RestRow& row) { return !row.holds(); }));
-  text +=
-      formatted("- Our needle law: in %d of %d trials at rest.\n", failed, static_cast<int>(survey.rest.size()));
+  text += formatted("- Our laws of needle and probe: in %d of %d trials at rest.\n", failed,
+                    static_cast<int>(survey.rest.size()));
   for (const RestRow& row : survey.rest)
     if (!row.holds())
       text += formatted("  - %s, dry friction %.2f N, delay %d ms, hand %s: %s\n", row.device.name,

@@ -20,7 +20,7 @@ std::string json_of_stability(const haptics::StabilitySurvey& survey) {
   for (const haptics::HapticDevice& device : haptics::haptic_devices())
     devices.push_back({{"device", device.name},
                        {"delay_ms", device.delay_ticks},
-                       {"stiffness_n_mm", haptics::needle_settings(device).stiffness_n_mm},
+                       {"stiffness_n_mm", haptics::stiffness_n_mm(device)},
                        {"provenance", device.provenance}});
   for (const haptics::RestRow& row : survey.rest)
     rest.push_back({{"device", row.device.name},
@@ -56,8 +56,8 @@ std::string json_of_stability(const haptics::StabilitySurvey& survey) {
                        {"stiffness_n_mm", cell.stiffness_n_mm},
                        {"bound_n_mm", cell.bound_n_mm},
                        {"settles", cell.settles}});
-  const Json document = {{"holds", survey.holds()},           {"devices", devices},      {"needle_at_rest", rest},
-                         {"needle_stiffness_times", margins}, {"needle_driven", driven}, {"walls", walls}};
+  const Json document = {{"holds", survey.holds()},    {"devices", devices},      {"at_rest", rest},
+                         {"stiffness_times", margins}, {"needle_driven", driven}, {"walls", walls}};
   return document.dump(2) + "\n";
 }
 

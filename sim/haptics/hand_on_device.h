@@ -9,7 +9,6 @@
 
 namespace seldinger::haptics {
 
-inline constexpr double kTickS = 0.001;
 inline constexpr double kBenchStepS = 1e-5;
 
 // What the hand wants during a tick.

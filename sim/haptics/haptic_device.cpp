@@ -49,12 +49,15 @@ const Hand* find_hand(const char* name) {
   return find(kHands, name);
 }
 
+double stiffness_n_mm(const HapticDevice& device) {
+  const double bound_n_mm =
+      stiffness_bound_n_mm(device.damping_n_s_mm + kWallDampingNSMm, kTickS, device.delay_ticks * kTickS);
+  return std::min(bound_n_mm / kStiffnessMargin, kMostStiffnessNMm);
+}
+
 NeedleSettings needle_settings(const HapticDevice& device) {
   NeedleSettings settings;
-  settings.damping_n_s_mm = kWallDampingNSMm;
-  const double bound_n_mm = stiffness_bound_n_mm(device.damping_n_s_mm + kWallDampingNSMm, settings.tick_s,
-                                                 device.delay_ticks * settings.tick_s);
-  settings.stiffness_n_mm = std::min(bound_n_mm / kStiffnessMargin, kMostStiffnessNMm);
+  settings.stiffness_n_mm = stiffness_n_mm(device);
   return settings;
 }
 

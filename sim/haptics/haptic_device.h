@@ -8,6 +8,9 @@
 
 namespace seldinger::haptics {
 
+// Of every law here.
+inline constexpr double kTickS = 0.001;
+
 struct HapticDevice {
   const char* name;
   double mass_kg;         // what the hand feels of it
@@ -35,14 +38,12 @@ std::span<const Hand> hands();
 const HapticDevice* find_haptic_device(const char* name);
 const Hand* find_hand(const char* name);
 
-// The damping of our walls, N s/mm (haptics.md §0, item 4: 1 N s/m).
-inline constexpr double kWallDampingNSMm = 0.001;
-
 // However short the delay: at 200 mm/s a wall of 0.5 N/mm and its damper change by 0.15 N a tick, the goal of issue
 // 5; it is the stiffness that haptics.md §0, item 4, recommends.
 inline constexpr double kMostStiffnessNMm = 0.5;
 
 // For the device, with its delay: bound / kStiffnessMargin, at most kMostStiffnessNMm.
+double stiffness_n_mm(const HapticDevice& device);
 NeedleSettings needle_settings(const HapticDevice& device);
 
 }  // namespace seldinger::haptics

@@ -23,9 +23,6 @@ constexpr double kCapsuleLinearPart = 0.25;
 constexpr double kCapsuleSteepest = 2.0 - kCapsuleLinearPart;  // its steepest slope, in R / full dent
 // The fall after a rupture takes 5-20 ms (haptics.md §2.2, item 1).
 constexpr double kRuptureFallS = 0.008;
-// How fast the damper may change: at a hand's jerk it is no step of its own (design; the goal of 0.15 N a tick, of
-// which the springs take 0.1 at 200 mm/s).
-constexpr double kDamperSlewNS = 50.0;
 // Relaxation: to this part of what slides or cuts, with this time (design; haptics.md §2.2 gives 5-20 s).
 constexpr double kRelaxedPart = 0.65, kRelaxationS = 10.0;
 
@@ -50,14 +47,12 @@ struct NeedleLaw::Tip {
   double stiffness_n_mm, limit_n, reach_mm;
 };
 
-NeedleLaw::NeedleLaw(const NeedleSettings& settings) : settings_(settings) {
-  CHECK(settings.tick_s > 0.0 && settings.stiffness_n_mm > 0.0 && settings.damper_cutoff_hz > 0.0);
-  CHECK(settings.damping_n_s_mm >= 0.0);
-  constexpr double kTwoPi = 6.283185307179586;
-  damper_share_ = 1.0 - base::exact_exp(-kTwoPi * settings.damper_cutoff_hz * settings.tick_s);
-  falling_keep_ = base::exact_exp(-settings.tick_s / kRuptureFallS);
-  damper_time_s_ = settings.damping_n_s_mm / settings.stiffness_n_mm;
-}
+NeedleLaw::NeedleLaw(const NeedleSettings& settings)
+    : settings_(settings),
+      damper_({.tick_s = settings.tick_s,
+               .damping_n_s_mm = settings.damping_n_s_mm,
+               .stiffness_n_mm = settings.stiffness_n_mm}),
+      falling_keep_(base::exact_exp(-settings.tick_s / kRuptureFallS)) {}
 
 double inserted_mm(Path path, double depth_mm, const NeedleTrack& track) noexcept {
   return track.opened == 0 ? 0.0 : std::max(0.0, std::min(track.cut_mm, depth_mm) - path[0].start_mm);
@@ -141,10 +136,8 @@ NeedleForce NeedleLaw::advance(Path path, double depth_mm, NeedleTrack& track) c
 
   // On how fast the springs load: zero while the needle cuts and slides, whatever its speed.
   const double elastic_n = force.tip_n + track.shaft_n;
-  const double rate_n_s =
-      force.ruptured || !track.begun ? 0.0 : (elastic_n - track.last_elastic_n) / settings_.tick_s;
-  const double slew_n = kDamperSlewNS * settings_.tick_s;
-  track.damper_n += std::clamp(damper_share_ * (damper_time_s_ * rate_n_s - track.damper_n), -slew_n, slew_n);
+  const double change_n = force.ruptured || !track.begun ? 0.0 : elastic_n - track.last_elastic_n;
+  track.damper_n = damper_.advance(track.damper_n, change_n);
 
   force.shaft_n = track.shaft_n;
   force.falling_n = track.falling_n;

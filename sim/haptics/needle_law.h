@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <span>
 
+#include "sim/haptics/elastic_damper.h"
 #include "sim/haptics/needle_tissue.h"
 #include "sim/haptics/stiffness_bound.h"
 
@@ -22,10 +23,9 @@ struct NeedleLayer {
 
 struct NeedleSettings {
   double tick_s = 0.001;
-  double damping_n_s_mm = 0.001;    // of the damper, at the full stiffness: 1 N s/m (haptics.md §0, item 4)
-  double damper_cutoff_hz = 100.0;  // low-pass of the damper (haptics.md §3.2)
+  double damping_n_s_mm = kWallDampingNSMm;
   // All springs that act at once add up to no more; softer springs give way further for the same force.
-  double stiffness_n_mm = stiffness_bound_n_mm(0.001, 0.001, 0.001) / kStiffnessMargin;
+  double stiffness_n_mm = stiffness_bound_n_mm(kWallDampingNSMm, 0.001, 0.001) / kStiffnessMargin;
   bool relaxation = false;  // of tissue held in a stretch
 };
 
@@ -50,7 +50,7 @@ struct NeedleForce {
 
 class NeedleLaw {
  public:
-  // CHECKs that tick, stiffness and cutoff are > 0 and damping ≥ 0.
+  // CHECKs that tick and stiffness are > 0 and damping ≥ 0.
   explicit NeedleLaw(const NeedleSettings& settings);
 
   // One tick: the tip is now at depth_mm along the path. `path`: by rising start; it may change from tick to tick
@@ -67,7 +67,8 @@ class NeedleLaw {
   void slide(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
 
   NeedleSettings settings_;
-  double damper_share_, falling_keep_, damper_time_s_;
+  ElasticDamper damper_;
+  double falling_keep_;
 };
 
 // How much of the needle is in tissue, mm.

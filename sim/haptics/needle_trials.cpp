@@ -16,6 +16,7 @@ Trial driven(const HapticDevice& device, const Hand& hand) {
   trial.to_mm = 20.0;
   trial.push_n = 0.0;
   trial.drive_mm_s = 500.0 / 60.0;
+  trial.seconds = 4.0;
   trial.watched_s = 2.0;
   return trial;
 }

@@ -19,7 +19,7 @@ struct Trial {
   double speed_mm_s = 0.0;             // then let go at this speed into the hand, which holds on to that place
   double push_n = 1.0;                 // and pushes inwards,
   double drive_mm_s = 0.0;             // its place going on at this speed
-  double seconds = 4.0, watched_s = 0.5;
+  double seconds = 3.0, watched_s = 0.5;
 };
 
 struct Settling {

@@ -2,26 +2,37 @@
 
 #include <algorithm>
 
+#include "sim/haptics/probe_trials.h"
+
 namespace seldinger::haptics {
 namespace {
 
 constexpr double kMostStepN = 0.15;
 constexpr double kLeastWorkMj = -1.0;
 
+// What the laws are put into, needle's first.
+template <typename Look>
+void each_situation(const HapticDevice& device, const Hand& hand, double factor, Look look) {
+  for (const NeedleSituation& situation : needle_situations())
+    look(situation.name, settle_needle(situation, device, hand, factor));
+  for (const ProbeSituation& situation : probe_situations())
+    look(situation.name, settle_probe(situation, device, hand, factor));
+}
+
 void rest_of(const HapticDevice& device, std::vector<RestRow>& rows) {
   for (const Hand& hand : hands())
-    for (const NeedleSituation& situation : needle_situations())
-      rows.push_back({device, hand, situation.name, settle_needle(situation, device, hand)});
+    each_situation(device, hand, 1.0, [&](const char* name, const Settling& settling) {
+      rows.push_back({device, hand, name, settling});
+    });
 }
 
 MarginRow margin_of(const HapticDevice& device) {
   MarginRow margin{device, 0.0, nullptr};
   for (const double factor : kMarginFactors) {
-    for (const NeedleSituation& situation : needle_situations())
-      if (!settle_needle(situation, device, *find_hand("none"), factor).settled(device)) {
-        margin.fails = situation.name;
-        return margin;
-      }
+    each_situation(device, *find_hand("none"), factor, [&](const char* name, const Settling& settling) {
+      if (margin.fails == nullptr && !settling.settled(device)) margin.fails = name;
+    });
+    if (margin.fails != nullptr) break;
     margin.rests_at = factor;
   }
   return margin;

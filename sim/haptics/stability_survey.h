@@ -1,5 +1,5 @@
-// Everything that the bench says about stability, as `seldinger haptics stability` answers it: our needle law under
-// every hand, both laws driven by hands, and maps of the plain wall.
+// Everything that the bench says about stability, as `seldinger haptics stability` answers it: our laws under every
+// hand, both laws driven by hands, and maps of the plain wall.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct RestRow {
   bool holds() const noexcept;
 };
 
-// By how much our stiffness may be multiplied until the needle, let go, rests no more in some situation.
+// By how much our stiffness may be multiplied until needle or probe, let go, rests no more in some situation.
 struct MarginRow {
   HapticDevice device;
   double rests_at;    // the largest of kMarginFactors up to which it rests in all; 0: not even as it is

@@ -1,13 +1,13 @@
 #include "sim/haptics/wall_map.h"
 
+#include "sim/haptics/elastic_damper.h"
 #include "sim/haptics/settling.h"
 #include "sim/haptics/wall.h"
 
 namespace seldinger::haptics {
 namespace {
 
-constexpr double kDamperCutoffHz = 100.0;  // haptics.md §3.2
-constexpr double kStillN = 0.1;            // beside one count of the encoder through the spring (haptics.md §3.2)
+constexpr double kStillN = 0.1;  // beside one count of the encoder through the spring (haptics.md §3.2)
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/haptics/needle_trials.h"
+#include "sim/haptics/probe_trials.h"
 #include "sim/haptics/thesis_needle.h"
 #include "sim/haptics/wall.h"
 #include "sim/haptics/wall_map.h"
@@ -29,6 +30,7 @@ double stiffest_wall_n_mm(const HapticDevice& device, double damping_n_s_mm) {
     Trial trial{device, *find_hand("none")};
     trial.to_mm = 1.0 / stiffness;
     trial.speed_mm_s = 1.0;
+    trial.seconds = 4.0;
     const Settling settling = settle(trial, [&](double depth_mm) { return wall.advance(depth_mm); });
     const double undamped_mm = 2.0 * std::sqrt(device.mass_kg / (1000.0 * stiffness));
     (settling.position_mm < undamped_mm ? low : high) = stiffness;
@@ -76,6 +78,36 @@ void expect_rest(const HapticDevice& device) {
       EXPECT_GE(settling.least_work_mj, -1.0) << told(device, hand, situation);
       EXPECT_LE(settling.most_step_n, 0.15) << told(device, hand, situation);
     }
+}
+
+// S11: from skin to rib under the probe, and along the skin.
+void expect_probe_rests(const HapticDevice& device) {
+  for (const Hand& hand : hands())
+    for (const ProbeSituation& situation : probe_situations()) {
+      const Settling settling = settle_probe(situation, device, hand);
+      const std::string told = std::string(situation.name) + ", " + device.name + ", hand " + hand.name +
+                               ", delay " + std::to_string(device.delay_ticks);
+      EXPECT_TRUE(settling.settled(device)) << told << ": " << settling.position_mm << " mm";
+      EXPECT_GE(settling.least_work_mj, -1.0) << told;
+      EXPECT_LE(settling.most_step_n, 0.15) << told;
+    }
+}
+
+TEST(Stability, TheProbeComesToRestUnderAnyHand) {
+  for (HapticDevice device : haptic_devices()) {
+    device.coulomb_n = 0.02;
+    for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks) {
+      expect_probe_rests(device);
+      for (const ProbeSituation& situation : probe_situations()) {
+        EXPECT_TRUE(settle_probe(situation, device, *find_hand("none"), kStiffnessMargin).settled(device))
+            << situation.name << ", " << device.name << ", delay " << device.delay_ticks << ", at the margin";
+        if (device.delay_ticks > 0 && !situation.sideways) {
+          EXPECT_FALSE(settle_probe(situation, device, *find_hand("none"), 1.0, 0.0).settled(device))
+              << situation.name << ": a damper that is missing is seen";
+        }
+      }
+    }
+  }
 }
 
 // No limit cycle with any hand: every device as it is, and at every delay with next to no dry friction.
