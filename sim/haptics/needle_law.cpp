@@ -23,6 +23,8 @@ constexpr double kCapsuleLinearPart = 0.25;
 constexpr double kCapsuleSteepest = 2.0 - kCapsuleLinearPart;  // its steepest slope, in R / full dent
 // The fall after a rupture takes 5-20 ms (haptics.md §2.2, item 1).
 constexpr double kRuptureFallS = 0.008;
+// A high fall takes as long as it needs to be no step, 0.1 N a tick (design; the goal of 0.15 N a tick).
+constexpr double kMostFallNS = 100.0;
 // Relaxation: to this part of what slides or cuts, with this time (design; haptics.md §2.2 gives 5-20 s).
 constexpr double kRelaxedPart = 0.65, kRelaxationS = 10.0;
 
@@ -52,7 +54,7 @@ NeedleLaw::NeedleLaw(const NeedleSettings& settings)
       damper_({.tick_s = settings.tick_s,
                .damping_n_s_mm = settings.damping_n_s_mm,
                .stiffness_n_mm = settings.stiffness_n_mm}),
-      falling_keep_(base::exact_exp(-settings.tick_s / kRuptureFallS)) {}
+      falling_share_(1.0 - base::exact_exp(-settings.tick_s / kRuptureFallS)) {}
 
 double inserted_mm(Path path, double depth_mm, const NeedleTrack& track) noexcept {
   return track.opened == 0 ? 0.0 : std::max(0.0, std::min(track.cut_mm, depth_mm) - path[0].start_mm);
@@ -146,7 +148,8 @@ NeedleForce NeedleLaw::advance(Path path, double depth_mm, NeedleTrack& track) c
   // A surface that was only touched never pulls.
   if (track.opened == 0) force.axial_n = std::max(0.0, force.axial_n);
 
-  track.falling_n *= falling_keep_;
+  const double most_fall_n = kMostFallNS * settings_.tick_s;
+  track.falling_n -= std::clamp(falling_share_ * track.falling_n, -most_fall_n, most_fall_n);
   track.last_elastic_n = elastic_n;
   track.last_depth_mm = depth_mm;
   track.begun = true;

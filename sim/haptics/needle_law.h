@@ -43,7 +43,7 @@ struct NeedleForce {
   double axial_n = 0.0;  // what the hand feels: the sum of the following
   double tip_n = 0.0;    // ≥ 0
   double shaft_n = 0.0;
-  double falling_n = 0.0;  // what is left of the fall after a rupture; decays within 40 ms
+  double falling_n = 0.0;  // what is left of the fall after a rupture; decays within some 50 ms
   double damper_n = 0.0;
   bool ruptured = false;  // the tip entered a layer in this tick: the declared event
 };
@@ -68,7 +68,7 @@ class NeedleLaw {
 
   NeedleSettings settings_;
   ElasticDamper damper_;
-  double falling_keep_;
+  double falling_share_;
 };
 
 // How much of the needle is in tissue, mm.

@@ -200,21 +200,19 @@ TEST(NeedleLaw, AForceComesWithoutDelay) {
   EXPECT_NEAR(force, final_n, 1e-6);
 }
 
+// Not even where a capsule opens.
 TEST(NeedleLaw, NoTickIsAStepUpTo200MmPerSecond) {
   for (const NeedleTissueRow& row : needle_tissues()) {
     if (!(row.needle.rupture_n > 0.0)) continue;
-    for (const double speed : {1.0, 8.33, 50.0, 100.0, 200.0}) {
-      const auto samples = insert({row.needle, speed, 70.0, 0.1, true}, {});
-      for (std::size_t i = 1; i < samples.size(); ++i) {
-        const double step = std::abs(samples[i].force.axial_n - samples[i - 1].force.axial_n);
-        ASSERT_TRUE(std::isfinite(step));
-        // In the ticks after a rupture its fall is the declared event. Kidney and liver keep the goal even there.
-        const bool declared = samples[i - 1].force.falling_n > 0.05 && row.tissue != TissueClass::kidney &&
-                              row.tissue != TissueClass::liver;
-        EXPECT_LE(step, declared ? 0.30 : 0.15)
-            << name_of(row.tissue) << " " << speed << " at " << samples[i].depth_mm;
+    for (const int gauge : {16, kTableGauge, 25})
+      for (const double speed : {1.0, 8.33, 50.0, 100.0, 200.0}) {
+        const auto samples = insert({at_gauge(row.needle, *cases::gauge(gauge)), speed, 70.0, 0.1, true}, {});
+        for (std::size_t i = 1; i < samples.size(); ++i) {
+          const double step = std::abs(samples[i].force.axial_n - samples[i - 1].force.axial_n);
+          ASSERT_TRUE(std::isfinite(step));
+          EXPECT_LE(step, 0.15) << name_of(row.tissue) << " " << speed << " at " << samples[i].depth_mm;
+        }
       }
-    }
   }
 }
 
@@ -241,7 +239,7 @@ TEST(NeedleLaw, AnyWanderingThroughLayersIsContinuousAndBounded) {
       EXPECT_GE(force.tip_n, 0.0);
       EXPECT_LE(std::abs(force.shaft_n), 0.010 * 92.0 + 1e-9);
       if (!force.ruptured) {
-        EXPECT_LE(std::abs(force.axial_n - last), std::abs(force.falling_n) > 0.05 ? 0.45 : 0.15)
+        EXPECT_LE(std::abs(force.axial_n - last), std::abs(force.falling_n) > 0.05 ? 0.25 : 0.15)
             << depth << " at " << speed << " seed " << seed;
       }
       if (depth <= 0.0) {
