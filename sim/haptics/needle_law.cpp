@@ -11,9 +11,6 @@ namespace {
 
 using Path = std::span<const NeedleLayer>;
 
-// Tissue moves along with each mm of shaft: 2 π G / ln(2 L / a) with G 4.5 kPa, L 80 mm, a 0.36 mm (haptics.md §2.1
-// for the formula; G by design).
-constexpr double kShaftStiffnessNMm2 = 0.005;
 // The shaft takes no more than this share of the device's stiffness, so that the tip's part stays palpable
 // (design).
 constexpr double kShaftShare = 0.4;

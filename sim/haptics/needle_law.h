@@ -21,6 +21,10 @@ struct NeedleLayer {
   NeedleTissue tissue;
 };
 
+// Tissue moves along with each mm of shaft: 2 π G / ln(2 L / a) with G 4.5 kPa, L 80 mm, a 0.36 mm (haptics.md §2.1
+// for the formula; G by design).
+inline constexpr double kShaftStiffnessNMm2 = 0.005;
+
 struct NeedleSettings {
   double tick_s = 0.001;
   double damping_n_s_mm = kWallDampingNSMm;
