@@ -20,20 +20,22 @@ constexpr double kThinnestMm = 2.0;
 
 TissueAlongNeedle::TissueAlongNeedle(const volume::Volume& volume, std::span<const TissueClass> classes,
                                      const cases::Gauge& gauge)
-    : volume_(&volume), classes_(classes), voxel_from_lps_(volume::voxel_from_lps(volume)) {
+    : volume_(&volume), classes_(classes), voxel_from_lps_(volume::voxel_from_lps(volume)), gauge_(gauge) {
   CHECK(classes.size() == volume.hu.size());
   for (const NeedleTissueRow& row : needle_tissues())
     rows_[static_cast<std::size_t>(row.tissue)] = at_gauge(row.needle, gauge);
 }
 
-TissueClass TissueAlongNeedle::at(const glm::dvec3& p_lps_mm) const noexcept {
+TissueAlongNeedle::Sample TissueAlongNeedle::at(const glm::dvec3& p_lps_mm) const noexcept {
   const glm::dvec3 index(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
-  if (!volume::inside(*volume_, index)) return TissueClass::air;
+  if (!volume::inside(*volume_, index)) return {TissueClass::air, volume::kAirHu};
   const auto nearest = [](double value, int size) {
     return std::clamp(static_cast<int>(std::floor(value + 0.5)), 0, size - 1);
   };
   const glm::ivec3& size = volume_->size_voxels;
-  return classes_[volume_->index(nearest(index.x, size.x), nearest(index.y, size.y), nearest(index.z, size.z))];
+  const std::size_t voxel =
+      volume_->index(nearest(index.x, size.x), nearest(index.y, size.y), nearest(index.z, size.z));
+  return {classes_[voxel], static_cast<double>(volume_->hu[voxel])};
 }
 
 void TissueAlongNeedle::add(double start_mm, TissueClass tissue, NeedlePath& path) const noexcept {
@@ -53,16 +55,22 @@ void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& d
   // Runs of one class; a run becomes a layer once it is long enough, bone and metal at once.
   const double from_mm = std::max(kSkinMm, reached_mm);
   TissueClass run = path.tissues[path.count - 1];
-  double run_mm = from_mm;
+  double run_mm = from_mm, sum_hu = 0.0, n = 0.0;
+  const std::size_t fixed = path.count;
   for (int i = 0; from_mm + kStepMm * i <= length_mm; ++i) {
     const double along_mm = from_mm + kStepMm * i;
-    const TissueClass tissue = at(entry_lps_mm + along_mm * direction);
-    if (tissue != run) {
-      run = tissue;
+    const Sample sample = at(entry_lps_mm + along_mm * direction);
+    if (sample.tissue != run) {
+      run = sample.tissue;
       run_mm = along_mm;
+      sum_hu = n = 0.0;
     }
+    sum_hu += sample.hu;
+    n += 1.0;
     const bool hard = rows_[static_cast<std::size_t>(run)].impenetrable;
     if (hard || along_mm - run_mm >= kThinnestMm) add(run_mm, run, path);
+    if (run == TissueClass::soft_tissue && path.count > fixed && path.tissues[path.count - 1] == run)
+      path.layers[path.count - 1].tissue = at_gauge(soft_tissue_of_hu(sum_hu / n), gauge_);
   }
 }
 

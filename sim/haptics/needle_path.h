@@ -35,12 +35,17 @@ class TissueAlongNeedle {
             const NeedleTrack& track, NeedlePath& path) const noexcept;
 
  private:
-  volume::TissueClass at(const glm::dvec3& p_lps_mm) const noexcept;
+  struct Sample {
+    volume::TissueClass tissue;
+    double hu;
+  };
+  Sample at(const glm::dvec3& p_lps_mm) const noexcept;
   void add(double start_mm, volume::TissueClass tissue, NeedlePath& path) const noexcept;
 
   const volume::Volume* volume_;
   std::span<const volume::TissueClass> classes_;
   glm::dmat4 voxel_from_lps_;
+  cases::Gauge gauge_;
   std::array<NeedleTissue, volume::kTissueClasses> rows_;
 };
 

@@ -1,5 +1,6 @@
 #include "sim/haptics/needle_tissue.h"
 
+#include <algorithm>
 #include <array>
 
 namespace seldinger::haptics {
@@ -60,6 +61,18 @@ std::span<const NeedleTissueRow, volume::kTissueClasses> needle_tissues() noexce
 const NeedleTissue& needle_tissue(volume::TissueClass tissue) noexcept {
   const auto at = static_cast<std::size_t>(tissue);
   return kTissues[at < kTissues.size() ? at : 0].needle;
+}
+
+NeedleTissue soft_tissue_of_hu(double hu) noexcept {
+  constexpr double kFatHu = -100.0, kTissueHu = 40.0;
+  const double share = std::clamp((hu - kFatHu) / (kTissueHu - kFatHu), 0.0, 1.0);
+  const NeedleTissue &fat = needle_tissue(TissueClass::fat), &full = needle_tissue(TissueClass::soft_tissue);
+  const auto between = [&](double a, double b) { return a + share * (b - a); };
+  return {.slope_n_mm = between(fat.slope_n_mm, full.slope_n_mm),
+          .intercept_n = between(fat.intercept_n, full.intercept_n),
+          .tip_stiffness_n_mm = between(fat.tip_stiffness_n_mm, full.tip_stiffness_n_mm),
+          .rupture_n = between(fat.rupture_n, full.rupture_n),
+          .dent_mm = between(fat.dent_mm, full.dent_mm)};
 }
 
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge) {

@@ -35,6 +35,10 @@ std::span<const NeedleTissueRow, volume::kTissueClasses> needle_tissues() noexce
 // Of the class's row.
 const NeedleTissue& needle_tissue(volume::TissueClass tissue) noexcept;
 
+// Where HU alone must tell (soft_tissue): between fat's row at -100 HU and the class's own from 40 HU on, as HU
+// lies (Prokop's HU, as classes.h; that forces follow them in a straight line is design).
+NeedleTissue soft_tissue_of_hu(double hu) noexcept;
+
 // The row for another gauge: forces grow in proportion to the outer diameter (design; Jiang, J Biomech 2014,
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge);

@@ -153,6 +153,25 @@ TEST(NeedlePath, NeverHoldsMoreThanItCan) {
   for (std::size_t i = 1; i < path.count; ++i) EXPECT_GT(path.layers[i].start_mm, path.layers[i - 1].start_mm);
 }
 
+TEST(NeedlePath, SoftTissueGetsTheRowOfItsHu) {
+  Body body;
+  body.fleck(40.0, 60.0, TissueClass::soft_tissue);
+  std::fill(body.volume.hu.begin(), body.volume.hu.end(), std::int16_t{5});
+  const TissueAlongNeedle tissue(body.volume, body.classes, *cases::gauge(18));
+  NeedlePath path;
+  tissue.look({0.3, 0.2, 0.0}, kDown, 80.0, -1.0, {}, path);
+  ASSERT_EQ(path.tissues[4], TissueClass::soft_tissue);
+  EXPECT_NEAR(path.layers[4].tissue.intercept_n, soft_tissue_of_hu(5.0).intercept_n * 1.270 / 0.718, 1e-12);
+  EXPECT_NE(soft_tissue_of_hu(5.0).intercept_n, needle_tissue(TissueClass::soft_tissue).intercept_n);
+  // Entered, it keeps it.
+  std::fill(body.volume.hu.begin(), body.volume.hu.end(), std::int16_t{60});
+  NeedleTrack track;
+  track.opened = 5;
+  track.cut_mm = 45.0;
+  tissue.look({0.3, 0.2, 0.0}, kDown, 80.0, 50.0, track, path);
+  EXPECT_NEAR(path.layers[4].tissue.intercept_n, soft_tissue_of_hu(5.0).intercept_n * 1.270 / 0.718, 1e-12);
+}
+
 TEST(NeedlePath, AThickerNeedleGetsItsRows) {
   const Body body;
   NeedlePath path;

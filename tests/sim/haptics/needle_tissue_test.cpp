@@ -41,6 +41,20 @@ TEST(NeedleTissues, EveryRowSaysWhereItComesFromAndIsPhysical) {
   }
 }
 
+TEST(NeedleTissues, BetweenFatAndTissueHuDecides) {
+  const NeedleTissue &fat = needle_tissue(TissueClass::fat), &full = needle_tissue(TissueClass::soft_tissue);
+  for (const double hu : {-300.0, -100.0}) {
+    EXPECT_EQ(soft_tissue_of_hu(hu).intercept_n, fat.intercept_n);
+    EXPECT_EQ(soft_tissue_of_hu(hu).rupture_n, fat.rupture_n);
+  }
+  for (const double hu : {40.0, 300.0}) {
+    EXPECT_NEAR(soft_tissue_of_hu(hu).intercept_n, full.intercept_n, 1e-12);
+    EXPECT_NEAR(soft_tissue_of_hu(hu).dent_mm, full.dent_mm, 1e-12);
+  }
+  EXPECT_NEAR(soft_tissue_of_hu(-30.0).intercept_n, 0.5 * (fat.intercept_n + full.intercept_n), 1e-12);
+  EXPECT_NEAR(soft_tissue_of_hu(-30.0).slope_n_mm, 0.5 * (fat.slope_n_mm + full.slope_n_mm), 1e-12);
+}
+
 TEST(NeedleTissues, ThickerNeedlesTakeMoreForce) {
   const NeedleTissue& liver = needle_tissue(TissueClass::liver);
   const NeedleTissue same = at_gauge(liver, *cases::gauge(22)), thick = at_gauge(liver, *cases::gauge(18));
