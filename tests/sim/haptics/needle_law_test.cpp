@@ -330,6 +330,35 @@ TEST(NeedleLaw, AdvanceAllocatesNothingAndRepeatsItself) {
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(needle.to(0.01 * i).axial_n, first[i]);
 }
 
+// S18: an organ that breathes under a needle held still, 16 mm in 4 s. It is cut once, then the same every breath,
+// and what the tissue puts into the needle over a breath it does not get back.
+TEST(NeedleLaw, UnderBreathingNothingDrifts) {
+  for (const TissueClass tissue : kMeasured) {
+    Needle needle({{0.0, tissue}});
+    needle.slowly_to(50.0);
+    double cut_mm = 0.0, most_n = 0.0;
+    for (int breath = 0; breath < 10; ++breath) {
+      double work_mj = 0.0, breath_most_n = 0.0, last_mm = needle.track.last_depth_mm, force_n = 0.0;
+      for (int i = 1; i <= 4000; ++i) {
+        const double depth_mm = 50.0 + 8.0 * std::sin(2.0 * 3.141592653589793 * i / 4000.0);
+        work_mj += force_n * (depth_mm - last_mm);
+        last_mm = depth_mm;
+        const NeedleForce force = needle.to(depth_mm);
+        force_n = force.axial_n;
+        breath_most_n = std::max(breath_most_n, std::abs(force_n));
+        EXPECT_FALSE(force.ruptured);
+      }
+      EXPECT_GT(work_mj, 0.0) << name_of(tissue);
+      if (breath > 1) {
+        EXPECT_EQ(needle.track.cut_mm, cut_mm) << name_of(tissue) << " breath " << breath;
+        EXPECT_NEAR(breath_most_n, most_n, 1e-9) << name_of(tissue) << " breath " << breath;
+      }
+      cut_mm = needle.track.cut_mm;
+      most_n = breath_most_n;
+    }
+  }
+}
+
 // What a hand puts in and gets back: never more back.
 TEST(NeedleLaw, GivesNoEnergy) {
   for (const TissueClass tissue : {TissueClass::kidney, TissueClass::liver, TissueClass::bone}) {
