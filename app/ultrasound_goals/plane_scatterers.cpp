@@ -44,7 +44,8 @@ std::vector<PlaneScatterer> scatterers_in(const imaging::UltrasoundView& view, c
           if (at.depth_mm < window.from_mm || at.depth_mm >= window.to_mm || at.beam < window.first_beam ||
               at.beam > window.last_beam || field.lattice_at(at.depth_mm).key != lattice.key)
             continue;
-          all.push_back({x_mm, z_mm, y_mm, at.beam, at.depth_mm, std::sqrt(s * s * s)});
+          const double sign = shaders::us_lattice_turned(bits) == 0 ? 1.0 : -1.0;
+          all.push_back({x_mm, z_mm, y_mm, at.beam, at.depth_mm, sign * std::sqrt(s * s * s)});
         }
   }
   return all;

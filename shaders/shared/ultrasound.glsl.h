@@ -82,6 +82,12 @@ SHARED uint us_lattice_bits(uint seed) {
   return us_mix(seed);
 }
 
+// Whether a scatterer's echo is turned over (0 or 1), by the last bit of where it is, which is far below a wavelength:
+// so no step of scatterers sends back an echo beside the one that its impedance makes.
+SHARED uint us_lattice_turned(uint bits) {
+  return bits & 1u;
+}
+
 // Noise on a node of a lattice, both parts uniform in [−1, 1).
 SHARED real us_node_re(uint bits) {
   return (real(int(bits >> 16u)) + real(0.5)) * real(1.0 / 32768.0) - real(1.0);

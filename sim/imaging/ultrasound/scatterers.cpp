@@ -43,6 +43,7 @@ struct Chunk {
   float x[kChunk], y[kChunk], z[kChunk];  // the cube's corner, in the tile's frame
   float depth[kChunk], beam[kChunk];      // of the scatterer; y becomes its own
   std::uint32_t inside[kChunk];
+  std::uint32_t phase[kChunk];  // steps of kPhases that the echo is turned by
 };
 
 struct TileFrame {
@@ -78,6 +79,7 @@ template <bool curved>
     chunk.z[n] = z;
     chunk.depth[n] = depth;
     chunk.beam[n] = beam;
+    chunk.phase[n] = shaders::us_lattice_turned(bits) * (kPhases / 2);
     chunk.inside[n] =
         static_cast<std::uint32_t>((depth >= f.from) & (depth < f.to) & (std::abs(y) < f.half_thickness) &
                                    (beam > f.first_beam) & (beam < f.end_beam));
@@ -238,7 +240,7 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       const float tissue = tissue_at_.speckle(p);
       if (tissue == 0.0F) continue;
       const float amplitude = tissue * at.amplitude;
-      const auto& turn = phase[static_cast<std::uint32_t>(chunk.depth[n] * turns) % kPhases];
+      const auto& turn = phase[(static_cast<std::uint32_t>(chunk.depth[n] * turns) + chunk.phase[n]) % kPhases];
       const float re = amplitude * turn[0], im = amplitude * turn[1];
       std::int32_t* sum =
           out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(fine)) * 2;
