@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -111,6 +112,35 @@ TEST(HapticsStability, HoldsAndIsWhatTheDocumentSays) {
   ASSERT_EQ(json.at("at_rest").size(), 900U);
   for (const auto& row : json.at("at_rest")) EXPECT_EQ(row.at("holds"), true) << row;
   EXPECT_EQ(json.at("walls").size(), 2U * 4U * 5U * 13U);
+}
+
+// The laws against the published lines: ours keeps them at any speed, the thesis' at none but its own.
+TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
+  const auto scratch = fixtures::fresh_folder("haptics_bench");
+  const auto ran = fixtures::run(
+      kProgram + " bench --stage haptics --quick --out '" + (scratch / "out").string() + "'", scratch);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  std::istringstream lines(ran.out);
+  std::string line;
+  int ours = 0, thesis = 0;
+  while (std::getline(lines, line)) {
+    const std::size_t unit = line.find(",N rms,");
+    if (unit == std::string::npos) continue;
+    const double error_n = std::strtod(line.c_str() + line.rfind(',', unit - 1) + 1, nullptr);
+    if (line.rfind("haptics,needle law,", 0) == 0) {
+      EXPECT_LE(error_n, 0.065) << line;
+      ++ours;
+    } else {
+      EXPECT_GE(error_n, 0.2) << line;
+      ++thesis;
+    }
+  }
+  EXPECT_EQ(ours, 2 * 3);
+  EXPECT_EQ(thesis, 2 * 3 * 3);
+  const std::string page = fixtures::whole_file(scratch / "out" / "force_depth.html");
+  for (const char* name : {"needle law", "thesis F1, m 50", "published line", "kidney", "liver"})
+    EXPECT_NE(page.find(name), std::string::npos) << name;
+  EXPECT_FALSE(fixtures::whole_file(scratch / "out" / "frontier.html").empty());
 }
 
 }  // namespace

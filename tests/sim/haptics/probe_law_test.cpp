@@ -142,6 +142,35 @@ TEST(ProbeLaw, GivesNoEnergy) {
     }
 }
 
+// A ring that would pump energy out of a spring that stiffens: shift where it is soft, come back where it is stiff.
+TEST(ProbeLaw, StiffeningUnderShearGivesNothing) {
+  ProbeSettings settings;
+  settings.damping_n_s_mm = 0.0;
+  const ProbeLaw law(settings);
+  ProbeTrack track;
+  glm::dvec3 at(0.0, 0.0, -2.0), force = law.advance(touch(at, 2.0), track).force_n;
+  double work_mj = 0.0;
+  const auto go = [&](const glm::dvec3& target) {
+    const glm::dvec3 step = (target - at) / 200.0;
+    for (int i = 0; i < 200; ++i) {
+      at += step;
+      const glm::dvec3 next = law.advance(touch(at, -at.z), track).force_n;
+      work_mj -= 0.5 * glm::dot(force + next, step);
+      force = next;
+    }
+  };
+  for (int round = 0; round < 50; ++round) {
+    const double before_mj = work_mj;
+    go({0.2, 0.0, -2.0});
+    go({0.2, 0.0, -8.0});
+    go({0.0, 0.0, -8.0});
+    go({0.0, 0.0, -2.0});
+    if (round > 0) {
+      EXPECT_GE(work_mj - before_mj, -1e-5);
+    }
+  }
+}
+
 TEST(ProbeLaw, ARibsEdgeIsNoStep) {
   const ProbeLaw law({});
   for (const double speed_mm_s : {5.0, 50.0, 200.0}) {
