@@ -277,15 +277,16 @@ int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
   std::vector<std::string> stages;
-  std::string list = arguments.text("--stage", "import,mpr,xray,ultrasound,step");
+  std::string list = arguments.text("--stage", "import,mpr,xray,ultrasound,haptics,step");
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     stages.push_back(list.substr(begin, comma - begin));
     begin = comma + 1;
   }
   for (const std::string& stage : stages)
-    if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "ultrasound" && stage != "step")
-      throw UsageError("--stage knows import, mpr, xray, ultrasound and step");
+    if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "ultrasound" && stage != "haptics" &&
+        stage != "step")
+      throw UsageError("--stage knows import, mpr, xray, ultrasound, haptics and step");
   std::vector<Row> rows;
   for (const std::string& stage : stages) {
     std::fprintf(stderr, "bench %s …\n", stage.c_str());
@@ -294,6 +295,7 @@ int run_bench(const Arguments& arguments) {
     if (stage == "mpr") bench_mpr(quick, rows);
     if (stage == "xray") done = bench_xray(arguments, quick, rows);
     if (stage == "ultrasound") done = bench_ultrasound(arguments, quick, rows);
+    if (stage == "haptics") bench_haptics(quick, rows);
     if (stage == "step") done = bench_step(quick, rows);
     if (!done) return refuse(done.error());
   }
@@ -303,6 +305,8 @@ int run_bench(const Arguments& arguments) {
   const std::string text = csv(rows);
   write_file(out / "results.csv", text);
   write_file(out / "frontier.html", frontier(rows));
+  if (std::find(stages.begin(), stages.end(), "haptics") != stages.end())
+    write_file(out / "force_depth.html", force_depth_page());
   std::fputs(text.c_str(), stdout);
   return kDone;
 }

@@ -23,6 +23,7 @@ constexpr Option kImportOptions[] = {
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
 constexpr Option kLibraryJson[] = {kLibrary, kJson};
+constexpr Option kJsonOnly[] = {kJson};
 constexpr Option kLibraryOnly[] = {kLibrary};
 constexpr Option kLesionOptions[] = {kLibrary,
                                      {"--center-mm", "X,Y,Z", "centre, LPS"},
@@ -52,8 +53,17 @@ constexpr Option kScoreOptions[] = {kLibrary,
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
+constexpr Option kInsertOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
+    {"--speed-mm-s", "V", "the needle's speed"},
+    {"--depth-mm", "D", "how deep, from the first touch of the undeformed capsule"},
+    {"--hold-s", "T", "rest at that depth; default 0"},
+    {"--retract", nullptr, "then pull back to depth 0"},
+    {"--gauge", "G", "16 to 25; default 22"},
+    {"--relaxation", nullptr, "held tissue relaxes"},
+    {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, ultrasound, step; default all"},
+    {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
     {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
@@ -102,6 +112,11 @@ constexpr Command kCommands[] = {
     {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
+    {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
+     &run_haptics_insert},
+    {"haptics stability", "", 0, 0, kJsonOnly,
+     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not (docs/stability.md).",
+     &run_haptics_stability},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
      "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",

@@ -55,6 +55,8 @@ int run_user_add(const Arguments& arguments);
 int run_user_list(const Arguments& arguments);
 int run_user_passwd(const Arguments& arguments);
 int run_user_disable(const Arguments& arguments);
+int run_haptics_insert(const Arguments& arguments);
+int run_haptics_stability(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
 int run_goals_ultrasound(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);

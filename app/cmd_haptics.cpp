@@ -1,0 +1,72 @@
+// haptics insert: force against depth of a needle in one tissue, without hardware. haptics stability: does what the
+// hand feels come to rest?
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "app/command.h"
+#include "app/file.h"
+#include "app/stability_answer.h"
+#include "sim/haptics/insertion.h"
+#include "sim/volume/classes.h"
+
+namespace seldinger::app {
+namespace {
+
+// A day of samples makes no file that anyone reads.
+constexpr double kMostSamples = 5e6;
+
+// The row of a class that a needle can be driven into.
+const haptics::NeedleTissue& tissue_named(const std::string& name) {
+  std::string known;
+  for (const haptics::NeedleTissueRow& row : haptics::needle_tissues()) {
+    if (!(row.needle.rupture_n > 0.0)) continue;
+    if (name == volume::about(row.tissue).name) return row.needle;
+    known += std::string(known.empty() ? "" : ", ") + volume::about(row.tissue).name;
+  }
+  throw UsageError("--tissue is one of " + known);
+}
+
+// Beyond these no hand moves and no needle reaches (design).
+constexpr double kMostSpeedMmS = 1000.0, kMostDepthMm = 400.0;
+
+double positive(const Arguments& arguments, const char* option, double most) {
+  arguments.required(option);
+  const double value = arguments.number(option, 0.0);
+  if (!(value > 0.0 && value <= most))
+    throw UsageError(std::string(option) + " is above 0 and at most " + std::to_string(std::lround(most)));
+  return value;
+}
+
+}  // namespace
+
+int run_haptics_insert(const Arguments& arguments) {
+  const std::string out = arguments.required("--out");
+  const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue"));
+  const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
+  haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s", kMostSpeedMmS),
+                               positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
+                               arguments.has("--retract")};
+  if (!(insertion.hold_s >= 0.0)) throw UsageError("--hold-s must not be below 0");
+  haptics::NeedleSettings settings;
+  settings.relaxation = arguments.has("--relaxation");
+  if (!(haptics::insertion_samples(insertion, settings) <= kMostSamples))
+    return refuse({"too_long", "the insertion takes more than 5,000,000 samples of 1 ms", {}});
+
+  std::string csv = "t_s,depth_mm,force_axial_n\n";
+  for (const haptics::InsertionSample& sample : haptics::insert(insertion, settings)) {
+    char line[96];
+    std::snprintf(line, sizeof line, "%.3f,%.6f,%.6f\n", sample.t_s, sample.depth_mm, sample.force.axial_n);
+    csv += line;
+  }
+  write_file(out, csv);
+  return kDone;
+}
+
+int run_haptics_stability(const Arguments& arguments) {
+  const haptics::StabilitySurvey survey = haptics::survey_stability();
+  std::fputs((arguments.has("--json") ? json_of_stability(survey) : markdown_of_stability(survey)).c_str(), stdout);
+  return survey.holds() ? kDone : kCheckFailed;
+}
+
+}  // namespace seldinger::app
