@@ -74,6 +74,7 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
                            glm::dot(pose.axis, state.direction) > kSameHoleCosine;
     if (!same_hole) {
       state.track = {};
+      state.track.begun = true;  // from no dent and no force
       state.ticks_to_look = 0;
     }
     state.outside = false;

@@ -53,7 +53,8 @@ void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& d
   if (path.count == 0) add(0.0, TissueClass::skin, path);
 
   // Runs of one class; a run becomes a layer once it is long enough, bone and metal at once.
-  const double from_mm = std::max(kSkinMm, reached_mm);
+  // Always at the same depths, so that a path looked up in pieces is the whole one.
+  const double from_mm = std::max(kSkinMm, kStepMm * std::ceil(reached_mm / kStepMm));
   TissueClass run = path.tissues[path.count - 1];
   double run_mm = from_mm, sum_hu = 0.0, n = 0.0;
   const std::size_t fixed = path.count;

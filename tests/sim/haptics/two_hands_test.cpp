@@ -1,0 +1,425 @@
+// Tests of sim/haptics/two_hands, held_needle and held_probe: tools in space against the laws along one line, and
+// what happens when something else happens: swaps, faults, delays (S12, S14-S17 of knowledge/haptics.md §3.4).
+#include "sim/haptics/two_hands.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "tests/fixtures/allocations.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::haptics {
+namespace {
+
+using volume::TissueClass;
+
+const glm::dvec3 kDown(0.0, 0.0, -1.0);
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostStepN = 0.15;  // issue 5
+constexpr double kRounding = 1e-12;
+
+TissueClass of_depth(double deep_mm) {
+  return deep_mm < 0.0    ? TissueClass::air
+         : deep_mm < 14.0 ? TissueClass::fat
+         : deep_mm < 30.0 ? TissueClass::muscle
+         : deep_mm < 70.0 ? TissueClass::kidney
+         : deep_mm < 90.0 ? TissueClass::fat
+                          : TissueClass::bone;
+}
+
+// Voxels of 2 mm around what `tissue` says; a needle of 22 gauge.
+cases::Case scene_of(cases::Mesh skin, const std::function<TissueClass(const glm::dvec3&)>& tissue) {
+  cases::Case scene;
+  scene.volume = volume::make_volume({60, 60, 70}, glm::dvec3(2.0), glm::dmat3(1.0), {-59.0, -59.0, -119.0});
+  for (int k = 0; k < 70; ++k)
+    for (int j = 0; j < 60; ++j)
+      for (int i = 0; i < 60; ++i) {
+        const glm::dvec3 p(-59.0 + 2.0 * i, -59.0 + 2.0 * j, -119.0 + 2.0 * k);
+        scene.classes.push_back(tissue(p));
+      }
+  scene.skin = std::move(skin);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  const cases::Gauge gauge = *cases::gauge(kTableGauge);
+  scene.instrument.radius_mm = 0.5 * gauge.outer_mm;
+  scene.instrument.inner_radius_mm = 0.5 * gauge.inner_mm;
+  return scene;
+}
+
+// A body below z = 0, layered along z; a rib 6 mm deep beyond x = 20 mm.
+const cases::Case& flat_body() {
+  static const cases::Case scene =
+      scene_of(fixtures::box_mesh({-60.0, -60.0, -120.0}, {60.0, 60.0, 0.0}), [](const glm::dvec3& p) {
+        return p.x > 20.0 && p.z < -6.0 && p.z > -16.0 ? TissueClass::bone : of_depth(-p.z);
+      });
+  return scene;
+}
+
+std::array<HandSettings, 2> two_omnis() {
+  return {HandSettings{*find_haptic_device("omni")}, HandSettings{*find_haptic_device("omni")}};
+}
+
+HandInput holding(Tool tool, const glm::dvec3& at_lps_mm, const glm::dvec3& axis = kDown) {
+  HandInput input;
+  input.tool = tool;
+  input.pose.position_lps_mm = at_lps_mm;
+  input.pose.axis = axis;
+  return input;
+}
+
+// The right hand at work, the left holding nothing.
+struct Right {
+  explicit Right(const cases::Case& scene, std::array<HandSettings, 2> settings = two_omnis())
+      : hands(scene, settings) {}
+
+  HandForce tick(const HandInput& input, double elapsed_s = kTickS) {
+    const glm::dvec3 last_n = force.motor_n;
+    force = hands.advance({HandInput{}, input}, elapsed_s, states)[1];
+    step_n = glm::distance(force.motor_n, last_n);
+    most_step_n = std::max(most_step_n, step_n);
+    return force;
+  }
+  // Straight from where it is, `ticks` long.
+  void move(HandInput input, const glm::dvec3& to_lps_mm, int ticks) {
+    const glm::dvec3 from = input.pose.position_lps_mm;
+    for (int i = 1; i <= ticks; ++i) {
+      input.pose.position_lps_mm = from + (to_lps_mm - from) * (static_cast<double>(i) / ticks);
+      tick(input);
+      peak_n = std::max(peak_n, -glm::dot(force.motor_n, input.pose.axis));
+    }
+  }
+  void rest(const HandInput& input, int ticks) {
+    for (int i = 0; i < ticks; ++i) tick(input);
+  }
+
+  TwoHands hands;
+  HandStates states{};
+  HandForce force;
+  double step_n = 0.0, most_step_n = 0.0, peak_n = 0.0;
+};
+
+// In space, straight down and obliquely, it is the law along its line: the path in pieces is the whole path.
+TEST(TwoHands, ANeedleInSpaceIsTheLawAlongItsLine) {
+  for (const double tilt : {0.0, 0.5}) {
+    const cases::Case& scene = flat_body();
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(-tilt, 0.0, -1.0)), entry(10.0, 5.0, 0.0);
+    const TissueAlongNeedle tissue(scene.volume, scene.classes, *cases::gauge(kTableGauge));
+    NeedlePath path;
+    tissue.look(entry, axis, 140.0, -5.0, {}, path);
+    const NeedleLaw law(needle_settings(*find_haptic_device("omni")));
+    NeedleTrack track;
+    Right right(scene);
+    int ruptures = 0;
+    for (int i = 0; i < 2600; ++i) {
+      const double depth_mm = -10.0 + 0.03 * i;
+      const glm::dvec3 wanted_n = right.tick(holding(Tool::needle, entry + depth_mm * axis, axis)).wanted_n;
+      const NeedleForce along = law.advance(path.span(), depth_mm, track);
+      ASSERT_NEAR(glm::distance(wanted_n, -along.axial_n * axis), 0.0, 1e-6) << depth_mm;
+      EXPECT_EQ(right.force.ruptured, along.ruptured);
+      ruptures += along.ruptured ? 1 : 0;
+    }
+    EXPECT_EQ(ruptures, 4) << "skin, fat, muscle, kidney";
+    EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+  }
+}
+
+TEST(TwoHands, AHoleStaysAHole) {
+  Right right(flat_body());
+  const auto through = [&](double x_mm) {
+    right.peak_n = 0.0;
+    right.move(holding(Tool::needle, {x_mm, 0.0, 10.0}), {x_mm, 0.0, -25.0}, 1500);
+    const double peak_n = right.peak_n;
+    right.move(holding(Tool::needle, {x_mm, 0.0, -25.0}), {x_mm, 0.0, -20.0}, 500);
+    EXPECT_LT(-glm::dot(right.force.wanted_n, kDown), 0.0) << "friction holds back what is pulled";
+    right.move(holding(Tool::needle, {x_mm, 0.0, -20.0}), {x_mm, 0.0, 10.0}, 1500);
+    EXPECT_EQ(right.force.wanted_n, glm::dvec3(0.0)) << "outside is outside";
+    return peak_n;
+  };
+  const double first_n = through(0.0), again_n = through(0.5), beside_n = through(-10.0);
+  EXPECT_GT(first_n, 2.4) << "the skin's rupture";
+  EXPECT_LT(again_n, 0.5 * first_n) << "no second one";
+  EXPECT_NEAR(beside_n, first_n, 0.02) << "beside it, there is";
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+}
+
+TEST(TwoHands, TissueHoldsTheNeedleSideways) {
+  Right right(flat_body());
+  right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), {0.0, 0.0, -25.0}, 1500);
+  right.rest(holding(Tool::needle, {0.0, 0.0, -25.0}), 500);
+  EXPECT_NEAR(right.force.wanted_n.x, 0.0, 1e-6);
+  right.move(holding(Tool::needle, {0.0, 0.0, -25.0}), {3.0, 0.0, -25.0}, 300);
+  right.rest(holding(Tool::needle, {3.0, 0.0, -25.0}), 500);
+  const double inserted = inserted_mm(right.states[1].needle.path.span(), 25.0, right.states[1].needle.track);
+  const double expected_n_mm =
+      side_stiffness_n_mm(inserted, bending_stiffness_n_mm2(*cases::gauge(kTableGauge)), kFoundationNMm2);
+  EXPECT_NEAR(right.force.wanted_n.x, -3.0 * expected_n_mm, 0.02 * 3.0 * expected_n_mm);
+  EXPECT_NEAR(right.force.wanted_n.y, 0.0, 1e-6);
+  // Turned about the tip, the shaft at the skin goes the other way.
+  Right turned(flat_body());
+  turned.move(holding(Tool::needle, {0.0, 0.0, 10.0}), {0.0, 0.0, -25.0}, 1500);
+  turned.rest(holding(Tool::needle, {0.0, 0.0, -25.0}), 500);
+  for (int i = 0; i <= 500; ++i)
+    turned.tick(holding(Tool::needle, {0.0, 0.0, -25.0}, glm::normalize(glm::dvec3(-0.1 * i / 500.0, 0.0, -1.0))));
+  EXPECT_LT(turned.force.wanted_n.x, -0.1);
+}
+
+TEST(TwoHands, AProbePressesAsItsLawSays) {
+  const cases::Case& scene = flat_body();
+  const ProbeSettings settings;
+  const SoftContact contact{settings.radius_mm, settings.shear_n_mm2, stiffness_n_mm(*find_haptic_device("omni"))};
+  for (const double x_mm : {-20.0, 35.0}) {
+    Right right(scene);
+    right.move(holding(Tool::probe, {x_mm, 0.0, 5.0}), {x_mm, 0.0, -4.0}, 900);
+    right.rest(holding(Tool::probe, {x_mm, 0.0, -4.0}), 1000);
+    // Bone begins midway between the voxels' centres at 5 and 7, or 89 and 91 mm.
+    const double expected_n = contact.force_n(4.0, x_mm > 20.0 ? 1.0 / 6.0 : 1.0 / 90.0);
+    EXPECT_NEAR(right.force.motor_n.z, expected_n, 0.01 * expected_n) << x_mm;
+    EXPECT_NEAR(right.force.motor_n.x, 0.0, 1e-9);
+    EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+  }
+}
+
+TEST(TwoHands, ToolsAreSwappedWithoutAJump) {
+  Right right(flat_body());
+  const glm::dvec3 inside(0.0, 0.0, -25.0);
+  right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), inside, 700);
+  ASSERT_GT(glm::length(right.force.motor_n), 0.8);
+  const auto swap_to = [&](Tool tool) {
+    right.most_step_n = 0.0;
+    right.rest(holding(tool, inside), 1000);
+    EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+    return glm::length(right.force.motor_n);
+  };
+  EXPECT_EQ(swap_to(Tool::none), 0.0);
+  EXPECT_GT(swap_to(Tool::probe), 1.0) << "its head is deep in the skin";
+  EXPECT_EQ(swap_to(Tool::needle), 0.0) << "taken up inside the body";
+  right.move(holding(Tool::needle, inside), {0.0, 0.0, -40.0}, 500);
+  EXPECT_EQ(right.force.motor_n, glm::dvec3(0.0));
+  right.move(holding(Tool::needle, {0.0, 0.0, -40.0}), {0.0, 0.0, 10.0}, 500);
+  right.peak_n = 0.0;
+  right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), inside, 1500);
+  EXPECT_GT(right.peak_n, 2.4) << "once out, it is a needle again, and the hole is gone with the tool";
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+}
+
+// S16: whatever the fault, no force is left after 20 ms, and none comes back as a jump.
+TEST(TwoHands, FaultsFadeAndComeBackSlowly) {
+  const glm::dvec3 inside(0.0, 0.0, -25.0);
+  const HandInput held = holding(Tool::needle, inside);
+  HandInput silent = held, nan_pose = held, no_axis = held, late = held;
+  silent.healthy = false;
+  nan_pose.pose.position_lps_mm.y = kNan;
+  no_axis.pose.axis = glm::dvec3(0.0);
+  late.delay_ticks = kMostDelayTicks + 1;
+  for (const HandInput& fault : {silent, nan_pose, no_axis, late}) {
+    Right right(flat_body());
+    right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), inside, 700);
+    right.rest(held, 500);
+    const double before_n = glm::length(right.force.motor_n);
+    ASSERT_GT(before_n, 0.5);
+    for (int i = 1; i <= 20; ++i) {
+      right.tick(fault);
+      EXPECT_LE(glm::length(right.force.motor_n), before_n * (1.0 - i / 20.0) + 1e-9) << i;
+    }
+    EXPECT_NEAR(glm::length(right.force.motor_n), 0.0, 1e-9);
+    right.rest(fault, 100);
+    right.most_step_n = 0.0;
+    right.rest(held, 1000);
+    EXPECT_LE(right.most_step_n, 0.02) << "back within 0.3 s";
+    EXPECT_NEAR(glm::length(right.force.motor_n), before_n, 0.05 * before_n) << "it still holds";
+  }
+}
+
+TEST(TwoHands, AStallIsAFaultAndAHandThatWentElsewhereStartsAnew) {
+  const glm::dvec3 inside(0.0, 0.0, -25.0), elsewhere(-25.0, 0.0, -60.0);
+  Right right(flat_body());
+  right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), inside, 700);
+  right.tick(holding(Tool::needle, inside), 0.030);
+  EXPECT_EQ(right.force.motor_n, glm::dvec3(0.0)) << "30 ms late: what was to fade is over";
+  right.most_step_n = 0.0;
+  right.rest(holding(Tool::needle, inside), 1000);
+  EXPECT_LE(right.most_step_n, 0.02);
+  EXPECT_GT(glm::length(right.force.motor_n), 0.5);
+  HandInput silent = holding(Tool::needle, inside);
+  silent.healthy = false;
+  right.rest(silent, 50);
+  right.rest(holding(Tool::needle, elsewhere), 1000);
+  EXPECT_EQ(right.force.wanted_n, glm::dvec3(0.0)) << "as taken up inside the body";
+  for (const double late_s : {0.002, 0.010, 0.019}) {
+    Right stays(flat_body());
+    stays.move(holding(Tool::probe, {0.0, 0.0, 10.0}), {0.0, 0.0, -8.0}, 700);
+    stays.rest(holding(Tool::probe, {0.0, 0.0, -8.0}), 500);
+    stays.most_step_n = 0.0;
+    stays.tick(holding(Tool::probe, {0.0, 0.0, -8.0}), late_s);
+    EXPECT_LE(stays.most_step_n, 1e-3) << "below 20 ms it goes on";
+  }
+}
+
+// K is the sum of all springs' slopes: the most that the force changes per mm, on any way in, is bound / 1.4.
+TEST(TwoHands, MoreDelayIsSofter) {
+  const HapticDevice omni = *find_haptic_device("omni");
+  double last_n_mm = std::numeric_limits<double>::infinity();
+  for (int delay = 0; delay <= kMostDelayTicks; ++delay) {
+    HapticDevice delayed = omni;
+    delayed.delay_ticks = delay;
+    const double most_n_mm = stiffness_n_mm(delayed);
+    double steepest_n_mm = 0.0;
+    for (const Tool tool : {Tool::needle, Tool::probe}) {
+      Right right(flat_body());
+      const double x_mm = tool == Tool::probe ? 35.0 : 0.0, step_mm = 0.002;  // slow: the damper says nothing
+      double before_n = 0.0;
+      for (double z_mm = 0.5; z_mm > -11.0; z_mm -= step_mm) {
+        HandInput input = holding(tool, {x_mm, 0.0, z_mm});
+        input.delay_ticks = delay;
+        right.tick(input);
+        const double now_n = right.force.wanted_n.z;
+        if (!right.force.ruptured) steepest_n_mm = std::max(steepest_n_mm, (now_n - before_n) / step_mm);
+        before_n = now_n;
+      }
+    }
+    // The damper adds up to B / tick · d²F/dz² · step; bone's 50 ms a little more.
+    EXPECT_LE(steepest_n_mm, 1.03 * most_n_mm) << delay;
+    EXPECT_GE(steepest_n_mm, 0.9 * most_n_mm) << delay;
+    EXPECT_LE(most_n_mm, last_n_mm);
+    last_n_mm = most_n_mm;
+  }
+}
+
+TEST(TwoHands, DelayThatGrowsSoftensAtOnceThatShrinksOnceNothingIsTouched) {
+  Right right(flat_body());
+  HandInput input = holding(Tool::probe, {0.0, 0.0, -9.0});
+  right.move(holding(Tool::probe, {0.0, 0.0, 5.0}), {0.0, 0.0, -9.0}, 900);
+  right.rest(input, 500);
+  const double stiff_n = right.force.motor_n.z;
+  input.delay_ticks = 3;
+  right.most_step_n = 0.0;
+  right.rest(input, 500);
+  const double soft_n = right.force.motor_n.z;
+  EXPECT_LT(soft_n, 0.95 * stiff_n);
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
+  input.delay_ticks = 1;
+  right.rest(input, 500);
+  EXPECT_NEAR(right.force.motor_n.z, soft_n, 1e-9) << "still touched: a spring that stiffens would give energy";
+  right.move(input, {0.0, 0.0, 5.0}, 900);
+  right.move(holding(Tool::probe, {0.0, 0.0, 5.0}), {0.0, 0.0, -9.0}, 900);
+  right.rest(input, 500);
+  EXPECT_NEAR(right.force.motor_n.z, stiff_n, 1e-6);
+}
+
+TEST(TwoHands, GravityIsBorneUpwards) {
+  cases::Case scene = flat_body();
+  auto settings = two_omnis();
+  settings[1].carried_kg = 0.05;
+  for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone}) {
+    scene.position = position;
+    Right right(scene, settings);
+    right.rest(holding(Tool::none, {0.0, 0.0, 50.0}), 1000);
+    const double up = position == cases::PatientPosition::supine ? -1.0 : 1.0;  // LPS: +y is posterior
+    EXPECT_NEAR(right.force.motor_n.y, up * 0.05 * 9.80665, 1e-9);
+    EXPECT_EQ(right.force.motor_n.x, 0.0);
+    EXPECT_LE(right.most_step_n, 0.02);
+  }
+}
+
+// A body without symmetry, and its mirror image across x = 0.
+cases::Case bumpy_body(bool mirrored) {
+  cases::Mesh skin = fixtures::sphere_mesh({4.0, -2.0, -50.0}, 45.0, 5, 2.0);
+  if (mirrored) {
+    for (glm::vec3& vertex : skin.vertices_lps_mm) vertex.x = -vertex.x;
+    for (glm::uvec3& triangle : skin.triangles) std::swap(triangle.y, triangle.z);
+  }
+  return scene_of(std::move(skin), [mirrored](const glm::dvec3& p) {
+    const double x = mirrored ? -p.x : p.x;
+    return x > 25.0 && p.z > -40.0 ? TissueClass::bone : of_depth(-4.0 - p.z - 0.2 * x);
+  });
+}
+
+// Both hands at work: a needle in and out with some sway, a probe that presses and slides.
+HandInputs at_work(int tick, Handedness handedness, bool mirrored) {
+  const double t_s = 0.001 * tick, wave = std::sin(2.0 * t_s), sway = std::sin(11.0 * t_s);
+  HandInput needle = holding(Tool::needle, {-8.3 + 0.7 * sway, 3.1 + 1.5 * wave, -18.0 - 25.0 * wave},
+                             glm::normalize(glm::dvec3(0.1 + 0.02 * sway, 0.05, -1.0)));
+  HandInput probe = holding(Tool::probe, {15.0 + 6.0 * std::sin(t_s), -4.0, -8.0 - 6.0 * sway},
+                            glm::normalize(glm::dvec3(-0.2, 0.1 * wave, -1.0)));
+  if (mirrored)
+    for (HandInput* hand : {&needle, &probe}) {
+      hand->pose.position_lps_mm.x *= -1.0;
+      hand->pose.axis.x *= -1.0;
+    }
+  HandInputs inputs;
+  for (const Side side : {Side::left, Side::right})
+    inputs[static_cast<std::size_t>(side)] = tool_of(handedness, side) == Tool::needle ? needle : probe;
+  return inputs;
+}
+
+TEST(TwoHands, ALeftHandedUserInTheMirrorFeelsTheMirror) {
+  const cases::Case body = bumpy_body(false), image = bumpy_body(true);
+  const TwoHands hands(body, two_omnis()), left_handed(image, two_omnis());
+  HandStates states{}, left_states{};
+  double most_n[2] = {0.0, 0.0};
+  for (int tick = 0; tick < 6000; ++tick) {
+    const HandForces forces = hands.advance(at_work(tick, Handedness::right, false), kTickS, states);
+    const HandForces mirrored = left_handed.advance(at_work(tick, Handedness::left, true), kTickS, left_states);
+    for (std::size_t side = 0; side < 2; ++side) {
+      glm::dvec3 back_n = mirrored[1 - side].motor_n;
+      back_n.x *= -1.0;
+      ASSERT_NEAR(glm::distance(forces[side].motor_n, back_n), 0.0, 1e-6) << tick;
+      most_n[side] = std::max(most_n[side], glm::length(back_n));
+    }
+  }
+  EXPECT_GT(most_n[0], 0.5);
+  EXPECT_GT(most_n[1], 2.0);
+}
+
+TEST(TwoHands, HandsAreExchangedBitForBit) {
+  const cases::Case body = bumpy_body(false);
+  const TwoHands hands(body, two_omnis());
+  HandStates states{}, exchanged_states{};
+  for (int tick = 0; tick < 4000; ++tick) {
+    const HandForces forces = hands.advance(at_work(tick, Handedness::right, false), kTickS, states);
+    const HandForces exchanged = hands.advance(at_work(tick, Handedness::left, false), kTickS, exchanged_states);
+    ASSERT_EQ(std::memcmp(&forces[0].motor_n, &exchanged[1].motor_n, sizeof(glm::dvec3)), 0) << tick;
+    ASSERT_EQ(std::memcmp(&forces[1].motor_n, &exchanged[0].motor_n, sizeof(glm::dvec3)), 0) << tick;
+  }
+}
+
+TEST(TwoHands, AllocatesNothingAndNeverJumps) {
+  const cases::Case body = bumpy_body(false);
+  const TwoHands hands(body, two_omnis());
+  HandStates states{};
+  HandForces last{};
+  int ruptures = 0;
+  long allocated = 0;
+  for (int tick = 0; tick < 8000; ++tick) {
+    HandInputs inputs = at_work(tick, tick % 3000 < 2500 ? Handedness::right : Handedness::left, false);
+    inputs[0].delay_ticks = tick / 500 % 4;
+    const long before = fixtures::allocations();
+    const HandForces forces = hands.advance(inputs, kTickS, states);
+    allocated += fixtures::allocations() - before;
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_LE(glm::distance(forces[side].motor_n, last[side].motor_n), kMostStepN + kRounding) << tick;
+      EXPECT_LE(glm::length(forces[side].motor_n), 3.3 + kRounding);
+      ruptures += forces[side].ruptured ? 1 : 0;
+    }
+    last = forces;
+  }
+  EXPECT_EQ(allocated, 0);
+  EXPECT_GT(ruptures, 2);
+}
+
+TEST(TwoHands, WithoutASkinThereIsNoForce) {
+  cases::Case empty = flat_body();
+  empty.skin = {};
+  empty.skin_index = {};
+  for (const Tool tool : {Tool::needle, Tool::probe}) {
+    Right right(empty);
+    right.move(holding(tool, {0.0, 0.0, 10.0}), {0.0, 0.0, -25.0}, 500);
+    EXPECT_EQ(right.force.motor_n, glm::dvec3(0.0));
+  }
+}
+
+}  // namespace
+}  // namespace seldinger::haptics
