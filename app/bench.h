@@ -30,8 +30,12 @@ base::Result<void> bench_xray(const Arguments& arguments, bool quick, std::vecto
 // Stage ultrasound: methods, beams, samples and densities on the built-in torso, and timed on `--ct SOURCE`. The
 // error is the worst of the goals that a setting can change, over its tolerance (fast column, few frames).
 base::Result<void> bench_ultrasound(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
-// Stage haptics: the needle's laws at three speeds against the published lines, and their page of force against depth.
+// Stage haptics: the needle's laws at three speeds against the published lines, and their page of force against
+// depth.
 void bench_haptics(bool quick, std::vector<BenchRow>& rows);
 std::string force_depth_page();
+// Stage haptics, too: a tick of two hands on a skin of some 200,000 triangles and 512³ voxels (quick: the torso as
+// it is).
+base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows);
 
 }  // namespace seldinger::app

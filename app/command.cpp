@@ -62,6 +62,11 @@ constexpr Option kInsertOptions[] = {
     {"--gauge", "G", "16 to 25; default 22"},
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
+constexpr Option kSelftestOptions[] = {
+    {"--seconds", "S", "how long; default 10"},
+    {"--most-missed", "SHARE",
+     "of the ticks, before it counts as failed; default 0.05, for a machine that others share"},
+    kJson};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
@@ -112,11 +117,15 @@ constexpr Command kCommands[] = {
     {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
-    {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
-     &run_haptics_insert},
+    {"haptics insert", "", 0, 0, kInsertOptions,
+     "Drives a needle into one tissue and writes its force against depth.", &run_haptics_insert},
     {"haptics stability", "", 0, 0, kJsonOnly,
-     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not (docs/stability.md).",
+     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
+     "(docs/stability.md).",
      &run_haptics_stability},
+    {"haptics selftest", "", 0, 0, kSelftestOptions,
+     "Runs the 1 kHz servo with two virtual devices on the built-in torso; 1 when it misses too many ticks.",
+     &run_haptics_selftest},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
      "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",

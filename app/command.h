@@ -57,6 +57,7 @@ int run_user_passwd(const Arguments& arguments);
 int run_user_disable(const Arguments& arguments);
 int run_haptics_insert(const Arguments& arguments);
 int run_haptics_stability(const Arguments& arguments);
+int run_haptics_selftest(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
 int run_goals_ultrasound(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);

@@ -114,6 +114,54 @@ TEST(HapticsStability, HoldsAndIsWhatTheDocumentSays) {
   EXPECT_EQ(json.at("walls").size(), 2U * 4U * 5U * 13U);
 }
 
+// What the servo says of its own punctuality adds up; how punctual this machine is, nobody asserts.
+TEST(HapticsSelftest, AddsUpAndFailsBeyondTheShareAskedFor) {
+  const auto scratch = fixtures::fresh_folder("haptics_selftest");
+  for (const char* most : {"1", "0"}) {
+    const auto ran =
+        fixtures::run(kProgram + " haptics selftest --seconds 2 --most-missed " + most + " --json", scratch);
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_TRUE(ran.err.empty()) << ran.err;
+    const double ticks = json.at("ticks"), missed = json.at("missed");
+    EXPECT_GE(ticks, 10.0);
+    EXPECT_NEAR(json.at("missed_share").get<double>(), missed / (ticks + missed), 1e-12);
+    const bool holds = missed / (ticks + missed) <= std::strtod(most, nullptr);
+    EXPECT_EQ(json.at("holds"), holds);
+    EXPECT_EQ(ran.exit_code, holds ? 0 : 1);
+    for (const char* name : {"period", "latency", "compute"}) {
+      const auto& times = json.at(name);
+      double n = 0.0, last_us = -1.0;
+      for (const auto& bin : times.at("bins_us")) {
+        EXPECT_GT(bin.at(0).get<double>(), last_us);
+        last_us = bin.at(0);
+        n += bin.at(1).get<double>();
+      }
+      EXPECT_EQ(n, times.at("n").get<double>());
+      EXPECT_EQ(n, std::string(name) == "period" ? ticks - 1.0 : ticks) << name;
+      EXPECT_LE(times.at("p50_us"), times.at("p99_9_us"));
+      EXPECT_LE(times.at("p99_9_us"), times.at("max_us"));
+    }
+    EXPECT_GT(json.at("most_needle_n"), 0.5) << "the hands were at work";
+    EXPECT_GT(json.at("most_probe_n"), 0.5);
+    const std::string scheduler = json.at("scheduler");
+    EXPECT_TRUE(scheduler == "SCHED_FIFO" || scheduler == "SCHED_OTHER") << scheduler;
+  }
+}
+
+TEST(HapticsSelftest, PrintsATableAndRefusesNonsense) {
+  const auto scratch = fixtures::fresh_folder("haptics_selftest_table");
+  const auto ran = fixtures::run(kProgram + " haptics selftest --seconds 0.2 --most-missed 1", scratch);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  for (const char* word : {"p50", "p99.9", "max", "period", "latency", "compute", "missed", "scheduler SCHED_"})
+    EXPECT_NE(ran.out.find(word), std::string::npos) << word << "\n" << ran.out;
+  for (const char* words : {"--seconds 0", "--seconds -1", "--seconds nan", "--seconds 1e9", "--most-missed 2",
+                            "--most-missed nan", "--seconds x"}) {
+    const auto refused = fixtures::run(kProgram + " haptics selftest " + words, scratch);
+    EXPECT_EQ(refused.exit_code, 2) << words;
+    EXPECT_TRUE(refused.out.empty());
+  }
+}
+
 // The laws against the published lines: ours keeps them at any speed, the thesis' at none but its own.
 TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
   const auto scratch = fixtures::fresh_folder("haptics_bench");
@@ -122,8 +170,9 @@ TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   std::istringstream lines(ran.out);
   std::string line;
-  int ours = 0, thesis = 0;
+  int ours = 0, thesis = 0, servo = 0;
   while (std::getline(lines, line)) {
+    if (line.rfind("haptics,servo step of two hands,", 0) == 0) ++servo;
     const std::size_t unit = line.find(",N rms,");
     if (unit == std::string::npos) continue;
     const double error_n = std::strtod(line.c_str() + line.rfind(',', unit - 1) + 1, nullptr);
@@ -137,6 +186,7 @@ TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
   }
   EXPECT_EQ(ours, 2 * 3);
   EXPECT_EQ(thesis, 2 * 3 * 3);
+  EXPECT_EQ(servo, 4) << "p50 and p99.9, of the least and of all";
   const std::string page = fixtures::whole_file(scratch / "out" / "force_depth.html");
   for (const char* name : {"needle law", "thesis F1, m 50", "published line", "kidney", "liver"})
     EXPECT_NE(page.find(name), std::string::npos) << name;

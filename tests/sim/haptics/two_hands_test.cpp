@@ -115,7 +115,8 @@ TEST(TwoHands, ANeedleInSpaceIsTheLawAlongItsLine) {
     int ruptures = 0;
     for (int i = 0; i < 2600; ++i) {
       const double depth_mm = -10.0 + 0.03 * i;
-      const glm::dvec3 wanted_n = right.tick(holding(Tool::needle, entry + depth_mm * axis, axis)).wanted_n;
+      const glm::dvec3 wanted_n =
+          right.tick(holding(Tool::needle, entry + depth_mm * axis, (1.0 + tilt) * axis)).wanted_n;
       const NeedleForce along = law.advance(path.span(), depth_mm, track);
       ASSERT_NEAR(glm::distance(wanted_n, -along.axial_n * axis), 0.0, 1e-6) << depth_mm;
       EXPECT_EQ(right.force.ruptured, along.ruptured);
@@ -195,6 +196,7 @@ TEST(TwoHands, ToolsAreSwappedWithoutAJump) {
   };
   EXPECT_EQ(swap_to(Tool::none), 0.0);
   EXPECT_GT(swap_to(Tool::probe), 1.0) << "its head is deep in the skin";
+  EXPECT_LE(right.most_step_n, 0.05) << "and its force comes in within 0.3 s";
   EXPECT_EQ(swap_to(Tool::needle), 0.0) << "taken up inside the body";
   right.move(holding(Tool::needle, inside), {0.0, 0.0, -40.0}, 500);
   EXPECT_EQ(right.force.motor_n, glm::dvec3(0.0));
@@ -231,6 +233,21 @@ TEST(TwoHands, FaultsFadeAndComeBackSlowly) {
     EXPECT_LE(right.most_step_n, 0.02) << "back within 0.3 s";
     EXPECT_NEAR(glm::length(right.force.motor_n), before_n, 0.05 * before_n) << "it still holds";
   }
+}
+
+TEST(TwoHands, WhatAHandDoesUnseenStretchesNothing) {
+  const glm::dvec3 inside(0.0, 0.0, -25.0), beside(8.0, 0.0, -25.0);
+  Right right(flat_body());
+  right.move(holding(Tool::needle, {0.0, 0.0, 10.0}), inside, 700);
+  right.rest(holding(Tool::needle, inside), 500);
+  HandInput silent = holding(Tool::needle, inside);
+  silent.healthy = false;
+  right.rest(silent, 50);
+  right.rest(holding(Tool::needle, beside), 1000);
+  EXPECT_NEAR(right.force.wanted_n.x, 0.0, 1e-6) << "8 mm aside, unseen";
+  EXPECT_GT(right.force.wanted_n.z, 0.5) << "and in the tissue as before";
+  right.move(holding(Tool::needle, beside), {9.0, 0.0, -25.0}, 100);
+  EXPECT_LT(right.force.wanted_n.x, -0.02) << "seen again, it does";
 }
 
 TEST(TwoHands, AStallIsAFaultAndAHandThatWentElsewhereStartsAnew) {

@@ -1,0 +1,73 @@
+// bench --stage haptics: what a tick of two hands costs. One recording is replayed several times; the least time of
+// each tick is what the work costs, all times together are what this machine made of it.
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "app/bench.h"
+#include "app/servo_trial.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr int kReplays = 5;
+constexpr int kTicks = 30000, kQuickTicks = 6000;  // five insertions; one
+constexpr int kSize = 512;
+constexpr double kSkinDecimation = 0.28, kQuickSkinDecimation = 0.7;  // 0.28: above 200,000 triangles
+
+double quantile_ms(const std::vector<double>& sorted_ms, double share) {
+  return sorted_ms[static_cast<std::size_t>(share * static_cast<double>(sorted_ms.size() - 1))];
+}
+
+}  // namespace
+
+base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
+  auto torso = torso_under_hands(quick ? kQuickSkinDecimation : kSkinDecimation);
+  if (!torso) return torso.error();
+  if (!quick) refine(torso->scene, kSize);
+  const haptics::TwoHands hands(torso->scene, two_virtual_devices());
+  HandsAtWork work(torso->plan, haptics::Handedness::right);
+  std::vector<haptics::HandInputs> recording;
+  for (int tick = 0; tick < (quick ? kQuickTicks : kTicks); ++tick) recording.push_back(work.next());
+
+  std::vector<double> least_ms(recording.size(), std::numeric_limits<double>::infinity()), all_ms;
+  all_ms.reserve(recording.size() * kReplays);
+  double sum_n = 0.0;  // so that nothing is left out
+  for (int replay = 0; replay < kReplays; ++replay) {
+    haptics::HandStates states{};
+    for (std::size_t tick = 0; tick < recording.size(); ++tick) {
+      const auto start = std::chrono::steady_clock::now();
+      const haptics::HandForces forces = hands.advance(recording[tick], haptics::kTickS, states);
+      const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+      sum_n += forces[0].motor_n.x + forces[1].motor_n.x;
+      least_ms[tick] = std::min(least_ms[tick], ms);
+      all_ms.push_back(ms);
+    }
+  }
+  const auto add = [&](const std::string& what, std::vector<double> times_ms) {
+    std::sort(times_ms.begin(), times_ms.end());
+    for (const auto& [name, share] : {std::pair{"p50", 0.5}, std::pair{"p99.9", 0.999}}) {
+      BenchRow row{"haptics",
+                   "servo step of two hands",
+                   std::string(name) + " of a tick's time, " + what + ", " +
+                       std::to_string(torso->scene.skin.triangles.size()) + " triangles",
+                   "cpu",
+                   "1 thread",
+                   bench_size(torso->scene.volume),
+                   static_cast<int>(times_ms.size()),
+                   quantile_ms(times_ms, share),
+                   times_ms.front(),
+                   times_ms.back(),
+                   "",
+                   "",
+                   ""};
+      rows.push_back(row);
+    }
+  };
+  add("least of " + std::to_string(kReplays) + " replays", std::move(least_ms));
+  add("all " + std::to_string(kReplays) + " replays", std::move(all_ms));
+  if (!(sum_n == sum_n)) return base::Error{"not_finite", "a force is not a number"};
+  return {};
+}
+
+}  // namespace seldinger::app
