@@ -111,8 +111,9 @@ TEST(TwoHands, TissueHoldsTheNeedleSideways) {
   turned.move(holding(Tool::needle, {0.0, 0.0, 10.0}), {0.0, 0.0, -25.0}, 1500);
   turned.rest(holding(Tool::needle, {0.0, 0.0, -25.0}), 500);
   for (int i = 0; i <= 500; ++i)
-    turned.tick(holding(Tool::needle, {0.0, 0.0, -25.0}, glm::normalize(glm::dvec3(-0.1 * i / 500.0, 0.0, -1.0))));
-  EXPECT_LT(turned.force.wanted_n.x, -0.1);
+    turned.tick(holding(Tool::needle, {0.0, 0.0, -25.0}, glm::normalize(glm::dvec3(-0.5 * i / 500.0, 0.0, -1.0))));
+  turned.rest(holding(Tool::needle, {0.0, 0.0, -25.0}, glm::normalize(glm::dvec3(-0.5, 0.0, -1.0))), 500);
+  EXPECT_NEAR(turned.force.wanted_n.x, -12.5 * expected_n_mm, 0.02 * 12.5 * expected_n_mm);
 }
 
 TEST(TwoHands, AProbePressesAsItsLawSays) {
@@ -129,6 +130,19 @@ TEST(TwoHands, AProbePressesAsItsLawSays) {
     EXPECT_NEAR(right.force.motor_n.x, 0.0, 1e-9);
     EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
   }
+}
+
+TEST(TwoHands, AProbeThatSlidesOntoARibFeelsIt) {
+  Right right(flat_body());
+  right.move(holding(Tool::probe, {-20.0, 0.0, 5.0}), {-20.0, 0.0, -4.0}, 900);
+  right.rest(holding(Tool::probe, {-20.0, 0.0, -4.0}), 500);
+  const double soft_n = right.force.motor_n.z;
+  right.most_step_n = 0.0;
+  right.move(holding(Tool::probe, {-20.0, 0.0, -4.0}), {35.0, 0.0, -4.0}, 500);
+  right.rest(holding(Tool::probe, {35.0, 0.0, -4.0}), 500);
+  EXPECT_GT(right.force.motor_n.z, 2.0 * soft_n);
+  EXPECT_LT(right.force.motor_n.x, -0.05) << "friction";
+  EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
 }
 
 TEST(TwoHands, ToolsAreSwappedWithoutAJump) {
