@@ -1,13 +1,17 @@
 // Prints the chained state hash of every tick of two simulated attempts at a sphere-shaped patient, under a probe
-// and under X-ray. Built several times with other compiler options (CMakeLists.txt); determinism_test compares what
-// the builds print.
+// and under X-ray, and of the forces on two hands. Built several times with other compiler options
+// (CMakeLists.txt); determinism_test compares what the builds print.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
+#include "sim/base/hash.h"
 #include "sim/devices/virtual_device.h"
 #include "sim/engine/step.h"
+#include "sim/haptics/two_hands.h"
 #include "tests/fixtures/meshes.h"
 
 using namespace seldinger;
@@ -60,6 +64,48 @@ cases::State under_xray(const cases::Case& scene, const assessment::PuncturePlan
   return state;
 }
 
+// A needle in and out with a sway, a probe that presses and slides; gives the most force.
+double under_hands(cases::Case& scene, const assessment::PuncturePlan& plan) {
+  scene.volume = volume::make_volume({70, 70, 70}, glm::dvec3(3.0), glm::dmat3(1.0), glm::dvec3(-103.5));
+  for (int k = 0; k < 70; ++k)
+    for (int j = 0; j < 70; ++j)
+      for (int i = 0; i < 70; ++i) {
+        const glm::dvec3 p = glm::dvec3(i, j, k) * 3.0 - 103.5;
+        const double r2 = glm::dot(p, p);
+        scene.classes.push_back(p.x > 40.0         ? volume::TissueClass::bone
+                                : r2 < 60.0 * 60.0 ? volume::TissueClass::kidney
+                                : r2 < 85.0 * 85.0 ? volume::TissueClass::soft_tissue
+                                                   : volume::TissueClass::fat);
+      }
+  const haptics::HandSettings omni{*haptics::find_haptic_device("omni"), 0.02};
+  const haptics::TwoHands hands(scene, {omni, omni});
+  haptics::HandStates states{};
+  devices::VirtualDevice needle_arm, probe_arm;
+  std::uint64_t hash = 0;
+  double most_n = 0.0;
+  for (int tick = 0; tick < 12'000; ++tick) {
+    const double way = std::abs(tick % 6000 - 3000) / 3000.0, sway = (tick * 7 % 901) / 900.0;
+    haptics::HandInputs inputs;
+    inputs[0].tool = haptics::Tool::probe;
+    inputs[0].pose = probe_arm.advance(
+        {plan.probe.position_lps_mm + (12.0 * sway - 2.0) * plan.probe.axis, plan.probe.axis, plan.probe.side},
+        0.001);
+    inputs[1].tool = haptics::Tool::needle;
+    inputs[1].healthy = tick % 2500 > 20;
+    inputs[1].delay_ticks = tick / 3000;
+    inputs[1].pose = needle_arm.advance(
+        {plan.target_lps_mm + glm::dvec3(sway, 0.0, 0.0) - (plan.depth_mm + 8.0) * way * plan.direction,
+         plan.direction + glm::dvec3(0.0, 0.0, 0.02 * sway), plan.probe.side},
+        0.001);
+    for (const haptics::HandForce& force : hands.advance(inputs, 0.001, states)) {
+      for (int axis = 0; axis < 3; ++axis) hash = base::hash_combine(hash, force.motor_n[axis]);
+      most_n = std::max(most_n, glm::length(force.motor_n));
+    }
+    std::printf("%016llx\n", static_cast<unsigned long long>(hash));
+  }
+  return most_n;
+}
+
 }  // namespace
 
 int main() {
@@ -76,5 +122,6 @@ int main() {
   plan.probe = {plan.entry_lps_mm + glm::dvec3(30, 0, 0), {-0.5, 0.8, 0.0}, {0.8, 0.5, 0.0}};
   const bool fired = under_probe(scene, plan).fire.fired;
   scene.picture.modality = cases::Modality::xray;
-  return under_xray(scene, plan).fire.fired && fired ? 0 : 1;
+  const bool fired_there = under_xray(scene, plan).fire.fired;
+  return under_hands(scene, plan) > 2.0 && fired_there && fired ? 0 : 1;
 }

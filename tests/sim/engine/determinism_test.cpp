@@ -1,4 +1,5 @@
-// Tests that step, device and operator give the same bits at every tick in Debug and -O2, with and without FMA.
+// Tests that step, device, operator and the forces on two hands give the same bits at every tick in Debug and -O2,
+// with and without FMA.
 #include <gtest/gtest.h>
 
 #include <array>
