@@ -54,17 +54,18 @@ double HeldNeedle::below_skin_mm(const cases::ToolPose& pose, const cases::SkinP
 HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw& law,
                                     const NeedleSideLaw& side_law, HeldNeedleState& state) const noexcept {
   const glm::dvec3& tip_lps_mm = pose.position_lps_mm;
-  if (state.begun)
-    cases::advance_passage(scene_->skin_index, tip_lps_mm, state.skin);
-  else
+  const double on_line_mm = glm::dot(tip_lps_mm - state.entry_lps_mm, state.direction);
+  // In its track, it is in the body: the skin, costly to ask from deep below, is asked again at the hole.
+  const bool in_track = !state.outside && state.track.opened > 0 && on_line_mm > 0.0;
+  if (!state.begun)
     state.skin = cases::start_passage(scene_->skin_index, tip_lps_mm, pose.axis);
+  else if (!in_track)
+    cases::advance_passage(scene_->skin_index, tip_lps_mm, state.skin);
   state.begun = true;
   const bool in_body = state.skin.in_body;
   if (!state.free && in_body) return {};
   state.free = true;
-
-  const double on_line_mm = glm::dot(tip_lps_mm - state.entry_lps_mm, state.direction);
-  if (!in_body && (state.outside || state.track.opened == 0 || on_line_mm <= 0.0)) {
+  if (!in_body && !in_track) {
     if (!state.outside) leave(state);
     state.depth_mm = 0.0;
     return {};
