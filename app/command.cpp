@@ -62,6 +62,13 @@ constexpr Option kInsertOptions[] = {
     {"--gauge", "G", "16 to 25; default 22"},
     {"--relaxation", nullptr, "held tissue relaxes"},
     {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
+constexpr Option kFitOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "the row's class; default soft_tissue"},
+    {"--gauge", "G", "of the needle it was measured with, 16 to 25; default 22. The row is at 22"},
+    {"--gaussians", "K", "1 to 12; default 8 (thesis eq. 5.1)"},
+    {"--source", "TEXT", "where the curve was measured; goes into the row"},
+    {"--out", "FILE.html", "curve, models and residuals; default FILE.fit.html beside FILE.csv"},
+    kJson};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
@@ -112,10 +119,15 @@ constexpr Command kCommands[] = {
     {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
-    {"haptics insert", "", 0, 0, kInsertOptions, "Drives a needle into one tissue and writes its force against depth.",
-     &run_haptics_insert},
+    {"haptics insert", "", 0, 0, kInsertOptions,
+     "Drives a needle into one tissue and writes its force against depth.", &run_haptics_insert},
+    {"haptics fit", "FILE.csv", 1, 1, kFitOptions,
+     "Fits a plateau behind a capsule, and a sum of Gaussians, to a measured insertion: columns depth_mm, from the "
+     "touch, and force_axial_n, > 0 resists.",
+     &run_haptics_fit},
     {"haptics stability", "", 0, 0, kJsonOnly,
-     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not (docs/stability.md).",
+     "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
+     "(docs/stability.md).",
      &run_haptics_stability},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
