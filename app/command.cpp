@@ -69,6 +69,10 @@ constexpr Option kFitOptions[] = {
     {"--source", "TEXT", "where the curve was measured; goes into the row"},
     {"--out", "FILE.html", "curve, models and residuals; default FILE.fit.html beside FILE.csv"},
     kJson};
+constexpr Option kCalibrateOptions[] = {
+    {"--device", "left|right", "which of the station's two"},
+    {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
+    kJson};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
@@ -125,6 +129,10 @@ constexpr Command kCommands[] = {
      "Fits a plateau behind a capsule, and a sum of Gaussians, to a measured insertion: columns depth_mm, from the "
      "touch, and force_axial_n, > 0 resists.",
      &run_haptics_fit},
+    {"haptics calibrate", "POINTS.csv", 1, 1, kCalibrateOptions,
+     "Finds where a device stands on the template (156 mm square, cross of 128 mm, box of 143 mm): columns point, "
+     "x_mm, y_mm, z_mm as the device reads them at a, b, c, d, f and, where taken, e. Refused above 1 mm.",
+     &run_haptics_calibrate},
     {"haptics stability", "", 0, 0, kJsonOnly,
      "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
      "(docs/stability.md).",

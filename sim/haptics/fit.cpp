@@ -163,6 +163,53 @@ const DepthForce& at_depth(const Points& points, double depth_mm) {
   return *std::min_element(points.begin(), points.end(), beside);
 }
 
+// Where the area under the curve up to there is that share of all.
+double depth_at_area(const Points& points, double share) {
+  double area = 0.0;
+  for (const DepthForce& point : points) area += std::max(0.0, point.force_n);
+  double left = share * area;
+  for (const DepthForce& point : points) {
+    left -= std::max(0.0, point.force_n);
+    if (left <= 0.0) return point.depth_mm;
+  }
+  return points.back().depth_mm;
+}
+
+// Gaussians evenly along the area for start 0, else anywhere, from narrow to wide: by turns as the area lies, since
+// one where there is no force goes nowhere, and as depth lies.
+Parameters spread_out(const Points& points, std::size_t parts, int start) {
+  Parameters parameters;
+  const double way = way_mm(points), count = static_cast<double>(parts);
+  base::Rng rng(static_cast<std::uint64_t>(start));
+  for (std::size_t k = 0; k < parts; ++k) {
+    const double place = start == 0 ? (static_cast<double>(k) + 0.5) / count : rng.uniform();
+    const double width = start == 0 ? 0.7 / count : 0.02 * std::exp(rng.uniform() * std::log(20.0));
+    const double centre_mm = start % 2 == 0 ? depth_at_area(points, place) : points.front().depth_mm + place * way;
+    parameters.insert(parameters.end(), {0.6 * at_depth(points, centre_mm).force_n, centre_mm, width * way});
+  }
+  return parameters;
+}
+
+// A Gaussian on the highest point, as wide as the peak at half its height on its steeper side; the next on what
+// that leaves.
+Parameters peak_by_peak(Points left, std::size_t parts) {
+  constexpr double kHalfWidth = 1.1774100225154747;  // sqrt(2 ln 2) sigma
+  Parameters parameters;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const auto peak = std::max_element(
+        left.begin(), left.end(), [](const DepthForce& a, const DepthForce& b) { return a.force_n < b.force_n; });
+    double half_mm = way_mm(left);
+    for (const DepthForce& point : left)
+      if (point.force_n < 0.5 * peak->force_n)
+        half_mm = std::min(half_mm, std::abs(point.depth_mm - peak->depth_mm));
+    const Gaussian part{peak->force_n, peak->depth_mm,
+                        std::max(half_mm, way_mm(left) / static_cast<double>(left.size())) / kHalfWidth};
+    parameters.insert(parameters.end(), {part.height_n, part.centre_mm, part.sigma_mm});
+    for (DepthForce& point : left) point.force_n -= part.force_n(point.depth_mm);
+  }
+  return parameters;
+}
+
 }  // namespace
 
 base::Result<PlateauFit> fit_plateau(std::span<const DepthForce> curve, int starts) {
@@ -223,18 +270,7 @@ GaussianFit fit_gaussians(std::span<const DepthForce> curve, int gaussians, int 
     bounds.most.insert(bounds.most.end(), {4.0 * most, from_mm + 1.5 * way, 2.0 * way});
   }
   Search search(points, std::move(bounds), force);
-  for (int i = 0; i < starts; ++i) {
-    Parameters start;
-    base::Rng rng(static_cast<std::uint64_t>(i));
-    for (std::size_t k = 0; k < parts; ++k) {
-      // The first start spreads them evenly, the others anywhere, from narrow to wide.
-      const double place = i == 0 ? (static_cast<double>(k) + 0.5) / gaussians : rng.uniform();
-      const double width = i == 0 ? 0.7 / gaussians : std::exp(std::log(0.02) + rng.uniform() * std::log(20.0));
-      const double centre_mm = from_mm + place * way;
-      start.insert(start.end(), {0.6 * at_depth(points, centre_mm).force_n, centre_mm, width * way});
-    }
-    search.from(std::move(start));
-  }
+  for (int i = 0; i < starts; ++i) search.from(i == 1 ? peak_by_peak(points, parts) : spread_out(points, parts, i));
   GaussianFit fit;
   for (std::size_t k = 0; k < parts; ++k) {
     const double* p = search.best().data() + kEach * k;
