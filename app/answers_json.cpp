@@ -166,6 +166,7 @@ std::string json_of_picture(const ScenePicture& picture, double min, double max)
                {"max", max},
                {"unit", picture.unit},
                {"visible", nullptr}};
+  if (picture.frame_rate_hz) json["frame_rate_hz"] = *picture.frame_rate_hz;
   if (const auto& visible = picture.visible)
     json["visible"] = {{"needle_tip", visible->needle_tip},
                        {"needle_length_mm", visible->needle_length_mm},

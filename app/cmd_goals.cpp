@@ -1,4 +1,4 @@
-// goals ultrasound.
+// goals ultrasound, goals haptics.
 #include <algorithm>
 #include <cstdio>
 
@@ -43,6 +43,16 @@ int run_goals_ultrasound(const Arguments& arguments) {
     std::fputs(json_of_goals(answer).c_str(), stdout);
   else
     for (const GoalsOfMethod& measured : answer) std::fputs(goals_table(measured).c_str(), stdout);
+  return holds ? kDone : kCheckFailed;
+}
+
+int run_goals_haptics(const Arguments& arguments) {
+  std::vector<haptics::ForceReading> readings = haptics::force_readings();
+  for (const haptics::ForceReading& reading : haptics::stability_readings(haptics::survey_stability()))
+    readings.push_back(reading);
+  std::fputs((arguments.has("--json") ? json_of_goals(readings) : goals_table(readings)).c_str(), stdout);
+  const bool holds =
+      std::all_of(readings.begin(), readings.end(), [](const haptics::ForceReading& one) { return one.holds(); });
   return holds ? kDone : kCheckFailed;
 }
 

@@ -23,9 +23,9 @@ int run_render(const Arguments& arguments) {
   const auto scene = read_scene(arguments.positional(0), notes);
   if (!scene) return refuse(scene.error());
   if (!scene->view) return refuse({"bad_scene", "scene.view is missing"});
-  const auto volume = volume_of(*scene, arguments.text("--library"));
-  if (!volume) return refuse(volume.error());
-  const auto rendered = render_scene(*volume, *scene, arguments.text("--library"), backend);
+  auto painter = ScenePainter::of(*scene, arguments.text("--library"));
+  if (!painter) return refuse(painter.error());
+  const auto rendered = painter->paint(*scene, backend);
   if (!rendered) return refuse(rendered.error());
   const ScenePicture& picture = *rendered;
   if (out.extension() == ".mha")

@@ -20,17 +20,17 @@ int run_sheet(const Arguments& arguments) {
 
   std::vector<reports::SheetRow> pictures;
   std::string volume_told;
-  std::optional<volume::Volume> volume;
+  std::optional<ScenePainter> painter;
   for (const Sheet::Row& row : sheet->rows) {
     pictures.push_back({row.name, {}, {}});
     for (const auto& [scene, told] : row.pictures) {
-      if (!volume || told != volume_told) {
-        auto read = volume_of(scene, library);
-        if (!read) return refuse(read.error());
-        volume = std::move(*read);
+      if (!painter || told != volume_told) {
+        auto made = ScenePainter::of(scene, library);
+        if (!made) return refuse(made.error());
+        painter = std::move(*made);
         volume_told = told;
       }
-      const auto picture = render_scene(*volume, scene, library, arguments.text("--backend"));
+      const auto picture = painter->paint(scene, arguments.text("--backend"));
       if (!picture) return refuse(picture.error());
       pictures.back().png.push_back(
           png_from_grey(picture->grey, picture->plane.width_px, picture->plane.height_px));

@@ -61,6 +61,7 @@ int run_haptics_calibrate(const Arguments& arguments);
 int run_haptics_stability(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
 int run_goals_ultrasound(const Arguments& arguments);
+int run_goals_haptics(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);
 int run_demo(const Arguments& arguments);
 int run_serve(const Arguments& arguments);

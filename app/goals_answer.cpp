@@ -34,4 +34,20 @@ std::string goals_table(const GoalsOfMethod& measured) {
   return text + line;
 }
 
+std::string goals_table(const std::vector<haptics::ForceReading>& readings) {
+  char line[256];
+  std::snprintf(line, sizeof line, "%-42s %-9s %10s %-6s %s\n", "", "of", "measured", "", "goal");
+  std::string text = line;
+  int held = 0;
+  for (const haptics::ForceReading& reading : readings) {
+    held += reading.holds();
+    std::snprintf(line, sizeof line, "%-42s %-9s %10.3g %-6s %s %g  %s\n", reading.what, reading.where,
+                  reading.measured, reading.unit, reading.at_least ? "at least" : "at most", reading.limit,
+                  reading.holds() ? "holds" : "MISSED");
+    text += line;
+  }
+  std::snprintf(line, sizeof line, "%d of %zu hold.\n", held, readings.size());
+  return text + line;
+}
+
 }  // namespace seldinger::app

@@ -1,10 +1,11 @@
-// The answer of `goals ultrasound`: a table for people, a document for programs.
+// The answers of `goals ultrasound` and `goals haptics`: a table for people, a document for programs.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "app/ultrasound_goals/goal.h"
+#include "sim/haptics/force_goals.h"
 
 namespace seldinger::app {
 
@@ -17,6 +18,9 @@ struct GoalsOfMethod {
 // One row a reading: measured, both tolerances, measured over the asked tolerance, holds or not.
 std::string goals_table(const GoalsOfMethod& measured);
 std::string json_of_goals(const std::vector<GoalsOfMethod>& measured);
+
+std::string goals_table(const std::vector<haptics::ForceReading>& readings);
+std::string json_of_goals(const std::vector<haptics::ForceReading>& readings);
 
 // "scatterers", "lattice", "thesis", and back; nothing for another name.
 const char* name_of(imaging::UltrasoundMethod method) noexcept;

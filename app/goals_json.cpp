@@ -4,10 +4,17 @@
 #include "app/goals_answer.h"
 
 namespace seldinger::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+}  // namespace
 
 std::string json_of_goals(const std::vector<GoalsOfMethod>& measured) {
-  using Json = nlohmann::ordered_json;
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
   Json document = Json::array();
   for (const GoalsOfMethod& one : measured) {
     Json rows = Json::array();
@@ -26,6 +33,18 @@ std::string json_of_goals(const std::vector<GoalsOfMethod>& measured) {
                         {"readings", rows}});
   }
   return document.dump(2) + "\n";
+}
+
+std::string json_of_goals(const std::vector<haptics::ForceReading>& readings) {
+  Json rows = Json::array();
+  for (const haptics::ForceReading& reading : readings)
+    rows.push_back({{"what", reading.what},
+                    {"of", reading.where},
+                    {"measured", number(reading.measured)},
+                    {"unit", reading.unit},
+                    {reading.at_least ? "at_least" : "at_most", reading.limit},
+                    {"holds", reading.holds()}});
+  return rows.dump(2) + "\n";
 }
 
 }  // namespace seldinger::app

@@ -10,6 +10,7 @@
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/xray/coarse.h"
@@ -112,14 +113,13 @@ unsigned char grey_of_db(float db) {
   return static_cast<unsigned char>(std::clamp(255.0F + 2.0F * db, 0.0F, 255.0F));
 }
 
-void render_ultrasound(const volume::Volume& volume, const std::vector<volume::TissueClass>& classes,
-                       const UltrasoundSceneView& scene, const imaging::Inserted& inserted, ScenePicture& picture) {
+}  // namespace
+
+void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
+                                    ScenePicture& picture) const {
   const imaging::UltrasoundView& view = scene.view;
-  const auto skin = casedb::skin_surface(volume);  // without a body all elements stand in air
-  const std::vector<float> below_skin_mm =
-      element_depths(skin ? cases::MeshIndex(*skin) : cases::MeshIndex(), view);
-  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, classes);
-  const imaging::TissueVolume tissue{&volume, classes, echogenicity};
+  const std::vector<float> below_skin_mm = element_depths(tissue_->skin, view);
+  const imaging::TissueVolume tissue{&volume_, tissue_->classes, tissue_->echogenicity};
   const bool on_screen = scene.output == UltrasoundOutput::display;
   constexpr std::uint64_t kFrame = 1;
   imaging::PolarPicture polar;
@@ -149,6 +149,7 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
     on_best(picture.backend, on_gpu, on_cpu);
   }
   picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm).visible;
+  picture.frame_rate_hz = imaging::frame_rate_hz(view.depth_mm, view.beams);
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
     picture.plane = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 1.0, view.beams, view.samples};
@@ -175,20 +176,29 @@ void render_ultrasound(const volume::Volume& volume, const std::vector<volume::T
   picture.values.assign(picture.grey.begin(), picture.grey.end());
 }
 
-}  // namespace
+base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::string& library) {
+  auto volume = volume_of(scene, library);
+  if (!volume) return volume.error();
+  return ScenePainter(std::move(*volume), library);
+}
 
-base::Result<ScenePicture> render_scene(const volume::Volume& volume, const Scene& scene,
-                                        const std::string& library, const std::string& backend) {
+base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::string& backend) {
   ScenePicture picture;
   picture.backend = backend;
-  if (const auto* mpr = std::get_if<imaging::MprView>(&*scene.view))
-    render_mpr(volume, *mpr, scene.inserted, picture);
-  else if (const auto* xray = std::get_if<XrayView>(&*scene.view))
-    render_xray(volume, *xray, scene.inserted, picture);
-  else {
-    const auto classes = classes_of(scene, volume, library);
-    if (!classes) return classes.error();
-    render_ultrasound(volume, *classes, std::get<UltrasoundSceneView>(*scene.view), scene.inserted, picture);
+  if (const auto* mpr = std::get_if<imaging::MprView>(&*scene.view)) {
+    render_mpr(volume_, *mpr, scene.inserted, picture);
+  } else if (const auto* xray = std::get_if<XrayView>(&*scene.view)) {
+    render_xray(volume_, *xray, scene.inserted, picture);
+  } else {
+    if (!tissue_) {
+      auto classes = classes_of(scene, volume_, library_);
+      if (!classes) return classes.error();
+      std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume_, *classes);
+      const auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
+      tissue_ =
+          Tissue{std::move(*classes), std::move(echogenicity), skin ? cases::MeshIndex(*skin) : cases::MeshIndex()};
+    }
+    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), scene.inserted, picture);
   }
   return picture;
 }

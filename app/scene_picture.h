@@ -1,12 +1,15 @@
 // A scene's view as a picture.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/meta_image.h"
 #include "app/scene.h"
+#include "sim/case/mesh_index.h"
 #include "sim/imaging/mpr/visibility.h"
 
 namespace seldinger::app {
@@ -18,11 +21,34 @@ struct ScenePicture {
   const char* unit = "";
   std::string backend;  // gpu, cpu or reference: what made it
   std::optional<imaging::Visible> visible;
+  std::optional<double> frame_rate_hz;  // ultrasound: what sound allows at this depth and number of beams
 };
 
-// `scene.view` must be there. Refused as classes_of (a case's damaged assets). `backend`: gpu, cpu, reference, or
-// empty: the faster of the machine. Throws base::Failure("gl") when gpu was asked for and cannot be had.
-base::Result<ScenePicture> render_scene(const volume::Volume& volume, const Scene& scene,
-                                        const std::string& library, const std::string& backend);
+// Pictures of one volume: what they need of it beside its voxels is made once, when the first of them asks.
+class ScenePainter {
+ public:
+  // The scene's volume. Refused as volume_of.
+  static base::Result<ScenePainter> of(const Scene& scene, const std::string& library);
+
+  // `scene` has a view, and the volume that the painter was made of. Refused as classes_of (a case's damaged
+  // assets). `backend`: gpu, cpu, reference, or empty: the faster of the machine. Throws base::Failure("gl") when
+  // gpu was asked for and cannot be had.
+  base::Result<ScenePicture> paint(const Scene& scene, const std::string& backend);
+
+ private:
+  struct Tissue {
+    std::vector<volume::TissueClass> classes;
+    std::vector<std::uint8_t> echogenicity;
+    cases::MeshIndex skin;
+  };
+  ScenePainter(volume::Volume volume, std::string library)
+      : volume_(std::move(volume)), library_(std::move(library)) {}
+  void paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
+                        ScenePicture& picture) const;
+
+  volume::Volume volume_;
+  std::string library_;
+  std::optional<Tissue> tissue_;  // for ultrasound
+};
 
 }  // namespace seldinger::app

@@ -7,6 +7,7 @@
 #include "app/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -152,7 +153,7 @@ void measure_enhancement(const Setting& setting, Readings& readings) {
   // Beams at an angle pass more of it.
   double path_cm = 0.0;
   for (int b = first; b < end; ++b) path_cm += 2.0 / fan.direction(b).y / (end - first);
-  const double mhz = frequency_mhz(view);
+  const double mhz = working_mhz(view);
   const double wanted =
       10.0 * path_cm * (shaders::us_loss_db_per_mm(0.5, 1.0, mhz) - shaders::us_loss_db_per_mm(0.002, 2.0, mhz)) -
       2.0 * step_loss_db(TissueClass::liver, TissueClass::fluid);

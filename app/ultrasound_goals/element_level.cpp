@@ -6,6 +6,7 @@
 
 #include "app/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 namespace {
@@ -22,7 +23,7 @@ ElementLevel::ElementLevel(const imaging::UltrasoundView& view, Apodisation apod
     : view_(view),
       fan_(imaging::fan_of(view)),
       apodisation_(apodisation),
-      frequency_mhz_(frequency_mhz(view)),
+      frequency_mhz_(working_mhz(view)),
       wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
       axial_sigma_mm_(imaging::beam_width(view.probe, frequency_mhz_, 0.0, 10.0).axial_sigma_mm) {
   const imaging::Probe& probe = view.probe;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/ultrasound_goals/polar_levels.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -29,7 +30,7 @@ Likeness likeness_to_elements(const Setting& setting, Apodisation apodisation, d
     const double depth_mm = depth_at(view, k);
     beside = std::max(beside, elements.lateral_reach_mm(depth_mm) / fan.beam_spacing_mm(depth_mm));
     reach_y_mm = std::max(
-        reach_y_mm, 3.0 * imaging::beam_width(view.probe, frequency_mhz(view), 0.0, depth_mm).elevation_sigma_mm);
+        reach_y_mm, 3.0 * imaging::beam_width(view.probe, working_mhz(view), 0.0, depth_mm).elevation_sigma_mm);
   }
   const std::vector<PlaneScatterer> scatterers =
       scatterers_in(view, field,
@@ -41,7 +42,7 @@ Likeness likeness_to_elements(const Setting& setting, Apodisation apodisation, d
       // The picture shows speckle of one level at every depth: as if the scanner took out how many scatterers its
       // beam holds there.
       const imaging::BeamWidth width =
-          imaging::beam_width(view.probe, frequency_mhz(view), focus_mm, depth_at(view, k));
+          imaging::beam_width(view.probe, working_mhz(view), focus_mm, depth_at(view, k));
       wanted.push_back(std::abs(elements.sample(b, depth_at(view, k), scatterers)) /
                        std::sqrt(width.lateral_sigma_mm * width.elevation_sigma_mm));
       found.push_back(at(picture, b, k));

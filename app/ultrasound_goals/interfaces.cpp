@@ -8,6 +8,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -40,7 +41,7 @@ double energy_mm(const PolarPicture& picture, const UltrasoundView& view, int be
 }
 
 double axial_sigma_mm(const UltrasoundView& view) {
-  return imaging::beam_width(view.probe, frequency_mhz(view), 0.0, 10.0).axial_sigma_mm;
+  return imaging::beam_width(view.probe, working_mhz(view), 0.0, 10.0).axial_sigma_mm;
 }
 
 // 20·log10 of measured over wanted amplitude.
@@ -59,7 +60,7 @@ double reflection_error_db(const Setting& setting, TissueClass above, TissueClas
   const double loss_db_mm = acoustics(above).soft
                                 ? 0.0
                                 : shaders::us_loss_db_per_mm(acoustics(above).attenuation_db_cm_mhz,
-                                                             acoustics(above).exponent, frequency_mhz(view));
+                                                             acoustics(above).exponent, working_mhz(view));
   const double peak = std::pow(10.0, (imaging::kUsInterfaceDb) / 20.0) * reflection;
   // Frames until chance is a fifth of the tolerance: |s + e|² varies by 2s²e² + s⁴.
   const double s2 = std::pow(10.0, 0.1 * std::max(acoustics(above).scatter_db, acoustics(below).scatter_db));
@@ -125,9 +126,8 @@ void measure_angle_law(const Setting& setting, Readings& readings) {
     const PolarPicture picture = setting.picture(block, view);
     const imaging::Fan fan = imaging::fan_of(view);
     const double sigma_mm = axial_sigma_mm(view);
-    const double loss_db_mm =
-        shaders::us_loss_db_per_mm(acoustics(TissueClass::fluid).attenuation_db_cm_mhz,
-                                   acoustics(TissueClass::fluid).exponent, frequency_mhz(view));
+    const double loss_db_mm = shaders::us_loss_db_per_mm(acoustics(TissueClass::fluid).attenuation_db_cm_mhz,
+                                                         acoustics(TissueClass::fluid).exponent, working_mhz(view));
     const double reflection_db = decibels(std::abs(shaders::us_reflection(
         acoustics(TissueClass::fluid).impedance_mrayl, acoustics(TissueClass::gas).impedance_mrayl)));
     for (int b = view.beams / 32; b < view.beams; b += std::max(1, view.beams / 26)) {

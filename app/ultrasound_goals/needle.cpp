@@ -6,6 +6,7 @@
 #include "app/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -42,7 +43,7 @@ glm::dvec3 seen_tip(const std::vector<Peak>& peaks, const UltrasoundView& view) 
   const double share = (near.level - half) / static_cast<double>(near.level - far.level);
   const double depth_mm = near.depth_mm;
   const double half_width_mm = 0.5 * shaders::kUsFwhmPerSigma *
-                               imaging::beam_width(view.probe, frequency_mhz(view), 0.0, depth_mm).lateral_sigma_mm;
+                               imaging::beam_width(view.probe, working_mhz(view), 0.0, depth_mm).lateral_sigma_mm;
   const double beam = beyond - 1 + share - half_width_mm / fan.beam_spacing_mm(depth_mm);
   return imaging::point_of(view, beam, depth_mm);
 }
@@ -129,7 +130,7 @@ void measure_slice(const Setting& setting, Readings& readings) {
       return peak_of(setting.picture(water(), view, needle_at(30.0, depth_mm, 0.0, out_mm)), view, 8).level;
     };
     const float half = 0.5F * level(0.0);
-    const double fwhm_mm = imaging::elevation_fwhm_mm(view.probe, frequency_mhz(view), depth_mm);
+    const double fwhm_mm = imaging::elevation_fwhm_mm(view.probe, working_mhz(view), depth_mm);
     double low = 0.0, high = 2.0 * fwhm_mm;
     for (int i = 0; i < 16; ++i) (level(0.5 * (low + high)) > half ? low : high) = 0.5 * (low + high);
     worst = farther(worst, 100.0 * std::abs(low / (0.5 * fwhm_mm) - 1.0));

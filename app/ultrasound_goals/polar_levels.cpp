@@ -32,8 +32,4 @@ Peak peak_of(const imaging::PolarPicture& picture, const imaging::UltrasoundView
   return peak;
 }
 
-double frequency_mhz(const imaging::UltrasoundView& view) noexcept {
-  return view.frequency_mhz > 0.0 ? view.frequency_mhz : view.probe.frequency_mhz;
-}
-
 }  // namespace seldinger::app::goals

@@ -43,6 +43,4 @@ struct Peak {
 };
 Peak peak_of(const imaging::PolarPicture& picture, const imaging::UltrasoundView& view, int beam);
 
-double frequency_mhz(const imaging::UltrasoundView& view) noexcept;
-
 }  // namespace seldinger::app::goals

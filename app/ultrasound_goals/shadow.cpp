@@ -5,6 +5,7 @@
 #include "app/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -33,7 +34,7 @@ void measure_shadow(const Setting& setting, Readings& readings) {
       imaging::acoustic_table()[static_cast<std::size_t>(TissueClass::liver)].impedance_mrayl;
   const double walls_db = 2.0 * shaders::us_step_loss_db(shaders::us_reflection(liver_mrayl, bone.impedance_mrayl));
   const double bone_db_mm =
-      shaders::us_loss_db_per_mm(bone.attenuation_db_cm_mhz, bone.exponent, frequency_mhz(view));
+      shaders::us_loss_db_per_mm(bone.attenuation_db_cm_mhz, bone.exponent, working_mhz(view));
   const double middle_mm = kTopMm + 0.5 * kThickMm;
   // Any way through the plate passes two walls: half the drop is reached where the beam runs this far inside it.
   const double half_db = 0.5 * (walls_db + bone_db_mm * kThickMm),

@@ -6,6 +6,7 @@
 #include "app/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app::goals {
 
@@ -24,7 +25,7 @@ const TissueBlock& liver() {
 }
 
 BeamWidth width_at(const UltrasoundView& view, double depth_mm) {
-  return imaging::beam_width(view.probe, frequency_mhz(view), view.focus_mm, depth_mm);
+  return imaging::beam_width(view.probe, working_mhz(view), view.focus_mm, depth_mm);
 }
 
 SpeckleStatistics statistics_of(std::vector<double>& envelope) {

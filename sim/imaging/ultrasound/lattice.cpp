@@ -6,6 +6,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "shaders/shared/ultrasound_lattice.glsl.h"
 #include "sim/base/hash.h"
+#include "sim/imaging/ultrasound/pulse.h"
 #include "sim/imaging/ultrasound/view.h"
 #include "sim/imaging/xray/float_math.h"
 
@@ -26,6 +27,9 @@ LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at
     : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
   const double frequency_mhz = working_mhz(view);
   at_sample_.resize(static_cast<std::size_t>(view.samples));
+  const std::vector<PulseTap> taps =
+      pulse_taps(beam_width(view.probe, frequency_mhz, 0.0, 1.0).axial_sigma_mm, fan_.sample_mm, 1);
+  double axial = 0.0, axial_cell_mm = 0.0;
   for (int k = 0; k < view.samples; ++k) {
     const double depth_mm = (k + 0.5) * fan_.sample_mm;
     const double line_mm = fan_.beam_spacing_mm(depth_mm) / kLinesPerBeam;
@@ -48,9 +52,16 @@ LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at
         const double apart_mm = (i - j) * line_mm;
         lateral += std::exp(-(i * i + j * j) * 0.5 / (lines * lines) - 0.5 * apart_mm * apart_mm / variance);
       }
-    const double axial =
-        std::sqrt(6.283185307179586 / (0.5 / (width.axial_sigma_mm * width.axial_sigma_mm) + 1.0 / variance)) /
-        (fan_.sample_mm * fan_.sample_mm);
+    if (cell_mm != axial_cell_mm) {
+      axial_cell_mm = cell_mm;
+      axial = 0.0;
+      for (const PulseTap& one : taps)
+        for (const PulseTap& other : taps) {
+          const double apart_mm = (one.shift - other.shift) * fan_.sample_mm;
+          axial += static_cast<double>(one.weight) * static_cast<double>(other.weight) *
+                   std::exp(-0.5 * apart_mm * apart_mm / variance);
+        }
+    }
     at.gain = static_cast<float>(1.0 / std::sqrt(2.0 * kNodeMeanSquare * lateral * axial));
   }
 }

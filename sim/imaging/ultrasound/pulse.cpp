@@ -1,15 +1,20 @@
 #include "sim/imaging/ultrasound/pulse.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "sim/base/check.h"
-
 namespace seldinger::imaging {
+namespace {
+
+constexpr double kLeastShare = 0.01;  // of the wanted variance
+
+}  // namespace
 
 std::vector<PulseTap> pulse_taps(double sigma_mm, double sample_mm, int fine) {
   const double fine_mm = sample_mm / fine;
-  const double variance = sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0;
-  CHECK(variance > 0.0);
+  // A sample itself is as long as a pulse of fine²/12; where that is longer than the wanted one, it is all there is.
+  const double variance =
+      std::max(sigma_mm * sigma_mm - fine_mm * fine_mm / 12.0, kLeastShare * sigma_mm * sigma_mm);
   const int reach = static_cast<int>(std::ceil(3.5 * sigma_mm / sample_mm)) + 1;
   std::vector<PulseTap> taps;
   double energy = 0.0;

@@ -25,6 +25,18 @@ TEST(Lattice, LiverIsAtItsLevelAtEveryDepth) {
   }
 }
 
+// Of so few samples each is longer than the pulse.
+TEST(Lattice, FewSamplesShowTheSameLevel) {
+  for (const int samples : {8, 64, 256})
+    for (UltrasoundView view : {curved_view(), straight_view()}) {
+      view = with(view, UltrasoundMethod::lattice, 512);
+      view.attenuation_db_cm_mhz = 0.0;
+      view.samples = samples;
+      const PolarPicture picture = polar_of(all_of(TissueClass::liver), view);
+      EXPECT_NEAR(level_db(picture, 8, 504, samples / 2, samples), 0.0, 1.0) << view.probe.name << " " << samples;
+    }
+}
+
 TEST(Lattice, IsRayleighToWithinItsCells) {
   for (UltrasoundView view : {curved_view(), straight_view()}) {
     view = with(view, UltrasoundMethod::lattice, 512);

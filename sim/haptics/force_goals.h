@@ -1,0 +1,27 @@
+// What the needle's force is held to (issue 5; haptics.md §3.4 S3-S5), as figures: driven by an ideal hand into
+// tissues with a published line. `seldinger goals haptics` prints them, beside what haptics stability finds.
+#pragma once
+
+#include <vector>
+
+#include "sim/haptics/stability_survey.h"
+
+namespace seldinger::haptics {
+
+struct ForceReading {
+  const char* what;
+  const char* where;  // tissue, device
+  double measured;    // NaN: nothing to be seen, which holds nowhere
+  const char* unit;
+  double limit;
+  bool at_least = false;  // else at most
+
+  bool holds() const noexcept { return at_least ? measured >= limit : measured <= limit; }
+};
+
+std::vector<ForceReading> force_readings();
+
+// How many trials, and with which least margin, do not come to rest.
+std::vector<ForceReading> stability_readings(const StabilitySurvey& survey);
+
+}  // namespace seldinger::haptics
