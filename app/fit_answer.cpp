@@ -101,15 +101,18 @@ std::string text_of_fit(const FitAnswer& answer) {
 
 std::string page_of_fit(const FitAnswer& answer) {
   reports::ForceChart forces{"force", {{"measured", {}}, {"plateau", {}}, {"sum of Gaussians", {}}}};
-  reports::ForceChart left{"residual: measured less model", {{"plateau", {}}, {"sum of Gaussians", {}}}};
+  // The line of no residual first: so each model keeps its colour.
+  reports::ForceChart left{"residual: measured less model",
+                           {{"none", {}}, {"plateau", {}}, {"sum of Gaussians", {}}}};
   for (const haptics::DepthForce& point : haptics::thinned(answer.curve, kDrawnPoints)) {
     const double plateau_n = answer.plateau.model.force_n(point.depth_mm);
     const double gaussians_n = answer.gaussians.model.force_n(point.depth_mm);
     forces.curves[0].points.push_back({point.depth_mm, point.force_n});
     forces.curves[1].points.push_back({point.depth_mm, plateau_n});
     forces.curves[2].points.push_back({point.depth_mm, gaussians_n});
-    left.curves[0].points.push_back({point.depth_mm, point.force_n - plateau_n});
-    left.curves[1].points.push_back({point.depth_mm, point.force_n - gaussians_n});
+    left.curves[0].points.push_back({point.depth_mm, 0.0});
+    left.curves[1].points.push_back({point.depth_mm, point.force_n - plateau_n});
+    left.curves[2].points.push_back({point.depth_mm, point.force_n - gaussians_n});
   }
   return reports::force_page(
       line("Force against depth, fitted: RMSE %.4f N by plateau, %.4f N by %zu Gaussians",

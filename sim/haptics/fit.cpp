@@ -163,20 +163,7 @@ const DepthForce& at_depth(const Points& points, double depth_mm) {
   return *std::min_element(points.begin(), points.end(), beside);
 }
 
-// Where the area under the curve up to there is that share of all.
-double depth_at_area(const Points& points, double share) {
-  double area = 0.0;
-  for (const DepthForce& point : points) area += std::max(0.0, point.force_n);
-  double left = share * area;
-  for (const DepthForce& point : points) {
-    left -= std::max(0.0, point.force_n);
-    if (left <= 0.0) return point.depth_mm;
-  }
-  return points.back().depth_mm;
-}
-
-// Gaussians evenly along the area for start 0, else anywhere, from narrow to wide: by turns as the area lies, since
-// one where there is no force goes nowhere, and as depth lies.
+// Gaussians evenly along the depth for start 0, else anywhere, from narrow to wide.
 Parameters spread_out(const Points& points, std::size_t parts, int start) {
   Parameters parameters;
   const double way = way_mm(points), count = static_cast<double>(parts);
@@ -184,7 +171,7 @@ Parameters spread_out(const Points& points, std::size_t parts, int start) {
   for (std::size_t k = 0; k < parts; ++k) {
     const double place = start == 0 ? (static_cast<double>(k) + 0.5) / count : rng.uniform();
     const double width = start == 0 ? 0.7 / count : 0.02 * std::exp(rng.uniform() * std::log(20.0));
-    const double centre_mm = start % 2 == 0 ? depth_at_area(points, place) : points.front().depth_mm + place * way;
+    const double centre_mm = points.front().depth_mm + place * way;
     parameters.insert(parameters.end(), {0.6 * at_depth(points, centre_mm).force_n, centre_mm, width * way});
   }
   return parameters;
@@ -207,6 +194,29 @@ Parameters peak_by_peak(Points left, std::size_t parts) {
     parameters.insert(parameters.end(), {part.height_n, part.centre_mm, part.sigma_mm});
     for (DepthForce& point : left) point.force_n -= part.force_n(point.depth_mm);
   }
+  return parameters;
+}
+
+// The part that does least, moved to the highest point of what all leave of the curve: some end beside the curve,
+// where they do nothing.
+Parameters with_weakest_moved(const Points& points, Parameters parameters) {
+  Points left = points;
+  std::size_t weakest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t at = 0; at < parameters.size(); at += Gaussian::kParameters) {
+    const Gaussian part{parameters[at], parameters[at + 1], parameters[at + 2]};
+    double squares = 0.0;
+    for (DepthForce& point : left) {
+      const double force_n = part.force_n(point.depth_mm);
+      point.force_n -= force_n;
+      squares += force_n * force_n;
+    }
+    if (squares >= least) continue;
+    least = squares;
+    weakest = at;
+  }
+  const Parameters moved = peak_by_peak(std::move(left), 1);
+  std::copy(moved.begin(), moved.end(), parameters.begin() + static_cast<std::ptrdiff_t>(weakest));
   return parameters;
 }
 
@@ -262,15 +272,19 @@ GaussianFit fit_gaussians(std::span<const DepthForce> curve, int gaussians, int 
           depth_mm, gradient != nullptr ? gradient + kEach * k : nullptr);
     return sum_n;
   };
-  // Narrower than two points is noise; a centre outside leaves a flank inside, as the end of a plateau needs.
+  // Narrower than two points is noise; one beyond the end gives the end of a plateau its slope.
   Bounds bounds;
   for (std::size_t k = 0; k < parts; ++k) {
-    bounds.least.insert(bounds.least.end(),
-                        {0.0, from_mm - 0.5 * way, 2.0 * way / static_cast<double>(points.size())});
-    bounds.most.insert(bounds.most.end(), {4.0 * most, from_mm + 1.5 * way, 2.0 * way});
+    bounds.least.insert(bounds.least.end(), {0.0, from_mm, 2.0 * way / static_cast<double>(points.size())});
+    bounds.most.insert(bounds.most.end(), {4.0 * most, from_mm + 1.25 * way, 2.0 * way});
   }
   Search search(points, std::move(bounds), force);
   for (int i = 0; i < starts; ++i) search.from(i == 1 ? peak_by_peak(points, parts) : spread_out(points, parts, i));
+  for (std::size_t k = 0; k < parts; ++k) {
+    const Parameters before = search.best();
+    search.from(with_weakest_moved(points, before));
+    if (search.best() == before) break;
+  }
   GaussianFit fit;
   for (std::size_t k = 0; k < parts; ++k) {
     const double* p = search.best().data() + kEach * k;

@@ -44,6 +44,7 @@ inline constexpr double kLeastPlateauMm = 5.0;
 
 // `curve`: of insertion_in. Refused: `no_plateau` when less than kLeastPlateauMm of it lies beyond the fall.
 base::Result<PlateauFit> fit_plateau(std::span<const DepthForce> curve, int starts = kPlateauStarts);
+// From the best of `starts`, its weakest Gaussian is moved to where most is left, and so on while that helps.
 GaussianFit fit_gaussians(std::span<const DepthForce> curve, int gaussians = kThesisGaussians,
                           int starts = kGaussianStarts);
 

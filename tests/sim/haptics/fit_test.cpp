@@ -197,11 +197,15 @@ TEST(FitGaussians, FindsPlantedOnesUnderNoise) {
   }
 }
 
-// Three close together, of which the one even start has only one nearby.
-TEST(FitGaussians, NeedMoreThanOneStart) {
+// Three close together, of which the first, even start has only one nearby: what lies beside does nothing, and is
+// moved to where most is left.
+TEST(FitGaussians, NeedMoreThanTheFirstStart) {
   const GaussianSum there{{{1.8, 6.0, 1.2}, {1.2, 11.0, 1.5}, {0.9, 16.0, 1.5}}};
   const Curve curve = curve_of([&](double depth_mm) { return there.force_n(depth_mm); }, 400, 55.0, 0.0, 4);
-  EXPECT_GT(fit_gaussians(curve, 3, 1).quality.rmse_n, 0.1);
+  const GaussianFit moved = fit_gaussians(curve, 3, 1);
+  EXPECT_GT(moved.quality.starts, 1);
+  EXPECT_GT(moved.quality.worst_rmse_n, 0.1) << "the first start alone";
+  EXPECT_LT(moved.quality.rmse_n, 1e-6);
   const GaussianFit many = fit_gaussians(curve, 3);
   EXPECT_LT(many.quality.rmse_n, 1e-6);
   for (std::size_t k = 0; k < 3; ++k)
