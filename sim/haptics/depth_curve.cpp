@@ -24,8 +24,14 @@ base::Result<std::vector<DepthForce>> insertion_in(std::span<const DepthForce> r
   const auto unusable = [](const DepthForce& row) {
     return !std::isfinite(row.depth_mm) || !std::isfinite(row.force_n);
   };
+  const auto beyond = [](const DepthForce& row) {
+    return std::abs(row.depth_mm) > kMostCurveMm || std::abs(row.force_n) > kMostCurveN;
+  };
   if (const auto found = std::find_if(rows.begin(), rows.end(), unusable); found != rows.end()) {
     bad("not_a_number", "row " + std::to_string(found - rows.begin() + 1) + " is not of finite numbers");
+  } else if (const auto far = std::find_if(rows.begin(), rows.end(), beyond); far != rows.end()) {
+    bad("out_of_range", "row " + std::to_string(far - rows.begin() + 1) +
+                            " is beyond 1000 mm or 500 N: are they millimetres and newtons?");
   } else if (!rows.empty()) {
     const auto deepest = std::max_element(
         rows.begin(), rows.end(), [](const DepthForce& a, const DepthForce& b) { return a.depth_mm < b.depth_mm; });

@@ -250,6 +250,11 @@ TEST(DepthCurve, RefusesWhatIsNoneAndSaysAllThatIsWrong) {
     rows[70].depth_mm = no_number;
     EXPECT_THAT(refused(rows), ElementsAre("not_a_number"));
   }
+  for (const DepthForce& far : {DepthForce{60.0, 1e308}, {60.0, -501.0}, {1001.0, 2.0}, {-1e300, 2.0}}) {
+    Curve rows = planted(0.0, 1);
+    rows.push_back(far);
+    EXPECT_THAT(refused(rows), ElementsAre("out_of_range")) << far.depth_mm << " mm, " << far.force_n << " N";
+  }
   EXPECT_THAT(refused(planted(0.0, 1, 49)), ElementsAre("too_few_rows"));
   EXPECT_THAT(refused(Curve(200, {0.0, 1.0})), ElementsAre("too_shallow", "too_few_rows")) << "depth does not rise";
   Curve rows = planted(0.0, 1);
