@@ -1,15 +1,20 @@
-// haptics insert: force against depth of a needle in one tissue, without hardware. haptics stability: does what the
-// hand feels come to rest? haptics selftest: does the servo keep time here?
+// haptics insert: force against depth of a needle in one tissue, without hardware. haptics fit: the way back, from
+// a measured curve to a tissue's row. haptics stability: does what the hand feels come to rest? haptics selftest:
+// does the servo keep time here?
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/command.h"
+#include "app/csv.h"
 #include "app/file.h"
+#include "app/fit_answer.h"
 #include "app/servo_answer.h"
 #include "app/servo_trial.h"
 #include "app/stability_answer.h"
@@ -24,11 +29,11 @@ namespace {
 constexpr double kMostSamples = 5e6;
 
 // The row of a class that a needle can be driven into.
-const haptics::NeedleTissue& tissue_named(const std::string& name) {
+const haptics::NeedleTissueRow& tissue_named(const std::string& name) {
   std::string known;
   for (const haptics::NeedleTissueRow& row : haptics::needle_tissues()) {
     if (!(row.needle.rupture_n > 0.0)) continue;
-    if (name == volume::about(row.tissue).name) return row.needle;
+    if (name == volume::about(row.tissue).name) return row;
     known += std::string(known.empty() ? "" : ", ") + volume::about(row.tissue).name;
   }
   throw UsageError("--tissue is one of " + known);
@@ -53,7 +58,7 @@ double positive(const Arguments& arguments, const char* option, double most) {
 
 int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
-  const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue"));
+  const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue")).needle;
   const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
   haptics::Insertion insertion{haptics::at_gauge(row, *gauge), positive(arguments, "--speed-mm-s", kMostSpeedMmS),
                                positive(arguments, "--depth-mm", kMostDepthMm), arguments.number("--hold-s", 0.0),
@@ -71,6 +76,37 @@ int run_haptics_insert(const Arguments& arguments) {
     csv += line;
   }
   write_file(out, csv);
+  return kDone;
+}
+
+int run_haptics_fit(const Arguments& arguments) {
+  const std::filesystem::path from = arguments.positional(0);
+  const auto& like = tissue_named(arguments.text("--tissue", "soft_tissue"));
+  const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
+  const auto gaussians =
+      static_cast<int>(arguments.whole("--gaussians", haptics::kThesisGaussians, 1, haptics::kMostGaussians));
+  const auto text = read_text(from);
+  if (!text) return refuse(text.error());
+  constexpr const char* kColumns[] = {"depth_mm", "force_axial_n"};
+  const auto rows = rows_in_csv(*text, kColumns);
+  if (!rows) return refuse(rows.error());
+  std::vector<haptics::DepthForce> measured;
+  for (std::size_t i = 0; i < rows->size(); ++i) measured.push_back({rows->row(i)[0], rows->row(i)[1]});
+  auto curve = haptics::insertion_in(measured);
+  if (!curve) return refuse(curve.error());
+  const auto plateau = haptics::fit_plateau(*curve);
+  if (!plateau) return refuse(plateau.error());
+  auto by_gaussians = haptics::fit_gaussians(*curve, gaussians);
+  const FitAnswer answer{std::move(*curve),         *plateau, std::move(by_gaussians), like, *gauge,
+                         arguments.text("--source")};
+
+  auto beside = from;
+  const std::string page = arguments.text("--out", beside.replace_extension(".fit.html").string());
+  write_file(page, page_of_fit(answer));
+  if (arguments.has("--json"))
+    std::fputs(json_of_fit(answer).c_str(), stdout);
+  else
+    std::printf("%s\nResiduals: %s\n", text_of_fit(answer).c_str(), page.c_str());
   return kDone;
 }
 

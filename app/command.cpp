@@ -67,6 +67,17 @@ constexpr Option kSelftestOptions[] = {
     {"--most-missed", "SHARE",
      "of the ticks, before it counts as failed; default 0.05, for a machine that others share"},
     kJson};
+constexpr Option kFitOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "the row's class; default soft_tissue"},
+    {"--gauge", "G", "of the needle it was measured with, 16 to 25; default 22. The row is at 22"},
+    {"--gaussians", "K", "1 to 12; default 8 (thesis eq. 5.1)"},
+    {"--source", "TEXT", "where the curve was measured; goes into the row"},
+    {"--out", "FILE.html", "curve, models and residuals; default FILE.fit.html beside FILE.csv"},
+    kJson};
+constexpr Option kCalibrateOptions[] = {
+    {"--device", "left|right", "which of the station's two"},
+    {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
+    kJson};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step; default all"},
     {"--quick", nullptr, "fewer repetitions"},
@@ -119,6 +130,14 @@ constexpr Command kCommands[] = {
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
     {"haptics insert", "", 0, 0, kInsertOptions,
      "Drives a needle into one tissue and writes its force against depth.", &run_haptics_insert},
+    {"haptics fit", "FILE.csv", 1, 1, kFitOptions,
+     "Fits a plateau behind a capsule, and a sum of Gaussians, to a measured insertion: columns depth_mm, from the "
+     "touch, and force_axial_n, > 0 resists.",
+     &run_haptics_fit},
+    {"haptics calibrate", "POINTS.csv", 1, 1, kCalibrateOptions,
+     "Finds where a device stands on the template (156 mm square, cross of 128 mm, box of 143 mm): columns point, "
+     "x_mm, y_mm, z_mm as the device reads them at a, b, c, d, f and, where taken, e. Refused above 1 mm.",
+     &run_haptics_calibrate},
     {"haptics stability", "", 0, 0, kJsonOnly,
      "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
      "(docs/stability.md).",

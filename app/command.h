@@ -56,6 +56,8 @@ int run_user_list(const Arguments& arguments);
 int run_user_passwd(const Arguments& arguments);
 int run_user_disable(const Arguments& arguments);
 int run_haptics_insert(const Arguments& arguments);
+int run_haptics_fit(const Arguments& arguments);
+int run_haptics_calibrate(const Arguments& arguments);
 int run_haptics_stability(const Arguments& arguments);
 int run_haptics_selftest(const Arguments& arguments);
 int run_bench(const Arguments& arguments);

@@ -1,10 +1,8 @@
 #include "app/poses_csv.h"
 
 #include <array>
-#include <string_view>
-#include <vector>
 
-#include "app/arguments.h"
+#include "app/csv.h"
 
 namespace seldinger::app {
 namespace {
@@ -26,73 +24,15 @@ constexpr std::array<const char*, 17> kColumns = {"t_s",
                                                   "probe_lateral_y",
                                                   "probe_lateral_z",
                                                   "fire"};
-constexpr std::size_t kMaxProblems = 10;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t' || text.front() == '"'))
-    text.remove_prefix(1);
-  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r' || text.back() == '"'))
-    text.remove_suffix(1);
-  return text;
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
 
 }  // namespace
 
 base::Result<cases::Recording> recording_from_csv(const std::string& text) {
-  base::Error error{"bad_csv", "", {}};
-  std::string_view rest = text;
-  if (rest.substr(0, 3) == "\xef\xbb\xbf") rest.remove_prefix(3);
-  const auto next_line = [&rest]() {
-    const std::size_t end = rest.find('\n');
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    return line;
-  };
-  const auto header = split(next_line());
-  std::array<std::size_t, kColumns.size()> place{};
-  for (std::size_t c = 0; c < kColumns.size(); ++c) {
-    std::size_t found = 0;
-    for (std::size_t i = 0; i < header.size(); ++i)
-      if (header[i] == kColumns[c]) {
-        place[c] = i;
-        ++found;
-      }
-    if (found != 1)
-      error.findings.push_back(
-          {"bad_csv", std::string("column ") + kColumns[c] + (found == 0 ? " is missing" : " stands twice")});
-  }
+  const auto rows = rows_in_csv(text, kColumns);
+  if (!rows) return rows.error();
   cases::Recording recording;
-  std::size_t row = 0;
-  while (!rest.empty() && error.findings.size() < kMaxProblems) {
-    const std::string_view line = next_line();
-    if (trimmed(line).empty()) continue;
-    ++row;
-    const auto cells = split(line);
-    if (cells.size() != header.size()) {
-      error.findings.push_back(
-          {"bad_csv", "row " + std::to_string(row) + " has another number of cells than the header"});
-      continue;
-    }
-    if (!error.findings.empty()) continue;
-    std::array<double, kColumns.size()> value{};
-    for (std::size_t c = 0; c < kColumns.size() && error.findings.size() < kMaxProblems; ++c) {
-      const auto number = parse_number(std::string(cells[place[c]]));
-      if (!number)
-        error.findings.push_back(
-            {"bad_csv", "row " + std::to_string(row) + ", " + kColumns[c] + " is not a number"});
-      else
-        value[c] = *number;
-    }
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const auto value = rows->row(i);
     cases::PoseSample pose;
     pose.t_s = value[0];
     pose.tip_lps_mm = {value[1], value[2], value[3]};
@@ -104,11 +44,7 @@ base::Result<cases::Recording> recording_from_csv(const std::string& text) {
     if (value[16] != 0.0 && !recording.endpoint)
       recording.endpoint = cases::Endpoint{pose.t_s, pose.tip_lps_mm, pose.needle_direction};
   }
-  if (error.findings.empty() && recording.poses.empty()) error.findings.push_back({"bad_csv", "there is no row"});
-  if (error.findings.empty()) return recording;
-  error.text = error.findings.front().text;
-  error.findings.erase(error.findings.begin());
-  return error;
+  return recording;
 }
 
 }  // namespace seldinger::app

@@ -52,6 +52,14 @@ constexpr std::array<NeedleTissueRow, volume::kTissueClasses> kTissues{{
     {TissueClass::metal, {.impenetrable = true}, kWall, kNothingYet},
 }};
 
+NeedleTissue scaled(NeedleTissue tissue, double ratio) {
+  tissue.slope_n_mm *= ratio;
+  tissue.intercept_n *= ratio;
+  tissue.tip_stiffness_n_mm *= ratio;
+  tissue.rupture_n *= ratio;
+  return tissue;
+}
+
 }  // namespace
 
 std::span<const NeedleTissueRow, volume::kTissueClasses> needle_tissues() noexcept {
@@ -76,13 +84,11 @@ NeedleTissue soft_tissue_of_hu(double hu) noexcept {
 }
 
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge) {
-  const double ratio = gauge.outer_mm / cases::gauge(kTableGauge)->outer_mm;
-  NeedleTissue scaled = tissue;
-  scaled.slope_n_mm *= ratio;
-  scaled.intercept_n *= ratio;
-  scaled.tip_stiffness_n_mm *= ratio;
-  scaled.rupture_n *= ratio;
-  return scaled;
+  return scaled(tissue, gauge.outer_mm / cases::gauge(kTableGauge)->outer_mm);
+}
+
+NeedleTissue at_table_gauge(const NeedleTissue& measured, const cases::Gauge& gauge) {
+  return scaled(measured, cases::gauge(kTableGauge)->outer_mm / gauge.outer_mm);
 }
 
 }  // namespace seldinger::haptics

@@ -42,5 +42,7 @@ NeedleTissue soft_tissue_of_hu(double hu) noexcept;
 // The row for another gauge: forces grow in proportion to the outer diameter (design; Jiang, J Biomech 2014,
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).
 NeedleTissue at_gauge(const NeedleTissue& tissue, const cases::Gauge& gauge);
+// The other way round: what was measured with that gauge, as a row of the table.
+NeedleTissue at_table_gauge(const NeedleTissue& measured, const cases::Gauge& gauge);
 
 }  // namespace seldinger::haptics

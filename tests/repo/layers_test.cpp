@@ -54,6 +54,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"png.h", {"app/png"}},
     {"zstd.h", {"sim/base/codec"}},
     {"xraylib", {"tests/"}},
+    {"ceres/", {"sim/haptics/fit.cpp"}},
+    {"glog/", {}},
+    {"Eigen/", {}},
 };
 
 std::vector<fs::path> sources() {

@@ -63,6 +63,11 @@ TEST(NeedleTissues, ThickerNeedlesTakeMoreForce) {
   EXPECT_NEAR(thick.slope_n_mm / liver.slope_n_mm, 1.270 / 0.718, 1e-12);
   EXPECT_NEAR(thick.rupture_n / liver.rupture_n, 1.270 / 0.718, 1e-12);
   EXPECT_EQ(thick.dent_mm, liver.dent_mm);
+  const NeedleTissue back = at_table_gauge(thick, *cases::gauge(18));
+  EXPECT_NEAR(back.intercept_n, liver.intercept_n, 1e-12);
+  EXPECT_NEAR(back.slope_n_mm, liver.slope_n_mm, 1e-12);
+  EXPECT_NEAR(back.rupture_n, liver.rupture_n, 1e-12);
+  EXPECT_EQ(back.dent_mm, liver.dent_mm);
 }
 
 }  // namespace

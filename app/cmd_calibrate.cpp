@@ -1,0 +1,65 @@
+// haptics calibrate: where a haptic device stands on the template, kept in the station's file.
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "app/command.h"
+#include "app/csv.h"
+#include "app/file.h"
+#include "app/station.h"
+#include "casedb/disk.h"
+
+namespace seldinger::app {
+namespace {
+
+void print(const std::string& device, const devices::Calibration& calibration) {
+  const devices::Placement& placement = calibration.template_from_device;
+  std::printf("%s: scale %.4f, origin at (%.2f, %.2f, %.2f) mm, axes along\n", device.c_str(), placement.scale,
+              placement.translation_mm.x, placement.translation_mm.y, placement.translation_mm.z);
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::dvec3& along = placement.rotation[axis];
+    std::printf("  %c  (%.4f, %.4f, %.4f)\n", "xyz"[axis], along.x, along.y, along.z);
+  }
+  std::printf("Residuals, mm:");
+  for (const devices::Calibration::Point& point : calibration.points)
+    std::printf(" %s %.3f", point.taken.name.c_str(), point.residual_mm);
+  std::printf("; rms %.3f, most %.3f of %g\n", calibration.residual_rms_mm, calibration.residual_max_mm,
+              devices::kMostResidualMm);
+}
+
+}  // namespace
+
+int run_haptics_calibrate(const Arguments& arguments) {
+  const std::string device = arguments.required("--device");
+  if (device != "left" && device != "right") throw UsageError("--device is left or right");
+  const std::filesystem::path file = arguments.required("--station");
+  const auto text = read_text(arguments.positional(0));
+  if (!text) return refuse(text.error());
+  constexpr const char* kColumns[] = {"x_mm", "y_mm", "z_mm"};
+  const auto rows = rows_in_csv(*text, kColumns, "point");
+  if (!rows) return refuse(rows.error());
+  std::vector<devices::TakenPoint> taken;
+  for (std::size_t i = 0; i < rows->size(); ++i)
+    taken.push_back({rows->labels[i], {rows->row(i)[0], rows->row(i)[1], rows->row(i)[2]}});
+  const auto calibration = devices::calibrate(taken);
+  if (!calibration) return refuse(calibration.error());
+
+  // Both devices may be calibrated at once: neither forgets the other.
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  const casedb::FolderLock lock(folder);
+  Station station;
+  if (std::filesystem::exists(file)) {
+    auto known = read_station(file);
+    if (!known) return refuse(known.error());
+    station = std::move(*known);
+  }
+  station[device] = *calibration;
+  write_file(file, json_of_station(station));
+  if (arguments.has("--json"))
+    std::fputs(json_of_station({{device, *calibration}}).c_str(), stdout);
+  else
+    print(device, *calibration);
+  return kDone;
+}
+
+}  // namespace seldinger::app
