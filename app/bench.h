@@ -33,5 +33,7 @@ base::Result<void> bench_ultrasound(const Arguments& arguments, bool quick, std:
 // Stage haptics: the needle's laws at three speeds against the published lines, and their page of force against depth.
 void bench_haptics(bool quick, std::vector<BenchRow>& rows);
 std::string force_depth_page();
+// Also of stage haptics: segment queries beside Embree, ticks of the proxies.
+void bench_touch(bool quick, std::vector<BenchRow>& rows);
 
 }  // namespace seldinger::app

@@ -295,7 +295,10 @@ int run_bench(const Arguments& arguments) {
     if (stage == "mpr") bench_mpr(quick, rows);
     if (stage == "xray") done = bench_xray(arguments, quick, rows);
     if (stage == "ultrasound") done = bench_ultrasound(arguments, quick, rows);
-    if (stage == "haptics") bench_haptics(quick, rows);
+    if (stage == "haptics") {
+      bench_haptics(quick, rows);
+      bench_touch(quick, rows);
+    }
     if (stage == "step") done = bench_step(quick, rows);
     if (!done) return refuse(done.error());
   }

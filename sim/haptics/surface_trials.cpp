@@ -44,16 +44,11 @@ cases::Mesh bumpy_sphere(int around, int rings) {
   return mesh;
 }
 
-Glide glide(const cases::MeshIndex& mesh, const SurfaceSettings& settings, int ticks, std::uint64_t seed) {
-  const SurfaceProxy proxy(settings);
-  SurfaceTrack track;
-  Glide result;
+std::vector<glm::dvec3> gliding_tool(double radius_mm, int ticks, std::uint64_t seed) {
+  std::vector<glm::dvec3> path;
   base::Rng rng(seed);
-  glm::dvec3 place = direction_of(rng), heading = direction_of(rng), last_n(0.0);
-  track.begun = true;
-  track.proxy_lps_mm = place * (bumpy_radius_mm(place) + 5.0);
-  std::uint32_t near = 0;
-  double entered_mm = -proxy.radius_mm();  // pressed in at 20 mm/s
+  glm::dvec3 place = direction_of(rng), heading = direction_of(rng);
+  double entered_mm = -radius_mm - 0.1;  // pressed in at 20 mm/s
   for (int tick = 0; tick < ticks; ++tick) {
     // 0.1 mm a tick along the sphere, by a heading that wanders.
     heading += 0.02 * glm::dvec3(rng.normal(), rng.normal(), rng.normal());
@@ -62,7 +57,18 @@ Glide glide(const cases::MeshIndex& mesh, const SurfaceSettings& settings, int t
     place += heading * (0.1 / kBumpySphereMm);
     place /= std::sqrt(glm::dot(place, place));
     entered_mm = std::min(kDepthMm, entered_mm + 0.02);
-    const glm::dvec3 device = place * (bumpy_radius_mm(place) - entered_mm);
+    path.push_back(place * (bumpy_radius_mm(place) - entered_mm));
+  }
+  return path;
+}
+
+Glide glide(const cases::MeshIndex& mesh, const SurfaceSettings& settings, int ticks, std::uint64_t seed) {
+  const SurfaceProxy proxy(settings);
+  SurfaceTrack track;
+  Glide result;
+  glm::dvec3 last_n(0.0);
+  std::uint32_t near = 0;
+  for (const glm::dvec3& device : gliding_tool(proxy.radius_mm(), ticks, seed)) {
     const glm::dvec3 force_n = proxy.advance(mesh, device, track);
     const cases::Closest device_at = mesh.closest(device, near);
     near = device_at.triangle;

@@ -1,6 +1,8 @@
 // Trials of the surface proxy: what the tests assert and the bench times. Deterministic.
 #pragma once
 
+#include <vector>
+
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
 #include "sim/haptics/surface_proxy.h"
@@ -23,8 +25,11 @@ struct Glide {
   double most_step_n = 0;  // of the force, a tick
 };
 
-// A tool that glides about 2 mm deep all over the bumpy sphere at about 0.1 m/s (S8). What is deep is asked of the
-// mesh itself, at the device. µ: static and dynamic friction of the proxy.
+// Where a tool is, tick by tick, that is pressed in and then glides about 2 mm deep all over the bumpy sphere at
+// about 0.1 m/s.
+std::vector<glm::dvec3> gliding_tool(double radius_mm, int ticks, std::uint64_t seed);
+
+// That tool (S8). What is deep is asked of the mesh itself, at the device. µ: static friction.
 Glide glide(const cases::MeshIndex& mesh, const SurfaceSettings& settings, int ticks, std::uint64_t seed);
 
 struct Crossings {

@@ -54,6 +54,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"png.h", {"app/png"}},
     {"zstd.h", {"sim/base/codec"}},
     {"xraylib", {"tests/"}},
+    {"embree3/", {"app/bench_touch"}},
 };
 
 std::vector<fs::path> sources() {

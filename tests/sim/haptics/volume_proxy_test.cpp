@@ -73,7 +73,8 @@ TEST(VolumeProxyS10, StaysOutsideAtAnySpeedAndAfterAJump) {
   base::Rng rng(6);
   const auto direction = [&] { return glm::normalize(glm::dvec3(rng.normal(), rng.normal(), rng.normal())); };
   for (int i = 0; i < 300; ++i) {
-    const glm::dvec3 from = direction() * 14.0, to = direction() * 8.0;
+    const glm::dvec3 from = direction() * 14.0, side = direction() * 8.0;
+    const glm::dvec3 to = glm::dot(from, side) < 0.0 ? -side : side;
     const double share = i % 4 == 0 ? 1.0 : 0.02 + 0.2 * rng.uniform();  // of the way, a tick
     VolumeProxyTrack track;
     glm::dvec3 force_n(0.0);
