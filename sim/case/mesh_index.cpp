@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -21,8 +22,10 @@ using FourSigns = std::int32_t __attribute__((vector_size(16)));
 Four four(float value) {
   return Four{value, value, value, value};
 }
-Four load(const float* values) {
-  return Four{values[0], values[1], values[2], values[3]};
+Four load(const float (&values)[4]) {
+  Four four_values;
+  std::memcpy(&four_values, values, sizeof four_values);
+  return four_values;
 }
 Four lesser(Four x, Four y) {
   return x < y ? x : y;

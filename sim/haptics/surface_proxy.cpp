@@ -8,9 +8,9 @@ namespace seldinger::haptics {
 namespace {
 
 constexpr int kMostTouches = 8;    // at one place
-constexpr int kMostSteps = 48;     // a tick; what is left of a long way is for the next
+constexpr int kMostSteps = 24;     // a tick; what is left of a long way is for the next
 constexpr int kMostLifts = 4;      // a tick
-constexpr double kThereMm = 1e-7;  // no way left to go
+constexpr double kThereMm = 1e-5;  // no way left to go
 
 // How much nearer than its radius the ball may come (far below what is felt; design).
 double slack_mm(double radius_mm) {
