@@ -8,7 +8,7 @@ namespace seldinger::haptics {
 namespace {
 
 constexpr int kMostTouches = 8;    // at one place
-constexpr int kMostSteps = 24;     // a tick; what is left of a long way is for the next
+constexpr int kMostSteps = 12;     // a tick; what is left of a long way is for the next
 constexpr int kMostLifts = 4;      // a tick
 constexpr double kThereMm = 1e-5;  // no way left to go
 
