@@ -39,7 +39,7 @@ struct Box {
 }  // namespace
 
 // Splits in two where a ray is expected to meet the least (Wald, IEEE Symp. Interactive Ray Tracing, 2007: surface
-// area heuristic in bins), then folds pairs into fours. Answers do not depend on the tree: ties go to the lower id.
+// area heuristic in bins), then folds pairs into fours. Of equal answers the lower id counts.
 class MeshIndex::Builder {
  public:
   explicit Builder(const Mesh& mesh);
