@@ -38,4 +38,7 @@ std::string force_depth_page();
 // it is).
 base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows);
 
+// Also of stage haptics: segment queries beside Embree, ticks of the proxies.
+void bench_touch(bool quick, std::vector<BenchRow>& rows);
+
 }  // namespace seldinger::app

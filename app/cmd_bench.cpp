@@ -298,6 +298,7 @@ int run_bench(const Arguments& arguments) {
     if (stage == "haptics") {
       bench_haptics(quick, rows);
       done = bench_servo(quick, rows);
+      bench_touch(quick, rows);
     }
     if (stage == "step") done = bench_step(quick, rows);
     if (!done) return refuse(done.error());

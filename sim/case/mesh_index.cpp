@@ -2,71 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <tuple>
 
 #include "sim/base/check.h"
-#include "sim/base/exact_math.h"
+#include "sim/case/triangle.h"
 
 namespace seldinger::cases {
 namespace {
 
-constexpr std::uint32_t kLeafTriangles = 4;
-constexpr int kMaxDepth = 64;
+// Every level puts at most three children aside; the tree of pairs is at most 64 deep (mesh_index_build.cpp).
+constexpr int kStack = 3 * 64;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-struct OnTriangle {
-  glm::dvec3 point;
-  int feature;  // 0..2 vertices a b c, 3..5 edges ab bc ca, 6 face
+using Four = float __attribute__((vector_size(16)));
+using FourSigns = std::int32_t __attribute__((vector_size(16)));
+
+Four four(float value) {
+  return Four{value, value, value, value};
+}
+Four load(const float (&values)[4]) {
+  Four four_values;
+  std::memcpy(&four_values, values, sizeof four_values);
+  return four_values;
+}
+Four lesser(Four x, Four y) {
+  return x < y ? x : y;
+}
+Four greater(Four x, Four y) {
+  return x > y ? x : y;
+}
+
+// What is put aside, the most urgent on top.
+struct Pending {
+  std::uint32_t first, count;
+  float key;
 };
 
-// Shares along an edge; an edge without length has none.
-double share_of(double part, double whole) {
-  return whole > 0.0 ? part / whole : 0.0;
-}
+struct Stack {
+  Pending of[kStack];
+  int top = 0;
 
-// Closest point of a triangle by Voronoi regions (Ericson, Real-Time Collision Detection, 2005, §5.1.5).
-OnTriangle closest_on_triangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return {a, 0};
-  const glm::dvec3 bp = p - b;
-  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0.0 && d4 <= d3) return {b, 1};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return {a + ab * share_of(d1, d1 - d3), 3};
-  const glm::dvec3 cp = p - c;
-  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0.0 && d5 <= d6) return {c, 2};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return {a + ac * share_of(d2, d2 - d6), 5};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return {b + (c - b) * share_of(d4 - d3, (d4 - d3) + (d5 - d6)), 4};
-  return {a + ab * share_of(vb, va + vb + vc) + ac * share_of(vc, va + vb + vc), 6};
-}
-
-// Written without branches and always inlined: half of a query is this.
-[[gnu::always_inline]] inline double box_distance2(const glm::dvec3& p, const glm::vec3& low,
-                                                   const glm::vec3& high) {
-  double sum = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double below = low[axis] - p[axis], above = p[axis] - high[axis];
-    const double outside = below > above ? below : above;
-    const double d = outside > 0.0 ? outside : 0.0;
-    sum += d * d;
+  // Those of a node's children whose key is wanted, sorted.
+  template <class Node>
+  void push(const Node& node, Four key, FourSigns wanted) {
+    const int bottom = top;
+    for (int i = 0; i < 4; ++i) {
+      if (wanted[i] == 0) continue;
+      int place = top++;
+      for (; place > bottom && of[place - 1].key < key[i]; --place) of[place] = of[place - 1];
+      of[place] = {node.first[i], node.count[i], key[i]};
+    }
   }
-  return sum;
-}
-
-glm::dvec3 unit_or_zero(const glm::dvec3& v) {
-  const double length2 = glm::dot(v, v);
-  return length2 > 0.0 ? v / std::sqrt(length2) : glm::dvec3(0.0);
-}
-
-double angle_between(const glm::dvec3& u, const glm::dvec3& v) {
-  return base::exact_acos(glm::dot(unit_or_zero(u), unit_or_zero(v)));
-}
+};
 
 }  // namespace
 
@@ -78,114 +67,43 @@ struct MeshIndex::Nearest {
   int feature = 6;
 };
 
-MeshIndex::MeshIndex(const Mesh& mesh) {
-  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-  if (count == 0) return;
-  triangles_.resize(count);
-  normals_.resize(count);
-  struct EdgeSide {
-    std::uint32_t low, high, triangle, side;
-  };
-  std::vector<EdgeSide> sides;
-  sides.reserve(std::size_t{count} * 3);
-  std::vector<glm::dvec3> vertex_normal(mesh.vertices_lps_mm.size(), glm::dvec3(0.0));
-  for (std::uint32_t t = 0; t < count; ++t) {
-    Triangle& triangle = triangles_[t];
-    const glm::uvec3& v = mesh.triangles[t];
-    triangle.id = t;
-    triangle.cut = !mesh.cut.empty() && mesh.cut[t] != 0;
-    triangle.a = mesh.vertices_lps_mm[v.x];
-    triangle.b = mesh.vertices_lps_mm[v.y];
-    triangle.c = mesh.vertices_lps_mm[v.z];
-    const glm::dvec3 corner[3] = {triangle.a, triangle.b, triangle.c};
-    normals_[t].face = unit_or_zero(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a));
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t from = v[static_cast<int>(i)], to = v[static_cast<int>((i + 1) % 3)];
-      sides.push_back({std::min(from, to), std::max(from, to), t, i});
-      vertex_normal[from] +=
-          normals_[t].face * angle_between(corner[(i + 1) % 3] - corner[i], corner[(i + 2) % 3] - corner[i]);
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const EdgeSide& x, const EdgeSide& y) {
-    return std::tie(x.low, x.high, x.triangle, x.side) < std::tie(y.low, y.high, y.triangle, y.side);
-  });
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin;
-    glm::dvec3 sum(0.0);
-    while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high)
-      sum += normals_[sides[end++].triangle].face;
-    for (std::size_t i = begin; i < end; ++i) normals_[sides[i].triangle].edge[sides[i].side] = sum;
-    begin = end;
-  }
-  for (std::uint32_t t = 0; t < count; ++t)
-    for (int i = 0; i < 3; ++i) normals_[t].vertex[i] = vertex_normal[mesh.triangles[t][i]];
-
-  nodes_.reserve(count);
-  nodes_.emplace_back();
-  build(0, 0, count);
-  position_.resize(count);
-  for (std::uint32_t at = 0; at < count; ++at) position_[triangles_[at].id] = at;
-}
-
-void MeshIndex::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-std::numeric_limits<double>::infinity());
-  for (std::uint32_t t = begin; t < end; ++t) {
-    low = glm::min(low, glm::min(triangles_[t].a, glm::min(triangles_[t].b, triangles_[t].c)));
-    high = glm::max(high, glm::max(triangles_[t].a, glm::max(triangles_[t].b, triangles_[t].c)));
-  }
-  nodes_[node].min_mm = glm::vec3(low);
-  nodes_[node].max_mm = glm::vec3(high);
-  if (end - begin <= kLeafTriangles) {
-    nodes_[node].first = begin;
-    nodes_[node].count = end - begin;
-    return;
-  }
-  const glm::dvec3 extent = high - low;
-  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
-  // A total order (ties by id), so that the tree is the same on every machine.
-  std::sort(triangles_.begin() + begin, triangles_.begin() + end, [axis](const Triangle& x, const Triangle& y) {
-    const double cx = x.a[axis] + x.b[axis] + x.c[axis], cy = y.a[axis] + y.b[axis] + y.c[axis];
-    return cx < cy || (cx == cy && x.id < y.id);
-  });
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  const auto left = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = left;
-  nodes_.emplace_back();
-  nodes_.emplace_back();
-  build(left, begin, middle);
-  build(left + 1, middle, end);
+// How far a coordinate of p, less one of the mesh, can be off in float.
+double MeshIndex::box_error_mm(const glm::dvec3& p) const noexcept {
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), reach_mm_});
+  return 2.5e-7 * largest;  // two roundings of 2⁻²⁴ each, of at most 2 · largest
 }
 
 void MeshIndex::visit(const glm::dvec3& p, bool skin_only, Nearest& nearest) const noexcept {
-  struct Pending {
-    std::uint32_t node;
-    double distance2;
-  };
-  Pending stack[kMaxDepth];
-  int top = 0;
-  stack[top++] = {0, box_distance2(p, nodes_[0].min_mm, nodes_[0].max_mm)};
-  while (top > 0) {
-    const Pending pending = stack[--top];
-    if (pending.distance2 > nearest.distance2) continue;
-    const Node& node = nodes_[pending.node];
-    if (node.count > 0) {
-      for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
-        const Triangle& triangle = triangles_[at];
-        if (skin_only && triangle.cut) continue;
-        const OnTriangle on = closest_on_triangle(p, triangle.a, triangle.b, triangle.c);
-        const glm::dvec3 d = p - on.point;
-        const double distance2 = glm::dot(d, d);
-        if (distance2 < nearest.distance2 || (distance2 == nearest.distance2 && triangle.id < nearest.id))
-          nearest = {distance2, on.point, at, triangle.id, on.feature};
+  const auto error = static_cast<float>(box_error_mm(p));
+  const glm::vec3 at(p);
+  Stack stack;
+  Pending next{0, 0, 0.0F};
+  for (;;) {
+    if (next.count == 0) {
+      const Node& node = nodes_[next.first];
+      Four sum = four(0.0F);
+      for (int axis = 0; axis < 3; ++axis) {
+        const Four below = load(node.low[axis]) - four(at[axis]), above = four(at[axis]) - load(node.high[axis]);
+        const Four outside = greater(greater(below, above) - four(error), four(0.0F));
+        sum += outside * outside;
       }
-      continue;
+      sum *= four(1.0F - 1e-6F);  // never more than the true distance squared
+      const double most = nearest.distance2 * (1.0 + 1e-6);
+      stack.push(node, sum, sum <= four(most < 1e38 ? static_cast<float>(most) : 1e38F));
     }
-    const Pending left{node.first, box_distance2(p, nodes_[node.first].min_mm, nodes_[node.first].max_mm)};
-    const Pending right{node.first + 1,
-                        box_distance2(p, nodes_[node.first + 1].min_mm, nodes_[node.first + 1].max_mm)};
-    const bool left_first = left.distance2 <= right.distance2;
-    stack[top++] = left_first ? right : left;
-    stack[top++] = left_first ? left : right;
+    for (std::uint32_t i = next.first; i < next.first + next.count; ++i) {
+      const Triangle& triangle = triangles_[i];
+      if (skin_only && triangle.cut) continue;
+      const OnTriangle on = closest_on_triangle(p, triangle.a, triangle.b, triangle.c, triangle.thin);
+      const glm::dvec3 d = p - on.point;
+      const double distance2 = glm::dot(d, d);
+      if (distance2 < nearest.distance2 || (distance2 == nearest.distance2 && triangle.id < nearest.id))
+        nearest = {distance2, on.point, i, triangle.id, on.feature};
+    }
+    do {
+      if (stack.top == 0) return;
+      next = stack.of[--stack.top];
+    } while (static_cast<double>(next.key) > nearest.distance2);
   }
 }
 
@@ -195,7 +113,7 @@ Closest MeshIndex::answer(const glm::dvec3& p, std::uint32_t hint, bool skin_onl
   const std::uint32_t at = position_[hint < position_.size() ? hint : 0];
   if (!(skin_only && triangles_[at].cut)) {
     const Triangle& first = triangles_[at];
-    const OnTriangle on = closest_on_triangle(p, first.a, first.b, first.c);
+    const OnTriangle on = closest_on_triangle(p, first.a, first.b, first.c, first.thin);
     const glm::dvec3 d = p - on.point;
     nearest = {glm::dot(d, d), on.point, at, first.id, on.feature};
   }
@@ -223,61 +141,113 @@ Closest MeshIndex::closest_skin(const glm::dvec3& p, std::uint32_t hint) const n
   return skin;
 }
 
+struct MeshIndex::Ray {
+  Ray(const glm::dvec3& p, const glm::dvec3& along, double margin_mm) : margin(static_cast<float>(margin_mm)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      from[axis] = static_cast<float>(p[axis]);
+      // A component of 0 gets a huge slope, never an infinite one: 0 · ∞ would be no number.
+      const auto sign = std::copysign(1.0, along[axis]);
+      slope[axis] = static_cast<float>(std::abs(along[axis]) > 1e-15 ? 1.0 / along[axis] : sign * 1e15);
+    }
+  }
+  glm::vec3 from, slope;
+  float margin;
+};
+
+template <class Visit>
+void MeshIndex::walk(const Ray& ray, double& best_mm, Visit visit) const noexcept {
+  constexpr float kWider = 1.0F + 1e-6F;  // what dividing and multiplying can be off
+  Stack stack;
+  Pending next{0, 0, 0.0F};
+  for (;;) {
+    if (next.count == 0) {
+      const Node& node = nodes_[next.first];
+      Four enter = four(0.0F), leave = four(static_cast<float>(best_mm) * kWider);
+      for (int axis = 0; axis < 3; ++axis) {
+        // By the sign, not by which is less: so an empty box is entered nowhere.
+        const bool up = ray.slope[axis] > 0.0F;
+        const Four slope = four(ray.slope[axis]), from = four(ray.from[axis]);
+        const Four margin = four(up ? ray.margin : -ray.margin);
+        enter = greater(enter, (load(up ? node.low[axis] : node.high[axis]) - from - margin) * slope);
+        leave = lesser(leave, (load(up ? node.high[axis] : node.low[axis]) - from + margin) * slope);
+      }
+      enter *= four(2.0F - kWider);
+      stack.push(node, enter, enter <= leave * four(kWider));
+    }
+    for (std::uint32_t i = next.first; i < next.first + next.count; ++i) visit(triangles_[i]);
+    do {
+      if (stack.top == 0) return;
+      next = stack.of[--stack.top];
+    } while (static_cast<double>(next.key) > best_mm);
+  }
+}
+
 std::optional<RayHit> MeshIndex::first_hit(const glm::dvec3& p, const glm::dvec3& direction,
                                            double max_mm) const noexcept {
   if (triangles_.empty()) return std::nullopt;
-  const glm::dvec3 inverse = 1.0 / direction;  // ±inf on a zero component: the slab test below holds for it
   double best = max_mm;
   const Triangle* hit = nullptr;
-  std::uint32_t stack[kMaxDepth];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Node& node = nodes_[stack[--top]];
-    double enter = 0.0, leave = best;
-    bool missed = false;
-    for (int axis = 0; axis < 3 && !missed; ++axis) {
-      if (direction[axis] == 0.0) {
-        missed = p[axis] < node.min_mm[axis] || p[axis] > node.max_mm[axis];
-        continue;
-      }
-      double t0 = (node.min_mm[axis] - p[axis]) * inverse[axis], t1 = (node.max_mm[axis] - p[axis]) * inverse[axis];
-      if (t0 > t1) std::swap(t0, t1);
-      enter = std::max(enter, t0 - 1e-9);  // a ray that grazes a flat box must not miss it by rounding
-      leave = std::min(leave, t1 + 1e-9);
-      missed = enter > leave;
+  walk(Ray(p, direction, box_error_mm(p)), best, [&](const Triangle& triangle) {
+    // Möller and Trumbore, J. Graphics Tools 2, 1997; borders belong to the triangle, so a closed mesh has no
+    // cracks.
+    const glm::dvec3 a(triangle.a), e1 = glm::dvec3(triangle.b) - a, e2 = glm::dvec3(triangle.c) - a;
+    const glm::dvec3 q = glm::cross(direction, e2);
+    const double determinant = glm::dot(e1, q);
+    if (determinant == 0.0) return;
+    const double f = 1.0 / determinant;
+    const glm::dvec3 s = p - a;
+    const double u = f * glm::dot(s, q);
+    constexpr double kBorder = 1e-12;
+    if (!(u >= -kBorder && u <= 1.0 + kBorder)) return;
+    const glm::dvec3 r = glm::cross(s, e1);
+    const double v = f * glm::dot(direction, r);
+    if (!(v >= -kBorder && u + v <= 1.0 + kBorder)) return;
+    const double t = f * glm::dot(e2, r);
+    if (t > 0.0 && (t < best || (t == best && (hit == nullptr || triangle.id < hit->id)))) {
+      best = t;
+      hit = &triangle;
     }
-    if (missed) continue;
-    if (node.count == 0) {
-      stack[top++] = node.first;
-      stack[top++] = node.first + 1;
-      continue;
-    }
-    for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
-      // Möller and Trumbore, J. Graphics Tools 2, 1997; borders belong to the triangle, so a closed mesh has no
-      // cracks.
-      const Triangle& triangle = triangles_[at];
-      const glm::dvec3 e1 = triangle.b - triangle.a, e2 = triangle.c - triangle.a;
-      const glm::dvec3 q = glm::cross(direction, e2);
-      const double determinant = glm::dot(e1, q);
-      if (determinant == 0.0) continue;
-      const double f = 1.0 / determinant;
-      const glm::dvec3 s = p - triangle.a;
-      const double u = f * glm::dot(s, q);
-      constexpr double kBorder = 1e-12;
-      if (!(u >= -kBorder && u <= 1.0 + kBorder)) continue;
-      const glm::dvec3 r = glm::cross(s, e1);
-      const double v = f * glm::dot(direction, r);
-      if (!(v >= -kBorder && u + v <= 1.0 + kBorder)) continue;
-      const double t = f * glm::dot(e2, r);
-      if (t > 0.0 && (t < best || (t == best && (hit == nullptr || triangle.id < hit->id)))) {
-        best = t;
-        hit = &triangle;
-      }
-    }
-  }
+  });
   if (hit == nullptr) return std::nullopt;
   return RayHit{best, hit->id, hit->cut};
+}
+
+std::optional<BallTouch> MeshIndex::first_touch(const glm::dvec3& p, const glm::dvec3& direction, double length_mm,
+                                                double radius_mm, double slack_mm,
+                                                std::uint32_t hint) const noexcept {
+  CHECK(slack_mm > 0.0 && slack_mm < radius_mm);
+  if (triangles_.empty()) return std::nullopt;
+  const double least_mm = radius_mm - slack_mm, near_mm = 0.25 * slack_mm;
+  double best = length_mm;  // where the nearest triangle so far comes nearer than least_mm
+  std::optional<BallTouch> touch;
+  const auto visit = [&](const Triangle& triangle) {
+    const glm::dvec3 a(triangle.a), b(triangle.b), c(triangle.c);
+    // The distance to a triangle, a convex body, is a convex function of the way: its tangent reaches any value
+    // before it does, so steps to where the tangent does (Newton's) never go too far.
+    BallTouch met{-1.0, glm::dvec3(0.0), 0.0, triangle.id};
+    double travel = 0.0;
+    for (;;) {
+      const glm::dvec3 at = p + direction * travel;
+      const glm::dvec3 from = at - closest_on_triangle(at, a, b, c, triangle.thin).point;
+      const double distance = std::sqrt(glm::dot(from, from));
+      const double closing = -glm::dot(from, direction);  // times distance
+      if (!(closing > 1e-10 * distance) || (distance - least_mm) * distance >= (best - travel) * closing) return;
+      if (met.travel_mm < 0.0 && distance <= radius_mm + near_mm) {
+        met.travel_mm = travel;
+        met.normal = from / distance;
+        met.distance_mm = distance;
+      }
+      if (distance <= least_mm + near_mm) {
+        best = travel;
+        touch = met;
+        return;
+      }
+      travel += (distance - (met.travel_mm < 0.0 ? radius_mm : least_mm)) * distance / closing;
+    }
+  };
+  visit(triangles_[position_[hint < position_.size() ? hint : 0]]);
+  walk(Ray(p, direction, radius_mm + box_error_mm(p)), best, visit);
+  return touch;
 }
 
 glm::dvec3 MeshIndex::normal(std::uint32_t triangle) const noexcept {

@@ -191,6 +191,10 @@ TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
   for (const char* name : {"needle law", "thesis F1, m 50", "published line", "kidney", "liver"})
     EXPECT_NE(page.find(name), std::string::npos) << name;
   EXPECT_FALSE(fixtures::whole_file(scratch / "out" / "frontier.html").empty());
+  // Two lengths of segments, the same answers as Embree; ticks of the proxies.
+  for (const char* row : {"mesh index, segment", "Embree, segment", "surface proxy, tick", "volume proxy, tick"})
+    EXPECT_NE(ran.out.find(row), std::string::npos) << row;
+  EXPECT_NE(ran.out.find(", 0 answers differ"), std::string::npos);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"ceres/", {"sim/haptics/fit.cpp"}},
     {"glog/", {}},
     {"Eigen/", {}},
+    {"embree3/", {"app/bench_touch"}},
 };
 
 std::vector<fs::path> sources() {

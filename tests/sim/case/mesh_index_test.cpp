@@ -152,6 +152,92 @@ TEST(MeshIndex, TrianglesWithoutAreaOrOnlyCapsGiveFiniteAnswers) {
   EXPECT_NEAR(MeshIndex(mesh).closest_skin({3, 0, 0}).distance_mm, 2.0, 1e-12);
 }
 
+// A mesh far from the origin, where float is coarse, and rays along its axes and in the planes of its boxes.
+TEST(MeshIndex, RaysHitWhatEveryTriangleTriedHits) {
+  Mesh mesh = fixtures::sphere_mesh({700, -900, 1200}, 40.0, 4, 4.0);
+  const MeshIndex index(mesh);
+  base::Rng rng(11);
+  int hits = 0;
+  for (int i = 0; i < 600; ++i) {
+    glm::dvec3 p = glm::dvec3(700, -900, 1200) + random_point(rng, 60.0);
+    glm::dvec3 d = random_point(rng, 1.0);
+    if (i % 3 == 0) {
+      d = glm::dvec3(0.0);
+      d[i % 9 / 3] = i % 2 == 0 ? 1.0 : -1.0;
+      p[(i + 1) % 3] = mesh.vertices_lps_mm[static_cast<std::size_t>(i)][(i + 1) % 3];
+    }
+    d = glm::normalize(d);
+    double best = 80.0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      // The plane, then the sides of the three edges: a way that shares nothing with the index.
+      const glm::uvec3& v = mesh.triangles[t];
+      const glm::dvec3 a(mesh.vertices_lps_mm[v.x]), b(mesh.vertices_lps_mm[v.y]), c(mesh.vertices_lps_mm[v.z]);
+      const glm::dvec3 n = glm::cross(b - a, c - a);
+      const double along = glm::dot(d, n);
+      if (along == 0.0) continue;
+      const double t_mm = glm::dot(a - p, n) / along;
+      const glm::dvec3 q = p + d * t_mm;
+      if (t_mm > 0.0 && t_mm < best && glm::dot(glm::cross(b - a, q - a), n) >= 0.0 &&
+          glm::dot(glm::cross(c - b, q - b), n) >= 0.0 && glm::dot(glm::cross(a - c, q - c), n) >= 0.0)
+        best = t_mm;
+    }
+    const auto hit = index.first_hit(p, d, 80.0);
+    EXPECT_NEAR(hit ? hit->distance_mm : 80.0, best, 1e-6) << i;
+    hits += hit ? 1 : 0;
+  }
+  EXPECT_GT(hits, 150);
+}
+
+TEST(MeshIndex, AMovingBallStopsWhereItsDistanceIsItsRadius) {
+  const Mesh mesh = fixtures::sphere_mesh({300, 0, -200}, 40.0, 4, 4.0);
+  const MeshIndex index(mesh);
+  base::Rng rng(12);
+  int touches = 0;
+  for (const double radius : {0.01, 1.0, 7.0})
+    for (int i = 0; i < 300; ++i) {
+      const glm::dvec3 p = glm::dvec3(300, 0, -200) + random_point(rng, 70.0);
+      const glm::dvec3 d = glm::normalize(random_point(rng, 1.0));
+      const double slack = 0.1 * radius;
+      if (std::abs(index.closest(p).distance_mm) < radius) continue;
+      const auto touch = index.first_touch(p, d, 60.0, radius, slack, static_cast<std::uint32_t>(i));
+      const double free_mm = touch ? touch->travel_mm : 60.0;
+      double least = 1e9;
+      for (int k = 0; k <= 200; ++k)
+        least = std::fmin(least, std::abs(index.closest(p + d * (free_mm * k / 200.0)).distance_mm));
+      EXPECT_GE(least, radius - slack - 1e-9) << i;
+      const auto hinted = index.first_touch(p, d, 60.0, radius, slack, touch ? touch->triangle : 7);
+      EXPECT_EQ(touch.has_value(), hinted.has_value());
+      if (!touch || !hinted) continue;
+      ++touches;
+      const Closest at = index.closest(p + d * touch->travel_mm);
+      EXPECT_NEAR(touch->distance_mm, radius, slack * 0.3);
+      EXPECT_LE(std::abs(at.distance_mm), touch->distance_mm + 1e-9);
+      EXPECT_LT(glm::dot(touch->normal, d), 0.0);
+      EXPECT_NEAR(hinted->travel_mm, touch->travel_mm, slack);
+    }
+  EXPECT_GT(touches, 100);
+}
+
+TEST(MeshIndex, ABallThatOnlySlidesAlongMeetsNothing) {
+  const MeshIndex index(fixtures::box_mesh({-10, -10, -10}, {10, 10, 10}));
+  EXPECT_FALSE(index.first_touch({-5, 0, 11}, {1, 0, 0}, 10.0, 1.0, 0.001).has_value());
+  EXPECT_FALSE(index.first_touch({-5, 0, 11}, {0, 0, 1}, 10.0, 1.0, 0.001).has_value());
+  const auto down = index.first_touch({-5, 0, 14}, {0, 0, -1}, 10.0, 1.0, 0.001);
+  ASSERT_TRUE(down.has_value());
+  EXPECT_NEAR(down->travel_mm, 3.0, 1e-9);
+  EXPECT_NEAR(down->normal.z, 1.0, 1e-12);
+}
+
+TEST(MeshIndex, ATriangleWithoutAreaIsItsEdges) {
+  Mesh mesh;
+  mesh.vertices_lps_mm = {{0, 0, 0}, {10, 0, 0}, {4, 0, 0}};
+  for (const glm::uvec3& t : {glm::uvec3(0, 1, 2), glm::uvec3(0, 0, 1), glm::uvec3(1, 0, 0), glm::uvec3(2, 1, 0)}) {
+    mesh.triangles = {t};
+    EXPECT_NEAR(std::abs(MeshIndex(mesh).closest({9, 3, 4}).distance_mm), 5.0, 1e-12) << t.x << t.y << t.z;
+    EXPECT_NEAR(std::abs(MeshIndex(mesh).closest({13, 0, 4}).distance_mm), 5.0, 1e-12) << t.x << t.y << t.z;
+  }
+}
+
 TEST(MeshBytes, RoundTripAndDamage) {
   Mesh mesh = fixtures::sphere_mesh({1, 2, 3}, 30.0, 2, 1.0);
   mesh.cut[5] = 1;
