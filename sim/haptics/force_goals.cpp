@@ -7,6 +7,8 @@
 
 #include "sim/haptics/haptic_device.h"
 #include "sim/haptics/insertion.h"
+#include "sim/haptics/surface_trials.h"
+#include "sim/haptics/volume_trials.h"
 
 namespace seldinger::haptics {
 namespace {
@@ -122,6 +124,31 @@ std::vector<ForceReading> force_readings() {
     readings.push_back({"largest step of a tick, to 200 mm/s", where, most_step_n(tissue), "N", 0.15});
   }
   return readings;
+}
+
+std::vector<ForceReading> proxy_readings(int ticks) {
+  const cases::MeshIndex mesh(bumpy_sphere(448, 224));
+  double snags = 0.0, through = 0.0;
+  for (const double radius_mm : {0.0, 1.0})
+    for (const double friction : {0.0, 0.3}) {
+      const SurfaceSettings settings{
+          .radius_mm = radius_mm, .static_friction = friction, .dynamic_friction = friction};
+      const Glide gliding = glide(mesh, settings, ticks, 1);
+      const Crossings crossings = sweep(mesh, settings, ticks / 10, 2);
+      snags += gliding.snags;
+      through += gliding.inside + crossings.inside + crossings.untouched;
+    }
+  double off_deg = 0.0, step_n = 0.0;
+  for (const Solid shape : {Solid::ball, Solid::cylinder, Solid::plane}) {
+    const SolidInCt solid{.shape = shape};
+    const Slide run = slide(solid, ct_of(solid, 3), {}, 4000, 1);
+    if (!(run.direction_rms_deg <= off_deg)) off_deg = run.direction_rms_deg;
+    if (!(run.most_step_n <= step_n)) step_n = run.most_step_n;
+  }
+  return {{"ticks that snag", "mesh", snags, "", 0.0},
+          {"ticks inside, sweeps not felt", "mesh", through, "", 0.0},
+          {"direction, 30 HU noise, rms", "CT", off_deg, "deg", 3.5},
+          {"largest step of a tick, 30 HU noise", "CT", step_n, "N", 0.03}};
 }
 
 std::vector<ForceReading> stability_readings(const StabilitySurvey& survey) {

@@ -21,6 +21,10 @@ struct ForceReading {
 
 std::vector<ForceReading> force_readings();
 
+// Of the proxies: on a bumpy sphere of 200,704 triangles with and without radius and friction, at so many ticks and
+// a tenth as many sweeps each (S8, S10), and on solids in a noisy CT (S7).
+std::vector<ForceReading> proxy_readings(int ticks);
+
 // How many trials, and with which least margin, do not come to rest.
 std::vector<ForceReading> stability_readings(const StabilitySurvey& survey);
 
