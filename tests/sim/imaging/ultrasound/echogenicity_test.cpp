@@ -18,10 +18,10 @@ struct Organs {
         right_hu(right),
         tube_hu(tube) {
     std::mt19937 bits(7);
-    std::normal_distribution<double> noise(0.0, noise_hu);
+    std::normal_distribution<double> noise;
     each([&](const glm::dvec3& p, std::size_t at) {
       const double hu = in_tube(p) ? tube : (p.x < 0.0 ? left : right);
-      s.volume.hu[at] = static_cast<std::int16_t>(std::lround(hu + noise(bits)));
+      s.volume.hu[at] = static_cast<std::int16_t>(std::lround(hu + noise_hu * noise(bits)));
     });
   }
   static bool in_tube(const glm::dvec3& p) { return std::hypot(p.x + 70.0, p.y - 70.0) < 5.0; }
