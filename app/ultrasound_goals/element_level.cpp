@@ -115,7 +115,7 @@ std::complex<double> ElementLevel::sample(double beam, double depth_mm,
       const auto add = [&](double late_mm, double weight, std::array<std::complex<double>, kFrequencies>& sums) {
         if (weight == 0.0) return;
         const double per_mhz = -2.0 * M_PI * late_mm / shaders::kUsSpeedMmPerUs;
-        std::complex<double> turn = std::polar(weight, per_mhz * frequencies_mhz_[0]);
+        std::complex<double> turn = weight * std::polar(1.0, per_mhz * frequencies_mhz_[0]);
         const std::complex<double> step = std::polar(1.0, per_mhz * step_mhz);
         for (std::complex<double>& sum : sums) {
           sum += turn;

@@ -40,8 +40,9 @@ TEST(Reference, TheFastSumIsTheDefinition) {
         if (std::abs(u) > 4.0 || std::abs(v) > 4.0) continue;
         const double unit =
             std::pow(M_PI, 0.75) * std::sqrt(w.axial_sigma_mm * w.lateral_sigma_mm * w.elevation_sigma_mm);
-        const std::complex<double> echo = std::polar(s.amplitude / unit * std::exp(-0.5 * (u * u + v * v)),
-                                                     -4.0 * M_PI * s.depth_mm / wavelength_mm);
+        const std::complex<double> echo =
+            s.amplitude / unit *
+            std::polar(std::exp(-0.5 * (u * u + v * v)), -4.0 * M_PI * s.depth_mm / wavelength_mm);
         const int middle = sample_at(view, s.depth_mm),
                   reach = static_cast<int>(5.0 * w.axial_sigma_mm / fan.sample_mm) + 1;
         for (int k = std::max(0, middle - reach); k <= std::min(view.samples - 1, middle + reach); ++k) {
