@@ -9,7 +9,7 @@ namespace seldinger::reports {
 namespace {
 
 // The drawing's own units; CSS scales it.
-constexpr double kWidth = 860.0, kHeight = 420.0, kLeft = 70.0, kRight = 190.0, kTop = 16.0, kBottom = 46.0;
+constexpr double kWidth = 910.0, kHeight = 420.0, kLeft = 70.0, kRight = 240.0, kTop = 16.0, kBottom = 46.0;
 constexpr double kLabelHeight = 13.0;
 // Okabe and Ito's colours, told apart by all kinds of colour vision.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
