@@ -98,11 +98,14 @@ void add_chart(Html& html, const std::string& title, std::vector<FrontierPoint> 
   for (const std::size_t i : best)
     html.text(px(x.at(points[i].ms))).raw(",").text(px(y.at(points[i].error))).raw(" ");
   html.raw("\"/>\n");
-  // Labels stand right of the plot's points, moved down where they would lie on each other.
-  double label_y = kTop - kLabelHeight;
+  // Labels stand right of the plot's points, moved down where they would lie on each other,
+  // and so far up that all find room above the chart's end.
+  double label_y = kTop - kLabelHeight,
+         last_room_y = kHeight - 6.0 - kLabelHeight * static_cast<double>(points.size());
   for (const FrontierPoint& point : points) {
     const double px_x = x.at(point.ms), px_y = y.at(point.error);
-    label_y = std::max(label_y + kLabelHeight, px_y);
+    last_room_y += kLabelHeight;
+    label_y = std::max(label_y + kLabelHeight, std::min(px_y, last_room_y));
     const char* colour = colour_of(methods, point.method);
     const std::string label_x = px(kWidth - kRight + 14.0);
     html.raw("<line class=\"leader\" x1=\"").text(px(px_x)).raw("\" y1=\"").text(px(px_y)).raw("\" x2=\"");
