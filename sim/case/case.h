@@ -10,6 +10,7 @@
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
 #include "sim/case/patient_position.h"
+#include "sim/case/structure.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
@@ -57,6 +58,7 @@ struct Case {
   Mesh skin;
   MeshIndex skin_index;
   std::vector<Lesion> lesions;  // [0] is the target
+  std::vector<Structure> structures;
   Instrument instrument;
   Picture picture;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
