@@ -19,14 +19,9 @@ double quantile_ms(const std::vector<double>& sorted_ms, double share) {
   return sorted_ms[static_cast<std::size_t>(share * static_cast<double>(sorted_ms.size() - 1))];
 }
 
-}  // namespace
-
-base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
-  auto torso = torso_under_hands(quick ? kQuickSkinDecimation : kSkinDecimation);
-  if (!torso) return torso.error();
-  if (!quick) refine(torso->scene, kSize);
-  const haptics::TwoHands hands(torso->scene, two_virtual_devices());
-  HandsAtWork work(torso->plan, haptics::Handedness::right);
+base::Result<void> bench_pair(const ServoScene& torso, const haptics::TwoHands& hands, const char* name,
+                              std::array<haptics::Tool, 2> tools, bool quick, std::vector<BenchRow>& rows) {
+  HandsAtWork work(torso.plan, haptics::Handedness::right, tools);
   std::vector<haptics::HandInputs> recording;
   for (int tick = 0; tick < (quick ? kQuickTicks : kTicks); ++tick) recording.push_back(work.next());
 
@@ -46,14 +41,14 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
   }
   const auto add = [&](const std::string& what, std::vector<double> times_ms) {
     std::sort(times_ms.begin(), times_ms.end());
-    for (const auto& [name, share] : {std::pair{"p50", 0.5}, std::pair{"p99.9", 0.999}}) {
+    for (const auto& [quantile, share] : {std::pair{"p50", 0.5}, std::pair{"p99.9", 0.999}}) {
       BenchRow row{"haptics",
-                   "servo step of two hands",
-                   std::string(name) + " of a tick's time, " + what + ", " +
-                       std::to_string(torso->scene.skin.triangles.size()) + " triangles",
+                   std::string("servo step, ") + name,
+                   std::string(quantile) + " of a tick's time, " + what + ", " +
+                       std::to_string(torso.scene.skin.triangles.size()) + " triangles",
                    "cpu",
                    "1 thread",
-                   bench_size(torso->scene.volume),
+                   bench_size(torso.scene.volume),
                    static_cast<int>(times_ms.size()),
                    quantile_ms(times_ms, share),
                    times_ms.front(),
@@ -67,6 +62,25 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
   add("least of " + std::to_string(kReplays) + " replays", std::move(least_ms));
   add("all " + std::to_string(kReplays) + " replays", std::move(all_ms));
   if (!(sum_n == sum_n)) return base::Error{"not_finite", "a force is not a number"};
+  return {};
+}
+
+}  // namespace
+
+base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
+  auto torso = torso_under_hands(quick ? kQuickSkinDecimation : kSkinDecimation);
+  if (!torso) return torso.error();
+  if (!quick) refine(torso->scene, kSize);
+  const haptics::TwoHands hands(torso->scene, two_virtual_devices());
+  struct Pair {
+    const char* name;
+    std::array<haptics::Tool, 2> tools;
+  };
+  using enum haptics::Tool;
+  for (const Pair& pair :
+       {Pair{"needle and probe", {needle, probe}}, Pair{"pointer and finger", {pointer, finger}}})
+    if (auto measured = bench_pair(*torso, hands, pair.name, pair.tools, quick, rows); !measured)
+      return measured.error();
   return {};
 }
 

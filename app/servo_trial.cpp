@@ -75,13 +75,14 @@ std::array<haptics::HandSettings, 2> two_virtual_devices() {
   return {omni, omni};
 }
 
-HandsAtWork::HandsAtWork(const assessment::PuncturePlan& plan, haptics::Handedness handedness)
-    : plan_(plan), handedness_(handedness) {}
+HandsAtWork::HandsAtWork(const assessment::PuncturePlan& plan, haptics::Handedness handedness,
+                         std::array<haptics::Tool, 2> tools)
+    : plan_(plan), handedness_(handedness), tools_(tools) {}
 
 haptics::HandInputs HandsAtWork::next() noexcept {
   const double t_s = haptics::kTickS * static_cast<double>(tick_++);
   haptics::HandInput needle, probe;
-  needle.tool = haptics::Tool::needle;
+  needle.tool = tools_[0];
   const auto [across, other] = base::perpendiculars(plan_.direction);
   const double along_mm =
       (kNeedleOutsideMm + plan_.depth_mm) * there_and_back(t_s, kNeedlePeriodS) - kNeedleOutsideMm;
@@ -92,7 +93,7 @@ haptics::HandInputs HandsAtWork::next() noexcept {
   hand.side = other;
   needle.pose = needle_arm_.advance(hand, haptics::kTickS);
 
-  probe.tool = haptics::Tool::probe;
+  probe.tool = tools_[1];
   hand = plan_.probe;
   hand.position_lps_mm += ((kLiftMm + kPressMm) * there_and_back(t_s, kPressPeriodS) - kLiftMm) * hand.axis +
                           kSlideMm * std::sin(kTwoPi * t_s / kSlidePeriodS) * hand.side;

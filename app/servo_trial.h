@@ -28,13 +28,16 @@ std::array<haptics::HandSettings, 2> two_virtual_devices();
 // What the devices say, tick by tick; the same every time.
 class HandsAtWork {
  public:
-  HandsAtWork(const assessment::PuncturePlan& plan, haptics::Handedness handedness);
+  // `tools`: what does the needle's way, and what the probe's.
+  HandsAtWork(const assessment::PuncturePlan& plan, haptics::Handedness handedness,
+              std::array<haptics::Tool, 2> tools = {haptics::Tool::needle, haptics::Tool::probe});
 
   haptics::HandInputs next() noexcept;
 
  private:
   assessment::PuncturePlan plan_;
   haptics::Handedness handedness_;
+  std::array<haptics::Tool, 2> tools_;
   devices::VirtualDevice needle_arm_, probe_arm_;
   std::uint64_t tick_ = 0;
 };

@@ -13,6 +13,12 @@ constexpr double kGravityMS2 = 9.80665;  // standard gravity (CGPM 1901)
 // A hand that has moved further while it could not be followed holds its tool as if just taken up (design).
 constexpr double kSamePlaceMm = 10.0;
 
+// A fingertip, about as wide as one (design); skin on dry skin is held by more, and slides worse (S. Derler and
+// L.-C. Gerhardt, Tribol. Lett. 45 (2012) 1: 0.2 to 1).
+constexpr double kFingerMm = 8.0, kFingerFriction = 0.3;
+// Cortical bone's edge against soft tissue, smooth as under a steel tip (design).
+constexpr double kBoneHu = 250.0, kPointerFriction = 0.1;
+
 struct Followed {
   cases::ToolPose pose;
   bool sound;
@@ -31,6 +37,8 @@ void take_up(Tool tool, int delay_ticks, HandState& state) noexcept {
   state.tool = tool;
   state.needle = {};
   state.probe = {};
+  state.finger = {};
+  state.pointer = {};
   state.delay_ticks = delay_ticks;
   state.limiter.share = 0.0;
 }
@@ -38,7 +46,9 @@ void take_up(Tool tool, int delay_ticks, HandState& state) noexcept {
 }  // namespace
 
 TwoHands::TwoHands(const cases::Case& scene, const std::array<HandSettings, 2>& settings)
-    : needle_(scene),
+    : skin_(&scene.skin_index),
+      bone_(scene.volume, kBoneHu),
+      needle_(scene),
       probe_(scene, ProbeSettings{}.radius_mm),
       up_(0.0, scene.position == cases::PatientPosition::supine ? -1.0 : 1.0, 0.0),
       stations_{station(settings[0]), station(settings[1])} {}
@@ -52,7 +62,10 @@ TwoHands::Station TwoHands::station(const HandSettings& settings) const {
     const NeedleSettings needle = needle_settings(device);
     ProbeSettings probe;
     probe.stiffness_n_mm = stiffness_n_mm(device);
-    made.laws.push_back({NeedleLaw(needle), NeedleSideLaw(needle, needle_.gauge()), ProbeLaw(probe)});
+    const DamperSettings spring{kTickS, kWallDampingNSMm, probe.stiffness_n_mm};
+    made.laws.push_back({NeedleLaw(needle), NeedleSideLaw(needle, needle_.gauge()), ProbeLaw(probe),
+                         SurfaceProxy({spring, kFingerMm, kFingerFriction, kFingerFriction}),
+                         VolumeProxy({spring, kPointerFriction, kPointerFriction})});
   }
   return made;
 }
@@ -78,7 +91,8 @@ HandForce TwoHands::advance(const Station& station, const HandInput& input, doub
       state.interrupted = false;
     }
     state.last_lps_mm = pose.position_lps_mm;
-    const bool touches = !state.needle.outside || state.probe.track.touching;
+    const bool touches =
+        !state.needle.outside || state.probe.track.touching || state.finger.touching || state.pointer.touching;
     state.delay_ticks = touches ? std::max(state.delay_ticks, input.delay_ticks) : input.delay_ticks;
     const Laws& laws = station.laws[static_cast<std::size_t>(state.delay_ticks)];
     if (state.tool == Tool::needle) {
@@ -87,6 +101,11 @@ HandForce TwoHands::advance(const Station& station, const HandInput& input, doub
       force.ruptured = needle.along.ruptured;
     } else if (state.tool == Tool::probe) {
       force.wanted_n = probe_.advance(pose, laws.probe, state.probe).force_n;
+    } else if (state.tool == Tool::finger) {  // its position is the fingertip's foremost point
+      force.wanted_n =
+          laws.finger.advance(*skin_, pose.position_lps_mm - laws.finger.radius_mm() * pose.axis, state.finger);
+    } else if (state.tool == Tool::pointer) {
+      force.wanted_n = laws.pointer.advance(bone_, pose.position_lps_mm, state.pointer);
     }
     force.wanted_n += station.bear_n;
   }

@@ -10,10 +10,15 @@
 #include "sim/haptics/haptic_device.h"
 #include "sim/haptics/held_needle.h"
 #include "sim/haptics/held_probe.h"
+#include "sim/haptics/surface_proxy.h"
+#include "sim/haptics/volume_proxy.h"
 
 namespace seldinger::haptics {
 
-enum class Tool { none, needle, probe };
+// A finger palpates the skin where there is no probe; a pointer touches the bone in the CT, as if nothing lay over
+// it.
+enum class Tool { none, needle, probe, finger, pointer };
+inline constexpr int kTools = 5;
 enum class Side { left, right };
 enum class Handedness { right, left };
 
@@ -40,6 +45,8 @@ struct HandState {
   Tool tool = Tool::none;
   HeldNeedleState needle;
   HeldProbeState probe;
+  SurfaceTrack finger;
+  VolumeProxyTrack pointer;
   ForceLimiterState limiter;
   glm::dvec3 last_lps_mm{0.0};  // where it was last followed
   int delay_ticks = 0;          // for which the laws are as stiff as they are
@@ -72,6 +79,8 @@ class TwoHands {
     NeedleLaw needle;
     NeedleSideLaw side;
     ProbeLaw probe;
+    SurfaceProxy finger;
+    VolumeProxy pointer;
   };
   struct Station {
     std::vector<Laws> laws;  // by ticks of delay
@@ -82,6 +91,8 @@ class TwoHands {
   HandForce advance(const Station& station, const HandInput& input, double elapsed_s,
                     HandState& state) const noexcept;
 
+  const cases::MeshIndex* skin_;
+  IsoSurface bone_;
   HeldNeedle needle_;
   HeldProbe probe_;
   glm::dvec3 up_;

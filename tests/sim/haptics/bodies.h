@@ -31,6 +31,9 @@ inline cases::Case scene_of(cases::Mesh skin, const std::function<TissueClass(co
       for (int i = 0; i < 60; ++i) {
         const glm::dvec3 p(-59.0 + 2.0 * i, -59.0 + 2.0 * j, -119.0 + 2.0 * k);
         scene.classes.push_back(tissue(p));
+        scene.volume.hu[scene.volume.index(i, j, k)] = scene.classes.back() == TissueClass::bone  ? 900
+                                                       : scene.classes.back() == TissueClass::air ? -1000
+                                                                                                  : 40;
       }
   scene.skin = std::move(skin);
   scene.skin_index = cases::MeshIndex(scene.skin);

@@ -145,6 +145,29 @@ TEST(TwoHands, AProbeThatSlidesOntoARibFeelsIt) {
   EXPECT_LE(right.most_step_n, kMostStepN + kRounding);
 }
 
+// The skin's own surface, and the bone's in the CT with nothing over it: springs from the device to where it is
+// held.
+TEST(TwoHands, AFingerPalpatesAndAPointerFindsBone) {
+  const double stiffness = stiffness_n_mm(*find_haptic_device("omni"));
+  Right finger(flat_body());
+  finger.move(holding(Tool::finger, {-20.0, 0.0, 5.0}), {-20.0, 0.0, -2.0}, 700);
+  finger.rest(holding(Tool::finger, {-20.0, 0.0, -2.0}), 500);
+  EXPECT_NEAR(finger.force.motor_n.z, 2.0 * stiffness, 0.01 * stiffness);
+  finger.move(holding(Tool::finger, {-20.0, 0.0, -2.0}), {10.0, 0.0, -2.0}, 600);
+  EXPECT_NEAR(finger.force.motor_n.x, -0.3 * 2.0 * stiffness, 0.05 * stiffness) << "friction";
+  EXPECT_LE(finger.most_step_n, kMostStepN + kRounding);
+
+  Right pointer(flat_body());
+  pointer.move(holding(Tool::pointer, {40.0, 0.0, 5.0}), {40.0, 0.0, -4.0}, 900);
+  EXPECT_EQ(pointer.force.motor_n, glm::dvec3(0.0)) << "skin and fat are not there for it";
+  pointer.move(holding(Tool::pointer, {40.0, 0.0, -4.0}), {40.0, 0.0, -7.0}, 300);
+  pointer.rest(holding(Tool::pointer, {40.0, 0.0, -7.0}), 500);
+  // Bone begins midway between voxels' centres at 5 and 7 mm. The surface is smoothed by a kernel of 0.86 voxels sd
+  // (cubic B-spline, and 0.2 to each side); 250 HU, a quarter of the way from 40 to 900, is 0.69 sd before.
+  EXPECT_NEAR(pointer.force.motor_n.z, (1.0 + 0.69 * 0.86 * 2.0) * stiffness, 0.15 * stiffness);
+  EXPECT_LE(pointer.most_step_n, kMostStepN + kRounding);
+}
+
 TEST(TwoHands, ToolsAreSwappedWithoutAJump) {
   Right right(flat_body());
   const glm::dvec3 inside(0.0, 0.0, -25.0);

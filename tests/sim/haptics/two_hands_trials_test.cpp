@@ -27,6 +27,8 @@ constexpr Situation kSituations[] = {
     {"needle on a rib", Tool::needle, 40.0, 10.0, 0.0, 1.0},
     {"probe on soft skin", Tool::probe, -20.0, 6.0, 0.0, 1.0},
     {"probe over a rib", Tool::probe, 40.0, 3.0, 0.0, 1.0},
+    {"finger on the skin", Tool::finger, 0.0, 2.0, 0.0, 1.0},
+    {"pointer on a rib", Tool::pointer, 40.0, 8.0, 0.0, 1.0},
 };
 
 TEST(TwoHandsTrials, EveryToolComesToRestInSpaceToo) {
@@ -60,7 +62,7 @@ struct Wanderer {
 
   HandInput next() {
     const double event = rng.uniform();
-    if (event < 0.002) input.tool = static_cast<Tool>(rng.bits() % 3);
+    if (event < 0.002) input.tool = static_cast<Tool>(rng.bits() % kTools);
     if (event > 0.999) input.delay_ticks = static_cast<int>(rng.bits() % 4);
     if (event > 0.5 && event < 0.501) to_lps_mm = place();
     if (event > 0.6 && event < 0.6003) input.pose.position_lps_mm = place();  // a teleport
