@@ -11,8 +11,8 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 3, kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
-constexpr double kChunkSeconds = 2.0;
+constexpr std::uint32_t kFormat = 4, kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2,
+                        kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 1'000'000;  // per chunk: bounds what damaged bytes can make us allocate
 
 struct Header {
@@ -20,10 +20,12 @@ struct Header {
   std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0, fluoroscope = 0;
   double dt_s = 0.0;
   double endpoint[7] = {};
+  std::uint32_t forces = 0, unused = 0;  // from here on since format 4
 };
-static_assert(sizeof(Header) == 96);
+static_assert(sizeof(Header) == 104);
+constexpr std::size_t kHeaderWithoutForces = 96;
 
-constexpr std::size_t kPoseColumns = 16;
+constexpr std::size_t kPoseColumns = 16, kForceColumns = 4;
 constexpr std::size_t kMaxInputColumns = 37;
 std::size_t input_columns(bool fluoroscope) {
   return fluoroscope ? kMaxInputColumns : 20;
@@ -122,18 +124,6 @@ BeamTruth get_beam(const std::uint64_t*& at) {
   return beam;
 }
 
-// Whether a chunk holds anything of a fluoroscope.
-bool uses_fluoroscope(const Recording& recording, std::size_t first_input, std::size_t end_input,
-                      std::size_t first_frame, std::size_t end_frame) {
-  for (std::size_t i = first_input; i < end_input; ++i)
-    if (!(recording.inputs[i].fluoroscope == FluoroscopeInputs{} &&
-          recording.inputs[i].exposure == ExposureReport{}))
-      return true;
-  for (std::size_t i = first_frame; i < end_frame; ++i)
-    if (recording.frames[i].beam) return true;
-  return false;
-}
-
 // Rows of 64-bit words, written column by column as XOR with the row before and byte plane by byte plane: what
 // moves slowly becomes runs of zeros, which is what makes the compression worth it.
 void append_table(std::vector<std::byte>& out, const std::vector<std::uint64_t>& rows, std::size_t columns) {
@@ -165,16 +155,37 @@ std::vector<std::uint64_t> table_at(const std::byte*& from, std::size_t count, s
   return rows;
 }
 
-RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, std::size_t first_input,
-                          std::size_t end_input, std::size_t first_pose, std::size_t end_pose,
-                          std::size_t first_frame, std::size_t end_frame, bool with_endpoint) {
+// Rows first to end of one of a recording's tables.
+struct Rows {
+  std::size_t first = 0, end = 0;
+  std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
+};
+
+struct Piece {
+  Rows inputs, poses, forces, frames;
+  bool with_endpoint = false;
+};
+
+// Whether a chunk holds anything of a fluoroscope.
+bool uses_fluoroscope(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
+    if (!(recording.inputs[i].fluoroscope == FluoroscopeInputs{} &&
+          recording.inputs[i].exposure == ExposureReport{}))
+      return true;
+  for (std::size_t i = piece.frames.first; i < piece.frames.end; ++i)
+    if (recording.frames[i].beam) return true;
+  return false;
+}
+
+RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, const Piece& piece) {
   Header header;
   header.step_version = recording.step_version;
   header.dt_s = recording.dt_s;
-  header.inputs = static_cast<std::uint32_t>(end_input - first_input);
-  header.poses = static_cast<std::uint32_t>(end_pose - first_pose);
-  header.frames = static_cast<std::uint32_t>(end_frame - first_frame);
-  if (with_endpoint) {
+  header.inputs = piece.inputs.count();
+  header.poses = piece.poses.count();
+  header.forces = piece.forces.count();
+  header.frames = piece.frames.count();
+  if (piece.with_endpoint) {
     const Endpoint& endpoint = *recording.endpoint;
     header.has_endpoint = 1;
     header.endpoint[0] = endpoint.t_s;
@@ -183,14 +194,14 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
       header.endpoint[4 + axis] = endpoint.direction[axis];
     }
   }
-  const bool fluoroscope = uses_fluoroscope(recording, first_input, end_input, first_frame, end_frame);
+  const bool fluoroscope = uses_fluoroscope(recording, piece);
   header.fluoroscope = fluoroscope ? 1 : 0;
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
 
   std::vector<std::uint64_t> rows(header.inputs * input_columns(fluoroscope));
   std::uint64_t* at = rows.data();
-  for (std::size_t i = first_input; i < end_input; ++i) {
+  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i) {
     const Inputs& inputs = recording.inputs[i];
     const FluoroscopeInputs& asked = inputs.fluoroscope;
     put(at, inputs.needle);
@@ -205,7 +216,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
 
   rows.assign(header.poses * kPoseColumns, 0);
   at = rows.data();
-  for (std::size_t i = first_pose; i < end_pose; ++i) {
+  for (std::size_t i = piece.poses.first; i < piece.poses.end; ++i) {
     const PoseSample& pose = recording.poses[i];
     put(at, pose.t_s);
     put(at, pose.tip_lps_mm);
@@ -216,9 +227,18 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, st
   }
   append_table(raw, rows, kPoseColumns);
 
+  rows.assign(header.forces * kForceColumns, 0);
+  at = rows.data();
+  for (std::size_t i = piece.forces.first; i < piece.forces.end; ++i) {
+    const ForceSample& force = recording.forces[i];
+    for (const double value : {force.t_s, force.needle_axial_n, force.needle_lateral_n, force.probe_n})
+      put(at, value);
+  }
+  append_table(raw, rows, kForceColumns);
+
   rows.assign(header.frames * frame_columns(fluoroscope), 0);
   at = rows.data();
-  for (std::size_t i = first_frame; i < end_frame; ++i) {
+  for (std::size_t i = piece.frames.first; i < piece.frames.end; ++i) {
     const FrameTruth& frame = recording.frames[i];
     put(at, frame.t_s);
     put(at, frame.needle_length_mm);
@@ -245,25 +265,36 @@ std::vector<RecordingChunk> chunks_from_recording(const Recording& recording) {
   const auto ticks_per_chunk = static_cast<std::size_t>(std::ceil(kChunkSeconds / recording.dt_s));
   CHECK(ticks_per_chunk <= kMaxRows);
   std::vector<RecordingChunk> chunks;
-  std::size_t pose = 0, frame = 0;
-  bool endpoint_left = recording.endpoint.has_value();
-  for (std::size_t input = 0; input < recording.inputs.size() || chunks.empty();) {
-    const std::size_t end_input = std::min(recording.inputs.size(), input + ticks_per_chunk);
-    const bool last = end_input == recording.inputs.size();
-    const double end_s = static_cast<double>(end_input) * recording.dt_s;
-    std::size_t end_pose = pose, end_frame = frame;
-    while (end_pose < recording.poses.size() && (last || recording.poses[end_pose].t_s < end_s)) ++end_pose;
-    while (end_frame < recording.frames.size() && (last || recording.frames[end_frame].t_s < end_s)) ++end_frame;
-    const bool with_endpoint = endpoint_left && (last || recording.endpoint->t_s < end_s);
-    if (with_endpoint) endpoint_left = false;
-    chunks.push_back(make_chunk(recording, static_cast<std::uint32_t>(chunks.size()), input, end_input, pose,
-                                end_pose, frame, end_frame, with_endpoint));
-    input = end_input;
-    pose = end_pose;
-    frame = end_frame;
-    if (last) break;
+  Piece piece;
+  bool endpoint_left = recording.endpoint.has_value(), last = false;
+  while (!last) {
+    piece.inputs = {piece.inputs.end, std::min(recording.inputs.size(), piece.inputs.end + ticks_per_chunk)};
+    last = piece.inputs.end == recording.inputs.size();
+    const double end_s = static_cast<double>(piece.inputs.end) * recording.dt_s;
+    const auto advance = [&](Rows& rows, const auto& table) {
+      rows.first = rows.end;
+      while (rows.end < table.size() && (last || table[rows.end].t_s < end_s)) ++rows.end;
+    };
+    advance(piece.poses, recording.poses);
+    advance(piece.forces, recording.forces);
+    advance(piece.frames, recording.frames);
+    piece.with_endpoint = endpoint_left && (last || recording.endpoint->t_s < end_s);
+    if (piece.with_endpoint) endpoint_left = false;
+    chunks.push_back(make_chunk(recording, static_cast<std::uint32_t>(chunks.size()), piece));
   }
   return chunks;
+}
+
+RecordingChunk chunk_of(const Recording& piece, std::uint32_t sequence) {
+  CHECK(piece.hashes.size() == piece.inputs.size());
+  CHECK(piece.dt_s > 0.0);
+  CHECK(piece.inputs.size() <= kMaxRows && piece.frames.size() <= kMaxRows);
+  return make_chunk(piece, sequence,
+                    {{0, piece.inputs.size()},
+                     {0, piece.poses.size()},
+                     {0, piece.forces.size()},
+                     {0, piece.frames.size()},
+                     piece.endpoint.has_value()});
 }
 
 base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> chunks) {
@@ -277,8 +308,11 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     const auto raw =
         base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kPoseColumns));
     Header header;
-    if (!raw || raw->size() < sizeof header) return base::Error{"damaged", where + " cannot be read"};
-    std::memcpy(&header, raw->data(), sizeof header);
+    if (!raw || raw->size() < kHeaderWithoutForces) return base::Error{"damaged", where + " cannot be read"};
+    std::memcpy(static_cast<void*>(&header), raw->data(), kHeaderWithoutForces);
+    const std::size_t header_size = header.format > kFormatWithoutForces ? sizeof header : kHeaderWithoutForces;
+    if (raw->size() < header_size) return base::Error{"damaged", where + " cannot be read"};
+    std::memcpy(static_cast<void*>(&header), raw->data(), header_size);
     if (header.magic != kMagic) return base::Error{"damaged", where + " cannot be read"};
     if (header.format < kFormatWithoutFluoroscope || header.format > kFormat)
       return base::Error{"recording_version", where + " has an unknown format"};
@@ -286,9 +320,10 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       return base::Error{"damaged", where + " cannot be read"};
     const bool fluoroscope = header.fluoroscope == 1;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
+        header.forces > kMaxRows ||
         raw->size() !=
-            sizeof header + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
-                                 header.frames * frame_columns(fluoroscope)))
+            header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
+                               header.forces * kForceColumns + header.frames * frame_columns(fluoroscope)))
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s))
       return base::Error{"damaged", where + " belongs to another recording"};
@@ -300,7 +335,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       recording.endpoint = Endpoint{header.endpoint[0],
                                     {header.endpoint[1], header.endpoint[2], header.endpoint[3]},
                                     {header.endpoint[4], header.endpoint[5], header.endpoint[6]}};
-    const std::byte* from = raw->data() + sizeof header;
+    const std::byte* from = raw->data() + header_size;
     const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope));
     const std::uint64_t* at = inputs.data();
     for (std::uint32_t row = 0; row < header.inputs; ++row) {
@@ -328,6 +363,13 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       pose.probe_origin_lps_mm = get_point(at);
       pose.probe_axial = get_point(at);
       pose.probe_lateral = get_point(at);
+    }
+    const auto forces = table_at(from, header.forces, kForceColumns);
+    at = forces.data();
+    for (std::uint32_t row = 0; row < header.forces; ++row) {
+      ForceSample& force = recording.forces.emplace_back();
+      for (double* value : {&force.t_s, &force.needle_axial_n, &force.needle_lateral_n, &force.probe_n})
+        *value = get(at);
     }
     const auto frames = table_at(from, header.frames, frame_columns(fluoroscope));
     at = frames.data();

@@ -36,8 +36,8 @@ struct BeamTruth {
   bool operator==(const BeamTruth&) const = default;
 };
 
-// Whether tip and target's centre lie within 2 mm and 5 mm of the plane, inside the picture's field: nothing else is
-// asked. What others count as seen (Perk Tutor: 5 mm; its documentation: 2 mm).
+// Whether tip and target's centre lie within 2 mm and 5 mm of the plane, inside the picture's field: nothing else
+// is asked. What others count as seen (Perk Tutor: 5 mm; its documentation: 2 mm).
 struct NearPlane {
   bool tip_2_mm = false, target_2_mm = false, tip_5_mm = false, target_5_mm = false;
   bool operator==(const NearPlane&) const = default;
@@ -55,6 +55,15 @@ struct FrameTruth {
   bool joint() const noexcept { return needle_tip && target; }
 };
 
+// What tissue asked of the motors: a model's force, whatever a device made of it.
+struct ForceSample {
+  double t_s = 0.0;
+  double needle_axial_n = 0.0;    // > 0 resists insertion
+  double needle_lateral_n = 0.0;  // across the needle, ≥ 0
+  double probe_n = 0.0;           // ≥ 0
+  bool operator==(const ForceSample&) const = default;
+};
+
 struct Endpoint {
   double t_s = 0.0;
   glm::dvec3 tip_lps_mm{0.0};  // when the trigger fell, before any throw
@@ -68,6 +77,7 @@ struct Recording {
   std::vector<Inputs> inputs;         // one per tick
   std::vector<std::uint32_t> hashes;  // low word of the chained state hash after each tick; same length as inputs
   std::vector<PoseSample> poses;      // 100 Hz
+  std::vector<ForceSample> forces;    // 100 Hz, each beside its pose; empty: nothing was to be felt
   std::vector<FrameTruth> frames;     // the picture's rate; a fluoroscope's: each pulse, and when its time is over
   std::optional<Endpoint> endpoint;
 };
@@ -80,9 +90,14 @@ struct RecordingChunk {
 };
 
 // Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Since
-// format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3 frames
-// of ultrasound say what was near its plane. Formats 1 and 2, without, are read as well.
+// format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3
+// frames of ultrasound say what was near its plane; since format 4 there are forces. Formats 1 to 3, without, are
+// read too.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
+
+constexpr double kChunkSeconds = 2.0;
+// The same, as it is recorded: `piece` holds what belongs to this chunk and nothing else.
+RecordingChunk chunk_of(const Recording& piece, std::uint32_t sequence);
 
 // Refused: `damaged` (checksum, codec), `incomplete` (a sequence number is missing), `recording_version`.
 base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> chunks);

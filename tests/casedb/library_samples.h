@@ -147,6 +147,7 @@ inline std::string difference(const cases::Recording& a, const cases::Recording&
     return same_bits(p.position_lps_mm, q.position_lps_mm) && same_bits(p.axis, q.axis) &&
            same_bits(p.side, q.side);
   };
+  if (a.forces != b.forces) return "forces";
   if (a.step_version != b.step_version || !same_bits(a.dt_s, b.dt_s)) return "head";
   if (a.inputs.size() != b.inputs.size() || a.hashes != b.hashes || a.poses.size() != b.poses.size() ||
       a.frames.size() != b.frames.size())

@@ -36,6 +36,7 @@ Recording random_recording(std::size_t ticks, std::uint64_t seed) {
     if (i % 10 == 0)
       recording.poses.push_back({t_s, random_vector(rng), random_vector(rng), random_vector(rng),
                                  random_vector(rng), random_vector(rng)});
+    if (i % 10 == 0 && seed % 2 == 0) recording.forces.push_back({t_s, rng.normal(), rng.uniform(), rng.uniform()});
     if (i % 33 == 0) recording.frames.push_back({t_s, i % 2 == 0, i % 5 == 0, i % 7 == 0, rng.uniform() * 100.0});
   }
   if (ticks > 0)
@@ -93,6 +94,7 @@ void expect_same(const Recording& a, const Recording& b) {
   }
   EXPECT_EQ(a.hashes, b.hashes);
   EXPECT_EQ(a.poses, b.poses);
+  EXPECT_EQ(a.forces, b.forces);
   EXPECT_EQ(a.endpoint, b.endpoint);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
@@ -115,6 +117,40 @@ TEST(Recording, ComesBackBitForBit) {
     ASSERT_TRUE(back.has_value()) << ticks;
     expect_same(recording, *back);
   }
+}
+
+// As it is recorded: a piece after the other, each of what came while it was open.
+TEST(Recording, InPiecesItIsTheSameRecording) {
+  const Recording whole = random_recording(5100, 8);
+  ASSERT_FALSE(whole.forces.empty());
+  std::vector<RecordingChunk> chunks;
+  for (std::size_t begin = 0; begin < whole.inputs.size(); begin += 700) {
+    const std::size_t end = std::min(begin + 700, whole.inputs.size());
+    Recording piece;
+    piece.step_version = whole.step_version;
+    piece.dt_s = whole.dt_s;
+    const auto range = [](const auto& rows, auto& into, const auto& keep) {
+      for (const auto& row : rows)
+        if (keep(row)) into.push_back(row);
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      piece.inputs.push_back(whole.inputs[i]);
+      piece.hashes.push_back(whole.hashes[i]);
+    }
+    const auto now = [&](const auto& row) {
+      const double tick = row.t_s / whole.dt_s - 0.5;
+      return tick >= static_cast<double>(begin) && tick < static_cast<double>(end);
+    };
+    range(whole.poses, piece.poses, now);
+    range(whole.forces, piece.forces, now);
+    range(whole.frames, piece.frames, now);
+    if (now(*whole.endpoint)) piece.endpoint = whole.endpoint;
+    chunks.push_back(chunk_of(piece, static_cast<std::uint32_t>(chunks.size())));
+  }
+  EXPECT_EQ(chunks.size(), 8U);
+  const auto back = recording_from_chunks(chunks);
+  ASSERT_TRUE(back.has_value());
+  expect_same(whole, *back);
 }
 
 TEST(Recording, OfAFluoroscopeComesBackBitForBit) {
@@ -151,9 +187,10 @@ TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
       bytes += base::decompress(chunk.data, 1U << 24)->size();
     return bytes;
   };
-  // The columns of format 1: 96 bytes of head, 20, 16 and 3 words a row.
+  // The columns of format 1: 20, 16 and 3 words a row; 104 bytes of head.
   const Recording recording = random_recording(2000, 3);
-  EXPECT_EQ(size(recording), 96 + 8 * (2000 * 20 + 200 * 16 + recording.frames.size() * 3));
+  EXPECT_TRUE(recording.forces.empty());
+  EXPECT_EQ(size(recording), 104 + 8 * (2000 * 20 + 200 * 16 + recording.frames.size() * 3));
 }
 
 // The layout that format 1 had, by its description: head, then three tables, column by column, byte plane by byte
@@ -240,7 +277,7 @@ TEST(Recording, OfFormat2SaysNothingOfThePlane) {
 
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 4U, 77U})
+  for (const std::uint32_t format : {0U, 5U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")
