@@ -257,7 +257,7 @@ RecordingChunk chunk_of_format_1(const Recording& recording, std::uint32_t forma
 }
 
 TEST(Recording, OfFormat1IsRead) {
-  const Recording recording = random_recording(1500, 12);
+  const Recording recording = random_recording(1500, 15);
   const auto back = recording_from_chunks(std::vector{chunk_of_format_1(recording)});
   ASSERT_TRUE(back.has_value()) << back.error().text;
   expect_same(recording, *back);
@@ -265,7 +265,7 @@ TEST(Recording, OfFormat1IsRead) {
 }
 
 TEST(Recording, OfFormat2SaysNothingOfThePlane) {
-  const Recording recording = random_recording(1500, 14);
+  const Recording recording = random_recording(1500, 17);
   // The bits that format 3 gave a meaning.
   const auto old = recording_from_chunks(std::vector{chunk_of_format_1(recording, 2, 0, 64 + 128 + 1024)});
   ASSERT_TRUE(old.has_value());
