@@ -13,6 +13,7 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
+#include "sim/case/servo_record.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
@@ -83,7 +84,8 @@ std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id
 // --- attempts ---------------------------------------------------------------------------------------------------
 using MetricValue = assessment::MetricValue;
 
-struct NewAttempt {
+// What is known of an attempt when it begins.
+struct AttemptHead {
   std::string case_id, lesion_id;
   std::optional<std::string> person_id;  // whose; none for a simulation of nobody
   std::string operator_name;             // "novice", …, or "person"
@@ -93,23 +95,31 @@ struct NewAttempt {
   cases::Picture picture;
   cases::Approach approach = cases::Approach::in_plane;
   std::int64_t started_us = 0;
-  double duration_s = 0.0;
-  cases::Recording recording;
-  std::vector<MetricValue> metrics;
-  std::vector<std::byte> picture_png;  // the picture at the moment of firing; may be empty
 };
 
-struct AttemptRow {
-  std::string attempt_id, case_id, case_title, lesion_id, operator_name, program_version, picture_sha256;
-  std::optional<std::string> person_id;
-  std::uint64_t seed = 0;
-  cases::Instrument instrument;
-  cases::Picture picture;
-  cases::Approach approach = cases::Approach::in_plane;
+// Interrupted: the program that made it was gone before it could say.
+enum class AttemptEnd { fired, stopped, time_limit, device_lost, interrupted };
+std::string name_of(AttemptEnd end);
+
+// What is known beside its recording when it has ended.
+struct AttemptOutcome {
+  std::optional<AttemptEnd> end{};
+  std::vector<MetricValue> metrics;
+  std::vector<std::byte> picture_png;         // the picture at the moment of firing; may be empty
+  std::optional<cases::ServoRecord> servo{};  // none: it ran in virtual time
+};
+
+struct NewAttempt : AttemptHead, AttemptOutcome {
+  double duration_s = 0.0;
+  cases::Recording recording;
+};
+
+struct AttemptRow : AttemptHead {
+  std::string attempt_id, case_title, picture_sha256;
   cases::Lesion lesion;
-  std::int64_t started_us = 0;
   double duration_s = 0.0;
   std::uint32_t step_version = 0;
+  std::optional<AttemptEnd> end{};   // none: stored before schema 5
   std::vector<MetricValue> metrics;  // newest version of each
 };
 
@@ -119,6 +129,23 @@ std::vector<AttemptRow> list_attempts(Library& library);                        
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);    // `no_attempt`
 base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);
+std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id);
+// Those whose version is not there yet: older values are kept. How many; `no_attempt`.
+base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,
+                                      const std::vector<MetricValue>& metrics);
+
+// An attempt that is stored while it runs. Each chunk is durable when add_chunk returns; a program that dies leaves
+// an open attempt behind, for somebody else to close as interrupted.
+struct OpenAttempt : AttemptHead {
+  std::string attempt_id;
+};
+base::Result<std::string> open_attempt(Library& library, const AttemptHead& head);  // refuses as add_attempt
+// Refused: `no_attempt`, `incomplete` (its sequence is not the next one).
+base::Result<void> add_chunk(Library& library, const std::string& attempt_id, const cases::RecordingChunk& chunk);
+base::Result<cases::Recording> load_open_recording(Library& library, const std::string& attempt_id);
+std::vector<OpenAttempt> list_open_attempts(Library& library);  // oldest first; running ones too
+// Makes it an attempt like any other. Refused: `no_attempt`, and as recording_from_chunks.
+base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome);
 
 // --- people -----------------------------------------------------------------------------------------------------
 struct Account {

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <bit>
+#include <set>
 #include <unordered_map>
 
+#include "casedb/attempt_columns.h"
 #include "casedb/new_assets.h"
 #include "casedb/question.h"
 #include "casedb/sqlite.h"
@@ -12,53 +13,22 @@
 namespace seldinger::casedb {
 namespace {
 
-// Unsigned 64-bit numbers as the database's signed ones: the same bits.
-std::int64_t stored_bits(std::uint64_t value) noexcept {
-  return std::bit_cast<std::int64_t>(value);
-}
-std::uint64_t bits_from_stored(std::int64_t value) noexcept {
-  return std::bit_cast<std::uint64_t>(value);
-}
-
-const char* kind_name(cases::InstrumentKind kind) {
-  return kind == cases::InstrumentKind::core ? "core" : "access";
-}
-const char* approach_name(cases::Approach approach) {
-  return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
-}
 void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::string& attempt_id,
                     std::size_t recording_chunks, const std::optional<std::string>& picture_sha256) {
   Statement insert = question(database, "add_attempt");
-  insert.bind("attempt_id", attempt_id).bind("case_id", attempt.case_id).bind("lesion_id", attempt.lesion_id);
-  insert.bind("person_id", attempt.person_id).bind("operator_name", attempt.operator_name);
-  insert.bind("seed", stored_bits(attempt.seed)).bind("program_version", attempt.program_version);
+  bind_head(insert, attempt_id, attempt);
   insert.bind("step_version", std::int64_t{attempt.recording.step_version});
-  insert.bind("approach", approach_name(attempt.approach));
-  const cases::Instrument& instrument = attempt.instrument;
-  insert.bind("instrument_kind", kind_name(instrument.kind)).bind("instrument_length_mm", instrument.length_mm);
-  insert.bind("instrument_radius_mm", instrument.radius_mm);
-  insert.bind("instrument_inner_radius_mm", instrument.inner_radius_mm).bind("instrument_hu", instrument.hu);
-  insert.bind("instrument_throw_mm", instrument.throw_mm).bind("instrument_notch_mm", instrument.notch_mm);
-  insert.bind("instrument_dead_tip_mm", instrument.dead_tip_mm);
-  const cases::Picture& picture = attempt.picture;
-  insert.bind("picture_modality", name_of(picture.modality)).bind("picture_depth_mm", picture.depth_mm);
-  insert.bind("picture_width_mm", picture.width_mm).bind("picture_rate_hz", picture.rate_hz);
-  insert.bind("picture_probe", picture.probe.empty() ? std::nullopt : std::optional(picture.probe));
-  insert.bind("started_us", attempt.started_us).bind("duration_s", attempt.duration_s);
+  insert.bind("duration_s", attempt.duration_s);
   insert.bind("state", attempt.recording.endpoint ? "complete" : "unfinished");
   insert.bind("recording_chunks", static_cast<std::int64_t>(recording_chunks));
-  insert.bind("picture_sha256", picture_sha256).run();
+  insert.bind("picture_sha256", picture_sha256);
+  insert.bind("end_reason", attempt.end ? std::optional(name_of(*attempt.end)) : std::nullopt).run();
 }
 
 void insert_chunks(Sqlite& database, const std::string& attempt_id,
                    const std::vector<cases::RecordingChunk>& chunks) {
   Statement insert = question(database, "add_recording_chunk");
-  for (const cases::RecordingChunk& chunk : chunks)
-    insert.bind("attempt_id", attempt_id)
-        .bind("sequence", std::int64_t{chunk.sequence})
-        .bind("checksum", stored_bits(chunk.checksum))
-        .bind("data", std::span(chunk.data))
-        .run();
+  for (const cases::RecordingChunk& chunk : chunks) bind_chunk(insert, attempt_id, chunk).run();
 }
 
 void insert_metrics(Sqlite& database, const std::string& attempt_id, const std::vector<MetricValue>& metrics) {
@@ -76,40 +46,17 @@ void insert_metrics(Sqlite& database, const std::string& attempt_id, const std::
 
 AttemptRow read_attempt(const Statement& from) {
   AttemptRow row;
+  static_cast<AttemptHead&>(row) = read_head(from);
   row.attempt_id = from.text("attempt_id");
-  row.case_id = from.text("case_id");
   row.case_title = from.text("case_title");
-  row.lesion_id = from.text("lesion_id");
-  row.operator_name = from.text("operator_name");
-  row.program_version = from.text("program_version");
   row.picture_sha256 = from.text("picture_sha256");
-  if (!from.is_null("person_id")) row.person_id = from.text("person_id");
-  row.seed = bits_from_stored(from.integer("seed"));
-  row.instrument.kind = from.text("instrument_kind") == kind_name(cases::InstrumentKind::core)
-                            ? cases::InstrumentKind::core
-                            : cases::InstrumentKind::access;
-  row.instrument.length_mm = from.real("instrument_length_mm");
-  row.instrument.radius_mm = from.real("instrument_radius_mm");
-  row.instrument.inner_radius_mm = from.real("instrument_inner_radius_mm");
-  row.instrument.hu = from.real("instrument_hu");
-  row.instrument.throw_mm = from.real("instrument_throw_mm");
-  row.instrument.notch_mm = from.real("instrument_notch_mm");
-  row.instrument.dead_tip_mm = from.real("instrument_dead_tip_mm");
-  row.picture.modality = *modality_from(from.text("picture_modality"));  // the schema takes no others
-  row.picture.depth_mm = from.real("picture_depth_mm");
-  row.picture.width_mm = from.real("picture_width_mm");
-  row.picture.rate_hz = from.real("picture_rate_hz");
-  row.picture.probe = from.text("picture_probe");
-  row.approach = from.text("approach") == approach_name(cases::Approach::out_of_plane)
-                     ? cases::Approach::out_of_plane
-                     : cases::Approach::in_plane;
   row.lesion.center_lps_mm = {from.real("center_x_lps_mm"), from.real("center_y_lps_mm"),
                               from.real("center_z_lps_mm")};
   row.lesion.radius_mm = from.real("radius_mm");
   row.lesion.hu = from.real("lesion_hu");
-  row.started_us = from.integer("started_us");
   row.duration_s = from.real("duration_s");
   row.step_version = static_cast<std::uint32_t>(from.integer("step_version"));
+  if (!from.is_null("end_reason")) row.end = end_from(from.text("end_reason"));
   return row;
 }
 
@@ -165,25 +112,68 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   if (!attempt.picture_png.empty()) picture_sha256 = assets.add(attempt.picture_png);
 
   Transaction transaction(database);
-  Statement parts = question(database, "case_has_lesion");
-  parts.bind("case_id", attempt.case_id).bind("lesion_id", attempt.lesion_id);
-  CHECK(parts.step());
-  if (parts.integer("case_exists") == 0) return base::Error{"no_case", "there is no such case in the library"};
-  if (parts.integer("lesion_exists") == 0) return base::Error{"no_lesion", "there is no such lesion in the case"};
-  if (attempt.person_id) {
-    Statement person = question(database, "person_exists");
-    CHECK(person.bind("person_id", *attempt.person_id).step());
-    if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person in the library"};
-  }
-  parts.rewind();
+  if (const auto known = check_head(database, attempt); !known) return known.error();
   assets.make_sure();
   std::string attempt_id = new_uuid();
   insert_attempt(database, attempt, attempt_id, chunks.size(), picture_sha256);
   insert_chunks(database, attempt_id, chunks);
   insert_metrics(database, attempt_id, attempt.metrics);
+  if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
   transaction.commit();
   assets.keep();
   return attempt_id;
+}
+
+base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome) {
+  Sqlite& database = library.database();
+  NewAssets assets(library);
+  std::optional<std::string> picture_sha256;
+  if (!outcome.picture_png.empty()) picture_sha256 = assets.add(outcome.picture_png);
+
+  Transaction transaction(database);
+  NewAttempt attempt;
+  static_cast<AttemptOutcome&>(attempt) = outcome;
+  {
+    Statement open = question(database, "open_attempt");
+    if (!open.bind("attempt_id", attempt_id).step())
+      return base::Error{"no_attempt", "there is no such open attempt in the library"};
+    static_cast<AttemptHead&>(attempt) = read_head(open);
+  }
+  std::vector<cases::RecordingChunk> chunks = read_chunks(question(database, "open_chunks"), attempt_id);
+  if (chunks.empty()) chunks.push_back(cases::chunk_of({}, 0));  // it died within its first chunk
+  auto recording = cases::recording_from_chunks(chunks);
+  if (!recording) return recording.error();
+  attempt.recording = std::move(*recording);
+  attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
+  assets.make_sure();
+  insert_attempt(database, attempt, attempt_id, chunks.size(), picture_sha256);
+  insert_chunks(database, attempt_id, chunks);
+  insert_metrics(database, attempt_id, attempt.metrics);
+  if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
+  question(database, "remove_open_attempt").bind("attempt_id", attempt_id).run();
+  transaction.commit();
+  assets.keep();
+  return {};
+}
+
+base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,
+                                      const std::vector<MetricValue>& metrics) {
+  Sqlite& database = library.database();
+  Transaction transaction(database);
+  Statement attempt = question(database, "recording_size");
+  if (!attempt.bind("attempt_id", attempt_id).step())
+    return base::Error{"no_attempt", "there is no such attempt in the library"};
+  attempt.rewind();
+  std::set<std::pair<std::string, int>> there;
+  Statement known = question(database, "metric_values_of_attempt");
+  for (known.bind("attempt_id", attempt_id); known.step();)
+    there.emplace(known.text("metric_id"), known.small_integer("version"));
+  std::vector<MetricValue> news;
+  for (const MetricValue& metric : metrics)
+    if (!there.contains({metric.id, metric.version})) news.push_back(metric);
+  insert_metrics(database, attempt_id, news);
+  transaction.commit();
+  return news.size();
 }
 
 std::vector<AttemptRow> list_attempts(Library& library) {
@@ -218,14 +208,7 @@ base::Result<cases::Recording> load_recording(Library& library, const std::strin
     return base::Error{"no_attempt", "there is no such attempt in the library"};
   const std::int64_t expected = size.integer("recording_chunks");
   size.rewind();
-  std::vector<cases::RecordingChunk> chunks;
-  Statement rows = question(database, "recording_chunks");
-  for (rows.bind("attempt_id", attempt_id); rows.step();) {
-    cases::RecordingChunk& chunk = chunks.emplace_back();
-    chunk.sequence = static_cast<std::uint32_t>(rows.integer("sequence"));
-    chunk.checksum = bits_from_stored(rows.integer("checksum"));
-    chunk.data = rows.bytes("data");
-  }
+  const auto chunks = read_chunks(question(database, "recording_chunks"), attempt_id);
   if (static_cast<std::int64_t>(chunks.size()) != expected)
     return base::Error{"incomplete", "a piece of the recording is missing"};
   return cases::recording_from_chunks(chunks);

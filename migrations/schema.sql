@@ -35,7 +35,7 @@ CREATE TABLE attempt (
   state TEXT NOT NULL CHECK (state IN ('complete', 'unfinished')), -- complete: the trigger fell
   recording_chunks INTEGER NOT NULL CHECK (recording_chunks > 0), -- how many belong to it
   picture_sha256 TEXT CHECK (length(picture_sha256) = 64), -- PNG in assets/ at the trigger; null: none
-  picture_probe TEXT, -- of ultrasound; null: another modality
+  picture_probe TEXT, end_reason TEXT CHECK (end_reason IN ('fired', 'stopped', 'time_limit', 'device_lost', 'interrupted')), -- of ultrasound; null: another modality
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
@@ -80,6 +80,40 @@ CREATE TABLE metric_value (
   CHECK ((value IS NULL) = (reason <> ''))
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE open_attempt (
+  attempt_id TEXT NOT NULL PRIMARY KEY CHECK (length(attempt_id) = 36),
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  lesion_id TEXT NOT NULL,
+  person_id TEXT REFERENCES person (person_id),
+  operator_name TEXT NOT NULL,
+  seed INTEGER NOT NULL,
+  program_version TEXT NOT NULL,
+  approach TEXT NOT NULL CHECK (approach IN ('in_plane', 'out_of_plane')),
+  instrument_kind TEXT NOT NULL CHECK (instrument_kind IN ('access', 'core')),
+  instrument_length_mm REAL NOT NULL,
+  instrument_radius_mm REAL NOT NULL,
+  instrument_inner_radius_mm REAL NOT NULL,
+  instrument_hu REAL NOT NULL,
+  instrument_throw_mm REAL NOT NULL,
+  instrument_notch_mm REAL NOT NULL,
+  instrument_dead_tip_mm REAL NOT NULL,
+  picture_modality TEXT NOT NULL CHECK (picture_modality IN ('mpr', 'xray', 'ultrasound')),
+  picture_depth_mm REAL NOT NULL,
+  picture_width_mm REAL NOT NULL,
+  picture_rate_hz REAL NOT NULL,
+  picture_probe TEXT,
+  started_us INTEGER NOT NULL,
+  FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
+) STRICT;
+
+CREATE TABLE open_chunk (
+  attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
+  sequence INTEGER NOT NULL CHECK (sequence >= 0),
+  checksum INTEGER NOT NULL,
+  data BLOB NOT NULL,
+  PRIMARY KEY (attempt_id, sequence)
+) STRICT;
+
 CREATE TABLE person (
   person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),
   pseudonym TEXT NOT NULL UNIQUE, -- random; what others than mentors see
@@ -92,6 +126,18 @@ CREATE TABLE recording_chunk (
   checksum INTEGER NOT NULL, -- base::hash_bytes of data; 64 bits as in attempt.seed
   data BLOB NOT NULL, -- compressed
   PRIMARY KEY (attempt_id, sequence)
+) STRICT;
+
+CREATE TABLE servo_record (
+  attempt_id TEXT NOT NULL PRIMARY KEY REFERENCES attempt (attempt_id),
+  tick_s REAL NOT NULL CHECK (tick_s > 0),
+  scheduler TEXT NOT NULL CHECK (scheduler IN ('other', 'fifo')),
+  memory_locked INTEGER NOT NULL CHECK (memory_locked IN (0, 1)),
+  ticks INTEGER NOT NULL CHECK (ticks >= 0),
+  missed INTEGER NOT NULL CHECK (missed >= 0),
+  period BLOB NOT NULL, -- each a cases::TimeHistogram, compressed
+  latency BLOB NOT NULL,
+  compute BLOB NOT NULL
 ) STRICT;
 
 CREATE TABLE training_case (
@@ -179,6 +225,16 @@ END;
 CREATE TRIGGER recording_chunk_is_kept BEFORE DELETE ON recording_chunk
 BEGIN
   SELECT RAISE(ABORT, 'a recording cannot be deleted');
+END;
+
+CREATE TRIGGER servo_record_is_immutable BEFORE UPDATE ON servo_record
+BEGIN
+  SELECT RAISE(ABORT, 'a servo record cannot be changed');
+END;
+
+CREATE TRIGGER servo_record_is_kept BEFORE DELETE ON servo_record
+BEGIN
+  SELECT RAISE(ABORT, 'a servo record cannot be deleted');
 END;
 
 CREATE TRIGGER training_case_keeps_its_classes BEFORE UPDATE OF classes_sha256 ON training_case

@@ -129,9 +129,7 @@ TEST_F(StoreCasesTest, ACaseFromBeforeTheClassesGetsTheSameOnes) {
     case_id = add_case(library, sample);
     stored = load_classes(library, find_case(library, case_id).value()).value();
     library.database().run(
-        "DROP VIEW attempt_summary; ALTER TABLE attempt DROP COLUMN picture_probe; "
-        "CREATE VIEW attempt_summary AS SELECT * FROM attempt; DROP TRIGGER training_case_keeps_its_classes; "
-        "ALTER TABLE training_case DROP COLUMN classes_sha256; PRAGMA user_version = 2");
+        "DROP TRIGGER training_case_keeps_its_classes; UPDATE training_case SET classes_sha256 = NULL");
   }
   EXPECT_EQ(stored[100], volume::TissueClass::liver);
   Library library = open_library(folder);

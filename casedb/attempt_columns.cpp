@@ -1,0 +1,176 @@
+#include "casedb/attempt_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "casedb/question.h"
+#include "sim/base/check.h"
+#include "sim/base/codec.h"
+
+namespace seldinger::casedb {
+namespace {
+
+// Unsigned 64-bit numbers as the database's signed ones: the same bits.
+std::int64_t stored_bits(std::uint64_t value) noexcept {
+  return std::bit_cast<std::int64_t>(value);
+}
+std::uint64_t bits_from_stored(std::int64_t value) noexcept {
+  return std::bit_cast<std::uint64_t>(value);
+}
+
+const char* kind_name(cases::InstrumentKind kind) {
+  return kind == cases::InstrumentKind::core ? "core" : "access";
+}
+const char* approach_name(cases::Approach approach) {
+  return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
+}
+
+constexpr std::array kEnds = {"fired", "stopped", "time_limit", "device_lost", "interrupted"};
+
+// A histogram as a table's cell: its counts, how many and the most, compressed.
+std::vector<std::byte> cell_of(const cases::TimeHistogram& histogram) {
+  std::array<std::uint64_t, cases::TimeHistogram::kBins + 2> words{};
+  std::copy(histogram.counts.begin(), histogram.counts.end(), words.begin());
+  words[cases::TimeHistogram::kBins] = histogram.n;
+  words[cases::TimeHistogram::kBins + 1] = histogram.most_ns;
+  return base::compress(std::as_bytes(std::span(words)));
+}
+
+cases::TimeHistogram histogram_of(const std::vector<std::byte>& cell) {
+  std::array<std::uint64_t, cases::TimeHistogram::kBins + 2> words{};
+  const auto bytes = base::decompress(cell, sizeof words);
+  if (!bytes || bytes->size() != sizeof words)
+    throw DatabaseFailure(DatabaseFailure::Kind::damaged, "a servo record cannot be read");
+  std::memcpy(words.data(), bytes->data(), sizeof words);
+  cases::TimeHistogram histogram;
+  std::copy_n(words.begin(), cases::TimeHistogram::kBins, histogram.counts.begin());
+  histogram.n = words[cases::TimeHistogram::kBins];
+  histogram.most_ns = words[cases::TimeHistogram::kBins + 1];
+  return histogram;
+}
+
+}  // namespace
+
+std::string name_of(AttemptEnd end) {
+  return kEnds[static_cast<std::size_t>(end)];
+}
+
+AttemptEnd end_from(const std::string& name) {
+  for (std::size_t at = 0; at < kEnds.size(); ++at)
+    if (name == kEnds[at]) return static_cast<AttemptEnd>(at);
+  CHECK(false);
+}
+
+Statement& bind_head(Statement& insert, const std::string& attempt_id, const AttemptHead& head) {
+  insert.bind("attempt_id", attempt_id).bind("case_id", head.case_id).bind("lesion_id", head.lesion_id);
+  insert.bind("person_id", head.person_id).bind("operator_name", head.operator_name);
+  insert.bind("seed", stored_bits(head.seed)).bind("program_version", head.program_version);
+  insert.bind("approach", approach_name(head.approach));
+  const cases::Instrument& instrument = head.instrument;
+  insert.bind("instrument_kind", kind_name(instrument.kind)).bind("instrument_length_mm", instrument.length_mm);
+  insert.bind("instrument_radius_mm", instrument.radius_mm);
+  insert.bind("instrument_inner_radius_mm", instrument.inner_radius_mm).bind("instrument_hu", instrument.hu);
+  insert.bind("instrument_throw_mm", instrument.throw_mm).bind("instrument_notch_mm", instrument.notch_mm);
+  insert.bind("instrument_dead_tip_mm", instrument.dead_tip_mm);
+  const cases::Picture& picture = head.picture;
+  insert.bind("picture_modality", name_of(picture.modality)).bind("picture_depth_mm", picture.depth_mm);
+  insert.bind("picture_width_mm", picture.width_mm).bind("picture_rate_hz", picture.rate_hz);
+  insert.bind("picture_probe", picture.probe.empty() ? std::nullopt : std::optional(picture.probe));
+  return insert.bind("started_us", head.started_us);
+}
+
+AttemptHead read_head(const Statement& from) {
+  AttemptHead head;
+  head.case_id = from.text("case_id");
+  head.lesion_id = from.text("lesion_id");
+  head.operator_name = from.text("operator_name");
+  head.program_version = from.text("program_version");
+  if (!from.is_null("person_id")) head.person_id = from.text("person_id");
+  head.seed = bits_from_stored(from.integer("seed"));
+  head.instrument.kind = from.text("instrument_kind") == kind_name(cases::InstrumentKind::core)
+                             ? cases::InstrumentKind::core
+                             : cases::InstrumentKind::access;
+  head.instrument.length_mm = from.real("instrument_length_mm");
+  head.instrument.radius_mm = from.real("instrument_radius_mm");
+  head.instrument.inner_radius_mm = from.real("instrument_inner_radius_mm");
+  head.instrument.hu = from.real("instrument_hu");
+  head.instrument.throw_mm = from.real("instrument_throw_mm");
+  head.instrument.notch_mm = from.real("instrument_notch_mm");
+  head.instrument.dead_tip_mm = from.real("instrument_dead_tip_mm");
+  head.picture.modality = *modality_from(from.text("picture_modality"));  // the schema takes no others
+  head.picture.depth_mm = from.real("picture_depth_mm");
+  head.picture.width_mm = from.real("picture_width_mm");
+  head.picture.rate_hz = from.real("picture_rate_hz");
+  head.picture.probe = from.text("picture_probe");
+  head.approach = from.text("approach") == approach_name(cases::Approach::out_of_plane)
+                      ? cases::Approach::out_of_plane
+                      : cases::Approach::in_plane;
+  head.started_us = from.integer("started_us");
+  return head;
+}
+
+base::Result<void> check_head(Sqlite& database, const AttemptHead& head) {
+  Statement parts = question(database, "case_has_lesion");
+  parts.bind("case_id", head.case_id).bind("lesion_id", head.lesion_id);
+  CHECK(parts.step());
+  if (parts.integer("case_exists") == 0) return base::Error{"no_case", "there is no such case in the library"};
+  if (parts.integer("lesion_exists") == 0) return base::Error{"no_lesion", "there is no such lesion in the case"};
+  if (head.person_id) {
+    Statement person = question(database, "person_exists");
+    CHECK(person.bind("person_id", *head.person_id).step());
+    if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person in the library"};
+  }
+  return {};
+}
+
+Statement& bind_chunk(Statement& insert, const std::string& attempt_id, const cases::RecordingChunk& chunk) {
+  return insert.bind("attempt_id", attempt_id)
+      .bind("sequence", std::int64_t{chunk.sequence})
+      .bind("checksum", stored_bits(chunk.checksum))
+      .bind("data", std::span(chunk.data));
+}
+
+std::vector<cases::RecordingChunk> read_chunks(Statement rows, const std::string& attempt_id) {
+  std::vector<cases::RecordingChunk> chunks;
+  for (rows.bind("attempt_id", attempt_id); rows.step();) {
+    cases::RecordingChunk& chunk = chunks.emplace_back();
+    chunk.sequence = static_cast<std::uint32_t>(rows.integer("sequence"));
+    chunk.checksum = bits_from_stored(rows.integer("checksum"));
+    chunk.data = rows.bytes("data");
+  }
+  return chunks;
+}
+
+void insert_servo_record(Sqlite& database, const std::string& attempt_id, const cases::ServoRecord& record) {
+  const auto period = cell_of(record.period), latency = cell_of(record.latency), compute = cell_of(record.compute);
+  question(database, "add_servo_record")
+      .bind("attempt_id", attempt_id)
+      .bind("tick_s", record.tick_s)
+      .bind("scheduler", record.scheduler == cases::ServoScheduler::fifo ? "fifo" : "other")
+      .bind("memory_locked", record.memory_locked ? 1 : 0)
+      .bind("ticks", static_cast<std::int64_t>(record.ticks))
+      .bind("missed", static_cast<std::int64_t>(record.missed))
+      .bind("period", std::span(period))
+      .bind("latency", std::span(latency))
+      .bind("compute", std::span(compute))
+      .run();
+}
+
+std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id) {
+  Statement row = question(library.database(), "servo_record");
+  if (!row.bind("attempt_id", attempt_id).step()) return std::nullopt;
+  cases::ServoRecord record;
+  record.tick_s = row.real("tick_s");
+  record.scheduler = row.text("scheduler") == "fifo" ? cases::ServoScheduler::fifo : cases::ServoScheduler::other;
+  record.memory_locked = row.integer("memory_locked") != 0;
+  record.ticks = static_cast<std::uint64_t>(row.integer("ticks"));
+  record.missed = static_cast<std::uint64_t>(row.integer("missed"));
+  record.period = histogram_of(row.bytes("period"));
+  record.latency = histogram_of(row.bytes("latency"));
+  record.compute = histogram_of(row.bytes("compute"));
+  return record;
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,6 @@
+-- A piece of an open attempt's recording.
+INSERT INTO open_chunk (
+  attempt_id, sequence, checksum, data
+) VALUES (
+  :attempt_id, :sequence, :checksum, :data
+)
