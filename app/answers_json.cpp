@@ -1,5 +1,7 @@
 #include "app/answers_json.h"
 
+#include "app/servo_record_json.h"
+
 #include <nlohmann/json.hpp>
 
 namespace seldinger::app {
@@ -83,6 +85,7 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"approach", attempt.approach == cases::Approach::in_plane ? "in_plane" : "out_of_plane"},
           {"started_us", attempt.started_us},
           {"duration_s", attempt.duration_s},
+          {"end", attempt.end ? Json(casedb::name_of(*attempt.end)) : Json(nullptr)},
           {"program_version", attempt.program_version},
           {"step_version", attempt.step_version},
           {"metrics", metrics_json(attempt.metrics)}};
@@ -132,14 +135,41 @@ std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts) {
   return text({{"attempts", attempts_json(attempts)}});
 }
 
-std::string json_of_attempt(const casedb::AttemptRow& attempt) {
-  return text(attempt_json(attempt));
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo) {
+  Json json = attempt_json(attempt);
+  json["servo"] = servo ? json_of_servo_record(*servo) : Json(nullptr);
+  return text(json);
 }
 
-std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts) {
-  Json list = Json::array();
+std::string json_of_recompute(const Recomputed& recomputed) {
+  Json differences = Json::array(), not_scored = Json::array();
+  for (const Recomputed::Difference& one : recomputed.differences)
+    differences.push_back({{"attempt_id", one.attempt_id},
+                           {"metric_id", one.metric_id},
+                           {"version", one.version},
+                           {"stored", maybe(one.stored)},
+                           {"now", maybe(one.now)}});
+  for (const auto& [attempt_id, error] : recomputed.not_scored)
+    not_scored.push_back({{"attempt_id", attempt_id}, {"code", error.code}});
+  return text({{"attempts", recomputed.attempts},
+               {"values", recomputed.values},
+               {"added", recomputed.added},
+               {"not_bit_identical", recomputed.not_bit_identical},
+               {"differences", differences},
+               {"not_scored", not_scored}});
+}
+
+std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
+                             const std::vector<casedb::OpenAttempt>& running) {
+  Json list = Json::array(), open = Json::array();
+  for (const casedb::OpenAttempt& attempt : running)
+    open.push_back({{"attempt_id", attempt.attempt_id},
+                    {"case_id", attempt.case_id},
+                    {"operator", attempt.operator_name},
+                    {"started_us", attempt.started_us},
+                    {"stored_s", cases::kChunkSeconds * attempt.chunks}});
   for (const casedb::AttemptRow& attempt : attempts) list.push_back(attempt_json(attempt));
-  return text({{"attempts", list}});
+  return text({{"attempts", list}, {"running", open}});
 }
 
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,

@@ -22,6 +22,18 @@ struct SimulatedAttempt {
   std::vector<assessment::MetricValue> metrics;
 };
 
+// What scoring attempts again has found. A difference: a value that is stored under the same version.
+struct Recomputed {
+  struct Difference {
+    std::string attempt_id, metric_id;
+    int version = 1;
+    std::optional<double> stored, now;
+  };
+  std::size_t attempts = 0, values = 0, added = 0, not_bit_identical = 0;
+  std::vector<Difference> differences;                            // by more than 1e-9 of the value
+  std::vector<std::pair<std::string, base::Error>> not_scored{};  // attempts that cannot be
+};
+
 struct DemoAnswer {
   casedb::CaseRow found;
   casedb::LesionRow lesion;
@@ -42,8 +54,10 @@ std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
 std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics);
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
-std::string json_of_attempt(const casedb::AttemptRow& attempt);
-std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts);
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo);
+std::string json_of_recompute(const Recomputed& recomputed);
+std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
+                             const std::vector<casedb::OpenAttempt>& running);
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
                            const std::string& reason);
 std::string json_of_users(const std::vector<casedb::Account>& accounts);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
+#include "app/attempt_ticks.h"
 #include "app/fluoroscopy.h"
 #include "app/frame_truth.h"
 #include "app/png.h"
@@ -11,7 +13,6 @@
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
 #include "assessment/signals.h"
-#include "sim/devices/virtual_device.h"
 #include "sim/engine/step.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/visibility.h"
@@ -19,14 +20,8 @@
 namespace seldinger::app {
 namespace {
 
-constexpr std::uint64_t kPoseTicks = 10;                          // 100 Hz
 constexpr double kPixelMm = 0.4;                                  // a 22-gauge needle is 1.8 of these
 constexpr double kWindowCenterHu = 60.0, kWindowWidthHu = 400.0;  // abdominal soft tissue
-
-cases::PoseSample pose_of(const cases::State& state) {
-  return {state.t_s,         state.needle.tip_lps_mm, state.needle.direction, state.probe.origin_lps_mm,
-          state.probe.axial, state.probe.lateral};
-}
 
 imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) {
   const cases::Instrument& instrument = scene.instrument;
@@ -45,36 +40,29 @@ imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose
   return view;
 }
 
-// One attempt as it goes: hands through the arms into step, and what recordings keep of it.
+// One attempt in virtual time, and its recording.
 class Attempt {
  public:
-  explicit Attempt(const cases::Case& scene) : scene_(scene) {
+  explicit Attempt(const cases::Case& scene) : ticks_(scene) {
     recording_.step_version = engine::kStepVersion;
     recording_.dt_s = engine::kTickSeconds;
   }
-  const cases::State& state() const noexcept { return state_; }
+  const cases::State& state() const noexcept { return ticks_.state(); }
 
   void tick(const cases::Inputs& hands) {
-    cases::Inputs inputs = hands;
-    inputs.needle = needle_arm_.advance(hands.needle, recording_.dt_s);
-    inputs.probe = probe_arm_.advance(hands.probe, recording_.dt_s);
-    engine::step(scene_, inputs, recording_.dt_s, state_);
-    hash_ = cases::state_hash(state_, hash_);
-    recording_.inputs.push_back(inputs);
-    recording_.hashes.push_back(static_cast<std::uint32_t>(hash_));
-    if ((state_.tick - 1) % kPoseTicks == 0) recording_.poses.push_back(pose_of(state_));
-    if (state_.fire.fired && !recording_.endpoint)
-      recording_.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction};
+    const assessment::RecordedTick tick = ticks_.advance(hands);
+    recording_.inputs.push_back(tick.inputs);
+    recording_.hashes.push_back(tick.hash);
+    if (tick.pose) recording_.poses.push_back(*tick.pose);
+    if (tick.force) recording_.forces.push_back(*tick.force);
+    if (tick.endpoint) recording_.endpoint = tick.endpoint;
   }
   void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
   cases::Recording take() { return std::move(recording_); }
 
  private:
-  const cases::Case& scene_;
+  AttemptTicks ticks_;
   cases::Recording recording_;
-  devices::VirtualDevice needle_arm_, probe_arm_;
-  cases::State state_;
-  std::uint64_t hash_ = 0;
 };
 
 // Under a probe: `truth_of` tells what the picture shows of a state, at the picture's rate.
@@ -131,26 +119,24 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
 
 }  // namespace
 
-cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                             const assessment::OperatorProfile& profile, std::uint64_t seed) {
-  const auto needle = [&](const cases::State& state) {
+std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene) {
+  const auto needle = [&scene](const cases::State& state) {
     return needle_of(scene, state.needle.tip_lps_mm, state.needle.direction);
   };
-  switch (scene.picture.modality) {
-    case cases::Modality::xray:
-      return run_xray_attempt(scene, plan, profile, seed);
-    case cases::Modality::ultrasound: {
-      const UltrasoundSight sight(scene);
-      return run_probe_attempt(scene, plan, profile, seed, [&](const cases::State& state) {
-        return frame_truth(state.t_s, sight.see(probe_of(pose_of(state)), needle(state)));
-      });
-    }
-    case cases::Modality::mpr:
-      break;
-  }
-  return run_probe_attempt(scene, plan, profile, seed, [&](const cases::State& state) {
+  CHECK(scene.picture.modality != cases::Modality::xray);
+  if (scene.picture.modality == cases::Modality::ultrasound)
+    return [needle, sight = std::make_shared<UltrasoundSight>(scene)](const cases::State& state) {
+      return frame_truth(state.t_s, sight->see(probe_of(pose_of(state)), needle(state)));
+    };
+  return [needle, &scene](const cases::State& state) {
     return frame_truth(state.t_s, view_of(scene, pose_of(state)), needle(state), scene.lesions);
-  });
+  };
+}
+
+cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
+                             const assessment::OperatorProfile& profile, std::uint64_t seed) {
+  if (scene.picture.modality == cases::Modality::xray) return run_xray_attempt(scene, plan, profile, seed);
+  return run_probe_attempt(scene, plan, profile, seed, sight_of(scene));
 }
 
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
@@ -205,13 +191,17 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording) {
   cases::State state;
   std::uint64_t hash = 0;
   std::size_t pose = 0;
+  ModelForces forces(scene);
   for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
     engine::step(scene, recording.inputs[i], recording.dt_s, state);
     hash = cases::state_hash(state, hash);
     bool same = static_cast<std::uint32_t>(hash) == recording.hashes[i];
+    const auto force = forces.advance(state, recording.dt_s);
     if ((state.tick - 1) % kPoseTicks == 0) {
       const cases::PoseSample now = pose_of(state);
       same = same && pose < recording.poses.size() && recording.poses[pose] == now;
+      if (force && !recording.forces.empty())
+        same = same && pose < recording.forces.size() && recording.forces[pose] == *force;
       ++pose;
     }
     if (!same) return {false, state.tick};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/plan.h"
@@ -10,6 +11,7 @@
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
+#include "sim/case/state.h"
 
 namespace seldinger::app {
 
@@ -17,6 +19,9 @@ constexpr double kMaxAttemptSeconds = 300.0;  // an operator who has not fired b
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                              const assessment::OperatorProfile& profile, std::uint64_t seed);
+
+// What the picture under the probe shows of a state, of slice or ultrasound (CHECKed); the scene must outlive it.
+std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene);
 
 // The metrics of a recording made in this scene.
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
@@ -26,7 +31,8 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
 // last image. Empty where there is none.
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
 
-// Replays the inputs by this step version.
+// Replays the inputs by this step version: states, poses and, where the scene has tissue and the recording them,
+// forces.
 struct Replay {
   bool same = false;
   std::uint64_t first_difference_tick = 0;

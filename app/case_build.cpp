@@ -29,10 +29,15 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   return scene;
 }
 
-base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
+base::Result<void> add_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
   auto classes = casedb::load_classes(library, row);
   if (!classes) return classes.error();
   scene.classes = std::move(*classes);
+  return {};
+}
+
+base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
+  if (const auto added = add_tissue(library, row, scene); !added) return added.error();
   scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
   return {};
 }

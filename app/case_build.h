@@ -15,7 +15,9 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
                                      const cases::Instrument& instrument, const cases::Picture& picture,
                                      cases::Approach approach);
 
-// What ultrasound of the case is made of; replay and scoring do without.
+// What touch asks, a class per voxel: attempts and their replay. Scoring does without.
+base::Result<void> add_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene);
+// That, and what ultrasound of the case is made of.
 base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene);
 
 }  // namespace seldinger::app

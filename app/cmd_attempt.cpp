@@ -3,6 +3,8 @@
 
 #include "app/answers_json.h"
 #include "app/command.h"
+#include "app/live_attempt.h"
+#include "app/servo_answer.h"
 #include "app/simulation.h"
 #include "reports/metric_words.h"
 
@@ -24,9 +26,13 @@ std::string value_of(const casedb::AttemptRow& attempt, const char* id, const ch
 int run_attempt_list(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
+  const auto left_behind = close_interrupted_attempts(*library);
+  if (!left_behind.empty())
+    std::fprintf(stderr, "%zu attempt%s that a program left behind when it died %s kept as interrupted\n",
+                 left_behind.size(), left_behind.size() == 1 ? "" : "s", left_behind.size() == 1 ? "is" : "are");
   const auto attempts = casedb::list_attempts(*library);
   if (arguments.has("--json")) {
-    std::fputs(json_of_attempts(attempts).c_str(), stdout);
+    std::fputs(json_of_attempts(attempts, casedb::list_open_attempts(*library)).c_str(), stdout);
     return kDone;
   }
   if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
@@ -45,7 +51,7 @@ int run_attempt_show(const Arguments& arguments) {
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());
   if (arguments.has("--json")) {
-    std::fputs(json_of_attempt(*attempt).c_str(), stdout);
+    std::fputs(json_of_attempt(*attempt, casedb::find_servo_record(*library, attempt->attempt_id)).c_str(), stdout);
     return kDone;
   }
   std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\nguidance %s\noperator %s, seed %llu\n",
@@ -53,7 +59,10 @@ int run_attempt_show(const Arguments& arguments) {
               attempt->case_title.c_str(), attempt->lesion_id.c_str(),
               casedb::name_of(attempt->picture.modality).c_str(), attempt->operator_name.c_str(),
               static_cast<unsigned long long>(attempt->seed));
+  if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
   print_metrics(attempt->metrics);
+  if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
+    std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());
   return kDone;
 }
 

@@ -35,7 +35,9 @@ int run_simulate(const Arguments& arguments) {
   if (!simulation) return refuse(simulation.error());
   std::vector<SimulatedAttempt> attempts;
   for (long long i = 0; i < count; ++i) {
-    auto attempt = simulation->attempt(*profile, seed + static_cast<std::uint64_t>(i), std::nullopt);
+    const auto this_seed = seed + static_cast<std::uint64_t>(i);
+    auto attempt = arguments.has("--real-time") ? simulation->live_attempt(*profile, this_seed)
+                                                : simulation->attempt(*profile, this_seed, std::nullopt);
     if (!attempt) return refuse(attempt.error());
     attempts.push_back(std::move(*attempt));
     if (!arguments.has("--json")) {

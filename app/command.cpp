@@ -45,11 +45,14 @@ constexpr Option kSimulateOptions[] = {
     {"--seed", "N", "attempt i uses seed N + i"},
     {"--count", "K", "how many attempts; default 1"},
     {"--instrument", "access|core", "default access: the tip decides; core: the fired notch"},
+    {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     kJson};
 constexpr Option kScoreOptions[] = {kLibrary,
                                     {"--poses", "FILE.csv", "poses of an attempt made elsewhere"},
                                     {"--scene", "SCENE.json", "the scene they were made in"},
                                     kJson};
+constexpr Option kRecomputeOptions[] = {
+    kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
@@ -121,6 +124,9 @@ constexpr Command kCommands[] = {
     {"score", "[ATTEMPT]", 0, 1, kScoreOptions, "Computes the metrics of a stored attempt, or of a pose file.",
      &run_score},
     {"replay", "ATTEMPT", 1, 1, kReplayOptions, "Replays a stored attempt.", &run_replay},
+    {"recompute", "", 0, 0, kRecomputeOptions,
+     "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
+     &run_recompute},
     {"attempt list", "", 0, 0, kLibraryJson, "Lists the attempts, newest first.", &run_attempt_list},
     {"attempt show", "ATTEMPT", 1, 1, kLibraryJson, "Shows one attempt with its metrics.", &run_attempt_show},
     {"user add", "NAME", 1, 1, kUserAddOptions, "Adds an account; the password is read from standard input.",

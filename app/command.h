@@ -49,6 +49,7 @@ int run_sheet(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
 int run_score(const Arguments& arguments);
 int run_replay(const Arguments& arguments);
+int run_recompute(const Arguments& arguments);
 int run_attempt_list(const Arguments& arguments);
 int run_attempt_show(const Arguments& arguments);
 int run_user_add(const Arguments& arguments);

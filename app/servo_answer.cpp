@@ -24,15 +24,18 @@ const char* name_of(cases::ServoScheduler scheduler) {
   return scheduler == cases::ServoScheduler::fifo ? "SCHED_FIFO" : "SCHED_OTHER";
 }
 
-std::string text_of_servo(const ServoAnswer& answer) {
-  const cases::ServoRecord& record = answer.record;
+std::string text_of_servo_record(const cases::ServoRecord& record) {
   return formatted("%-10s %10s %10s %10s\n", "µs", "p50", "p99.9", "max") + row("period", record.period) +
          row("latency", record.latency) + row("compute", record.compute) +
-         formatted("ticks %llu, missed %llu (%.3f %%, at most %.3f %%)\n",
-                   static_cast<unsigned long long>(record.ticks), static_cast<unsigned long long>(record.missed),
-                   100.0 * record.missed_share(), 100.0 * answer.most_missed_share) +
+         formatted("ticks %llu, missed %llu (%.3f %%)\n", static_cast<unsigned long long>(record.ticks),
+                   static_cast<unsigned long long>(record.missed), 100.0 * record.missed_share()) +
          formatted("scheduler %s, memory %s\n", name_of(record.scheduler),
-                   record.memory_locked ? "locked" : "not locked") +
+                   record.memory_locked ? "locked" : "not locked");
+}
+
+std::string text_of_servo(const ServoAnswer& answer) {
+  return text_of_servo_record(answer.record) +
+         formatted("missed at most %.3f %% asked for\n", 100.0 * answer.most_missed_share) +
          formatted("forces up to %.2f N (needle, %llu layers opened) and %.2f N (probe)\n", answer.most_needle_n,
                    static_cast<unsigned long long>(answer.ruptures), answer.most_probe_n);
 }

@@ -19,6 +19,8 @@ struct ServoAnswer {
 
 const char* name_of(cases::ServoScheduler scheduler);
 
+// One record: what the table says of it, without the hands.
+std::string text_of_servo_record(const cases::ServoRecord& record);
 std::string text_of_servo(const ServoAnswer& answer);
 std::string json_of_servo(const ServoAnswer& answer);
 

@@ -1,11 +1,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/servo_answer.h"
+#include "app/servo_record_json.h"
 
 namespace seldinger::app {
-namespace {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 Json times(const cases::TimeHistogram& histogram) {
   const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
@@ -23,21 +25,25 @@ Json times(const cases::TimeHistogram& histogram) {
 
 std::string json_of_servo(const ServoAnswer& answer) {
   const cases::ServoRecord& record = answer.record;
-  const Json document = {{"holds", answer.holds()},
-                         {"tick_us", 1e6 * record.tick_s},
-                         {"ticks", record.ticks},
-                         {"missed", record.missed},
-                         {"missed_share", record.missed_share()},
-                         {"most_missed_share", answer.most_missed_share},
-                         {"scheduler", name_of(record.scheduler)},
-                         {"memory_locked", record.memory_locked},
-                         {"period", times(record.period)},
-                         {"latency", times(record.latency)},
-                         {"compute", times(record.compute)},
-                         {"most_needle_n", answer.most_needle_n},
-                         {"most_probe_n", answer.most_probe_n},
-                         {"ruptures", answer.ruptures}};
+  Json document = {{"holds", answer.holds()}};
+  document.update(json_of_servo_record(record));
+  document["most_missed_share"] = answer.most_missed_share;
+  document["most_needle_n"] = answer.most_needle_n;
+  document["most_probe_n"] = answer.most_probe_n;
+  document["ruptures"] = answer.ruptures;
   return document.dump(2) + "\n";
+}
+
+Json json_of_servo_record(const cases::ServoRecord& record) {
+  return {{"tick_us", 1e6 * record.tick_s},
+          {"ticks", record.ticks},
+          {"missed", record.missed},
+          {"missed_share", record.missed_share()},
+          {"scheduler", name_of(record.scheduler)},
+          {"memory_locked", record.memory_locked},
+          {"period", times(record.period)},
+          {"latency", times(record.latency)},
+          {"compute", times(record.compute)}};
 }
 
 }  // namespace seldinger::app

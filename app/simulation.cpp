@@ -6,8 +6,11 @@
 
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
+#include "app/live_attempt.h"
 #include "app/ultrasound_sight.h"
 #include "app/version.h"
+#include "assessment/operators/scripted.h"
+#include "sim/engine/step.h"
 
 namespace seldinger::app {
 
@@ -29,8 +32,12 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
   auto scene = build_case(library, *row, found->lesion, instrument, picture, cases::Approach::in_plane);
   if (!scene) return scene.error();
   assessment::PathLimits limits = assessment::path_limits(row->modality, row->position);
-  if (row->modality == cases::Modality::ultrasound) {
-    if (const auto added = add_ultrasound_tissue(library, *row, *scene); !added) return added.error();
+  const bool ultrasound = row->modality == cases::Modality::ultrasound;
+  if (const auto added =
+          ultrasound ? add_ultrasound_tissue(library, *row, *scene) : add_tissue(library, *row, *scene);
+      !added)
+    return added.error();
+  if (ultrasound) {
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
       return UltrasoundSight(*scene).looks_from(plan, found->lesion);
     };
@@ -42,23 +49,45 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
   return Simulation(library, *row, *found, std::move(*scene), *plan);
 }
 
+casedb::AttemptHead Simulation::head(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                     const std::optional<std::string>& person_id) const {
+  casedb::AttemptHead head;
+  head.case_id = row_.case_id;
+  head.lesion_id = lesion_.lesion_id;
+  head.person_id = person_id;
+  head.operator_name = profile.name;
+  head.seed = seed;
+  head.program_version = kVersion;
+  head.instrument = scene_.instrument;
+  head.picture = scene_.picture;
+  head.approach = scene_.approach;
+  head.started_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  return head;
+}
+
+base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::OperatorProfile& profile,
+                                                        std::uint64_t seed) {
+  if (scene_.picture.modality == cases::Modality::xray)
+    return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
+  assessment::ScriptedOperator person(profile, plan_, scene_.instrument, seed);
+  LiveAttempt live(*library_, head(profile, seed, std::nullopt), scene_);
+  const auto stored =
+      live.run([&](const cases::State& state,
+                   const cases::FrameTruth* frame) { return person.act(state, frame, engine::kTickSeconds); },
+               [&] { return person.done(); });
+  if (!stored) return stored.error();
+  return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
+}
+
 base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                                    const std::optional<std::string>& person_id) {
   casedb::NewAttempt attempt;
-  attempt.case_id = row_.case_id;
-  attempt.lesion_id = lesion_.lesion_id;
-  attempt.person_id = person_id;
-  attempt.operator_name = profile.name;
-  attempt.seed = seed;
-  attempt.program_version = kVersion;
-  attempt.instrument = scene_.instrument;
-  attempt.picture = scene_.picture;
-  attempt.approach = scene_.approach;
-  attempt.started_us =
-      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-          .count();
+  static_cast<casedb::AttemptHead&>(attempt) = head(profile, seed, person_id);
   attempt.recording = run_attempt(scene_, plan_, profile, seed);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
+  attempt.end = attempt.recording.endpoint ? casedb::AttemptEnd::fired : casedb::AttemptEnd::time_limit;
   auto metrics = measure(scene_, attempt.recording);
   if (!metrics) return metrics.error();
   attempt.metrics = std::move(*metrics);

@@ -23,7 +23,13 @@ class Simulation {
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                          const std::optional<std::string>& person_id);
 
+  // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
+  // was kept is stored with it. Refused: `not_in_real_time` under xray.
+  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed);
+
  private:
+  casedb::AttemptHead head(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                           const std::optional<std::string>& person_id) const;
   Simulation(casedb::Library& library, casedb::CaseRow row, casedb::LesionRow lesion, cases::Case scene,
              assessment::PuncturePlan plan)
       : library_(&library),

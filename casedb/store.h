@@ -138,6 +138,7 @@ base::Result<std::size_t> add_metrics(Library& library, const std::string& attem
 // an open attempt behind, for somebody else to close as interrupted.
 struct OpenAttempt : AttemptHead {
   std::string attempt_id;
+  int chunks = 0;  // stored so far
 };
 base::Result<std::string> open_attempt(Library& library, const AttemptHead& head);  // refuses as add_attempt
 // Refused: `no_attempt`, `incomplete` (its sequence is not the next one).

@@ -47,6 +47,7 @@ std::vector<OpenAttempt> list_open_attempts(Library& library) {
     OpenAttempt& one = found.emplace_back();
     static_cast<AttemptHead&>(one) = read_head(rows);
     one.attempt_id = rows.text("attempt_id");
+    one.chunks = rows.small_integer("chunks");
   }
   return found;
 }

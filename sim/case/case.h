@@ -52,7 +52,7 @@ struct Picture {
 
 struct Case {
   volume::Volume volume;
-  // Of every voxel, in the volume's order; only where ultrasound is to be seen, else empty.
+  // Of every voxel, in the volume's order; where something is felt or seen by ultrasound, else empty.
   std::vector<volume::TissueClass> classes;
   std::vector<std::uint8_t> echogenicity;  // as imaging makes it of volume and classes
   Mesh skin;

@@ -32,6 +32,7 @@ TEST_F(OpenAttemptsTest, PieceByPieceItIsTheSameAttempt) {
     ASSERT_TRUE(add_chunk(another, id, chunk).has_value());
     EXPECT_EQ(load_open_recording(library_, id)->inputs.size(),
               std::min<std::size_t>(5000, 2000 * (chunk.sequence + 1)));
+    EXPECT_EQ(list_open_attempts(library_)[0].chunks, static_cast<int>(chunk.sequence) + 1);
   }
   sample_.end = AttemptEnd::stopped;
   ASSERT_TRUE(close_attempt(library_, id, sample_).has_value());

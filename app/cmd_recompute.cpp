@@ -1,0 +1,109 @@
+// recompute.
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "app/answers_json.h"
+#include "app/attempt_loop.h"
+#include "app/case_build.h"
+#include "app/command.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kSame = 1e-9;  // across builds (assessment.md §11.7)
+
+bool same_bits(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() &&
+         (!a || std::bit_cast<std::uint64_t>(*a) == std::bit_cast<std::uint64_t>(*b));
+}
+bool close(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() && (!a || std::abs(*a - *b) <= kSame * std::max(1.0, std::abs(*a)));
+}
+
+// Attempts at one case share what is costly of it.
+class Scenes {
+ public:
+  explicit Scenes(casedb::Library& library) : library_(library) {}
+
+  base::Result<cases::Case*> of(const casedb::AttemptRow& attempt) {
+    if (case_id_ != attempt.case_id) {
+      case_id_.clear();
+      const auto row = casedb::find_case(library_, attempt.case_id);
+      if (!row) return row.error();
+      auto built = build_case(library_, *row, std::nullopt, attempt.instrument, attempt.picture, attempt.approach);
+      if (!built) return built.error();
+      scene_ = std::move(*built);
+      case_id_ = attempt.case_id;
+    }
+    scene_.lesions = {attempt.lesion};
+    scene_.instrument = attempt.instrument;
+    scene_.picture = attempt.picture;
+    scene_.approach = attempt.approach;
+    return &scene_;
+  }
+
+ private:
+  casedb::Library& library_;
+  std::string case_id_;
+  cases::Case scene_;
+};
+
+base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow& attempt, Scenes& scenes,
+                             Recomputed& sum) {
+  const auto scene = scenes.of(attempt);
+  if (!scene) return scene.error();
+  const auto recording = casedb::load_recording(library, attempt.attempt_id);
+  if (!recording) return recording.error();
+  const auto metrics = measure(**scene, *recording);
+  if (!metrics) return metrics.error();
+  for (const assessment::MetricValue& now : *metrics)
+    for (const assessment::MetricValue& stored : attempt.metrics)
+      if (stored.id == now.id && stored.version == now.version) {
+        ++sum.values;
+        if (!same_bits(stored.value, now.value)) ++sum.not_bit_identical;
+        if (!close(stored.value, now.value))
+          sum.differences.push_back({attempt.attempt_id, now.id, now.version, stored.value, now.value});
+      }
+  const auto added = casedb::add_metrics(library, attempt.attempt_id, *metrics);
+  if (!added) return added.error();
+  sum.added += *added;
+  return {};
+}
+
+}  // namespace
+
+int run_recompute(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  std::vector<casedb::AttemptRow> attempts;
+  if (arguments.has("--attempt")) {
+    auto one = casedb::find_attempt(*library, arguments.text("--attempt"));
+    if (!one) return refuse(one.error());
+    attempts.push_back(std::move(*one));
+  } else {
+    attempts = casedb::list_attempts(*library);
+  }
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const auto& a, const auto& b) { return a.case_id < b.case_id; });
+  Recomputed sum;
+  Scenes scenes(*library);
+  for (const casedb::AttemptRow& attempt : attempts) {
+    ++sum.attempts;
+    if (const auto done = recompute(*library, attempt, scenes, sum); !done)
+      sum.not_scored.emplace_back(attempt.attempt_id, done.error());
+  }
+  if (arguments.has("--json")) {
+    std::fputs(json_of_recompute(sum).c_str(), stdout);
+  } else {
+    std::printf("%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added\n",
+                sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added);
+    for (const Recomputed::Difference& one : sum.differences)
+      std::printf("DIFFERENT: %s %s version %d\n", one.attempt_id.c_str(), one.metric_id.c_str(), one.version);
+    for (const auto& [attempt_id, error] : sum.not_scored)
+      std::printf("not scored: %s: %s\n", attempt_id.c_str(), error.code.c_str());
+  }
+  return sum.differences.empty() ? kDone : kCheckFailed;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,120 @@
+#include "app/live_attempt.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/attempt_loop.h"
+#include "app/case_build.h"
+#include "casedb/running_mark.h"
+#include "sim/engine/servo_loop.h"
+#include "sim/engine/step.h"
+
+namespace seldinger::app {
+namespace {
+
+// A stall longer than this is not caught up with: hands would seem to have stood still for as long.
+constexpr int kMostTicksAtOnce = 20;
+
+}  // namespace
+
+LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene)
+    : library_(library), head_(std::move(head)), scene_(scene) {}
+
+base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::function<bool()>& done) {
+  const auto see = sight_of(scene_);
+  const auto attempt_id = casedb::open_attempt(library_, head_);
+  if (!attempt_id) return attempt_id.error();
+  const casedb::RunningMark mark(library_.folder(), *attempt_id);
+  auto recorders_library = casedb::Library::open(library_.folder());  // one thread at a time uses a library
+  if (!recorders_library) return recorders_library.error();
+  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
+                                [&](const cases::RecordingChunk& chunk) {
+                                  return casedb::add_chunk(*recorders_library, *attempt_id, chunk);
+                                });
+
+  AttemptTicks ticks(scene_);
+  base::Snapshot<cases::State> states;
+  base::Snapshot<cases::FrameTruth> frames;
+  std::atomic<bool> over{false};
+  engine::ServoLoop servo({}, [&](double elapsed_s) {
+    if (over) return;
+    const auto frame = frames.take();
+    // A tick that was missed is made up for, so that the attempt's clock is the wall's.
+    const int due =
+        std::clamp(static_cast<int>(std::lround(elapsed_s / engine::kTickSeconds)), 1, kMostTicksAtOnce);
+    for (int i = 0; i < due && !over; ++i) {
+      const cases::Inputs inputs = hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
+      const bool kept = recorder.tick(ticks.advance(inputs));
+      if (!kept || done() || ticks.state().t_s >= kMaxAttemptSeconds) over = true;
+    }
+    states.put(ticks.state());
+  });
+
+  const auto begun = std::chrono::steady_clock::now();
+  for (long long next = 0; !over && !recorder.failed(); ++next) {
+    std::this_thread::sleep_until(
+        begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                    std::chrono::duration<double>(static_cast<double>(next) / scene_.picture.rate_hz)));
+    const auto state = states.take();
+    if (!state) continue;
+    cases::FrameTruth frame = see(*state);
+    frame.live = !state->probe.frozen;
+    recorder.frame(frame);
+    frames.put(frame);
+  }
+  servo.stop();
+  if (const auto chunks = recorder.finish(); !chunks) return chunks.error();
+
+  casedb::AttemptOutcome outcome;
+  outcome.servo = servo.record();
+  outcome.end = ticks.state().fire.fired ? casedb::AttemptEnd::fired
+                : recorder.fell_behind() ? casedb::AttemptEnd::interrupted
+                : done()                 ? casedb::AttemptEnd::stopped
+                                         : casedb::AttemptEnd::time_limit;
+  const auto recording = casedb::load_open_recording(library_, *attempt_id);
+  if (!recording) return recording.error();
+  auto metrics = measure(scene_, *recording);
+  if (!metrics) return metrics.error();
+  outcome.metrics = std::move(*metrics);
+  outcome.picture_png = picture_at_endpoint(scene_, *recording);
+  if (const auto closed = casedb::close_attempt(library_, *attempt_id, outcome); !closed) return closed.error();
+  return StoredAttempt{*attempt_id, outcome.metrics};
+}
+
+namespace {
+
+// Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
+std::vector<assessment::MetricValue> score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+  const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
+  const auto row = casedb::find_case(library, attempt.case_id);
+  if (!recording || recording->poses.empty() || !row) return {};
+  for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
+    if (lesion.lesion_id == attempt.lesion_id) {
+      const auto scene =
+          build_case(library, *row, lesion.lesion, attempt.instrument, attempt.picture, attempt.approach);
+      if (!scene) return {};
+      auto metrics = measure(*scene, *recording);
+      return metrics ? std::move(*metrics) : std::vector<assessment::MetricValue>{};
+    }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
+  std::vector<std::string> closed;
+  for (const casedb::OpenAttempt& attempt : casedb::list_open_attempts(library)) {
+    if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
+    casedb::AttemptOutcome outcome;
+    outcome.end = casedb::AttemptEnd::interrupted;
+    outcome.metrics = score_of(library, attempt);
+    // Another process may have been faster.
+    if (casedb::close_attempt(library, attempt.attempt_id, outcome)) closed.push_back(attempt.attempt_id);
+  }
+  return closed;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,44 @@
+// An attempt in real time. The servo's thread asks the hands, steps, and hands what happened to the recorder; this
+// thread tells what each picture shows; the recorder's thread stores. They meet in snapshots and one queue, so that
+// neither picture nor disk ever keeps the servo waiting.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/attempt_ticks.h"
+#include "casedb/store.h"
+#include "sim/base/snapshot.h"
+
+namespace seldinger::app {
+
+struct StoredAttempt {
+  std::string attempt_id;
+  std::vector<assessment::MetricValue> metrics;
+};
+
+class LiveAttempt {
+ public:
+  // By the servo: what the hands want now; `frame` is a picture that appeared since the last tick.
+  using Hands = std::function<cases::Inputs(const cases::State&, const cases::FrameTruth* frame)>;
+
+  // The library and the scene (of slice or ultrasound, with its tissue) must outlive it.
+  LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene);
+
+  // Until `done` says so (asked by the servo after each tick), kMaxAttemptSeconds are over, or it cannot be
+  // recorded any more. Stored, scored and durable when it returns. Refused as casedb::open_attempt and
+  // close_attempt.
+  base::Result<StoredAttempt> run(const Hands& hands, const std::function<bool()>& done);
+
+ private:
+  casedb::Library& library_;
+  casedb::AttemptHead head_;
+  const cases::Case& scene_;
+};
+
+// Attempts that a program left behind when it died: each becomes an attempt that says so, with the score of what
+// was recorded. Their ids. Those that are running are left alone.
+std::vector<std::string> close_interrupted_attempts(casedb::Library& library);
+
+}  // namespace seldinger::app

@@ -1,0 +1,118 @@
+// Attempts in real time, as a person's: stored while they run, with how the servo kept time; and what is left when
+// the program dies.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/process.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+
+class LiveTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = fixtures::fresh_folder("live");
+    library_ = (scratch_ / "library").string();
+    const auto ran = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    case_id_ = Json::parse(ran.out)["case_id"];
+  }
+  static Json ask(const std::string& words, int expected = 0) {
+    const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, expected) << words << "\n" << ran.err;
+    return Json::parse(ran.out, nullptr, false);
+  }
+  static inline std::filesystem::path scratch_;
+  static inline std::string library_, case_id_;
+};
+
+TEST_F(LiveTest, AnAttemptInRealTimeIsOneLikeAnyOther) {
+  const Json made = ask("simulate --real-time --operator expert --seed 101 --case " + case_id_);
+  const std::string id = made["attempts"][0]["attempt_id"];
+  EXPECT_EQ(fixtures::metric(made["attempts"][0], "hit"), 1.0);
+  const Json shown = ask("attempt show " + id);
+  EXPECT_EQ(shown["end"], "fired");
+  const Json& servo = shown["servo"];
+  ASSERT_TRUE(servo.is_object());
+  EXPECT_GT(servo["ticks"], 3000);
+  EXPECT_EQ(servo["compute"]["n"], servo["ticks"]);
+  // The attempt's clock is the wall's: what was missed is made up for, but for stalls of more than 20 ms.
+  EXPECT_GE(shown["duration_s"].get<double>(), 1e-3 * servo["ticks"].get<double>() - 0.5);
+  EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true) << "with missed ticks and all";
+  const Json again = ask("recompute");
+  EXPECT_EQ(again["not_bit_identical"], 0);
+  EXPECT_EQ(again["added"], 0);
+  EXPECT_EQ(again["not_scored"], Json::array());
+  EXPECT_GT(again["values"], 100);
+}
+
+TEST_F(LiveTest, AttemptsInVirtualTimeHaveNoServoAndTheSameForcesAgain) {
+  const Json made = ask("simulate --operator novice --seed 7 --case " + case_id_);
+  const std::string id = made["attempts"][0]["attempt_id"];
+  EXPECT_TRUE(ask("attempt show " + id)["servo"].is_null());
+  EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
+}
+
+// kill -9 in the middle: whoever lists the attempts next finds it, readable and marked.
+TEST_F(LiveTest, AProgramThatDiesLeavesAnInterruptedAttempt) {
+  const std::string words = "simulate --real-time --operator novice --seed 3 --case " + case_id_;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c",
+            ("exec " + kProgram + " " + words + " --library " + library_ + " >/dev/null").c_str(),
+            static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  const auto count = [&] {
+    std::size_t interrupted = 0;
+    const Json list = ask("attempt list");
+    for (const Json& attempt : list["attempts"])
+      if (attempt["end"] == "interrupted") ++interrupted;
+    return interrupted;
+  };
+  const auto stored_s = [&] {
+    const Json list = ask("attempt list");
+    return list["running"].empty() ? 0.0 : list["running"][0]["stored_s"].get<double>();
+  };
+  for (int i = 0; i < 300 && stored_s() < 2.0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_GE(stored_s(), 2.0);
+  EXPECT_EQ(count(), 0U) << "while it runs, nobody takes it";
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  ASSERT_EQ(count(), 1U);
+  const Json list = ask("attempt list");
+  for (const Json& attempt : list["attempts"]) {
+    if (attempt["end"] != "interrupted") continue;
+    EXPECT_GE(attempt["duration_s"], 1.9);
+    EXPECT_EQ(attempt["seed"], 3);
+    EXPECT_FALSE(attempt["metrics"].empty());
+    EXPECT_EQ(ask("replay " + attempt["attempt_id"].get<std::string>() + " --verify")["verified"], true);
+  }
+  EXPECT_TRUE(ask("attempt list")["running"].empty());
+}
+
+TEST_F(LiveTest, UnderXrayItIsRefused) {
+  const std::string library = (scratch_ / "xray").string();
+  const auto demo = run(kProgram + " demo --no-serve --json --modality xray --library " + library, scratch_);
+  ASSERT_EQ(demo.exit_code, 0) << demo.err;
+  const std::string xray_case = Json::parse(demo.out)["case_id"];
+  const auto ran = run(
+      kProgram + " simulate --real-time --operator expert --library " + library + " --case " + xray_case, scratch_);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_NE(ran.err.find("error: not_in_real_time: "), std::string::npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace seldinger
