@@ -1,4 +1,4 @@
-// Tests of assessment/metrics: closed forms, edge rules, and laws that every metric keeps.
+// Tests of assessment/metrics: closed forms and edge rules. What every metric keeps is in laws_test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "assessment/metrics/path.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/motion.h"
 #include "assessment/signals.h"
 #include "sim/base/rng.h"
 #include "tests/fixtures/meshes.h"
@@ -269,10 +269,10 @@ TEST(Visibility, NearThePlaneIsOfUltrasoundThatWasRecordedSo) {
   EXPECT_NEAR(number(recording, "vis_joint_2_mm", s), 0.1, 1e-9);
   EXPECT_NEAR(number(recording, "vis_joint_5_mm", s), 0.6, 1e-9);
   EXPECT_EQ(value(recording, "vis_joint_2_mm").reason, "not_ultrasound");
-  EXPECT_FALSE(applies(value(recording, "vis_joint_2_mm")));
+  EXPECT_FALSE(applies(value(recording, "vis_joint_2_mm"), manner_of(setting())));
   recording.frames[7].near_plane.reset();
   EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "near_plane_not_recorded");
-  EXPECT_TRUE(applies(value(recording, "vis_joint_5_mm", s)));
+  EXPECT_TRUE(applies(value(recording, "vis_joint_5_mm", s), manner_of(s)));
   s.approach = cases::Approach::out_of_plane;
   EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "not_meaningful_out_of_plane");
 }
@@ -333,100 +333,6 @@ TEST(Signals, BadPosesAreRefused) {
   EXPECT_EQ(code([](auto& r) { r.poses[5].t_s = 0.0; }), "bad_poses");
   EXPECT_EQ(code([](auto& r) { r.poses[5].needle_direction *= 1.5; }), "bad_poses");
   EXPECT_EQ(code([](auto& r) { r.poses[6].t_s = r.poses[5].t_s; }), "accepted");
-}
-
-// --- laws of every metric (assessment.md §8)
-// ----------------------------------------------------------------------
-
-cases::Recording lively() {
-  auto recording = straight(
-      [](double t) {
-        return t < 2.0   ? -20.0 + 16.0 * t
-               : t < 5.0 ? 12.0 * (t - 1.0)
-               : t < 6.0 ? 48.0 - 12.0 * (t - 5.0)
-                         : 36.0 + 9.0 * (t - 6.0);
-      },
-      8.0, 200.0);
-  for (auto& frame : recording.frames) {
-    frame.needle_tip = std::sin(3.0 * frame.t_s) > -0.3;
-    frame.target = std::sin(2.0 * frame.t_s) > 0.0;
-  }
-  for (auto& pose : recording.poses) pose.tip_lps_mm.x = 3.0 * std::sin(pose.t_s);
-  recording.endpoint->tip_lps_mm = recording.poses.back().tip_lps_mm;
-  return recording;
-}
-
-void expect_equal_metrics(const cases::Recording& a, const AttemptSetting& sa, const cases::Recording& b,
-                          const AttemptSetting& sb, double relative) {
-  const auto signals_a = make_signals(sa, a), signals_b = make_signals(sb, b);
-  ASSERT_TRUE(signals_a.has_value() && signals_b.has_value());
-  const auto values_a = measure_all(*signals_a), values_b = measure_all(*signals_b);
-  ASSERT_EQ(values_a.size(), registry().size());
-  for (std::size_t i = 0; i < values_a.size(); ++i) {
-    ASSERT_EQ(values_a[i].value.has_value(), values_b[i].value.has_value()) << values_a[i].id;
-    if (!values_a[i].value) continue;
-    EXPECT_NEAR(*values_a[i].value, *values_b[i].value, relative * (1.0 + std::abs(*values_a[i].value)))
-        << values_a[i].id;
-  }
-}
-
-TEST(EveryMetric, IsTheSameInAnotherFrameOfReference) {
-  // A rotation by 90° about z and a large shift: float vertices stay exact.
-  const auto moved = [](const glm::dvec3& p) { return glm::dvec3(-p.y, p.x, p.z) + glm::dvec3(512, -1024, 256); };
-  const auto turned = [](const glm::dvec3& v) { return glm::dvec3(-v.y, v.x, v.z); };
-  auto mesh = fixtures::box_mesh({-200, 0, -200}, {200, 200, 200});
-  for (glm::vec3& v : mesh.vertices_lps_mm) v = glm::vec3(moved(glm::dvec3(v)));
-  const cases::MeshIndex skin(mesh);
-  AttemptSetting there = setting();
-  there.skin = &skin;
-  there.target->center_lps_mm = moved(there.target->center_lps_mm);
-  const auto here = lively();
-  auto other = here;
-  for (auto& pose : other.poses) {
-    pose.tip_lps_mm = moved(pose.tip_lps_mm);
-    pose.needle_direction = turned(pose.needle_direction);
-  }
-  other.endpoint->tip_lps_mm = moved(other.endpoint->tip_lps_mm);
-  other.endpoint->direction = turned(other.endpoint->direction);
-  expect_equal_metrics(here, setting(), other, there, 1e-9);
-}
-
-TEST(EveryMetric, IsTheSameAtAnotherTime) {
-  const auto here = lively();
-  auto later = here;
-  for (auto& pose : later.poses) pose.t_s += 1000.0;
-  for (auto& frame : later.frames) frame.t_s += 1000.0;
-  later.endpoint->t_s += 1000.0;
-  expect_equal_metrics(here, setting(), later, setting(), 1e-9);
-}
-
-TEST(EveryMetric, DoesNotChangeWithRepeatedSamples) {
-  const auto here = lively();
-  auto doubled = here;
-  doubled.poses.clear();
-  for (const auto& pose : here.poses) doubled.poses.insert(doubled.poses.end(), 2, pose);
-  expect_equal_metrics(here, setting(), doubled, setting(), 0.0);
-}
-
-TEST(EveryMetric, BarelyChangesWithTheSamplingRate) {
-  const auto here = lively();
-  auto half = here;
-  half.poses.clear();
-  for (std::size_t i = 0; i < here.poses.size(); i += 2) half.poses.push_back(here.poses[i]);
-  expect_equal_metrics(here, setting(), half, setting(), 0.01);
-}
-
-TEST(Registry, IdsAreUniqueAndEveryRowIsComplete) {
-  std::vector<std::string> ids;
-  for (const MetricInfo& info : registry()) {
-    EXPECT_EQ(std::count(ids.begin(), ids.end(), info.id), 0) << info.id;
-    ids.emplace_back(info.id);
-    EXPECT_GE(info.version, 1);
-    for (const char* text : {info.unit, info.label, info.definition, info.source})
-      EXPECT_GT(std::string(text).size(), 0U);
-    EXPECT_EQ(find_metric(info.id), &info);
-  }
-  EXPECT_EQ(find_metric("nothing"), nullptr);
 }
 
 }  // namespace
