@@ -147,6 +147,7 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
   setting.instrument = scene.instrument;
   setting.modality = scene.picture.modality;
   setting.approach = scene.approach;
+  setting.structures = scene.structures;
   const auto signals = assessment::make_signals(setting, recording);
   if (!signals) return signals.error();
   return assessment::measure_all(*signals);

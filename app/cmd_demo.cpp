@@ -12,6 +12,7 @@
 #include "app/serving.h"
 #include "app/simulation.h"
 #include "app/ultrasound_sight.h"
+#include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
 #include "casedb/credentials.h"
 #include "sim/base/failure.h"
@@ -171,9 +172,11 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
       answer.lesion_depth_mm, answer.lesion_rule.c_str(), width, "Metric");
   for (const SimulatedAttempt& attempt : answer.attempts) std::printf(" %12s", attempt.operator_name.c_str());
   std::printf("  unit\n");
+  // As demo_attempts lets them practise.
+  const assessment::Manner manner{answer.found.modality, cases::Approach::in_plane, cases::InstrumentKind::access};
   for (std::size_t i = 0; !answer.attempts.empty() && i < answer.attempts.front().metrics.size(); ++i) {
     const assessment::MetricValue& first = answer.attempts.front().metrics[i];
-    if (!assessment::applies(first)) continue;
+    if (!assessment::applies(first, manner) || assessment::absent_from_case(first.reason)) continue;
     std::printf("%-*s", width, first.id.c_str());
     for (const SimulatedAttempt& attempt : answer.attempts)
       for (const assessment::MetricValue& metric : attempt.metrics)

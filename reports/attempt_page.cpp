@@ -1,7 +1,10 @@
 #include "reports/attempt_page.h"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
+#include "assessment/metrics/registry.h"
 #include "reports/beam_table.h"
 #include "reports/metric_words.h"
 #include "reports/time_chart.h"
@@ -36,11 +39,23 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n");
 }
 
+assessment::Manner manner_of(const casedb::AttemptRow& row) {
+  return {row.picture.modality, row.approach, row.instrument.kind};
+}
+
+// What the case or the desk does not have is named apart, and what means nothing here not at all.
+bool absent(const casedb::MetricValue& metric) {
+  return !metric.value && assessment::absent_from_case(metric.reason);
+}
+bool shown(const casedb::MetricValue& metric, const casedb::AttemptRow& row) {
+  return assessment::applies(metric, manner_of(row)) && !absent(metric);
+}
+
 void add_definitions(Html& html, const casedb::AttemptRow& row) {
   Html items;
   for (const casedb::MetricValue& metric : row.metrics) {
     const std::string definition = metric_definition(metric.id);
-    if (definition.empty() || !assessment::applies(metric)) continue;
+    if (definition.empty() || !shown(metric, row)) continue;
     items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
   }
   if (items.empty()) return;
@@ -48,32 +63,62 @@ void add_definitions(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n</details>\n");
 }
 
+// As many rows of a group are read at a glance; the others are folded away.
+constexpr std::size_t kLeadingRows = 4;
+
+void add_table(Html& html, const std::string& caption, std::span<const casedb::MetricValue* const> metrics) {
+  html.raw("<table>\n<caption>")
+      .text(caption)
+      .raw(
+          "</caption>\n<thead class=\"unseen-head\"><tr><th scope=\"col\">Metric</th><th scope=\"col\" "
+          "class=\"number\">Value</th></tr></thead>\n<tbody>\n");
+  for (const casedb::MetricValue* metric : metrics) {
+    html.raw("<tr><th scope=\"row\">")
+        .text(metric_label(metric->id))
+        .raw(" <span class=\"id\">")
+        .text(metric->id)
+        .raw(" v")
+        .text(std::to_string(metric->version))
+        .raw("</span></th><td class=\"number\">");
+    add_value(html, *metric);
+    html.raw("</td></tr>\n");
+  }
+  html.raw("</tbody>\n</table>\n");
+}
+
+void add_group(Html& html, const std::string& group, const casedb::AttemptRow& row) {
+  std::vector<const casedb::MetricValue*> metrics;
+  for (const casedb::MetricValue& metric : row.metrics)
+    if (metric_group(metric.id) == group && shown(metric, row)) metrics.push_back(&metric);
+  if (metrics.empty()) return;
+  // One row alone is not worth a fold.
+  const std::size_t leading = metrics.size() > kLeadingRows + 1 ? kLeadingRows : metrics.size();
+  const std::span all(metrics);
+  add_table(html, group, all.first(leading));
+  if (leading == metrics.size()) return;
+  html.raw("<details><summary>")
+      .text(group + ": " + std::to_string(metrics.size() - leading) + " more")
+      .raw("</summary>\n");
+  add_table(html, group + ", more", all.subspan(leading));
+  html.raw("</details>\n");
+}
+
+void add_absent(Html& html, const casedb::AttemptRow& row) {
+  Html items;
+  for (const casedb::MetricValue& metric : row.metrics) {
+    if (!absent(metric) || !assessment::applies(metric, manner_of(row))) continue;
+    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(reason_text(metric)).raw("</dd>\n");
+  }
+  if (items.empty()) return;
+  html.raw("<details><summary>What this case does not measure</summary>\n<dl class=\"definitions\">\n").add(items);
+  html.raw("</dl>\n</details>\n");
+}
+
 void add_metrics(Html& html, const casedb::AttemptRow& row) {
   html.raw("<section class=\"metrics\" aria-labelledby=\"metrics\">\n<h2 id=\"metrics\">Metrics</h2>\n");
   if (row.metrics.empty()) html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
-  for (const std::string& group : metric_groups()) {
-    Html rows;
-    for (const casedb::MetricValue& metric : row.metrics) {
-      if (metric_group(metric.id) != group || !assessment::applies(metric)) continue;
-      rows.raw("<tr><th scope=\"row\">")
-          .text(metric_label(metric.id))
-          .raw(" <span class=\"id\">")
-          .text(metric.id)
-          .raw(" v")
-          .text(std::to_string(metric.version))
-          .raw("</span></th><td class=\"number\">");
-      add_value(rows, metric);
-      rows.raw("</td></tr>\n");
-    }
-    if (rows.empty()) continue;
-    html.raw("<table>\n<caption>")
-        .text(group)
-        .raw(
-            "</caption>\n<thead class=\"unseen-head\"><tr><th scope=\"col\">Metric</th><th scope=\"col\" "
-            "class=\"number\">Value</th></tr></thead>\n<tbody>\n")
-        .add(rows)
-        .raw("</tbody>\n</table>\n");
-  }
+  for (const std::string& group : metric_groups()) add_group(html, group, row);
+  add_absent(html, row);
   add_definitions(html, row);
   html.raw("</section>\n");
 }

@@ -14,43 +14,27 @@ namespace {
 constexpr std::string_view kNone = "—";   // em dash
 constexpr std::string_view kMinus = "−";  // U+2212
 
-struct Place {
-  std::string_view id, group;
-};
+constexpr std::string_view kOther = "Other";
 
-// Groups in the order of what a trainee asks first. An id that is not here stands under "Other".
-constexpr std::array kPlaces = {
-    Place{"hit", "Target"},
-    Place{"core_in_target", "Target"},
-    Place{"tip_target_dist", "Target"},
-    Place{"tip_target_surface", "Target"},
-    Place{"tip_target_axial", "Target"},
-    Place{"tip_target_lateral", "Target"},
-    Place{"time_total", "Time"},
-    Place{"advance_visible_share", "Picture"},
-    Place{"vis_joint", "Picture"},
-    Place{"vis_needle", "Picture"},
-    Place{"vis_target", "Picture"},
-    Place{"visible_needle_length", "Picture"},
-    Place{"vis_joint_2_mm", "Picture"},
-    Place{"vis_joint_5_mm", "Picture"},
-    Place{"skin_punctures", "Needle"},
-    Place{"withdrawals_partial", "Needle"},
-    Place{"withdrawals_full", "Needle"},
-    Place{"path_tip", "Needle"},
-    Place{"fluoroscopy_time", "Radiation"},
-    Place{"pulses", "Radiation"},
-    Place{"pulse_rate_max", "Radiation"},
-    Place{"dap", "Radiation"},
-    Place{"air_kerma", "Radiation"},
-    Place{"hand_in_beam", "Radiation"},
-    Place{"beam_while_moving", "Radiation"},
-    Place{"collimated_share", "Radiation"},
-    Place{"views", "Radiation"},
-    Place{"view_angle_max", "Radiation"},
-    Place{"longest_advance_between_exposures", "Radiation"},
-    Place{"gap_share", "Recording"},
-};
+constexpr std::string_view words_of(assessment::Group group) {
+  switch (group) {
+    case assessment::Group::target:
+      return "Target";
+    case assessment::Group::safety:
+      return "Safety";
+    case assessment::Group::picture:
+      return "Picture";
+    case assessment::Group::path:
+      return "Path";
+    case assessment::Group::time:
+      return "Time";
+    case assessment::Group::dose:
+      return "Dose";
+    case assessment::Group::recording:
+      return "Recording";
+  }
+  return kOther;
+}
 
 std::string words_from_code(std::string_view code) {
   std::string words(code);
@@ -75,17 +59,16 @@ std::string metric_definition(std::string_view id) {
 }
 
 std::string metric_group(std::string_view id) {
-  const auto* found = std::find_if(kPlaces.begin(), kPlaces.end(), [&](const Place& p) { return p.id == id; });
-  return found == kPlaces.end() ? "Other" : std::string(found->group);
+  const assessment::MetricInfo* info = assessment::find_metric(std::string(id));
+  return std::string(info != nullptr ? words_of(info->group) : kOther);
 }
 
 const std::vector<std::string>& metric_groups() {
   static const std::vector<std::string> groups = [] {
     std::vector<std::string> list;
-    for (const Place& place : kPlaces) {
-      if (list.empty() || list.back() != place.group) list.emplace_back(place.group);
-    }
-    list.emplace_back("Other");
+    for (int group = 0; group <= static_cast<int>(assessment::Group::recording); ++group)
+      list.emplace_back(words_of(static_cast<assessment::Group>(group)));
+    list.emplace_back(kOther);
     return list;
   }();
   return groups;
@@ -115,7 +98,7 @@ std::string value_text(const casedb::MetricValue& metric) {
   }
   if (unit == "share") return number_text(100.0 * value, 0) + " %";
   if (unit == "%") return number_text(value, 0) + " %";
-  if (unit == "mm^2" || unit == "mm2") return number_text(value, 0) + " mm²";
+  if (unit == "mm²") return number_text(value, 0) + " mm²";
   if (unit == "deg") return number_text(value, 1) + "°";
   if (unit == "Gy·cm²") return number_text(value, 3) + " Gy·cm²";
   if (unit == "N") return number_text(value, 2) + " N";

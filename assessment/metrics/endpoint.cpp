@@ -1,9 +1,9 @@
-#include "assessment/metrics/endpoint.h"
-
+// Metrics of the moment the trigger fell.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "assessment/metrics/tables.h"
 #include "assessment/signals.h"
 
 namespace seldinger::assessment {
@@ -13,12 +13,6 @@ constexpr double kMinCoreMm = 5.0;  // assessment.md §8, hit: min_core_mm
 
 bool core(const Signals& signals) {
   return signals.setting.instrument.kind == cases::InstrumentKind::core;
-}
-
-const char* missing(const Signals& signals) {
-  if (!signals.endpoint) return "no_endpoint";
-  if (!signals.setting.target) return "no_target";
-  return nullptr;
 }
 
 // The sample notch after the throw: from start, along the needle, notch_mm long.
@@ -47,39 +41,74 @@ glm::dvec3 to_target(const Signals& signals) {
   return signals.setting.target->center_lps_mm - point;
 }
 
-}  // namespace
-
 Measured core_in_target(const Signals& signals) {
-  if (!core(signals)) return Measured::none("not_a_core_needle");
-  if (const char* reason = missing(signals)) return Measured::none(reason);
   return Measured::of(length_in_sphere(notch_start(signals), signals.endpoint->direction,
                                        signals.setting.instrument.notch_mm, *signals.setting.target));
 }
 
 Measured hit(const Signals& signals) {
-  if (const char* reason = missing(signals)) return Measured::none(reason);
-  if (core(signals)) return Measured::of(*core_in_target(signals).value >= kMinCoreMm ? 1.0 : 0.0);
-  return Measured::of(glm::length(to_target(signals)) <= signals.setting.target->radius_mm ? 1.0 : 0.0);
+  return Measured::of(target_hit(signals) ? 1.0 : 0.0);
+}
+
+Measured first_pass_success(const Signals& signals) {
+  const PunctureCounts counts = count_punctures(signals);
+  if (counts.punctures == 0) return Measured::none("never_punctured");
+  const bool one_pass = counts.punctures == 1 && counts.partial_withdrawals == 0;
+  return Measured::of(one_pass && target_hit(signals) ? 1.0 : 0.0);
 }
 
 Measured tip_target_dist(const Signals& signals) {
-  if (const char* reason = missing(signals)) return Measured::none(reason);
   return Measured::of(glm::length(to_target(signals)));
 }
 
 Measured tip_target_surface(const Signals& signals) {
-  if (const char* reason = missing(signals)) return Measured::none(reason);
   return Measured::of(glm::length(to_target(signals)) - signals.setting.target->radius_mm);
 }
 
 Measured tip_target_axial(const Signals& signals) {
-  if (const char* reason = missing(signals)) return Measured::none(reason);
   return Measured::of(glm::dot(to_target(signals), signals.endpoint->direction));
 }
 
 Measured tip_target_lateral(const Signals& signals) {
-  if (const char* reason = missing(signals)) return Measured::none(reason);
   return Measured::of(glm::length(glm::cross(to_target(signals), signals.endpoint->direction)));
+}
+
+constexpr MetricInfo kMetrics[] = {
+    {"hit", 1, "bool", "Target hit", Group::target, Direction::higher_is_better, kEndpoint | kTarget,
+     "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target; core needle, at least 5 mm "
+     "of "
+     "the fired notch are. A sweep through the target before is no hit.",
+     kVidal, &hit},
+    {"first_pass_success", 1, "bool", "First pass hit", Group::target, Direction::higher_is_better,
+     kEndpoint | kTarget | kSkin | kMotion,
+     "1 where the target was hit with one skin puncture and no partial withdrawal, else 0. Null: never_punctured.",
+     "first-pass completion as in a phantom study of needle guidance, PMC5318157", &first_pass_success},
+    {"core_in_target", 1, "mm", "Core in target", Group::target, Direction::higher_is_better,
+     kCoreNeedle | kEndpoint | kTarget, "Length of the fired notch inside the target.", kJohnson, &core_in_target},
+    {"tip_target_dist", 1, "mm", "Distance to target centre", Group::target, Direction::lower_is_better,
+     kEndpoint | kTarget,
+     "At the endpoint, from the tip (core needle: the middle of the fired notch) to the target's centre; never the "
+     "closest approach.",
+     kVidal, &tip_target_dist},
+    {"tip_target_surface", 1, "mm", "Distance to target surface", Group::target, Direction::lower_is_better,
+     kEndpoint | kTarget, "As tip_target_dist, to the target's surface; negative inside.", kVidal,
+     &tip_target_surface},
+    {"tip_target_axial", 1, "mm", "Short of target", Group::target, Direction::none, kEndpoint | kTarget,
+     "The part of tip_target_dist along the needle; positive when the needle stopped short.", kJohnson,
+     &tip_target_axial},
+    {"tip_target_lateral", 1, "mm", "Beside target", Group::target, Direction::lower_is_better, kEndpoint | kTarget,
+     "The part of tip_target_dist across the needle.", kJohnson, &tip_target_lateral},
+};
+
+}  // namespace
+
+bool target_hit(const Signals& signals) {
+  if (core(signals)) return *core_in_target(signals).value >= kMinCoreMm;
+  return glm::length(to_target(signals)) <= signals.setting.target->radius_mm;
+}
+
+std::span<const MetricInfo> endpoint_metrics() {
+  return kMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -1,8 +1,8 @@
-#include "assessment/metrics/fluoroscopy.h"
-
+// Metrics of an attempt guided by fluoroscopy: what was spent, and how the machine was used.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "assessment/metrics/tables.h"
 #include "assessment/signals.h"
 #include "sim/case/viewing_angles.h"
 
@@ -11,19 +11,9 @@ namespace {
 
 constexpr double kMgyPerGy = 1000.0;
 
-// Why there is no answer at all, or null. Poses from a file tell what a picture would have shown, not what the beam
-// did.
-const char* reason_for_none(const Signals& signals) {
-  if (signals.setting.modality != cases::Modality::xray) return "not_xray";
-  for (const cases::FrameTruth& frame : signals.frames)
-    if (frame.live && !frame.beam) return "beam_not_recorded";
-  return nullptr;
-}
-
 // Sum over the pulses.
 template <typename Part>
 Measured sum(const Signals& signals, const Part& part) {
-  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   double total = 0.0;
   for (const cases::FrameTruth& frame : signals.frames)
     if (frame.beam) total += part(*frame.beam);
@@ -37,8 +27,6 @@ cases::ViewingAngles viewing_angles(const Signals& signals) {
   return views;
 }
 
-}  // namespace
-
 Measured fluoroscopy_time(const Signals& signals) {
   return sum(signals, [](const cases::BeamTruth& beam) { return beam.beam_s; });
 }
@@ -48,7 +36,6 @@ Measured pulses(const Signals& signals) {
 }
 
 Measured pulse_rate_max(const Signals& signals) {
-  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   double shortest_s = 0.0;
   for (const cases::FrameTruth& frame : signals.frames)
     if (frame.beam && frame.beam->beam_s > 0.0)
@@ -73,50 +60,97 @@ Measured hand_in_beam(const Signals& signals) {
 }
 
 Measured collimated_share(const Signals& signals) {
-  const Measured time = fluoroscopy_time(signals);
-  if (!time.value) return time;
-  if (!(*time.value > 0.0)) return Measured::none("no_exposure");
+  const double time_s = *fluoroscopy_time(signals).value;
+  if (!(time_s > 0.0)) return Measured::none("no_exposure");
   const Measured shut =
       sum(signals, [](const cases::BeamTruth& beam) { return beam.collimated_share * beam.beam_s; });
-  return Measured::of(*shut.value / *time.value);
+  return Measured::of(*shut.value / time_s);
 }
 
 Measured views(const Signals& signals) {
-  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   return Measured::of(viewing_angles(signals).count);
 }
 
 Measured view_angle_max(const Signals& signals) {
-  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
   const cases::ViewingAngles angles = viewing_angles(signals);
   if (angles.count < 2) return Measured::none("fewer_than_two_views");
   return Measured::of(angles.widest_deg);
 }
 
 Measured longest_advance_between_exposures(const Signals& signals) {
-  if (const char* reason = reason_for_none(signals)) return Measured::none(reason);
-  if (signals.setting.skin->empty()) return Measured::none("no_skin");
-  if (signals.only_gaps()) return Measured::none("only_gaps");
-  bool in_tissue = false;
   double longest_mm = 0.0, lowest_mm = 0.0, last_mm = 0.0;
   std::size_t frame = 0;
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
-    const cases::SkinPassage& skin = signals.passages[i];
     // Poses are held until the next: an exposure since the one before shows the tip where that one has it.
     bool exposed = false;
     for (; frame < signals.frames.size() && signals.frames[frame].t_s <= signals.poses[i].t_s; ++frame)
       exposed = exposed || signals.frames[frame].beam.has_value();
     if (exposed) lowest_mm = last_mm;
     const double inserted_mm = signals.inserted_mm(i);
-    in_tissue = in_tissue || skin.in_body;
     // What starts inside has advanced before anybody looked; what happened in a gap is not known.
     if (i == 0 || signals.gap(i - 1)) lowest_mm = inserted_mm;
     lowest_mm = std::min(lowest_mm, inserted_mm);
     longest_mm = std::max(longest_mm, inserted_mm - lowest_mm);
     last_mm = inserted_mm;
   }
-  if (!in_tissue) return Measured::none("never_in_tissue");
   return Measured::of(longest_mm);
+}
+
+constexpr const char* kSpent =
+    "IEC 60601-2-43 (what an interventional machine must tell); SIR's guidelines for patient radiation dose "
+    "management, J. Vasc. Interv. Radiol. 20 (2009) S263";
+constexpr const char* kTechnique =
+    "ICRP Publication 117, Ann. ICRP 40 (6), 2010: radiological protection in fluoroscopically guided procedures";
+constexpr const char* kBullsEye = "bull's-eye puncture with depth view; Miller et al., J. Urol. 178 (2007)";
+constexpr std::uint32_t kUnderBeam = kXray | kBeam;
+
+constexpr MetricInfo kMetrics[] = {
+    {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0.", kSpent,
+     &fluoroscopy_time},
+    {"pulses", 1, "count", "Pulses", Group::dose, Direction::lower_is_better, kUnderBeam, "X-ray pulses fired.",
+     kSpent, &pulses},
+    {"pulse_rate_max", 1, "1/s", "Fastest pulse rate", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Highest rate at which pulses were fired. Null: no_exposure.", kTechnique, &pulse_rate_max},
+    {"dap", 1, "Gy·cm²", "Dose–area product", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Sum of the pulses' air kerma times the field's area. No pulse: 0.", kSpent, &dap},
+    {"air_kerma", 1, "mGy", "Air kerma", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Sum of the pulses' air kerma, free in air at the interventional reference point, 150 mm from the isocentre "
+     "towards the tube. No pulse: 0.",
+     kSpent, &air_kerma},
+    {"beam_while_moving", 1, "s", "Beam while moving", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Fluoroscopy time of the pulses fired while arm, detector or table moved.", kTechnique, &beam_while_moving},
+    {"collimated_share", 1, "share", "Field collimated", Group::dose, Direction::higher_is_better, kUnderBeam,
+     "Share of the whole field that the collimator shut off, averaged over the fluoroscopy time. Null: "
+     "no_exposure.",
+     kTechnique, &collimated_share},
+    {"views", 1, "count", "Views", Group::picture, Direction::none, kUnderBeam,
+     "Distinct directions, at least 5° apart, from which pulses were fired with the machine at rest; at most 32 "
+     "are "
+     "told apart.",
+     kBullsEye, &views},
+    {"view_angle_max", 1, "deg", "Widest view angle", Group::picture, Direction::higher_is_better, kUnderBeam,
+     "Widest angle between the lines of sight of two pulses fired at rest, 0 to 90°: opposite views tell the same "
+     "depth. Null: fewer_than_two_views.",
+     kBullsEye, &view_angle_max},
+    {"hand_in_beam", 1, "s", "Hand in beam", Group::dose, Direction::lower_is_better, kUnderBeam,
+     "Fluoroscopy time of the pulses in which the hand at the needle's hub (a ball of 45 mm radius; none while it "
+     "has "
+     "let go) met the collimated beam.",
+     kTechnique, &hand_in_beam},
+    {"longest_advance_between_exposures", 1, "mm", "Advance between exposures", Group::picture,
+     Direction::lower_is_better, kUnderBeam | kSkin | kMotion | kTissue,
+     "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
+     "was "
+     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged.",
+     "advancing between exposures is correct practice under fluoroscopy, as long as it is short",
+     &longest_advance_between_exposures},
+};
+
+}  // namespace
+
+std::span<const MetricInfo> fluoroscopy_metrics() {
+  return kMetrics;
 }
 
 }  // namespace seldinger::assessment

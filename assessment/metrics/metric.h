@@ -1,8 +1,11 @@
-// A metric: what it is (the registry's row, which drives help, docs and pages) and what it is for one attempt.
+// A metric: what it is (its row in a table, which drives help, docs and pages) and what it is for one attempt.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+
+#include "assessment/metrics/needs.h"
 
 namespace seldinger::assessment {
 
@@ -16,12 +19,10 @@ struct MetricValue {
   std::string reason;  // stable snake_case when null; empty otherwise
 };
 
-// Whether it could have a value under the attempt's modality. Answers of one that cannot are not shown to people.
-inline bool applies(const MetricValue& metric) {
-  return metric.value.has_value() || (metric.reason != "not_xray" && metric.reason != "not_ultrasound");
-}
-
 enum class Direction { none, lower_is_better, higher_is_better };
+
+// What it speaks of, in the order of what a trainee asks first.
+enum class Group { target, safety, picture, path, time, dose, recording };
 
 // The number, or why there is none.
 struct Measured {
@@ -33,13 +34,15 @@ struct Measured {
 
 struct MetricInfo {
   const char* id;
-  int version;
-  const char* unit;   // mm, s, count, share, %; hit is 1 or 0
+  int version;        // higher when the definition changes: stored values keep theirs
+  const char* unit;   // mm, mm², s, count, share, %, deg, N; bool is 1 or 0
   const char* label;  // for pages, at most four words
+  Group group;
   Direction direction;
-  const char* definition;  // one or two sentences, with the edge rules and every reason for null
+  std::uint32_t needs;     // Need, or-ed: without one it is null, for that need's reason
+  const char* definition;  // a few sentences, with the edge rules and every further reason for null
   const char* source;
-  Measured (*measure)(const Signals&);
+  Measured (*measure)(const Signals&);  // only called when its needs are met
 };
 
 }  // namespace seldinger::assessment

@@ -1,8 +1,8 @@
-#include "assessment/metrics/punctures.h"
-
+// Skin punctures and withdrawals.
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "assessment/metrics/tables.h"
 #include "assessment/signals.h"
 
 namespace seldinger::assessment {
@@ -11,25 +11,58 @@ namespace {
 constexpr double kPunctureDepthMm = 2.0, kPunctureSeconds = 0.1, kRearmDepthMm = -1.0;  // assessment.md §8
 constexpr double kPartialShare = 0.2, kPartialMinMm = 2.0, kPartialMaxMm = 5.0;         // clinical.md, Metrics
 
-struct Counts {
-  int punctures = 0, full = 0, partial = 0;
+Measured skin_punctures(const Signals& signals) {
+  return Measured::of(count_punctures(signals).punctures);
+}
+
+Measured withdrawals_partial(const Signals& signals) {
+  return Measured::of(count_punctures(signals).partial_withdrawals);
+}
+
+Measured withdrawals_full(const Signals& signals) {
+  return Measured::of(count_punctures(signals).full_withdrawals);
+}
+
+constexpr MetricInfo kMetrics[] = {
+    {"skin_punctures", 1, "count", "Skin punctures", Group::safety, Direction::lower_is_better, kSkin | kMotion,
+     "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
+     "outside. "
+     "The ends of the volume are no skin; lung and gas are body. What starts inside is no puncture.",
+     kJohnson, &skin_punctures},
+    {"withdrawals_partial", 1, "count", "Partial withdrawals", Group::path, Direction::lower_is_better,
+     kSkin | kMotion,
+     "Times the inserted length fell below its running maximum by 20 % of it (at least 2, at most 5 mm) and rose "
+     "by as "
+     "much again without leaving the skin.",
+     kVidal, &withdrawals_partial},
+    {"withdrawals_full", 1, "count", "Full withdrawals", Group::path, Direction::lower_is_better, kSkin | kMotion,
+     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm before the "
+     "endpoint.",
+     kVidal, &withdrawals_full},
 };
 
+}  // namespace
+
 // One pass over the poses: a puncture counts when depth stayed > 2 mm for 100 ms, the next only after −1 mm.
-Counts count(const Signals& signals) {
-  Counts counts;
+PunctureCounts count_punctures(const Signals& signals) {
+  PunctureCounts counts;
   bool armed = signals.passages.front().depth_mm <= kPunctureDepthMm;  // what starts inside is no puncture
   bool deep = false, fallen = false;
   double deep_since_s = 0.0, highest_mm = 0.0, lowest_mm = 0.0;
+  std::size_t entered = 0;  // the pose with which the tip last came into the body
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     const cases::SkinPassage& skin = signals.passages[i];
     const double t_s = signals.poses[i].t_s;
     if (i > 0 && signals.gap(i - 1)) deep = false;  // what happened in a gap is not known
     // Sample and hold: the depth of the pose before lasted until now.
     if (armed && deep && t_s - deep_since_s >= kPunctureSeconds - kTimeTolerance_s) {
-      ++counts.punctures;
+      if (++counts.punctures == 1) {
+        counts.first_s = deep_since_s;
+        counts.first_pose = entered;
+      }
       armed = false;
     }
+    if (skin.in_body && (i == 0 || !signals.passages[i - 1].in_body)) entered = i;
     if (skin.depth_mm > kPunctureDepthMm) {
       if (!deep) deep_since_s = t_s;
       deep = true;
@@ -37,7 +70,7 @@ Counts count(const Signals& signals) {
       deep = false;
     }
     if (skin.depth_mm < kRearmDepthMm && !armed) {
-      ++counts.full;
+      ++counts.full_withdrawals;
       armed = true;
     }
     if (!skin.in_body) {
@@ -55,7 +88,7 @@ Counts count(const Signals& signals) {
     }
     lowest_mm = std::min(lowest_mm, inserted_mm);
     if (inserted_mm - lowest_mm >= hysteresis_mm) {
-      ++counts.partial;
+      ++counts.partial_withdrawals;
       fallen = false;
       highest_mm = inserted_mm;
     }
@@ -63,24 +96,8 @@ Counts count(const Signals& signals) {
   return counts;
 }
 
-Measured number(const Signals& signals, int Counts::*part) {
-  if (signals.setting.skin->empty()) return Measured::none("no_skin");
-  if (signals.only_gaps()) return Measured::none("only_gaps");
-  return Measured::of(count(signals).*part);
-}
-
-}  // namespace
-
-Measured skin_punctures(const Signals& signals) {
-  return number(signals, &Counts::punctures);
-}
-
-Measured withdrawals_partial(const Signals& signals) {
-  return number(signals, &Counts::partial);
-}
-
-Measured withdrawals_full(const Signals& signals) {
-  return number(signals, &Counts::full);
+std::span<const MetricInfo> puncture_metrics() {
+  return kMetrics;
 }
 
 }  // namespace seldinger::assessment

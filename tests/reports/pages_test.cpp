@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "assessment/metrics/registry.h"
 #include "reports/attempt_page.h"
 #include "reports/attempts_page.h"
 #include "reports/login_page.h"
@@ -105,8 +106,8 @@ TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
   AttemptView view = sample_attempt();
   for (casedb::MetricValue& metric : view.row.metrics) metric.value = std::nullopt, metric.reason = "no_endpoint";
   const std::string html = attempt_page(kMentor, view, nullptr);
-  // Hit, distance and time lead; all seven stand in the tables.
-  EXPECT_EQ(count_of(html, "— <span class=\"why\">no endpoint</span>"), 3U + 7U);
+  // Hit, distance and time lead; the tables hold six: a core's length means nothing for an access needle.
+  EXPECT_EQ(count_of(html, "— <span class=\"why\">no endpoint</span>"), 3U + 6U);
   for (const char* zero : {">0<", ">0.0", "No</dd>", "Yes</dd>", "the target was"})
     EXPECT_THAT(html, Not(HasSubstr(zero)));
 }
@@ -118,7 +119,7 @@ TEST(AttemptPage, OfFluoroscopySpeaksOfItAndShowsWhatItCost) {
   view.row.metrics.push_back({"dap", 1, 0.0421, "Gy·cm²", ""});
   view.row.metrics.push_back({"view_angle_max", 1, std::nullopt, "deg", "fewer_than_two_views"});
   const std::string html = attempt_page(kMentor, view, nullptr);
-  EXPECT_THAT(html, HasSubstr("<caption>Radiation</caption>"));
+  EXPECT_THAT(html, HasSubstr("<caption>Dose</caption>"));
   EXPECT_THAT(html, HasSubstr("0.042 Gy·cm²"));
   EXPECT_THAT(html, HasSubstr("fewer than two views"));
   EXPECT_THAT(html, HasSubstr("The last image before the moment of firing."));
@@ -131,9 +132,44 @@ TEST(AttemptPage, OfASliceLeavesOutWhatAFluoroscopeSpends) {
   AttemptView view = sample_attempt();
   view.row.metrics.push_back({"dap", 1, std::nullopt, "Gy·cm²", "not_xray"});
   const std::string html = attempt_page(kMentor, view, nullptr);
-  EXPECT_THAT(html, Not(HasSubstr("Radiation")));
+  EXPECT_THAT(html, Not(HasSubstr("<caption>Dose")));
   EXPECT_THAT(html, Not(HasSubstr("not xray")));
   EXPECT_THAT(html, HasSubstr("In plane"));
+}
+
+TEST(AttemptPage, NamesApartWhatTheCaseDoesNotHave) {
+  AttemptView view = sample_attempt();
+  view.row.metrics.push_back({"force_peak_axial", 1, std::nullopt, "N", "no_device"});
+  view.row.metrics.push_back({"entry_angle_error", 1, std::nullopt, "deg", "no_plan"});
+  view.row.metrics.push_back({"path_inefficiency", 1, std::nullopt, "%", "not_in_tissue_at_the_end"});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  const std::size_t apart = html.find("What this case does not measure");
+  ASSERT_NE(apart, html.npos);
+  EXPECT_GT(html.find("Peak axial force"), apart);
+  EXPECT_GT(html.find("Angle to planned entry"), apart);
+  EXPECT_LT(html.find("not in tissue at the end"), apart) << "what the trainee did stands in the table";
+  EXPECT_THAT(attempt_page(kMentor, sample_attempt(), nullptr), Not(HasSubstr("What this case does not measure")));
+}
+
+TEST(AttemptPage, OfAllMetricsShowsAFewOfEachGroupAndFoldsTheRest) {
+  AttemptView view = sample_attempt();
+  view.row.picture = {cases::Modality::ultrasound, 85.0, 0.0, 60.0, "C5-2v"};
+  view.row.metrics.clear();
+  for (const assessment::MetricInfo& info : assessment::registry())
+    view.row.metrics.push_back({info.id, info.version, 1.0, info.unit, ""});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  std::size_t at = 0;
+  for (const char* group : {"Target", "Safety", "Picture", "Path", "Time", "Recording"}) {
+    const std::size_t found = html.find("<caption>" + std::string(group) + "</caption>", at);
+    ASSERT_NE(found, html.npos) << group;
+    EXPECT_LE(count_of(html.substr(found, html.find("</table>", found) - found), "<th scope=\"row\">"), 5U)
+        << group;
+    at = found;
+  }
+  EXPECT_THAT(html, HasSubstr("<summary>Safety: "));
+  EXPECT_THAT(html, Not(HasSubstr("<caption>Dose</caption>")));
+  EXPECT_EQ(first_unbalanced_tag(html), "");
+  EXPECT_EQ(count_of(html, "<table"), count_of(html, "<caption>"));
 }
 
 TEST(AttemptPage, OfUltrasoundNamesItsProbe) {

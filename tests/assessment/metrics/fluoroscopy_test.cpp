@@ -1,7 +1,5 @@
 // Tests of assessment/metrics/fluoroscopy: sums and angles of hand-made frames, why there is no value, and that a
 // recording made by step() gives what the machine itself added up.
-#include "assessment/metrics/fluoroscopy.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests of assessment/metrics: closed forms, edge rules, and laws that every metric keeps.
+// Tests of assessment/metrics: closed forms and edge rules. What every metric keeps is in laws_test.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "assessment/metrics/path.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/motion.h"
 #include "assessment/signals.h"
 #include "sim/base/rng.h"
 #include "tests/fixtures/meshes.h"
@@ -82,6 +82,37 @@ TEST(PathTip, AHelixIsItsClosedForm) {
   EXPECT_NEAR(number(recording, "path_tip"), 95.00865203222506, 0.095);
 }
 
+TEST(PathTip, AHelixOfASecondATurnIsItsClosedForm) {
+  for (const double rate_hz : {100.0, 1000.0})
+    for (const double turn_s : {1.0, 2.0}) {
+      cases::Recording recording;
+      const int rows = static_cast<int>(std::lround(3.0 * turn_s * rate_hz));
+      for (int i = 0; i <= rows; ++i) {
+        cases::PoseSample pose;
+        pose.t_s = i / rate_hz;
+        const double turns = 3.0 * i / rows, angle = 2.0 * std::numbers::pi * turns;
+        pose.tip_lps_mm = {5.0 * std::cos(angle), 20.0 + 4.0 * turns, 5.0 * std::sin(angle)};
+        pose.needle_direction = {0.0, 1.0, 0.0};
+        recording.poses.push_back(pose);
+      }
+      EXPECT_NEAR(number(recording, "path_tip"), 95.00865203222506, 0.095) << rate_hz << ", " << turn_s;
+      EXPECT_NEAR(number(recording, "path_in_tissue"), 95.00865203222506, 0.095) << rate_hz << ", " << turn_s;
+    }
+}
+
+TEST(PathTip, WhatTremblesWhileItRestsIsNoWay) {
+  base::Rng rng(2);
+  auto recording = straight([](double t) { return ramp(std::fmin(t, 2.0), 20.0); }, 20.0);
+  for (auto& pose : recording.poses) pose.tip_lps_mm += glm::dvec3(rng.normal(), rng.normal(), rng.normal()) * 0.05;
+  EXPECT_NEAR(number(recording, "path_tip"), 40.0, 1.2);
+  // A move for less than 0.2 s is none; one for longer is.
+  const auto brief = [](double seconds) {
+    return straight([=](double t) { return 20.0 + 20.0 * std::clamp(t - 2.0, 0.0, seconds); }, 5.0);
+  };
+  EXPECT_EQ(number(brief(0.1), "path_tip"), 0.0);
+  EXPECT_NEAR(number(brief(0.5), "path_tip"), 10.0, 0.2);
+}
+
 TEST(PathTip, OnePoseIsZeroAndAGapIsNotBridged) {
   cases::Recording one;
   one.poses.resize(1);
@@ -126,6 +157,102 @@ TEST(LowPass, LosesThreeDecibelsAtItsCutoffAndKeepsSlowMotion) {
       EXPECT_NEAR(out[static_cast<std::size_t>(i)].x, gain * wave[static_cast<std::size_t>(i)].x, 0.02)
           << "no phase";
   }
+}
+
+TEST(PathInTissue, IsClippedAtTheSkinBothWays) {
+  const auto in = straight([](double t) { return ramp(t, 20.0) + 0.037; }, 3.0);
+  EXPECT_NEAR(number(in, "path_in_tissue"), 40.037, 0.04);
+  const auto out = straight([](double t) { return 30.013 - 20.0 * t; }, 3.0);
+  EXPECT_NEAR(number(out, "path_in_tissue"), 30.013, 0.03);
+  EXPECT_EQ(number(straight([](double t) { return -30.0 + t; }, 3.0), "path_in_tissue"), 0.0);
+}
+
+TEST(PathInefficiency, OfAStraightWayIsZeroAndNullNearTheSkin) {
+  EXPECT_NEAR(number(straight([](double t) { return ramp(t, 20.0); }, 3.0), "path_inefficiency"), 0.0, 0.1);
+  EXPECT_EQ(value(straight([](double t) { return ramp(t, 20.0); }, 1.2), "path_inefficiency").reason,
+            "under_5_mm_from_the_skin");
+  EXPECT_EQ(value(straight([](double t) { return 20.0 - 20.0 * t; }, 3.0), "path_inefficiency").reason,
+            "not_in_tissue_at_the_end");
+}
+
+TEST(PathInefficiency, IgnoresJiggleAndCountsLongerExcursions) {
+  // In to 40 mm, then to and fro by `swing` mm, `times` times, and on to 60.
+  const auto inefficiency = [](double swing_mm, int times, double last_mm) {
+    const double speed = 20.0;
+    std::vector<double> turns = {-20.0, 40.0};
+    for (int i = 0; i < times; ++i) turns.insert(turns.end(), {40.0 - swing_mm, 40.0});
+    turns.push_back(last_mm);
+    double seconds = 0.0;
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) seconds += std::abs(turns[i + 1] - turns[i]) / speed;
+    return number(straight(
+                      [=](double t) {
+                        double left_mm = t * speed;
+                        for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+                          const double way_mm = turns[i + 1] - turns[i];
+                          if (left_mm <= std::abs(way_mm)) return turns[i] + std::copysign(left_mm, way_mm);
+                          left_mm -= std::abs(way_mm);
+                        }
+                        return turns.back();
+                      },
+                      seconds),
+                  "path_inefficiency");
+  };
+  EXPECT_NEAR(inefficiency(4.5, 6, 60.0), 0.0, 1.0);
+  EXPECT_NEAR(inefficiency(8.0, 1, 60.0), 100.0 * 16.0 / 60.0, 1.5);
+  EXPECT_NEAR(inefficiency(4.5, 1, 38.0), 0.0, 1.5) << "a last turn back by 2 mm";
+}
+
+TEST(SweptArea, OfAFanIsItsClosedForm) {
+  // 60 mm deep, turned by 10° about the entry: ½ · 60² · π/18 mm² (assessment.md §8).
+  for (const double seconds : {1.0, 6.0}) {
+    const auto fan = [&](double t) { return 10.0 * std::numbers::pi / 180.0 * std::clamp(t / seconds, 0.0, 1.0); };
+    auto recording = straight([](double) { return 0.0; }, seconds + 8.0);
+    for (auto& pose : recording.poses) {
+      const double angle = fan(pose.t_s - 7.0), depth = std::fmin(-10.0 + 10.0 * pose.t_s, 60.0);
+      pose.needle_direction = {std::sin(angle), std::cos(angle), 0.0};
+      pose.tip_lps_mm = depth * pose.needle_direction;
+    }
+    recording.endpoint->tip_lps_mm = recording.poses.back().tip_lps_mm;
+    EXPECT_NEAR(number(recording, "swept_area"), 314.1592653589793, 0.314) << seconds;
+  }
+  EXPECT_NEAR(number(straight([](double t) { return ramp(t, 20.0); }, 4.0), "swept_area"), 0.0, 1e-9);
+}
+
+// A minimum-jerk reach: −ln(720/(15/8)²) = −ln 204.8 (assessment.md §8).
+glm::dvec3 minimum_jerk(double t_s, double length_mm, double seconds) {
+  const double s = std::clamp(t_s / seconds, 0.0, 1.0);
+  return {0.0, 20.0 + length_mm * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s), 0.0};
+}
+
+TEST(Smoothness, OfAMinimumJerkReachIsItsClosedForm) {
+  constexpr double kExact = -5.322033893165353;
+  for (const double seconds : {2.0, 3.0, 5.0}) {
+    std::vector<glm::dvec3> samples;
+    for (int i = 0; i <= static_cast<int>(std::lround(seconds * 1000.0)); ++i)
+      samples.push_back(minimum_jerk(i / 1000.0, 50.0, seconds));
+    const auto raw = log_dimensionless_jerk(samples, 1000.0);
+    ASSERT_TRUE(raw.has_value());
+    EXPECT_NEAR(*raw, kExact, 0.001 * 5.322) << seconds;
+    // Through resampling and filter, rest before and after, with its limits given.
+    for (const double rate_hz : {100.0, 1000.0}) {
+      auto recording = straight([](double) { return 20.0; }, seconds + 2.0, rate_hz);
+      for (auto& pose : recording.poses) pose.tip_lps_mm = minimum_jerk(pose.t_s - 1.0, 50.0, seconds);
+      const auto signals = make_signals(setting(), recording);
+      ASSERT_TRUE(signals.has_value());
+      const auto filtered = log_dimensionless_jerk(*signals, 1.0, 1.0 + seconds);
+      ASSERT_TRUE(filtered.has_value());
+      EXPECT_NEAR(*filtered, kExact, 0.02 * 5.322) << seconds << " at " << rate_hz;
+    }
+  }
+}
+
+TEST(Smoothness, IsLessOfAnInterruptedReachAndNullOfASlowOne) {
+  const auto of = [](const std::function<double(double)>& depth_mm) { return straight(depth_mm, 6.0); };
+  const auto reach = of([](double t) { return minimum_jerk(t - 1.0, 50.0, 3.0).y; });
+  const auto trembling = of([](double t) { return minimum_jerk(t - 1.0, 50.0, 3.0).y + 0.5 * std::sin(25.0 * t); });
+  EXPECT_GT(number(reach, "ldlj"), number(trembling, "ldlj") + 2.0);
+  EXPECT_EQ(value(of([](double t) { return 20.0 + 4.5 * t; }), "ldlj").reason, "no_movement_of_5_mm_s");
+  EXPECT_FALSE(log_dimensionless_jerk(std::vector<glm::dvec3>(3, glm::dvec3(1.0)), 100.0).has_value());
 }
 
 TEST(Endpoint, AccessNeedleCountsFromTheTip) {
@@ -269,10 +396,10 @@ TEST(Visibility, NearThePlaneIsOfUltrasoundThatWasRecordedSo) {
   EXPECT_NEAR(number(recording, "vis_joint_2_mm", s), 0.1, 1e-9);
   EXPECT_NEAR(number(recording, "vis_joint_5_mm", s), 0.6, 1e-9);
   EXPECT_EQ(value(recording, "vis_joint_2_mm").reason, "not_ultrasound");
-  EXPECT_FALSE(applies(value(recording, "vis_joint_2_mm")));
+  EXPECT_FALSE(applies(value(recording, "vis_joint_2_mm"), manner_of(setting())));
   recording.frames[7].near_plane.reset();
   EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "near_plane_not_recorded");
-  EXPECT_TRUE(applies(value(recording, "vis_joint_5_mm", s)));
+  EXPECT_TRUE(applies(value(recording, "vis_joint_5_mm", s), manner_of(s)));
   s.approach = cases::Approach::out_of_plane;
   EXPECT_EQ(value(recording, "vis_joint_5_mm", s).reason, "not_meaningful_out_of_plane");
 }
@@ -281,6 +408,132 @@ TEST(Visibility, TheNeedlesLengthIsAMeanOverTheTime) {
   auto recording = straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 10.0);
   for (auto& frame : recording.frames) frame.needle_length_mm = frame.t_s < 4.0 ? 40.0 : 8.0;
   EXPECT_NEAR(number(recording, "visible_needle_length"), (2.0 * 40.0 + 6.0 * 8.0) / 8.0, 1e-9);
+}
+
+TEST(Visibility, OfTheSessionCountsWhatIsOutsideTissueToo) {
+  auto recording = straight([](double t) { return t < 5.0 ? -5.0 : 30.0; }, 10.0);
+  for (auto& frame : recording.frames) frame.target = frame.t_s < 7.0;
+  EXPECT_NEAR(number(recording, "vis_joint_session"), 0.7, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_joint"), 0.4, 1e-9);
+  for (auto& frame : recording.frames) frame.needle_length_mm = frame.t_s < 6.0 ? 3.0 : 0.0;
+  EXPECT_NEAR(number(recording, "vis_shaft"), 0.2, 1e-9);
+}
+
+TEST(BlindAdvance, IsWhatNobodySaw) {
+  // 10 mm/s from the skin: seen from 1 to 2 s, and by one picture at 4 s.
+  auto recording = straight([](double t) { return 10.0 * t; }, 6.0);
+  for (auto& frame : recording.frames)
+    frame.needle_tip = (frame.t_s >= 1.0 && frame.t_s < 2.0) || std::abs(frame.t_s - 4.0) < 0.005;
+  EXPECT_NEAR(number(recording, "blind_advance"), 50.0 - 0.1, 1e-6);
+  EXPECT_NEAR(number(recording, "blind_advance_max"), 20.0, 1e-6);
+  EXPECT_NEAR(number(recording, "advance_visible_share"), 10.1 / 60.0, 1e-6);
+  for (auto& frame : recording.frames) frame.live = false;
+  EXPECT_NEAR(number(recording, "blind_advance_max"), 60.0, 1e-6) << "a frozen picture shows nothing";
+  EXPECT_EQ(number(straight([](double) { return 20.0; }, 3.0), "blind_advance"), 0.0);
+  EXPECT_EQ(value(straight([](double) { return -20.0; }, 3.0), "blind_advance").reason, "never_in_tissue");
+}
+
+TEST(PlaneAngle, IsAveragedOverTheWay) {
+  // In plane for 10 mm, then at 30° to it for 20 mm; a rest counts nothing.
+  auto recording =
+      straight([](double t) { return t < 1.0   ? 10.0 * t
+                                     : t < 5.0 ? 10.0
+                                               : 10.0 + 10.0 * (t - 5.0); }, 7.0);
+  for (auto& pose : recording.poses) {
+    pose.probe_axial = {0.0, 1.0, 0.0};
+    pose.probe_lateral = pose.t_s < 3.0 ? glm::dvec3(1, 0, 0) : glm::dvec3(std::cos(0.3), 0.0, std::sin(0.3));
+    if (pose.t_s > 3.0) pose.probe_axial = {0.0, std::cos(std::numbers::pi / 6), std::sin(std::numbers::pi / 6)};
+    if (pose.t_s > 3.0) pose.probe_lateral = {1.0, 0.0, 0.0};
+  }
+  EXPECT_NEAR(number(recording, "plane_angle_mean"), 20.0, 1e-6);
+  EXPECT_NEAR(number(recording, "plane_angle_max"), 30.0, 1e-6);
+  for (auto& pose : recording.poses) pose.probe_lateral = pose.probe_axial;
+  EXPECT_EQ(value(recording, "plane_angle_mean").reason, "no_picture_plane");
+}
+
+TEST(AdvanceBeyondPlane, CountsFromThreeMillimetresOnTheFarSide) {
+  AttemptSetting s = setting();
+  s.modality = cases::Modality::ultrasound;
+  s.approach = cases::Approach::out_of_plane;
+  auto recording = straight([](double t) { return 10.0 * t; }, 5.0);
+  for (auto& pose : recording.poses) {  // the plane lies across the needle, 30 mm deep
+    pose.probe_origin_lps_mm = {0.0, 30.0, 0.0};
+    pose.probe_axial = {0.0, 0.0, 1.0};
+    pose.probe_lateral = {1.0, 0.0, 0.0};
+  }
+  EXPECT_NEAR(number(recording, "advance_beyond_plane", s), 17.0, 1e-6);
+  for (auto& pose : recording.poses) pose.probe_lateral = -pose.probe_lateral;
+  EXPECT_NEAR(number(recording, "advance_beyond_plane", s), 17.0, 1e-6) << "a plane has no side of its own";
+  EXPECT_EQ(value(recording, "advance_beyond_plane").reason, "not_meaningful_in_plane");
+  EXPECT_EQ(value(recording, "blind_advance", s).reason, "not_meaningful_out_of_plane");
+  EXPECT_EQ(value(recording, "probe_drift_advancing", s).reason, "not_meaningful_out_of_plane");
+}
+
+TEST(ProbeDrift, CountsWhileTheNeedleAdvances) {
+  // The probe slides by 2 mm/s from 1 to 6 s; the needle advances from 3 s on.
+  auto recording = straight([](double t) { return t < 3.0 ? 5.0 : 5.0 + 10.0 * (t - 3.0); }, 6.0);
+  for (auto& pose : recording.poses) pose.probe_origin_lps_mm.z = 2.0 * std::clamp(pose.t_s - 1.0, 0.0, 5.0);
+  EXPECT_NEAR(number(recording, "probe_drift_advancing"), 6.0 - 1.0, 0.1) << "less 1 mm of play";
+  for (auto& pose : recording.poses) pose.probe_origin_lps_mm.z = 0.45 * std::sin(5.0 * pose.t_s);
+  EXPECT_EQ(number(recording, "probe_drift_advancing"), 0.0) << "a probe that breathes with the skin";
+}
+
+TEST(Entry, IsHeldAgainstThePlan) {
+  AttemptSetting s = setting();
+  const auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
+  EXPECT_EQ(value(recording, "entry_angle_error", s).reason, "no_plan");
+  s.plan = PlannedEntry{{3.0, 0.0, 4.0}, {std::sin(0.2), std::cos(0.2), 0.0}};
+  EXPECT_NEAR(number(recording, "entry_angle_error", s), 0.2 * 180.0 / std::numbers::pi, 1e-9);
+  EXPECT_NEAR(number(recording, "entry_point_error", s), 5.0, 1e-9);
+  EXPECT_EQ(value(straight([](double) { return 20.0; }, 3.0), "entry_angle_error", s).reason, "never_punctured");
+}
+
+TEST(ClosestApproach, IsOfTheWholeWayAlsoBetweenPoses) {
+  // Past the target at 60 mm, 3 mm beside it, fast enough to skip it.
+  auto recording = straight([](double t) { return ramp(t, 50.0); }, 3.0, 20.0);
+  for (auto& pose : recording.poses) pose.tip_lps_mm.x = 3.0;
+  EXPECT_NEAR(number(recording, "closest_approach"), 3.0, 1e-9);
+  EXPECT_NEAR(number(recording, "tip_target_dist"), std::hypot(70.0, 0.0), 1e-9);
+}
+
+TEST(FirstPass, IsAHitByOnePunctureWithoutAWithdrawal) {
+  const auto to = [](double depth_mm) { return [=](double t) { return std::fmin(ramp(t, 20.0), depth_mm); }; };
+  EXPECT_EQ(number(straight(to(58.0), 5.0), "first_pass_success"), 1.0);
+  EXPECT_EQ(number(straight(to(50.0), 5.0), "first_pass_success"), 0.0) << "no hit";
+  const auto back = [](double t) {
+    return t < 3.0 ? ramp(t, 20.0) : t < 4.0 ? 40.0 - 10.0 * (t - 3.0) : 30.0 + 28.0 * (t - 4.0);
+  };
+  EXPECT_EQ(number(straight(back, 5.0), "hit"), 1.0);
+  EXPECT_EQ(number(straight(back, 5.0), "first_pass_success"), 0.0) << "a partial withdrawal";
+  const auto again = [](double t) {
+    return t < 1.0 ? 5.0 * t : t < 2.0 ? 5.0 - 10.0 * (t - 1.0) : -5.0 + 21.0 * (t - 2.0);
+  };
+  EXPECT_EQ(number(straight(again, 5.0), "hit"), 1.0);
+  EXPECT_EQ(number(straight(again, 5.0), "first_pass_success"), 0.0) << "a second puncture";
+  EXPECT_EQ(value(straight([](double) { return 58.0; }, 5.0), "first_pass_success").reason, "never_punctured");
+}
+
+TEST(Forces, ArePeaksUpToTheEndpoint) {
+  const auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
+  const std::vector<ForceSample> forces = {{0.5, 1.0, 0.2}, {1.0, -3.0, 0.7}, {2.0, 2.5, 0.1}, {3.5, 9.0, 9.0}};
+  const auto signals = make_signals(setting(), recording, forces);
+  ASSERT_TRUE(signals.has_value());
+  for (const MetricValue& metric : measure_all(*signals)) {
+    if (metric.id == "force_peak_axial") {
+      EXPECT_EQ(metric.value, 2.5) << "a pull back is no push";
+    }
+    if (metric.id == "lateral_force_peak") {
+      EXPECT_EQ(metric.value, 0.7);
+    }
+  }
+  EXPECT_EQ(value(recording, "force_peak_axial").reason, "no_device");
+}
+
+TEST(Times, InTissueAndFromPunctureToTrigger) {
+  const auto recording = straight([](double t) { return ramp(t, 20.0); }, 5.0);
+  EXPECT_NEAR(number(recording, "time_in_tissue"), 4.0, 0.011);
+  EXPECT_NEAR(number(recording, "time_puncture_to_target"), 3.9, 0.011) << "from 2 mm of depth on";
+  EXPECT_EQ(number(straight([](double) { return -9.0; }, 5.0), "time_in_tissue"), 0.0);
 }
 
 TEST(AdvanceVisibleShare, CountsWayNotTime) {
@@ -333,100 +586,6 @@ TEST(Signals, BadPosesAreRefused) {
   EXPECT_EQ(code([](auto& r) { r.poses[5].t_s = 0.0; }), "bad_poses");
   EXPECT_EQ(code([](auto& r) { r.poses[5].needle_direction *= 1.5; }), "bad_poses");
   EXPECT_EQ(code([](auto& r) { r.poses[6].t_s = r.poses[5].t_s; }), "accepted");
-}
-
-// --- laws of every metric (assessment.md §8)
-// ----------------------------------------------------------------------
-
-cases::Recording lively() {
-  auto recording = straight(
-      [](double t) {
-        return t < 2.0   ? -20.0 + 16.0 * t
-               : t < 5.0 ? 12.0 * (t - 1.0)
-               : t < 6.0 ? 48.0 - 12.0 * (t - 5.0)
-                         : 36.0 + 9.0 * (t - 6.0);
-      },
-      8.0, 200.0);
-  for (auto& frame : recording.frames) {
-    frame.needle_tip = std::sin(3.0 * frame.t_s) > -0.3;
-    frame.target = std::sin(2.0 * frame.t_s) > 0.0;
-  }
-  for (auto& pose : recording.poses) pose.tip_lps_mm.x = 3.0 * std::sin(pose.t_s);
-  recording.endpoint->tip_lps_mm = recording.poses.back().tip_lps_mm;
-  return recording;
-}
-
-void expect_equal_metrics(const cases::Recording& a, const AttemptSetting& sa, const cases::Recording& b,
-                          const AttemptSetting& sb, double relative) {
-  const auto signals_a = make_signals(sa, a), signals_b = make_signals(sb, b);
-  ASSERT_TRUE(signals_a.has_value() && signals_b.has_value());
-  const auto values_a = measure_all(*signals_a), values_b = measure_all(*signals_b);
-  ASSERT_EQ(values_a.size(), registry().size());
-  for (std::size_t i = 0; i < values_a.size(); ++i) {
-    ASSERT_EQ(values_a[i].value.has_value(), values_b[i].value.has_value()) << values_a[i].id;
-    if (!values_a[i].value) continue;
-    EXPECT_NEAR(*values_a[i].value, *values_b[i].value, relative * (1.0 + std::abs(*values_a[i].value)))
-        << values_a[i].id;
-  }
-}
-
-TEST(EveryMetric, IsTheSameInAnotherFrameOfReference) {
-  // A rotation by 90° about z and a large shift: float vertices stay exact.
-  const auto moved = [](const glm::dvec3& p) { return glm::dvec3(-p.y, p.x, p.z) + glm::dvec3(512, -1024, 256); };
-  const auto turned = [](const glm::dvec3& v) { return glm::dvec3(-v.y, v.x, v.z); };
-  auto mesh = fixtures::box_mesh({-200, 0, -200}, {200, 200, 200});
-  for (glm::vec3& v : mesh.vertices_lps_mm) v = glm::vec3(moved(glm::dvec3(v)));
-  const cases::MeshIndex skin(mesh);
-  AttemptSetting there = setting();
-  there.skin = &skin;
-  there.target->center_lps_mm = moved(there.target->center_lps_mm);
-  const auto here = lively();
-  auto other = here;
-  for (auto& pose : other.poses) {
-    pose.tip_lps_mm = moved(pose.tip_lps_mm);
-    pose.needle_direction = turned(pose.needle_direction);
-  }
-  other.endpoint->tip_lps_mm = moved(other.endpoint->tip_lps_mm);
-  other.endpoint->direction = turned(other.endpoint->direction);
-  expect_equal_metrics(here, setting(), other, there, 1e-9);
-}
-
-TEST(EveryMetric, IsTheSameAtAnotherTime) {
-  const auto here = lively();
-  auto later = here;
-  for (auto& pose : later.poses) pose.t_s += 1000.0;
-  for (auto& frame : later.frames) frame.t_s += 1000.0;
-  later.endpoint->t_s += 1000.0;
-  expect_equal_metrics(here, setting(), later, setting(), 1e-9);
-}
-
-TEST(EveryMetric, DoesNotChangeWithRepeatedSamples) {
-  const auto here = lively();
-  auto doubled = here;
-  doubled.poses.clear();
-  for (const auto& pose : here.poses) doubled.poses.insert(doubled.poses.end(), 2, pose);
-  expect_equal_metrics(here, setting(), doubled, setting(), 0.0);
-}
-
-TEST(EveryMetric, BarelyChangesWithTheSamplingRate) {
-  const auto here = lively();
-  auto half = here;
-  half.poses.clear();
-  for (std::size_t i = 0; i < here.poses.size(); i += 2) half.poses.push_back(here.poses[i]);
-  expect_equal_metrics(here, setting(), half, setting(), 0.01);
-}
-
-TEST(Registry, IdsAreUniqueAndEveryRowIsComplete) {
-  std::vector<std::string> ids;
-  for (const MetricInfo& info : registry()) {
-    EXPECT_EQ(std::count(ids.begin(), ids.end(), info.id), 0) << info.id;
-    ids.emplace_back(info.id);
-    EXPECT_GE(info.version, 1);
-    for (const char* text : {info.unit, info.label, info.definition, info.source})
-      EXPECT_GT(std::string(text).size(), 0U);
-    EXPECT_EQ(find_metric(info.id), &info);
-  }
-  EXPECT_EQ(find_metric("nothing"), nullptr);
 }
 
 }  // namespace

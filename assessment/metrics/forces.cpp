@@ -1,0 +1,39 @@
+// Metrics of the needle's force, where a device or its model gave one.
+#include <algorithm>
+#include <cmath>
+
+#include "assessment/metrics/tables.h"
+#include "assessment/signals.h"
+
+namespace seldinger::assessment {
+namespace {
+
+Measured force_peak_axial(const Signals& signals) {
+  double peak_n = 0.0;
+  for (const ForceSample& force : signals.forces) peak_n = std::max(peak_n, force.axial_n);
+  return Measured::of(peak_n);
+}
+
+Measured lateral_force_peak(const Signals& signals) {
+  double peak_n = 0.0;
+  for (const ForceSample& force : signals.forces) peak_n = std::max(peak_n, std::abs(force.lateral_n));
+  return Measured::of(peak_n);
+}
+
+constexpr const char* kModel = "model force: what the needle's law commanded, not what a hand felt";
+
+constexpr MetricInfo kMetrics[] = {
+    {"force_peak_axial", 1, "N", "Peak axial force", Group::safety, Direction::lower_is_better, kForces,
+     "Greatest force along the needle against its insertion, up to the endpoint.", kModel, &force_peak_axial},
+    {"lateral_force_peak", 1, "N", "Peak lateral force", Group::safety, Direction::lower_is_better, kForces,
+     "Greatest force across the needle, up to the endpoint: it bends the needle and tears the organ.", kModel,
+     &lateral_force_peak},
+};
+
+}  // namespace
+
+std::span<const MetricInfo> force_metrics() {
+  return kMetrics;
+}
+
+}  // namespace seldinger::assessment

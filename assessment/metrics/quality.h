@@ -1,0 +1,18 @@
+// Whether an attempt's recording is good enough to be graded.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "assessment/metrics/metric.h"
+
+namespace seldinger::assessment {
+
+constexpr double kMaxGapShare = 0.05, kMinSampleRateHz = 60.0;  // assessment.md §8
+
+// Why an attempt with these metrics is not to be graded, as a stable code; empty when it is. `too_short` (no time
+// passed), `tracking_gaps` (over 5 % of the time), `tracking_slow` (under 60 Hz in over 5 % of the time),
+// `tracking_jumps` (any), `quality_not_measured` (stored before these were).
+std::string why_not_gradable(std::span<const MetricValue> metrics);
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,40 @@
+// The tables that make up the registry: each stands in the file of its metrics, a row beside the function that it
+// names. What one metric takes from another file's is declared here, too.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "assessment/metrics/metric.h"
+
+namespace seldinger::assessment {
+
+std::span<const MetricInfo> endpoint_metrics();
+std::span<const MetricInfo> approach_metrics();
+std::span<const MetricInfo> structure_metrics();
+std::span<const MetricInfo> puncture_metrics();
+std::span<const MetricInfo> visibility_metrics();
+std::span<const MetricInfo> advance_metrics();
+std::span<const MetricInfo> path_metrics();
+std::span<const MetricInfo> force_metrics();
+std::span<const MetricInfo> time_metrics();
+std::span<const MetricInfo> fluoroscopy_metrics();
+std::span<const MetricInfo> recording_metrics();
+
+// At the endpoint; there is one, and a target.
+bool target_hit(const Signals& signals);
+
+struct PunctureCounts {
+  int punctures = 0, full_withdrawals = 0, partial_withdrawals = 0;
+  // Of the first puncture that counted: when it was 2 mm deep, and the first pose of it in the body.
+  std::optional<double> first_s;
+  std::size_t first_pose = 0;
+};
+PunctureCounts count_punctures(const Signals& signals);
+
+// Sources that more than one table names.
+inline constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";
+inline constexpr const char* kJohnson = "Johnson et al., BJR 85 (2012) 555, doi 10.1259/bjr/47436030";
+inline constexpr const char* kSites = "Sites et al., Reg. Anesth. Pain Med. 32 (2007) 107: the commonest errors";
+
+}  // namespace seldinger::assessment
