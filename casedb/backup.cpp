@@ -29,7 +29,7 @@ struct Listed {
 };
 using List = std::map<std::string, Listed>;  // by the name below the folder
 
-// Copies a file durably and tells what was copied.
+// Copies a file into a new folder and tells what was copied.
 Listed copy_file(const fs::path& from, const fs::path& to, unsigned mode) {
   const OpenFile in(from);
   NewFile out(to, mode);
@@ -41,7 +41,7 @@ Listed copy_file(const fs::path& from, const fs::path& to, unsigned mode) {
     out.write(piece);
     copied.bytes += piece.size();
   }
-  out.keep();
+  out.keep_unsynced();
   copied.sha256 = hash.hex();
   return copied;
 }
@@ -165,7 +165,6 @@ base::Result<Copied> backed_up(Library& library, const fs::path& out, const std:
     if (const auto sound = check_copy(folder, list); !sound) return sound.error();
     const std::string text = text_of(list, program_version);
     write_durably(folder / kListFile, std::as_bytes(std::span(text)));
-    sync_folder(folder / kAssetsFolder);
     if (!made.keep()) return exists;
     parents.keep();
     return sum_of(list);
@@ -192,7 +191,6 @@ base::Result<Copied> restored(const fs::path& in, const fs::path& folder) {
   }
   if (const auto sound = check_copy(made.unfinished(), *list); !sound) return sound.error();
   fs::permissions(made.unfinished(), fs::perms(0750));
-  sync_folder(made.unfinished() / kAssetsFolder);
   if (!made.keep()) return exists;
   parents.keep();
   return sum_of(*list);

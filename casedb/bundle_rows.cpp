@@ -20,7 +20,9 @@ using Kind = Statement::Kind;
 
 // --- writing
 void put(std::vector<std::byte>& out, std::span<const std::byte> bytes) {
-  out.insert(out.end(), bytes.begin(), bytes.end());
+  const std::size_t at = out.size();
+  out.resize(at + bytes.size());
+  if (!bytes.empty()) std::memcpy(out.data() + at, bytes.data(), bytes.size());
 }
 template <typename Number>
 void put_number(std::vector<std::byte>& out, Number value) {

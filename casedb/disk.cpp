@@ -130,12 +130,16 @@ void NewFile::write(std::span<const std::byte> bytes) {
 
 void NewFile::keep() {
   sync_descriptor(descriptor_);
+  keep_unsynced();
+  sync_folder(file_.has_parent_path() ? file_.parent_path() : fs::path("."));
+}
+
+void NewFile::keep_unsynced() {
   const int closed = ::close(descriptor_);  // some file systems tell of a full disk only here
   descriptor_ = -1;
   if (closed != 0) fail("a file cannot be written", errno);
   if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail("a file cannot be renamed", errno);
   temporary_.clear();
-  sync_folder(file_.has_parent_path() ? file_.parent_path() : fs::path("."));
 }
 
 bool is_temporary_name(const std::string& name) noexcept {
@@ -244,7 +248,8 @@ NewFolder::~NewFolder() {
 }
 
 bool NewFolder::keep() {
-  sync_descriptor(descriptor_);
+  // One by one, thousands of files would take minutes.
+  if (::syncfs(descriptor_) != 0) fail("a folder cannot be written", errno);
   if (::rename(unfinished_.c_str(), folder_.c_str()) != 0) {
     if (errno == ENOTEMPTY || errno == EEXIST || errno == ENOTDIR) return false;
     fail("a folder cannot be renamed", errno);

@@ -41,7 +41,8 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
   void write(std::span<const std::byte> bytes);
-  void keep();  // takes the place of what had that name
+  void keep();           // takes the place of what had that name
+  void keep_unsynced();  // within a NewFolder, which syncs all it holds at once
 
  private:
   std::filesystem::path file_, temporary_;
@@ -85,7 +86,8 @@ class NewFolders {
 };
 
 // A folder that appears whole under its name, or not at all: made as `<name>.unfinished` beside it, readable by its
-// owner only, and taken away with all it holds unless kept. One left by a killed process is replaced.
+// owner only, synced with all it holds when it is kept, and taken away with it unless. One left by a killed process
+// is replaced.
 class NewFolder {
  public:
   explicit NewFolder(const std::filesystem::path& folder);
