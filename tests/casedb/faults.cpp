@@ -83,11 +83,13 @@ int x_truncate(sqlite3_file* f, sqlite3_int64 size) {
   if (struck == Strike::fail) return SQLITE_IOERR_TRUNCATE;
   return real(f)->pMethods->xTruncate(real(f), size);
 }
-int x_sync(sqlite3_file* f, int flags) {
+// What a process wrote outlives its kill; only a loss of power, which is not tried here, asks for more. So the
+// tests need not wait for the disk.
+int x_sync(sqlite3_file*, int) {
   const Strike struck = strike(true);
   if (struck == Strike::die) die();
   if (struck == Strike::fail) return SQLITE_IOERR_FSYNC;
-  return real(f)->pMethods->xSync(real(f), flags);
+  return SQLITE_OK;
 }
 int x_file_size(sqlite3_file* f, sqlite3_int64* size) {
   return real(f)->pMethods->xFileSize(real(f), size);
@@ -182,7 +184,6 @@ void call_all_file_systems_network(bool on) {
 using seldinger::faults::Kind;
 extern "C" {
 ssize_t __real_write(int descriptor, const void* bytes, size_t count);
-int __real_fsync(int descriptor);
 int __real_rename(const char* from, const char* to);
 int __real_open(const char* path, int flags, ...);
 int __real_statfs(const char* path, struct statfs* about);
@@ -206,12 +207,12 @@ ssize_t __wrap_write(int descriptor, const void* bytes, size_t count) {
   return -1;
 }
 
-int __wrap_fsync(int descriptor) {
+int __wrap_fsync(int) {
   switch (seldinger::faults::strike(true)) {
     case seldinger::faults::Strike::die:
       seldinger::faults::die();
     case seldinger::faults::Strike::no:
-      return __real_fsync(descriptor);
+      return 0;  // as x_sync
     default:
       errno = EIO;
       return -1;

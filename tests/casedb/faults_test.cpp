@@ -137,6 +137,7 @@ class FaultsTest : public testing::TestWithParam<std::tuple<Work, Kind>> {
   Outcome under(const faults::Plan& plan, Work what) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
+    std::fflush(nullptr);  // what is not out yet would be said twice
     const pid_t child = ::fork();
     if (child == 0) {
       ::close(ends[0]);
