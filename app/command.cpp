@@ -30,6 +30,12 @@ constexpr Option kLesionOptions[] = {kLibrary,
                                      {"--radius-mm", "R", "radius"},
                                      {"--hu", "H", "its HU"},
                                      kJson};
+constexpr Option kBundleOptions[] = {
+    kLibrary, {"--out", "FILE.sdbundle", "the file; replaced when it is there"}, kJson};
+constexpr Option kCheckOptions[] = {
+    kLibrary,
+    {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
+    kJson};
 constexpr Option kRenderOptions[] = {
     {"--out", "FILE", ".mha: float32 in the picture's unit (HU, line integral, …); .png: what a person sees"},
     {"--backend", "gpu|cpu|reference", "default gpu where GL 4.3 has hardware, else cpu"},
@@ -116,6 +122,22 @@ constexpr Command kCommands[] = {
     {"case list", "", 0, 0, kLibraryJson, "Lists the cases, oldest first.", &run_case_list},
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
+    {"case bundle", "CASE", 1, 1, kBundleOptions,
+     "Writes a case as one checked file for another library; attempts and people stay.", &run_case_bundle},
+    {"bundle export", "", 0, 0, kBundleOptions, "Writes every case of a library as one such file.",
+     &run_bundle_export},
+    {"bundle import", "FILE.sdbundle", 1, 1, kLibraryJson,
+     "Checks such a file and takes its cases into the library, all or none; a case that is there already stays.",
+     &run_bundle_import},
+    {"bundle check", "FILE.sdbundle", 1, 1, kJsonOnly, "Checks such a file, every byte of it.", &run_bundle_check},
+    {"backup", "OUT", 1, 1, kLibraryJson,
+     "Copies a library, also one in use, into a new folder and checks the copy. It holds names: keep it as safe.",
+     &run_backup},
+    {"restore", "IN", 1, 1, kLibraryJson,
+     "Makes a library from a backup, checked before it is there; never over another.", &run_restore},
+    {"check", "", 0, 0, kCheckOptions,
+     "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not hold.",
+     &run_check},
     {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound).", &run_render},
     {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.",
      &run_sheet},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -21,6 +22,18 @@ const std::string& unmatchable_hash();
 void fill_random(std::span<std::byte> bytes) noexcept;
 std::string random_password();  // 20 characters that are not mistaken for each other: 115 bits
 std::string sha256_hex(std::span<const std::byte> bytes);
+// The same, of bytes that come in pieces.
+class Sha256 {
+ public:
+  Sha256();
+  ~Sha256();
+  void add(std::span<const std::byte> bytes);
+  std::string hex();  // once, at the end
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 void wipe(std::string& secret) noexcept;  // overwrites, then empties
 
 }  // namespace seldinger::casedb

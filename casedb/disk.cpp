@@ -7,17 +7,20 @@
 #include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "sim/base/check.h"
-#include "sim/base/failure.h"
 
 namespace seldinger::casedb {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kTemporary = ".tmp-";  // then the process and a number
 
 [[noreturn]] void fail(const std::string& doing, int error) {
   if (error == ENOSPC || error == EDQUOT || error == EFBIG) throw base::Failure("disk", "the disk is full");
@@ -36,33 +39,9 @@ class Descriptor {
     if (value_ >= 0) ::close(value_);
   }
   int get() const noexcept { return value_; }
-  void close() {  // some file systems tell of a full disk only here
-    const int result = ::close(value_);
-    value_ = -1;
-    if (result != 0) fail("a file cannot be written", errno);
-  }
 
  private:
   int value_;
-};
-
-// Removes the temporary file unless it was renamed.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (!path_.empty()) ::unlink(path_.c_str());
-  }
-  const fs::path& path() const noexcept { return path_; }
-  void rename_to(const fs::path& file) {
-    if (::rename(path_.c_str(), file.c_str()) != 0) fail("a file cannot be renamed", errno);
-    path_.clear();
-  }
-
- private:
-  fs::path path_;
 };
 
 void write_all(int descriptor, std::span<const std::byte> bytes) {
@@ -119,27 +98,92 @@ void sync_folder(const fs::path& folder) {
   sync_descriptor(Descriptor(folder, O_RDONLY | O_DIRECTORY).get());
 }
 
-void write_durably(const fs::path& file, std::span<const std::byte> bytes) {
+NewFile::NewFile(const fs::path& file, unsigned mode) : file_(file) {
   static std::atomic<unsigned> next{0};
-  fs::path name = file;
-  name += ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(next++);
-  TemporaryFile temporary(name);
-  Descriptor out(temporary.path(), O_WRONLY | O_CREAT | O_TRUNC, 0660);
-  write_all(out.get(), bytes);
-  sync_descriptor(out.get());
-  out.close();
-  temporary.rename_to(file);
-  sync_folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  // A second round only when somebody took our file for an abandoned one before it was locked.
+  for (int round = 0; round < 10; ++round) {
+    temporary_ = file;
+    temporary_ += kTemporary + std::to_string(::getpid()) + "-" + std::to_string(next++);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, static_cast<mode_t>(mode));
+    if (descriptor_ < 0) fail("a file cannot be opened", errno);
+    struct stat about {};
+    lock_ = ::dup(descriptor_);  // shares the lock and outlives the closing, until the file has its name
+    if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0 && ::fstat(lock_, &about) == 0 && about.st_nlink > 0)
+      return;
+    ::unlink(temporary_.c_str());
+    ::close(descriptor_);
+    if (lock_ >= 0) ::close(lock_);
+    descriptor_ = lock_ = -1;
+  }
+  throw base::Failure("disk", "a file cannot be written");
 }
 
-std::vector<std::byte> read_whole(const fs::path& file) {
-  const Descriptor in(file, O_RDONLY);
+NewFile::~NewFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+void NewFile::write(std::span<const std::byte> bytes) {
+  write_all(descriptor_, bytes);
+}
+
+void NewFile::keep() {
+  sync_descriptor(descriptor_);
+  keep_unsynced();
+  sync_folder(file_.has_parent_path() ? file_.parent_path() : fs::path("."));
+}
+
+void NewFile::keep_unsynced() {
+  const int closed = ::close(descriptor_);  // some file systems tell of a full disk only here
+  descriptor_ = -1;
+  if (closed != 0) fail("a file cannot be written", errno);
+  if (::rename(temporary_.c_str(), file_.c_str()) != 0) fail("a file cannot be renamed", errno);
+  temporary_.clear();
+}
+
+bool is_temporary_name(const std::string& name) noexcept {
+  const std::size_t at = name.find(kTemporary);
+  return at != std::string::npos &&
+         name.find_first_not_of("0123456789-", at + std::string_view(kTemporary).size()) == std::string::npos;
+}
+
+bool is_abandoned(const fs::path& temporary, bool remove) {
+  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const bool free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+  if (free && remove) ::unlink(temporary.c_str());  // still locked: nobody begins to write it meanwhile
+  ::close(descriptor);
+  return free;
+}
+
+void write_durably(const fs::path& file, std::span<const std::byte> bytes) {
+  NewFile made(file);
+  made.write(bytes);
+  made.keep();
+}
+
+OpenFile::OpenFile(const fs::path& file) : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ < 0) fail("a file cannot be opened", errno);
   struct stat about {};
-  if (::fstat(in.get(), &about) != 0) fail("a file cannot be read", errno);
-  std::vector<std::byte> bytes(static_cast<std::size_t>(about.st_size));
+  if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
+    ::close(descriptor_);
+    throw base::Failure("disk", "a file cannot be read");
+  }
+  size_ = static_cast<std::uint64_t>(about.st_size);
+}
+
+OpenFile::~OpenFile() {
+  ::close(descriptor_);
+}
+
+std::vector<std::byte> OpenFile::read(std::uint64_t from, std::size_t count) const {
+  std::vector<std::byte> bytes(
+      from >= size_ ? 0 : static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - from)));
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t got = ::read(in.get(), bytes.data() + done, bytes.size() - done);
+    const ssize_t got =
+        ::pread(descriptor_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(from + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail("a file cannot be read", errno);
     if (got == 0) break;
@@ -147,6 +191,11 @@ std::vector<std::byte> read_whole(const fs::path& file) {
   }
   bytes.resize(done);
   return bytes;
+}
+
+std::vector<std::byte> read_whole(const fs::path& file) {
+  const OpenFile in(file);
+  return in.read(0, static_cast<std::size_t>(in.size()));
 }
 
 NewFolders::NewFolders(const fs::path& folder) {
@@ -168,6 +217,46 @@ NewFolders::NewFolders(const fs::path& folder) {
 
 NewFolders::~NewFolders() {
   for (auto made = made_.rbegin(); made != made_.rend(); ++made) ::rmdir(made->c_str());
+}
+
+NewFolder::NewFolder(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal()) {
+  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "a/"
+  unfinished_ = folder_;
+  unfinished_ += ".unfinished";
+  for (int round = 0; round < 10; ++round) {
+    if (::mkdir(unfinished_.c_str(), 0700) != 0 && errno != EEXIST) fail("a folder cannot be made", errno);
+    descriptor_ = ::open(unfinished_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor_ < 0) fail("a folder cannot be opened", errno);
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+      ::close(descriptor_);
+      descriptor_ = -1;
+      throw base::Failure("disk", "another program is writing there");
+    }
+    std::error_code error;
+    if (fs::is_empty(unfinished_, error) && !error) return;
+    fs::remove_all(unfinished_, error);
+    ::close(descriptor_);
+    descriptor_ = -1;
+  }
+  throw base::Failure("disk", "a folder cannot be made");
+}
+
+NewFolder::~NewFolder() {
+  std::error_code ignored;
+  if (!unfinished_.empty()) fs::remove_all(unfinished_, ignored);
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+bool NewFolder::keep() {
+  // One by one, thousands of files would take minutes.
+  if (::syncfs(descriptor_) != 0) fail("a folder cannot be written", errno);
+  if (::rename(unfinished_.c_str(), folder_.c_str()) != 0) {
+    if (errno == ENOTEMPTY || errno == EEXIST || errno == ENOTDIR) return false;
+    fail("a folder cannot be renamed", errno);
+  }
+  unfinished_.clear();
+  sync_folder(folder_.parent_path());
+  return true;
 }
 
 FolderLock::FolderLock(const fs::path& folder)

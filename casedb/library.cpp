@@ -16,9 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDatabase = "seldinger.sqlite";  // appears last: where it is, there is a library
-constexpr const char* kIdentities = "identities.sqlite";
-constexpr const char* kAssets = "assets";
 constexpr const char* kUnfinished = ".new";  // a database that is being made
 
 const base::Error kNoLibrary{"no_library", "there is no library in that folder"};
@@ -62,14 +59,14 @@ bool may_become_library(const fs::path& folder) {
   bool unfinished = false, identities = false, other = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(std::string(kDatabase) + kUnfinished))
+    if (name.starts_with(std::string(kDatabaseFile) + kUnfinished))
       unfinished = true;
-    else if (name == kIdentities)
+    else if (name == kIdentitiesFile)
       identities = true;
-    else if ((name == kAssets && entry.is_directory() && !entry.is_symlink() && fs::is_empty(entry.path())) ||
+    else if ((name == kAssetsFolder && entry.is_directory() && !entry.is_symlink() && fs::is_empty(entry.path())) ||
              name == "lost+found")  // the folder is a disk of its own
       continue;
-    else if (!name.starts_with(std::string(kIdentities) + kUnfinished))
+    else if (!name.starts_with(std::string(kIdentitiesFile) + kUnfinished))
       other = true;
   }
   return !other && (unfinished || !identities);
@@ -77,7 +74,7 @@ bool may_become_library(const fs::path& folder) {
 
 // Under the folder's lock.
 void create_in(const fs::path& folder) {
-  const fs::path database = folder / kDatabase, identities = folder / kIdentities;
+  const fs::path database = folder / kDatabaseFile, identities = folder / kIdentitiesFile;
   const fs::path new_database = database.string() + kUnfinished, new_identities = identities.string() + kUnfinished;
   try {
     // Until the last rename, names lie under their own name only beside the other's temporary one, so that
@@ -85,7 +82,7 @@ void create_in(const fs::path& folder) {
     remove_database(identities);
     make_database(new_database, library_schema(), 0660);
     make_database(new_identities, identities_schema(), 0600);
-    NewFolders assets(folder / kAssets);
+    NewFolders assets(folder / kAssetsFolder);
     fs::rename(new_identities, identities);
     sync_folder(folder);
     fs::rename(new_database, database);
@@ -97,21 +94,11 @@ void create_in(const fs::path& folder) {
   }
 }
 
-bool is_sha256(const std::string& text) noexcept {
+}  // namespace
+
+bool is_asset_name(const std::string& text) noexcept {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
-
-// std::filesystem's exceptions hold paths.
-template <typename Function>
-auto without_paths(const Function& function) {
-  try {
-    return function();
-  } catch (const fs::filesystem_error& error) {
-    throw base::Failure("disk", "the library's folder cannot be used: " + error.code().message());
-  }
-}
-
-}  // namespace
 
 struct Library::Parts {
   fs::path folder;
@@ -121,13 +108,13 @@ struct Library::Parts {
 
 base::Result<Library> Library::open(const fs::path& folder) {
   return without_paths([&]() -> base::Result<Library> {
-    if (!fs::is_directory(folder) || !fs::exists(folder / kDatabase)) return kNoLibrary;
+    if (!fs::is_directory(folder) || !fs::exists(folder / kDatabaseFile)) return kNoLibrary;
     if (lies_on_network(folder)) return kNetwork;
     require_room(folder);
-    if (!fs::exists(folder / kIdentities))
+    if (!fs::exists(folder / kIdentitiesFile))
       return base::Error{"damaged", "the library's database of names is missing; restore a backup"};
     auto parts = std::make_unique<Parts>(
-        Parts{fs::absolute(folder), Sqlite(folder / kDatabase), Sqlite(folder / kIdentities)});
+        Parts{fs::absolute(folder), Sqlite(folder / kDatabaseFile), Sqlite(folder / kIdentitiesFile)});
     const auto version = schema_version(parts->database, library_schema());
     if (!version) return version.error();
     const auto identities_version = schema_version(parts->identities, identities_schema());
@@ -140,7 +127,7 @@ base::Result<Library> Library::open(const fs::path& folder) {
     for (auto [database, schema] :
          {std::pair(&parts->database, library_schema()), std::pair(&parts->identities, identities_schema())})
       if (const auto migrated = migrate(*database, schema); !migrated) return migrated.error();
-    fs::create_directory(folder / kAssets);
+    fs::create_directory(folder / kAssetsFolder);
     return Library(std::move(parts));
   });
 }
@@ -152,13 +139,13 @@ base::Result<Library> Library::open_or_create(const fs::path& folder) {
       if (lies_on_network(folder)) return kNetwork;
       if (fs::exists(folder) && !fs::is_directory(folder))
         return base::Error{"not_a_library", "there is a file where the library's folder should be"};
-      if (fs::exists(folder / kDatabase)) return open(folder);
+      if (fs::exists(folder / kDatabaseFile)) return open(folder);
       require_room(folder);
       NewFolders made(folder);
       {
         const FolderLock lock(folder);
         if (!lock.still_there()) continue;
-        if (!fs::exists(folder / kDatabase)) {
+        if (!fs::exists(folder / kDatabaseFile)) {
           if (!may_become_library(folder))
             return base::Error{"not_a_library", "the folder is not empty and holds no library"};
           create_in(folder);
@@ -188,7 +175,7 @@ const fs::path& Library::folder() const noexcept {
 
 Library::StoredAsset Library::store_asset(std::span<const std::byte> bytes) {
   StoredAsset stored{sha256_hex(bytes), false};
-  const fs::path file = parts_->folder / kAssets / stored.sha256;
+  const fs::path file = parts_->folder / kAssetsFolder / stored.sha256;
   std::error_code missing;
   const auto size = fs::file_size(file, missing);
   if (!missing && size == bytes.size()) {
@@ -201,16 +188,16 @@ Library::StoredAsset Library::store_asset(std::span<const std::byte> bytes) {
 }
 
 void Library::remove_asset(const std::string& sha256) noexcept {
-  if (is_sha256(sha256)) ::unlink((parts_->folder / kAssets / sha256).c_str());
+  if (is_asset_name(sha256)) ::unlink((parts_->folder / kAssetsFolder / sha256).c_str());
 }
 
 bool Library::has_asset(const std::string& sha256) const noexcept {
-  return is_sha256(sha256) && ::access((parts_->folder / kAssets / sha256).c_str(), F_OK) == 0;
+  return is_asset_name(sha256) && ::access((parts_->folder / kAssetsFolder / sha256).c_str(), F_OK) == 0;
 }
 
 base::Result<std::vector<std::byte>> Library::load_asset(const std::string& sha256) const {
   if (!has_asset(sha256)) return base::Error{"asset_missing", "a file of the library is missing"};
-  std::vector<std::byte> bytes = read_whole(parts_->folder / kAssets / sha256);
+  std::vector<std::byte> bytes = read_whole(parts_->folder / kAssetsFolder / sha256);
   if (sha256_hex(bytes) != sha256) return base::Error{"asset_damaged", "a file of the library is damaged"};
   return bytes;
 }

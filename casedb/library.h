@@ -16,6 +16,13 @@ namespace seldinger::casedb {
 
 class Sqlite;
 
+// A library's parts, by their names in its folder.
+constexpr const char* kDatabaseFile = "seldinger.sqlite";  // appears last: where it is, there is a library
+constexpr const char* kIdentitiesFile = "identities.sqlite";
+constexpr const char* kAssetsFolder = "assets";
+
+bool is_asset_name(const std::string& text) noexcept;  // 64 digits of lower-case hexadecimal
+
 class Library {
  public:
   // Opens an existing library, migrating it (after a backup beside it) when its schema is older.

@@ -23,10 +23,6 @@ namespace fs = std::filesystem;
 // met when it is read, or by `seldinger check`.
 constexpr std::uintmax_t kQuickCheckBytes = 16U << 20;
 
-int newest_version(const Schema& schema) {
-  return static_cast<int>(schema.steps.size());
-}
-
 void check_step_names(const Schema& schema) {
   for (std::size_t i = 0; i < schema.steps.size(); ++i) {
     const std::string number = std::to_string(i + 1);
@@ -52,6 +48,10 @@ Schema library_schema() {
 
 Schema identities_schema() {
   return {0x534c4449, embedded::identity_migrations()};  // "SLDI"
+}
+
+int newest_version(const Schema& schema) {
+  return static_cast<int>(schema.steps.size());
 }
 
 base::Result<int> schema_version(Sqlite& database, const Schema& schema) {
@@ -93,13 +93,18 @@ base::Result<void> migrate(Sqlite& database, const Schema& schema) {
     for (int i = 2; fs::exists(free_name); ++i) free_name = name + "-" + std::to_string(i);
     copy_database(database, free_name);
   }
-  for (int step = *version + 1; step <= newest_version(schema); ++step) walk(database, schema, step);
+  build(database, schema, newest_version(schema));
   return {};
+}
+
+void build(Sqlite& database, const Schema& schema, int version) {
+  for (auto step = static_cast<int>(database.integer("PRAGMA user_version")) + 1; step <= version; ++step)
+    walk(database, schema, step);
 }
 
 void copy_database(Sqlite& database, const fs::path& file) {
   const fs::path temporary = file.string() + ".tmp-" + std::to_string(::getpid());
-  // VACUUM INTO accepts an empty file, and keeps its mode: a copy of names must be as private as they are.
+  // A copy of names must be as private as they are.
   struct stat about {};
   ::unlink(temporary.c_str());
   const bool known = ::stat(database.file().c_str(), &about) == 0;
@@ -108,8 +113,15 @@ void copy_database(Sqlite& database, const fs::path& file) {
   if (descriptor < 0) throw base::Failure("disk", "the copy of the database cannot be written");
   ::close(descriptor);
   try {
-    database.prepare("VACUUM INTO :file").bind("file", temporary.string()).run();
-    sync_file(temporary);  // VACUUM INTO itself does not
+    {
+      Sqlite copy(temporary);
+      copy.run("PRAGMA synchronous = OFF");  // it is synced as a whole
+      database.copy_to(copy);
+      // The copy also says of itself that it has a write-ahead log; it is to be one file.
+      if (copy.text("PRAGMA journal_mode = DELETE") != "delete")
+        throw DatabaseFailure(DatabaseFailure::Kind::other, "the copy of the database cannot be finished");
+    }
+    sync_file(temporary);
     // link, unlike rename, does not replace what is there.
     if (::link(temporary.c_str(), file.c_str()) != 0)
       throw base::Failure("disk", "the copy of the database cannot be named");

@@ -29,6 +29,10 @@ base::Result<int> schema_version(Sqlite& database, const Schema& schema);
 // them.
 base::Result<void> migrate(Sqlite& database, const Schema& schema);
 
+// Walks the missing steps up to a version and no further; copies nothing.
+void build(Sqlite& database, const Schema& schema, int version);
+int newest_version(const Schema& schema);
+
 // A consistent copy of the database, whole and on disk when this returns. Never overwrites.
 void copy_database(Sqlite& database, const std::filesystem::path& file);
 

@@ -25,14 +25,21 @@ NewAssets::~NewAssets() {
 }
 
 std::string NewAssets::add(std::vector<std::byte> bytes) {
-  assets_.push_back({library_.store_asset(bytes), {}});
-  assets_.back().bytes = std::move(bytes);
+  // Stored before the bytes move into the function that will tell them again.
+  Library::StoredAsset stored = library_.store_asset(bytes);
+  assets_.push_back({std::move(stored), [kept = std::move(bytes)] { return kept; }});
+  return assets_.back().stored.sha256;
+}
+
+std::string NewAssets::add(std::function<std::vector<std::byte>()> read) {
+  Library::StoredAsset stored = library_.store_asset(read());
+  assets_.push_back({std::move(stored), std::move(read)});
   return assets_.back().stored.sha256;
 }
 
 void NewAssets::make_sure() {
   for (Asset& asset : assets_)
-    if (!library_.has_asset(asset.stored.sha256)) asset.stored = library_.store_asset(asset.bytes);
+    if (!library_.has_asset(asset.stored.sha256)) asset.stored = library_.store_asset(asset.read());
 }
 
 }  // namespace seldinger::casedb

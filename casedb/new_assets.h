@@ -1,6 +1,7 @@
 // The files that come with one new row: stored before the transaction, taken back when it does not happen.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ class NewAssets {
   ~NewAssets();
 
   std::string add(std::vector<std::byte> bytes);  // its SHA-256
+  // For many or large ones: `read` is asked for the bytes now and, should they be needed again, once more.
+  std::string add(std::function<std::vector<std::byte>()> read);
 
   // To be called in the transaction: another process that failed may have taken back a file it made and we found.
   // Nobody takes one back without the write lock, so what is there now stays.
@@ -25,7 +28,7 @@ class NewAssets {
  private:
   struct Asset {
     Library::StoredAsset stored;
-    std::vector<std::byte> bytes;
+    std::function<std::vector<std::byte>()> read;
   };
   Library& library_;
   std::vector<Asset> assets_;

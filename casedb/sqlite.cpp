@@ -160,6 +160,21 @@ std::vector<std::byte> Statement::bytes(std::string_view name) const {
   return data == nullptr ? std::vector<std::byte>{} : std::vector<std::byte>(data, data + size);
 }
 
+Statement::Kind Statement::kind(std::string_view name) const {
+  switch (sqlite3_column_type(statement_.get(), column(name))) {
+    case SQLITE_INTEGER:
+      return Kind::integer;
+    case SQLITE_FLOAT:
+      return Kind::real;
+    case SQLITE_TEXT:
+      return Kind::text;
+    case SQLITE_BLOB:
+      return Kind::blob;
+    default:
+      return Kind::null;
+  }
+}
+
 // --- Sqlite
 // -------------------------------------------------------------------------------------------------------
 void Sqlite::Close::operator()(sqlite3* connection) const noexcept {
@@ -216,6 +231,21 @@ bool Sqlite::in_transaction() const noexcept {
   return sqlite3_get_autocommit(connection_.get()) == 0;
 }
 
+void Sqlite::copy_to(Sqlite& other) {
+  sqlite3_backup* backup = sqlite3_backup_init(other.connection_.get(), "main", connection_.get(), "main");
+  if (backup == nullptr) fail(other.connection_.get(), sqlite3_errcode(other.connection_.get()));
+  // All pages in one step: with a write-ahead log that is one state, and writers are not held up. The time limit of
+  // the connection does not count here, so the waiting for locks is ours.
+  int code = SQLITE_BUSY;
+  for (int round = 0; round < 500 && (code == SQLITE_BUSY || code == SQLITE_LOCKED); ++round) {
+    if (round > 0) sqlite3_sleep(10);
+    code = sqlite3_backup_step(backup, -1);
+  }
+  const int end = sqlite3_backup_finish(backup);
+  if (code != SQLITE_DONE) throw failure(code, sqlite3_errstr(code));
+  if (end != SQLITE_OK) throw failure(end, sqlite3_errstr(end));
+}
+
 // --- Transaction
 // --------------------------------------------------------------------------------------------------
 Transaction::Transaction(Sqlite& database) : database_(database) {
@@ -234,6 +264,19 @@ Transaction::~Transaction() {
 
 void Transaction::commit() {
   database_.run("COMMIT");
+}
+
+Snapshot::Snapshot(Sqlite& database) : database_(database) {
+  CHECK(!database.in_transaction());
+  database.run("BEGIN");
+}
+
+Snapshot::~Snapshot() {
+  try {
+    database_.run("ROLLBACK");
+  } catch (const base::Failure&) {
+    // Nothing was written.
+  }
 }
 
 }  // namespace seldinger::casedb

@@ -60,6 +60,9 @@ class Statement {
   double real(std::string_view column) const;
   std::vector<std::byte> bytes(std::string_view column) const;
 
+  enum class Kind { null, integer, real, text, blob };
+  Kind kind(std::string_view column) const;
+
  private:
   friend class Sqlite;
   struct Finalize {
@@ -87,6 +90,9 @@ class Sqlite {
   std::int64_t integer(std::string_view sql);
   std::string text(std::string_view sql);
   bool in_transaction() const noexcept;
+  // Makes `other` this database as it is now, page by page, while others read and write here (SQLite's online
+  // backup). Whatever was in `other` is gone.
+  void copy_to(Sqlite& other);
 
  private:
   struct Close {
@@ -105,6 +111,18 @@ class Transaction {
   Transaction& operator=(const Transaction&) = delete;
   ~Transaction();
   void commit();
+
+ private:
+  Sqlite& database_;
+};
+
+// What is read in its lifetime is one state of the database, while others go on writing.
+class Snapshot {
+ public:
+  explicit Snapshot(Sqlite& database);
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+  ~Snapshot();
 
  private:
   Sqlite& database_;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
 constexpr std::uint32_t kFormat = 4, kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2,
                         kFormatWithoutFluoroscope = 1;
-constexpr std::uint32_t kMaxRows = 1'000'000;  // per chunk: bounds what damaged bytes can make us allocate
+constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
 
 struct Header {
   std::uint32_t magic = kMagic, format = kFormat;

@@ -204,4 +204,11 @@ base::Result<LabelMap> labels_from_bytes(std::span<const std::byte> bytes) {
   return labels;
 }
 
+std::uint64_t stored_voxels(std::span<const std::byte> bytes) {
+  if (const auto header = header_at<VolumeHeader>(bytes))
+    return voxel_count({header->size_voxels[0], header->size_voxels[1], header->size_voxels[2]});
+  if (const auto header = header_at<LabelHeader>(bytes)) return header->labels <= kMaxVoxels ? header->labels : 0;
+  return 0;
+}
+
 }  // namespace seldinger::volume

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,5 +16,9 @@ base::Result<Volume> volume_from_bytes(std::span<const std::byte> bytes);
 
 std::vector<std::byte> bytes_from_labels(const LabelMap& labels);
 base::Result<LabelMap> labels_from_bytes(std::span<const std::byte> bytes);
+
+// How many voxels stored volumes or labels say they hold, before room is made for them; 0 when they say nothing
+// sound.
+std::uint64_t stored_voxels(std::span<const std::byte> bytes);
 
 }  // namespace seldinger::volume

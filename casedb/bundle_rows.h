@@ -1,0 +1,35 @@
+// One case's rows, of every table that travels, as bytes and back. Columns go by name, so that rows of an older
+// schema walk the migrations before they are stored.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casedb/sqlite.h"
+#include "sim/base/result.h"
+
+namespace seldinger::casedb {
+
+constexpr std::size_t kMostRowBytes = std::size_t{8} << 20;  // of one case; its voxels and meshes are files
+
+// Nobody and nothing that stays is named in them (casedb/tables.h).
+std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_id);
+
+// A database in memory that holds these rows and no others, written at `version` and brought to the newest. Every
+// constraint of the schema holds in it. Refused: `damaged`.
+base::Result<std::unique_ptr<Sqlite>> rows_from_bytes(std::span<const std::byte> bytes, const std::string& case_id,
+                                                      int version);
+
+enum class Presence { absent, same, different };
+// Whether the library has that case, and all that is said of it. What a person may change of a case (title, state)
+// and what was added to it in the library make no difference.
+Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id);
+
+// In a transaction of the library's.
+void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id);
+
+}  // namespace seldinger::casedb
