@@ -51,6 +51,7 @@ base::Error damaged() {
 // What a frame says of itself, and whether its end is there: a decoder fills up what is missing and says nothing.
 struct FrameHead {
   unsigned columns = 0, rows = 0, components = 0, bits = 0;
+  bool lossless = false;
   bool is(const DicomSlice& slice) const {
     return columns == static_cast<unsigned>(slice.size_px.x) && rows == static_cast<unsigned>(slice.size_px.y) &&
            components == 1 && bits >= 1 && bits <= 16;
@@ -69,15 +70,20 @@ class Bytes {
   std::span<const char> bytes_;
 };
 
-// ISO/IEC 10918-1 §B.2.2 (JPEG: only sequential and lossless frames, SOF0, 1 and 3), 14495-1 §C.2.2 (JPEG-LS:
-// SOF55).
+// ISO/IEC 10918-1 §B.2.2 (JPEG: only sequential and lossless frames, SOF0, 1 and 3), 14495-1 §C.2.2 and C.2.3
+// (JPEG-LS: SOF55; the scan's NEAR is 0 without loss).
 std::optional<FrameHead> jpeg_head(std::span<const char> frame, Family family) {
   const Bytes in(frame);
+  std::optional<FrameHead> head;
   for (std::size_t at = 2; in.has(at, 4) && in.u8(at) == 0xFF; at += 2 + in.u16(at + 2)) {  // behind SOI
     const unsigned marker = in.u8(at + 1);
-    const bool wanted =
+    const bool is_frame =
         family == Family::jpeg ? marker == 0xC0 || marker == 0xC1 || marker == 0xC3 : marker == 0xF7;
-    if (wanted && in.has(at, 10)) return FrameHead{in.u16(at + 7), in.u16(at + 5), in.u8(at + 9), in.u8(at + 4)};
+    if (is_frame && in.has(at, 10))
+      head = FrameHead{in.u16(at + 7), in.u16(at + 5), in.u8(at + 9), in.u8(at + 4), marker == 0xC3};
+    if (marker != 0xDA) continue;
+    if (head && family == Family::jpeg_ls) head->lossless = in.has(at, 8) && in.u8(at + 7) == 0;
+    return head;
   }
   return std::nullopt;
 }
@@ -95,6 +101,13 @@ bool all_tiles_are_there(const Bytes& in, std::size_t at, std::size_t tiles) {
     at += length;
   }
   return in.has(at, 2) && in.u16(at) == 0xFFD9 && std::find(seen.begin(), seen.end(), false) == seen.end();
+}
+
+// §A.6.1: the coding style's wavelet is 5-3 (1), not 9-7 (0).
+bool is_reversible(const Bytes& in, std::size_t at) {
+  for (; in.has(at, 14) && in.u16(at) != 0xFF90; at += 2 + in.u16(at + 2))
+    if (in.u16(at) == 0xFF52) return in.u8(at + 13) == 1;
+  return false;
 }
 
 // ISO/IEC 15444-1 §A.5.1: SOC and SIZ. A file that is wrapped in JP2's boxes has them further in.
@@ -115,7 +128,13 @@ std::optional<FrameHead> jpeg_2000_head(std::span<const char> frame) {
   };
   const std::uint64_t tiles = along(columns - tile_left, tile_columns) * along(rows - tile_top, tile_rows);
   if (tiles > kMostTiles || !all_tiles_are_there(in, at + 4 + in.u16(at + 4), tiles)) return std::nullopt;
-  return FrameHead{columns - left, rows - top, in.u16(at + 40), (in.u8(at + 42) & 0x7FU) + 1};
+  return FrameHead{columns - left, rows - top, in.u16(at + 40), (in.u8(at + 42) & 0x7FU) + 1,
+                   is_reversible(in, at + 4 + in.u16(at + 4))};
+}
+
+bool claims_no_loss(Syntax::TSType type) {
+  return type == Syntax::JPEGLosslessProcess14 || type == Syntax::JPEGLosslessProcess14_1 ||
+         type == Syntax::JPEGLSLossless || type == Syntax::JPEG2000Lossless;
 }
 
 // JPEG, JPEG-LS and JPEG 2000 all end in the marker FF D9.
@@ -177,6 +196,8 @@ base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, c
     if (!ends_in_marker(frame)) return base::Error{"truncated", "ends before its pixels do"};
     const auto found = *family == Family::jpeg_2000 ? jpeg_2000_head(frame) : jpeg_head(frame, *family);
     if (!found || !found->is(slice)) return damaged();
+    if (!found->lossless && claims_no_loss(type))
+      return base::Error{"lossy", "was packed with loss under the name of a way without: nobody says how much"};
     head = *found;
   }
   const QuietStandardError quiet;

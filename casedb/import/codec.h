@@ -12,7 +12,7 @@ namespace seldinger::casedb {
 
 // columns × rows samples as they would lie natively in little endian. The frame's own size is compared with the
 // header's before a codec sees it, since codecs allocate what it says. Refused: `unknown_syntax`, `truncated`,
-// `damaged`.
+// `damaged`, `lossy` (under a name without loss).
 base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, const DicomSlice& slice);
 
 }  // namespace seldinger::casedb

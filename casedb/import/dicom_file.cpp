@@ -243,7 +243,12 @@ bool has_preamble(const char* bytes, std::size_t size) noexcept {
   return size >= 132 && std::memcmp(bytes + 128, "DICM", 4) == 0;
 }
 
-// A data set without preamble, as old tools wrote it: little endian, beginning in group 8.
+// A file without preamble, as old tools wrote it: it begins with the meta group,
+bool is_bare_meta_group(const char* bytes, std::size_t size) noexcept {
+  return size >= 16 && bytes[0] == 2 && bytes[1] == 0 && bytes[3] == 0 && is_upper(bytes[4]) && is_upper(bytes[5]);
+}
+
+// or at once with the data set, little endian, in group 8.
 bool is_bare_data_set(const char* bytes, std::size_t size) noexcept {
   if (size < 16 || bytes[0] != 8 || bytes[1] != 0) return false;
   if (is_upper(bytes[4]) && is_upper(bytes[5])) return true;
@@ -316,7 +321,7 @@ std::vector<double> numbers_in(const std::string& all) {
 }  // namespace
 
 bool looks_like_dicom(const char* bytes, std::size_t size) noexcept {
-  return has_preamble(bytes, size) || is_bare_data_set(bytes, size);
+  return has_preamble(bytes, size) || is_bare_meta_group(bytes, size) || is_bare_data_set(bytes, size);
 }
 
 DicomFile read_dicom_file(const std::filesystem::path& path) {
@@ -331,8 +336,10 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
   file.bytes = std::move(*whole);
   const auto letter = [&](std::size_t at) { return static_cast<char>(file.bytes[at]); };
   std::size_t at = 0;
-  if (has_preamble(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size())) {
-    Walk meta(file, 132, {true, false});
+  const char* begin = reinterpret_cast<const char*>(file.bytes.data());
+  const bool preamble = has_preamble(begin, file.bytes.size());
+  if (preamble || is_bare_meta_group(begin, file.bytes.size())) {
+    Walk meta(file, preamble ? 132 : 0, {true, false});
     meta.meta_group();
     if (file.state != DicomState::whole) return file;
     at = meta.at();

@@ -19,8 +19,9 @@ constexpr std::size_t kMostSlices = 4096;
 // Packed pixels may unpack to 64 MB and 100 times their size. Packed CT is 2 to 10 times smaller, and an empty
 // slice up to some hundred times; a bomb thousands.
 constexpr double kMostUnpacked = 100.0, kUnpackedBeyond = 64.0 * 1024 * 1024;
-constexpr double kSparse = 1.5;    // gaps in thicknesses: overlapping or touching slices are 1 at most
-constexpr double kCoarseHu = 8.0;  // a step of a stored value that is no longer below a CT's noise
+constexpr double kMostGrowth = 2.0;  // of resampled voxels, beyond 64 MB of them
+constexpr double kSparse = 1.5;      // gaps in thicknesses: overlapping or touching slices are 1 at most
+constexpr double kCoarseHu = 8.0;    // a step of a stored value that is no longer below a CT's noise
 
 std::size_t pixels_of(const DicomSlice& slice) {
   return static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y);
@@ -114,15 +115,19 @@ void drop_duplicates(Slices& slices, SliceReader& reader, Problems& problems, Wa
 }
 
 void judge_size(const Slices& slices, const Stack& stack, Problems& problems) {
-  double voxels = 1.0, packed = 0.0, unpacked = 0.0;
+  double voxels = 1.0, packed = 0.0, unpacked = 0.0, given = 0.0;
   for (int axis = 0; axis < 3; ++axis) voxels *= stack.size_voxels[axis];
   if (voxels > static_cast<double>(volume::kMaxVoxels))
     problems.add("bad_size", "the series has more voxels than can be held");
   for (const DicomSlice& slice : slices) {
+    given += static_cast<double>(pixels_of(slice));
     if (!slice.pixels.encapsulated) continue;
     packed += static_cast<double>(slice.pixels.bytes());
     unpacked += static_cast<double>(pixels_of(slice)) * 2.0;
   }
+  if (2.0 * voxels > 2.0 * kMostGrowth * given + kUnpackedBeyond)
+    problems.add("bad_size", "the slices stand so far aside of each other that the volume would be " +
+                                 number_text(voxels / given) + " times as large as they are");
   if (unpacked > kMostUnpacked * packed + kUnpackedBeyond)
     problems.add("bad_size", "the pixels are " + number_text(unpacked / std::max(packed, 1.0)) +
                                  " times as large as they are packed: no CT is");

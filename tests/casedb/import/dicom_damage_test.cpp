@@ -4,6 +4,7 @@
 
 #include "dicom_writer.h"
 #include "import_case.h"
+#include "packed_frame.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -267,6 +268,22 @@ TEST_F(DicomDamage, LossAboveEightToOneIsRefused) {
   EXPECT_EQ(one(TestDicom::ct_slice({512, 512}).fragments("1.2.840.10008.1.2.4.51", {frame})), "");
   TestDicom wide = TestDicom::ct_slice({512, 800});
   EXPECT_EQ(one(wide.fragments("1.2.840.10008.1.2.4.51", {frame})), "lossy");
+}
+
+TEST_F(DicomDamage, LossUnderTheNameOfNoLossIsRefused) {
+  const std::string sample = file_bytes(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
+  const std::size_t begin = sample.find("\xFF\xD8\xFF"), end = sample.rfind("\xFF\xD9") + 2;
+  TestDicom file = TestDicom::ct_slice({512, 512});
+  EXPECT_EQ(one(file.fragments("1.2.840.10008.1.2.4.70", {sample.substr(begin, end - begin)})), "lossy");
+  constexpr glm::ivec2 kPacked{16, 12};
+  std::string frame = packed_frame("1.2.840.10008.1.2.4.80", kPacked, std::vector<int>(16 * 12, 7));
+  file = TestDicom::ct_slice(kPacked);
+  EXPECT_EQ(one(file.fragments("1.2.840.10008.1.2.4.80", {frame})), "");
+  frame[frame.find("\xFF\xDA") + 7] = 2;  // NEAR
+  EXPECT_EQ(one(file.fragments("1.2.840.10008.1.2.4.80", {frame})), "lossy");
+  frame = packed_frame("1.2.840.10008.1.2.4.90", kPacked, std::vector<int>(16 * 12, 7));
+  frame[frame.find("\xFF\x52") + 13] = 0;  // the 9-7 wavelet
+  EXPECT_EQ(one(file.fragments("1.2.840.10008.1.2.4.90", {frame})), "lossy");
 }
 
 TEST_F(DicomDamage, NotDicomWithADcmName) {

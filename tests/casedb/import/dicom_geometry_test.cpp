@@ -249,6 +249,14 @@ TEST_F(DicomGeometry, TooLittleIsRefused) {
   EXPECT_EQ(stack({0, 1, 2, 3, 9, 10, 11, 12}), "");
 }
 
+TEST_F(DicomGeometry, AVolumeMuchLargerThanItsSlicesIsRefused) {
+  // 1500 slices of 16 × 512 pixels that lean by 29 degrees: 24 MB of them would become 370 MB.
+  const TestDicom slice = TestDicom::ct_slice({512, 16}).text(0x00280030, "DS", "0.5\\0.5");
+  for (int k = 0; k < 1500; ++k)
+    write(numbered("s", k), TestDicom(slice).at({0, k * std::tan(29 * kDegree), 1.0 * k}).bytes());
+  EXPECT_EQ(refusal(folder_), "bad_size");
+}
+
 TEST_F(DicomGeometry, AGapIsNamedByTheSliceBehindIt) {
   for (const int k : {0, 1, 2, 3, 7, 8})
     write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 4.0 * k}).bytes());

@@ -75,6 +75,9 @@ TEST_F(DicomSeries, ABareDataSetWithoutPreambleIsRead) {
   const auto source = read(write("bare", whole.substr(data)));
   ASSERT_TRUE(source);
   EXPECT_EQ(source->volume.at(3, 2, 0), 11);
+  const auto with_meta = read(write("meta", whole.substr(132)));
+  ASSERT_TRUE(with_meta);
+  EXPECT_EQ(with_meta->volume.hu, source->volume.hu);
 }
 
 TEST_F(DicomSeries, ValuesAreRescaledRoundedAndClamped) {
