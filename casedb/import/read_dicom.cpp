@@ -1,26 +1,31 @@
 #include "casedb/import/read_dicom.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "casedb/import/byte_count.h"
 #include "casedb/import/dicom_slice.h"
+#include "casedb/import/dicom_volume.h"
+#include "casedb/import/number_text.h"
 #include "casedb/import/problems.h"
-#include "casedb/import/slice_stack.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::size_t kMostFiles = 50000, kMostSlices = 4096;
+constexpr std::size_t kMostFiles = 50000, kMostFound = 65536;
 constexpr int kDeepestFolder = 16;
+
+using Series = std::vector<DicomSlice>;
 
 struct Found {
   std::vector<DicomSlice> slices;
   std::map<DicomKind, int> left_out;
-  int unreadable = 0;                      // may be slices
-  std::vector<std::string> other_endings;  // of files that are no DICOM; an empty file counts as every ending
+  int unreadable = 0;  // may be slices
+  int hollow = 0;      // empty, or zeros where a slice's preamble would be: may be slices that were not copied
+  std::vector<std::string> other_endings;  // of files that are something else
   int files = 0;
 };
 
@@ -30,31 +35,28 @@ std::string ending_of(const std::filesystem::path& path) {
   return ending;
 }
 
+void look_at_other(const std::filesystem::path& path, Found& found) {
+  const auto start = read_bytes(path, 0, 132);
+  if (!start)
+    ++found.unreadable;
+  else if (std::all_of(start->begin(), start->end(), [](std::byte b) { return b == std::byte{0}; }))
+    ++found.hollow;
+  else
+    found.other_endings.push_back(ending_of(path));
+}
+
 void look_at(const std::filesystem::path& path, Found& found) {
   const DicomFile file = read_dicom_file(path);
   const DicomKind kind = kind_of(file);
   ++found.files;
-  if (kind == DicomKind::not_dicom) {
-    if (!read_bytes(path, 0, 1))
-      ++found.unreadable;
-    else
-      found.other_endings.push_back(file_size_bytes(path) == 0 ? "*" : ending_of(path));
-  }
-  if (kind != DicomKind::ct_slice) {
+  if (kind == DicomKind::not_dicom) look_at_other(path, found);
+  if (kind != DicomKind::ct) {
     ++found.left_out[kind];
     return;
   }
-  DicomSlice slice = slice_from(file);
-  slice.file = path;
-  if (!file.encapsulated && slice.problems.empty()) {
-    const std::size_t need = static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y) *
-                             static_cast<std::size_t>(slice.bits_allocated / 8);
-    if (file.pixel_pieces.front().second < need)
-      slice.problems.push_back({"truncated", "ends before its pixels do"});
-  } else if (file.pixels_cut) {
-    slice.problems.push_back({"truncated", "ends before its pixels do"});
-  }
-  found.slices.push_back(std::move(slice));
+  int localizers = 0;
+  for (DicomSlice& slice : slices_of(file, path, localizers)) found.slices.push_back(std::move(slice));
+  if (localizers > 0) found.left_out[DicomKind::localizer] += localizers;
 }
 
 // Files in name order, so that a folder is read the same way on every machine. Links to files are followed, links
@@ -76,30 +78,53 @@ base::Result<Found> look_through(const std::filesystem::path& folder) {
   if (error) return base::Error{"not_readable", "the folder cannot be read"};
   std::sort(files.begin(), files.end());
   Found found;
-  for (const fs::path& file : files) look_at(file, found);
+  for (const fs::path& file : files) {
+    look_at(file, found);
+    if (found.slices.size() > kMostFound)
+      return base::Error{"too_many_slices", "the folder holds more than 65536 slices"};
+  }
   return found;
 }
 
-// Why a source without any CT slice is refused: the most telling reason first.
+struct LeftOut {
+  DicomKind kind;
+  const char* code;
+  const char* text;
+};
+
+// The most telling reason first. What may be a lost slice comes before what surely is none.
+constexpr std::array<LeftOut, 13> kReasons = {{
+    {DicomKind::frames_without_place, "multi_frame", "frames that do not say where each lies"},
+    {DicomKind::truncated, "truncated", "ending in the middle of an element"},
+    {DicomKind::damaged, "damaged", "that cannot be followed as DICOM"},
+    {DicomKind::bomb, "bad_size", "unpacking to more than twice their size and 64 MB"},
+    {DicomKind::too_large, "bad_size", "larger than 1 GiB"},
+    {DicomKind::localizer, "localizer", "localizer pictures, which are no slices"},
+    {DicomKind::secondary_capture, "secondary_capture", "captured screen pictures"},
+    {DicomKind::parametric_map, "parametric_map", "parametric maps, which hold no HU"},
+    {DicomKind::encapsulated_document, "encapsulated_document", "documents (PDF or such)"},
+    {DicomKind::other_object, "not_ct", "other DICOM objects than CT images"},
+    {DicomKind::no_image, "no_image", "DICOM without an image"},
+    {DicomKind::directory, "dicomdir", "lists of files (DICOMDIR), which are not followed: the folder is read"},
+    {DicomKind::not_dicom, "no_dicom", "no DICOM"},
+}};
+constexpr std::size_t kMayBeSlices = 5;  // of these, the first ones
+
+std::string left_out_text(const Found& found, const LeftOut& reason) {
+  return count_text(static_cast<std::size_t>(found.left_out.at(reason.kind)), "file") + ": " + reason.text;
+}
+
+// Why a source without any CT slice is refused.
 base::Error nothing_found(const Found& found) {
   Problems problems;
-  const auto say = [&](DicomKind kind, const char* code, const std::string& text) {
-    if (const auto it = found.left_out.find(kind); it != found.left_out.end())
-      problems.add(code, std::to_string(it->second) + (it->second == 1 ? " file " : " files ") + text);
-  };
-  say(DicomKind::multi_frame, "multi_frame", "with several frames: only classic CT, one slice a file, is read");
-  say(DicomKind::truncated, "truncated", "ending in the middle of an element");
-  say(DicomKind::damaged, "damaged", "that cannot be followed as DICOM");
-  say(DicomKind::ct_localizer, "localizer", "with a localizer picture, which is no slice");
-  say(DicomKind::other_modality, "not_ct", "of DICOM that are no CT image");
-  say(DicomKind::no_image, "no_image", "of DICOM without an image");
+  for (const LeftOut& reason : kReasons)
+    if (reason.kind != DicomKind::not_dicom && found.left_out.contains(reason.kind))
+      problems.add(reason.code, left_out_text(found, reason));
   if (found.unreadable > 0) problems.add("not_readable", "files in the folder cannot be read");
   if (found.files == 0) problems.add("empty_folder", "the folder holds no file");
   if (problems.empty()) problems.add("no_dicom", "no file in the folder is DICOM");
   return problems.error();
 }
-
-using Series = std::vector<DicomSlice>;
 
 std::vector<Series> series_of(std::vector<DicomSlice> slices) {
   std::map<std::pair<double, std::string>, Series> by_series;
@@ -112,94 +137,79 @@ std::vector<Series> series_of(std::vector<DicomSlice> slices) {
   return all;
 }
 
-std::string slice_count(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " slice" : " slices");
+// No slice of it can be read.
+bool is_hopeless(const Series& series) {
+  return std::none_of(series.begin(), series.end(), [](const DicomSlice& slice) { return slice.problems.empty(); });
 }
 
-base::Result<Series> chosen_series(std::vector<Series> all, const std::optional<std::string>& wanted) {
-  if (!wanted && all.size() == 1) return std::move(all.front());
+std::string series_text(std::size_t number, const Series& series) {
+  const std::string text = std::to_string(number) + ": CT, " + count_text(series.size(), "slice");
+  const DicomSlice& first = series.front();
+  if (is_hopeless(series)) return text + ", which cannot be read (" + first.problems.front().code + ")";
+  return text + " of " + std::to_string(first.size_px.x) + " x " + std::to_string(first.size_px.y) +
+         (first.thickness_mm > 0.0 ? ", " + number_text(first.thickness_mm) + " mm thick" : "");
+}
+
+base::Result<Series> chosen_series(std::vector<Series> all, const std::optional<std::string>& wanted,
+                                   std::vector<base::Problem>& warnings) {
   if (wanted)
     for (std::size_t i = 0; i < all.size(); ++i)
       if (*wanted == std::to_string(i + 1) || *wanted == all[i].front().series_uid) return std::move(all[i]);
+  std::size_t hopeful = 0, last = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_hopeless(all[i])) continue;
+    ++hopeful;
+    last = i;
+  }
+  if (!wanted && all.size() == 1) return std::move(all.front());
+  if (!wanted && hopeful == 1) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (i != last) warnings.push_back({"series_left_out", series_text(i + 1, all[i])});
+    return std::move(all[last]);
+  }
   base::Error error = wanted ? base::Error{"no_series", "there is no such CT series"}
                              : base::Error{"several_series", "there are " + std::to_string(all.size()) +
                                                                  " CT series: choose one by its number"};
-  for (std::size_t i = 0; i < all.size(); ++i)
-    error.findings.push_back({"series", std::to_string(i + 1) + ": CT, " + slice_count(all[i].size())});
+  for (std::size_t i = 0; i < all.size(); ++i) error.findings.push_back({"series", series_text(i + 1, all[i])});
   return error;
 }
 
-void warn(const Found& found, const Series& slices, std::vector<base::Problem>& warnings) {
-  const auto any = [&](bool DicomSlice::*flag) {
-    return std::any_of(slices.begin(), slices.end(), [&](const DicomSlice& slice) { return slice.*flag; });
-  };
-  if (slices.size() == 1) warnings.push_back({"single_slice", "the case is one slice"});
-  if (any(&DicomSlice::lossy)) warnings.push_back({"lossy", "the pictures were compressed with loss"});
-  if (any(&DicomSlice::no_rescale))
-    warnings.push_back({"no_rescale", "rescale slope or intercept is missing: 1 and 0 are taken"});
-  if (any(&DicomSlice::not_hu)) warnings.push_back({"not_hu", "the values are not said to be HU"});
-  if (any(&DicomSlice::secondary))
-    warnings.push_back({"secondary", "derived pictures: look whether text is burned into them"});
-  int others = 0;
-  for (const auto& [kind, count] : found.left_out)
-    if (kind != DicomKind::not_dicom) others += count;
-  if (others > 0)
-    warnings.push_back({"left_out", std::to_string(others) + " DICOM files that are no CT slice were left out"});
-}
-
-base::Result<Source> volume_of(const Found& found, Series slices) {
-  Problems problems;
-  if (slices.size() > kMostSlices) problems.add("too_many_slices", "the series has more than 4096 slices");
-  // A file that cannot be read may be a slice of this very series.
-  for (const DicomKind kind : {DicomKind::truncated, DicomKind::damaged})
-    if (found.left_out.contains(kind))
-      problems.add(kind == DicomKind::truncated ? "truncated" : "damaged",
-                   "a DICOM file beside the slices is not whole; it may be one of them");
-  if (found.unreadable > 0)
-    problems.add("not_readable", "a file beside the slices cannot be read; it may be one of them");
-  // Junk beside a series is left out; what is named like its slices, or is empty, may be a lost one.
-  const std::string ending = ending_of(slices.front().file);
-  for (const std::string& other : found.other_endings)
-    if (other == "*" || (!ending.empty() && other == ending)) {
-      problems.add("damaged", "a file that looks like one of the slices is not DICOM");
-      break;
-    }
-  order_slices(slices, problems);
-  const glm::ivec3 size(slices.front().size_px, static_cast<int>(slices.size()));
-  const std::size_t slice_voxels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-  if (problems.empty() && slice_voxels * slices.size() > volume::kMaxVoxels)
-    problems.add("bad_size", "the series has more voxels than can be held");
-  if (!problems.empty()) return problems.error();
-
-  Source source;
-  source.slices_used = size.z;
-  source.attributes = slices.front().attributes;
-  warn(found, slices, source.warnings);
-  double thickness_mm = 1.0;
-  for (const auto& [name, value] : source.attributes)
-    if (name == "slice_thickness_mm") thickness_mm = std::stod(value);
-  volume::Volume& volume = source.volume;
-  volume.size_voxels = size;
-  volume.lps_from_voxel = lps_from_voxel(slices, thickness_mm);
-  for (int axis = 0; axis < 3; ++axis)
-    volume.spacing_mm[axis] = glm::length(glm::dvec3(volume.lps_from_voxel[axis]));
-  volume.hu.resize(slice_voxels * slices.size());
-  for (std::size_t k = 0; k < slices.size(); ++k) {
-    const DicomFile file = read_dicom_file(slices[k].file);
-    const auto decoded = decode_slice(file, slices[k], {volume.hu.data() + k * slice_voxels, slice_voxels});
-    if (!decoded)
-      problems.add(decoded.error().code,
-                   "slice " + std::to_string(k + 1) + " (ordered by position) " + decoded.error().text);
+// A file that cannot be read may be a slice of the very series: refused. Anything else is left out and counted.
+void judge_others(const Found& found, const Series& series, Problems& problems,
+                  std::vector<base::Problem>& warnings) {
+  std::string others;
+  for (std::size_t i = 0; i < kReasons.size(); ++i) {
+    const LeftOut& reason = kReasons[i];
+    if (!found.left_out.contains(reason.kind)) continue;
+    if (i < kMayBeSlices)
+      problems.add(reason.code, left_out_text(found, reason) + ", beside the slices: may be one of them");
+    else
+      others += (others.empty() ? "" : "; ") + left_out_text(found, reason);
   }
-  if (!problems.empty()) return problems.error();
-  return source;
+  if (!others.empty()) warnings.push_back({"left_out", "left out: " + others});
+  if (found.unreadable > 0)
+    problems.add("not_readable", count_text(static_cast<std::size_t>(found.unreadable), "file") +
+                                     " beside the slices cannot be read: it may be one of them");
+  if (found.hollow > 0)
+    problems.add("damaged", count_text(static_cast<std::size_t>(found.hollow), "file") +
+                                " beside the slices, empty or of zeros: it may be a lost one of them");
+  const std::string ending = ending_of(series.front().file);
+  const auto alike =
+      static_cast<std::size_t>(std::count(found.other_endings.begin(), found.other_endings.end(), ending));
+  if (alike > 0 && !ending.empty())
+    warnings.push_back({"not_dicom", count_text(alike, "file") +
+                                         " named like the slices that are no DICOM: if one was a "
+                                         "slice, the series is not whole"});
 }
 
-base::Result<Source> read_found(Found found, const std::optional<std::string>& series) {
+base::Result<Source> read_found(Found found, const std::optional<std::string>& wanted) {
   if (found.slices.empty()) return nothing_found(found);
-  auto chosen = chosen_series(series_of(std::move(found.slices)), series);
-  if (!chosen) return chosen.error();
-  return volume_of(found, std::move(*chosen));
+  std::vector<base::Problem> warnings;
+  Problems problems;
+  auto series = chosen_series(series_of(std::move(found.slices)), wanted, warnings);
+  if (!series) return series.error();
+  judge_others(found, *series, problems, warnings);
+  return volume_of(std::move(*series), std::move(problems), std::move(warnings));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A classic CT series of DICOM files into one volume: grouped, ordered and checked by geometry, never by names.
+// A CT series of DICOM files into one volume: grouped, ordered and checked by geometry, never by names.
 #pragma once
 
 #include <filesystem>

@@ -75,6 +75,9 @@ TEST_F(DicomSeries, ABareDataSetWithoutPreambleIsRead) {
   const auto source = read(write("bare", whole.substr(data)));
   ASSERT_TRUE(source);
   EXPECT_EQ(source->volume.at(3, 2, 0), 11);
+  const auto with_meta = read(write("meta", whole.substr(132)));
+  ASSERT_TRUE(with_meta);
+  EXPECT_EQ(with_meta->volume.hu, source->volume.hu);
 }
 
 TEST_F(DicomSeries, ValuesAreRescaledRoundedAndClamped) {
@@ -173,8 +176,9 @@ TEST_F(DicomSeries, OneOfSeveralSeriesIsChosenByNumberOrUid) {
   ASSERT_FALSE(several);
   EXPECT_EQ(several.error().code, "several_series");
   ASSERT_EQ(several.error().findings.size(), 2U);
-  EXPECT_EQ(several.error().findings[0].text, "1: CT, 2 slices");  // series number 2 before 7
-  EXPECT_EQ(several.error().findings[1].text, "2: CT, 3 slices");
+  EXPECT_EQ(several.error().findings[0].text,
+            "1: CT, 2 slices of 4 x 3, 2.5 mm thick");  // series number 2 before 7
+  EXPECT_EQ(several.error().findings[1].text, "2: CT, 3 slices of 4 x 3, 2.5 mm thick");
   const auto first = read(folder_, "1"), second = read(folder_, "2"), by_uid = read(folder_, "1.2.3.5");
   ASSERT_TRUE(first && second && by_uid);
   EXPECT_EQ(first->volume.at(0, 0, 0), 200);

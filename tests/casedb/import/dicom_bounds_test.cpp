@@ -1,0 +1,142 @@
+// What is huge, or pretends to be, is refused in little time and memory.
+#include <sys/stat.h>
+
+#include <chrono>
+
+#include "dicom_writer.h"
+#include "fuzz_import.h"
+#include "import_case.h"
+#include "packed_frame.h"
+#include "peak_memory.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr const char *kRle = "1.2.840.10008.1.2.5", *kJpeg = "1.2.840.10008.1.2.4.70",
+                     *kJpegLs = "1.2.840.10008.1.2.4.80", *kJpeg2000 = "1.2.840.10008.1.2.4.90";
+
+class DicomBounds : public ImportCase {
+ protected:
+  // The code, after a look at memory and time.
+  std::string bounded(const std::filesystem::path& source, std::size_t honest_bytes, double most_seconds = 10.0) {
+    const PeakMemory memory;
+    const auto begin = std::chrono::steady_clock::now();
+    const auto result = read(source);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_LT(memory.bytes(), allowed_bytes(honest_bytes));
+    EXPECT_LT(seconds, most_seconds);
+    return result ? "" : result.error().code;
+  }
+};
+
+TEST_F(DicomBounds, ADeflateBombIsNotUnpacked) {
+  TestDicom file = TestDicom::ct_slice({4, 3});
+  file.raw(0x00091010, "OB", std::string(std::size_t{80} << 20, '\0'));
+  const std::string bomb = file.bytes(TestSyntax::deflated);
+  ASSERT_LT(bomb.size(), std::size_t{1} << 20);
+  EXPECT_EQ(bounded(write("PLANTED.dcm", bomb), bomb.size()), "bad_size");
+  // Beside a series it may be one of its slices.
+  for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
+  EXPECT_EQ(bounded(folder_, bomb.size()), "bad_size");
+}
+
+TEST_F(DicomBounds, AZipBombIsAFileLikeAnyOther) {
+  write("PLANTED.zip", std::string("PK\3\4", 4) + zlib_stream(std::string(std::size_t{100} << 20, '\0')));
+  for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
+  EXPECT_EQ(bounded(folder_, 1 << 20), "");
+}
+
+TEST_F(DicomBounds, FramesThatPromiseAnotherSizeThanTheHeader) {
+  constexpr glm::ivec2 kSize{16, 12};
+  const std::vector<int> stored(16 * 12, 7);
+  const auto promising = [&](const char* syntax, const std::string& mark, std::size_t at, const std::string& size) {
+    std::string frame = packed_frame(syntax, kSize, stored);
+    EXPECT_EQ(refusal(write("PLANTED.dcm", TestDicom::ct_slice(kSize).fragments(syntax, {frame}).bytes())), "")
+        << syntax;
+    const std::size_t found = frame.find(mark);
+    EXPECT_NE(found, std::string::npos) << syntax;
+    frame.replace(found + at, size.size(), size);
+    return bounded(write("PLANTED.dcm", TestDicom::ct_slice(kSize).fragments(syntax, {frame}).bytes()), 4096);
+  };
+  EXPECT_EQ(promising(kJpeg, "\xFF\xC3", 5, std::string(4, '\xFF')), "damaged");
+  EXPECT_EQ(promising(kJpegLs, "\xFF\xF7", 5, std::string(4, '\xFF')), "damaged");
+  EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 6, std::string("\0\0\xFF\xFF\0\0\xFF\xFF", 8)), "damaged");
+  EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 22, std::string("\0\0\0\1\0\0\0\1", 8)), "damaged");  // a tile a pixel
+}
+
+TEST_F(DicomBounds, AHeaderThatPromisesMoreThanItsFrames) {
+  const std::string frame = packed_frame(kJpeg2000, {16, 12}, std::vector<int>(16 * 12, 7));
+  EXPECT_EQ(bounded(write("PLANTED.dcm",
+                          TestDicom::ct_slice({4096, 4096}).pixels({}).fragments(kJpeg2000, {frame}).bytes()),
+                    0),
+            "damaged");
+  // 40 slices of 32 MB, in some kB.
+  for (int k = 0; k < 40; ++k)
+    write(numbered("many/s", k), TestDicom::ct_slice({1, 1})
+                                     .u16(0x00280010, "US", 4096)
+                                     .u16(0x00280011, "US", 4096)
+                                     .at({0, 0, 2.0 * k})
+                                     .fragments(kRle, {std::string(100, '\1')})
+                                     .bytes());
+  EXPECT_EQ(bounded(folder_ / "many", 1 << 20), "bad_size");
+  EXPECT_EQ(bounded(write("native.dcm", TestDicom::ct_slice({4, 3}).u16(0x00280010, "US", 4096).bytes()), 4096),
+            "truncated");
+}
+
+TEST_F(DicomBounds, FramesWithoutEnd) {
+  TestDicom file = enhanced_ct({4, 3}, {{0, 0, 0}});
+  file.text(0x00280008, "IS", "20000").sequence(0x52009230, std::vector<TestDicom>(20000));
+  EXPECT_EQ(bounded(write("PLANTED.dcm", file.bytes()), file.bytes().size()), "damaged");
+  // 8000 places for pixels that are not there.
+  std::vector<glm::dvec3> places;
+  for (int k = 0; k < 5000; ++k) places.emplace_back(0, 0, k);
+  file = enhanced_ct({1, 1}, places);
+  EXPECT_EQ(bounded(write("PLANTED.dcm", file.bytes()), file.bytes().size()), "too_many_slices");
+}
+
+TEST_F(DicomBounds, AMillionFragments) {
+  std::string all;
+  for (int i = 0; i < 1100000; ++i) all += std::string("\xFE\xFF\x00\xE0\0\0\0\0", 8);
+  TestDicom file = TestDicom::ct_slice({4, 3});
+  file.fragments(kRle, {});
+  std::string bytes = file.bytes();
+  bytes.insert(bytes.size() - 8, all);
+  EXPECT_EQ(bounded(write("PLANTED.dcm", bytes), bytes.size()), "damaged");
+}
+
+TEST_F(DicomBounds, ThirtyThousandSlices) {
+  const auto first = write("s", TestDicom::ct_slice({1, 1}).bytes());
+  for (int k = 1; k < 30000; ++k) std::filesystem::create_hard_link(first, folder_ / numbered("s", k));
+  EXPECT_EQ(bounded(folder_, std::size_t{30000} * 1024, 60.0), "too_many_slices");
+}
+
+TEST_F(DicomBounds, APipeInTheFolderIsNotWaitedFor) {
+  for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
+  ASSERT_EQ(::mkfifo((folder_ / "pipe.dcm").c_str(), 0600), 0);
+  EXPECT_EQ(refusal(folder_), "");
+  EXPECT_EQ(refusal(folder_ / "pipe.dcm"), "unknown_format");
+}
+
+TEST_F(DicomBounds, ALargeMultiFrameFileIsHeldOnce) {
+  std::vector<glm::dvec3> places;
+  for (int k = 0; k < 160; ++k) places.emplace_back(0, 0, k);
+  std::string bytes;
+  {
+    TestDicom file = enhanced_ct({1, 1}, places);
+    file.u16(0x00280010, "US", 512).u16(0x00280011, "US", 512);
+    file.raw(0x7FE00010, "OW", std::string(std::size_t{160} * 512 * 512 * 2, '\0'));
+    bytes = file.bytes();
+  }
+  const auto file = write("PLANTED.dcm", bytes);
+  const std::size_t size = bytes.size();
+  bytes = {};
+  bytes.shrink_to_fit();
+  EXPECT_EQ(bounded(file, size, 30.0), "");
+}
+
+TEST_F(DicomBounds, MutatedFilesNeverHarm) {
+  fuzz_import(folder_, 20240607, {2000, 30.0});
+}
+
+}  // namespace
+}  // namespace seldinger::casedb
