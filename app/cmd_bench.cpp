@@ -96,13 +96,20 @@ base::Result<void> bench_import(const Arguments& arguments, bool quick, std::vec
   const auto full = casedb::skin_surface(volume, full_options);
   if (!full) return full.error();
   const cases::MeshIndex index(*full);
-  for (const double share : {0.0, 0.5, 0.7, 0.9}) {
+  struct Choice {
+    double share;
+    int smoothing;
+  };
+  const int smoothing = casedb::SurfaceOptions{}.smoothing_iterations;
+  for (const Choice& choice : {Choice{0.0, 0}, Choice{0.0, smoothing}, Choice{0.5, smoothing}, Choice{0.7, 0},
+                               Choice{0.7, smoothing}, Choice{0.7, 2 * smoothing}, Choice{0.9, smoothing}}) {
     casedb::SurfaceOptions options;
-    options.decimate_share = share;
+    options.decimate_share = choice.share;
+    options.smoothing_iterations = choice.smoothing;
     cases::Mesh mesh;
     Row row{"surface",
             "mask, iso-surface, decimate, smooth",
-            "decimate " + bench_number(share),
+            "decimate " + bench_number(choice.share) + ", smooth " + bench_number(choice.smoothing),
             "cpu",
             cores(),
             bench_size(volume),

@@ -59,6 +59,7 @@ constexpr Option kScoreOptions[] = {kLibrary,
                                     kJson};
 constexpr Option kRecomputeOptions[] = {
     kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+constexpr Option kMeshOptions[] = {kLibrary, {"--out", "FILE.glb", "the file to write"}};
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
@@ -122,6 +123,8 @@ constexpr Command kCommands[] = {
     {"case list", "", 0, 0, kLibraryJson, "Lists the cases, oldest first.", &run_case_list},
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
     {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
+    {"case mesh", "CASE", 1, 1, kMeshOptions, "Writes a case's skin as binary glTF, for browsers and others.",
+     &run_case_mesh},
     {"case bundle", "CASE", 1, 1, kBundleOptions,
      "Writes a case as one checked file for another library; attempts and people stay.", &run_case_bundle},
     {"bundle export", "", 0, 0, kBundleOptions, "Writes every case of a library as one such file.",
