@@ -64,6 +64,26 @@ TEST_F(DicomBounds, FramesThatPromiseAnotherSizeThanTheHeader) {
   EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 22, std::string("\0\0\0\1\0\0\0\1", 8)), "damaged");  // a tile a pixel
 }
 
+TEST_F(DicomBounds, RleFramesThatLie) {
+  const std::string frame = rle_frame(std::vector<int>(16 * 12, 7));
+  const auto with = [&](std::size_t at, const std::string& bytes) {
+    std::string lying = frame;
+    lying.replace(at, bytes.size(), bytes);
+    return bounded(write("PLANTED.dcm", TestDicom::ct_slice({16, 12}).fragments(kRle, {lying}).bytes()), 4096);
+  };
+  EXPECT_EQ(with(0, ""), "");
+  EXPECT_EQ(with(0, std::string("\2\0\x24\0", 4)), "damaged");  // 2359298 segments: GDCM ends there
+  EXPECT_EQ(with(0, "\1"), "damaged");
+  EXPECT_EQ(with(4, "\xFF"), "damaged");
+  EXPECT_EQ(with(8, std::string(4, '\xFF')), "damaged");
+  EXPECT_EQ(with(8, std::string(4, '\0')), "damaged");
+  EXPECT_EQ(with(64, "\xFF"), "damaged");  // two bytes instead of 128
+  EXPECT_EQ(
+      bounded(write("PLANTED.dcm", TestDicom::ct_slice({16, 12}).fragments(kRle, {frame.substr(0, 200)}).bytes()),
+              4096),
+      "damaged");
+}
+
 TEST_F(DicomBounds, AHeaderThatPromisesMoreThanItsFrames) {
   const std::string frame = packed_frame(kJpeg2000, {16, 12}, std::vector<int>(16 * 12, 7));
   EXPECT_EQ(bounded(write("PLANTED.dcm",
