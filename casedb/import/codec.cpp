@@ -55,7 +55,7 @@ struct FrameHead {
   bool lossless = false;
   bool is(const DicomSlice& slice) const {
     return columns == static_cast<unsigned>(slice.size_px.x) && rows == static_cast<unsigned>(slice.size_px.y) &&
-           components == 1 && bits >= 1 && bits <= 16;
+           components == 1 && bits >= 1 && bits <= 16 && (bits <= 8) == (slice.bits_allocated == 8);
   }
 };
 
