@@ -130,6 +130,18 @@ TEST_F(DicomBounds, ThirtyThousandSlices) {
   EXPECT_EQ(bounded(folder_, std::size_t{30000} * 1024, 60.0), "too_many_slices");
 }
 
+TEST_F(DicomBounds, AFileOfTwoGigabytesIsToldByItsBeginning) {
+  for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
+  TestDicom file = TestDicom::ct_slice({4, 3});
+  const auto large = write("large", file.text(0x00080060, "CS", "US").bytes());
+  std::filesystem::resize_file(large, std::uint64_t{2} << 30);  // a hole: takes no room
+  EXPECT_EQ(bounded(folder_, 0), "");
+  write("large", file.text(0x00080060, "CS", "CT").bytes());
+  std::filesystem::resize_file(large, std::uint64_t{2} << 30);
+  EXPECT_EQ(bounded(folder_, 0), "bad_size");
+  EXPECT_EQ(bounded(large, 0), "bad_size");
+}
+
 TEST_F(DicomBounds, APipeInTheFolderIsNotWaitedFor) {
   for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
   ASSERT_EQ(::mkfifo((folder_ / "pipe.dcm").c_str(), 0600), 0);
