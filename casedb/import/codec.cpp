@@ -17,6 +17,7 @@
 #include <gdcmTrace.h>
 
 #include "casedb/import/quiet_standard_error.h"
+#include "casedb/import/rle.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -54,7 +55,7 @@ struct FrameHead {
   bool lossless = false;
   bool is(const DicomSlice& slice) const {
     return columns == static_cast<unsigned>(slice.size_px.x) && rows == static_cast<unsigned>(slice.size_px.y) &&
-           components == 1 && bits >= 1 && bits <= 16;
+           components == 1 && bits >= 1 && bits <= 16 && (bits <= 8) == (slice.bits_allocated == 8);
   }
 };
 
@@ -191,15 +192,17 @@ base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, c
   const Syntax::TSType type = Syntax::GetTSType(slice.transfer_syntax.c_str());
   const auto family = family_of(type);
   if (!family) return base::Error{"unknown_syntax", "is packed in a way that is not read"};
-  FrameHead head;
-  if (*family != Family::rle) {
-    if (!ends_in_marker(frame)) return base::Error{"truncated", "ends before its pixels do"};
-    const auto found = *family == Family::jpeg_2000 ? jpeg_2000_head(frame) : jpeg_head(frame, *family);
-    if (!found || !found->is(slice)) return damaged();
-    if (!found->lossless && claims_no_loss(type))
-      return base::Error{"lossy", "was packed with loss under the name of a way without: nobody says how much"};
-    head = *found;
+  const auto pixels_count = static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y);
+  const auto sample_bytes = static_cast<std::size_t>(slice.bits_allocated / 8);
+  if (*family == Family::rle) {
+    auto unpacked = unpack_rle(frame, pixels_count, sample_bytes);
+    return unpacked ? base::Result<std::vector<std::byte>>(std::move(*unpacked)) : damaged();
   }
+  if (!ends_in_marker(frame)) return base::Error{"truncated", "ends before its pixels do"};
+  const auto head = *family == Family::jpeg_2000 ? jpeg_2000_head(frame) : jpeg_head(frame, *family);
+  if (!head || !head->is(slice)) return damaged();
+  if (!head->lossless && claims_no_loss(type))
+    return base::Error{"lossy", "was packed with loss under the name of a way without: nobody says how much"};
   const QuietStandardError quiet;
   try {
     gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
@@ -209,12 +212,10 @@ base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, c
     gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
     pixels.SetVR(gdcm::VR::OB);
     pixels.SetValue(*fragments);
-    std::vector<std::byte> buffer(static_cast<std::size_t>(slice.size_px.x) *
-                                  static_cast<std::size_t>(slice.size_px.y) *
-                                  static_cast<std::size_t>(slice.bits_allocated / 8));
+    std::vector<std::byte> buffer(pixels_count * sample_bytes);
     const bool good = *family != Family::jpeg ? decode_other(pixels, slice, type, buffer)
-                      : head.bits <= 8        ? decode_jpeg<gdcm::JPEG8Codec>(pixels, slice, buffer)
-                      : head.bits <= 12       ? decode_jpeg<gdcm::JPEG12Codec>(pixels, slice, buffer)
+                      : head->bits <= 8       ? decode_jpeg<gdcm::JPEG8Codec>(pixels, slice, buffer)
+                      : head->bits <= 12      ? decode_jpeg<gdcm::JPEG12Codec>(pixels, slice, buffer)
                                               : decode_jpeg<gdcm::JPEG16Codec>(pixels, slice, buffer);
     if (!good) return damaged();
     return buffer;

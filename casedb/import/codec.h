@@ -1,4 +1,5 @@
-// Unpacks one frame of JPEG, JPEG-LS, JPEG 2000 or RLE by GDCM's codecs, which see nothing else of the file.
+// Unpacks one frame of JPEG, JPEG-LS or JPEG 2000 by GDCM's codecs, and RLE by our own, which see nothing else of
+// the file.
 #pragma once
 
 #include <cstddef>

@@ -109,8 +109,9 @@ void drop_duplicates(Slices& slices, SliceReader& reader, Problems& problems, Wa
                                          " with other pixels at the place of another, differing by up to " +
                                          std::to_string(most_hu) + " HU: several series or times in one");
   if (dropped > 0)
-    warnings.push_back({"duplicate_slices", count_text(dropped, "slice") + " of " + std::to_string(slices.size()) +
-                                                " with the same pixels at the same place as another were dropped"});
+    warnings.push_back({"duplicate_slices",
+                        "dropped as copies, with the same pixels at the same place: " + std::to_string(dropped) +
+                            " of " + count_text(slices.size(), "slice")});
   slices = std::move(kept);
 }
 

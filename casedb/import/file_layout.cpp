@@ -17,8 +17,10 @@ bool all_finite(const FileLayout& layout, std::uint64_t need) {
   std::vector<std::byte> bytes;
   if (layout.packing == Packing::none)
     bytes = read_bytes(layout.data_file, layout.data_offset, need).value_or(std::vector<std::byte>());
-  else
+  else {
+    bytes.reserve(need + kSpareBytes);  // counted before
     unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing}, &bytes);
+  }
   const auto size = static_cast<std::size_t>(layout.float_bytes);
   for (std::size_t at = layout.unpacked_skip; at + size <= bytes.size() && at < need; at += size) {
     const unsigned high = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 0 : size - 1)]);

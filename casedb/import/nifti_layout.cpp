@@ -126,9 +126,10 @@ void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& pro
     problems.add("no_geometry", "the header does not say how the volume lies in the patient");
     return;
   }
-  for (std::size_t at = 256; at < 280; at += 4)
-    if (qform > 0 && !std::isfinite(header.number<float>(at))) {
-      problems.add("no_geometry", "the orientation holds values that are no numbers");
+  // ITK looks at both, whichever it takes, and ends the program on NaN: qform from byte 256, sform from 280 to 327.
+  for (std::size_t at = qform > 0 ? 256 : 280; at < (sform > 0 ? 328 : 280); at += 4)
+    if (!(std::abs(header.number<float>(at)) < 1e6F)) {
+      problems.add("no_geometry", "the orientation holds values that are no numbers, or out of range");
       return;
     }
   if (sform > 0 && qform > 0 && forms_differ(header, layout)) {

@@ -197,9 +197,8 @@ void judge_others(const Found& found, const Series& series, Problems& problems,
   const auto alike =
       static_cast<std::size_t>(std::count(found.other_endings.begin(), found.other_endings.end(), ending));
   if (alike > 0 && !ending.empty())
-    warnings.push_back({"not_dicom", count_text(alike, "file") +
-                                         " named like the slices that are no DICOM: if one was a "
-                                         "slice, the series is not whole"});
+    warnings.push_back({"not_dicom", "named like the slices, and no DICOM: " + count_text(alike, "file") +
+                                         ". Were they slices, the series is not whole"});
 }
 
 base::Result<Source> read_found(Found found, const std::optional<std::string>& wanted) {

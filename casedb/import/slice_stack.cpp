@@ -130,7 +130,7 @@ bool heights_are_even(const Places& places, Problems& problems, std::vector<base
   const auto widest = static_cast<std::size_t>(most - places.gap_mm.begin());
   const std::string where =
       ", the widest gap before slice " + std::to_string(widest + 2) + " of " + std::to_string(count);
-  if (*most > kMissingFrom * usual_mm && *most > kWidestHoleMm) {
+  if (*most > kMissingFrom * usual_mm && *most > kWidestHoleMm + places.tolerance_mm) {
     problems.add("uneven_slices", spread + where + ": more than 10 mm are not filled in");
   } else if (std::round(places.extent_mm() / usual_mm) + 1.0 > 2.0 * static_cast<double>(count)) {
     problems.add("uneven_slices", spread + where + ": more would be invented than there is");
@@ -209,6 +209,10 @@ void order_slices(std::vector<DicomSlice>& slices, Problems& problems, std::vect
   keep_one_orientation(slices, problems, warnings);
   if (!problems.empty()) return;
   check_size(slices, problems);
+  for (DicomSlice& slice : slices) {  // as good as equal, and from here on equal
+    slice.row = slices.front().row;
+    slice.column = slices.front().column;
+  }
   const glm::dvec3 normal = normal_of(slices.front());
   std::stable_sort(slices.begin(), slices.end(), [&](const DicomSlice& a, const DicomSlice& b) {
     return glm::dot(a.position_lps_mm, normal) < glm::dot(b.position_lps_mm, normal);

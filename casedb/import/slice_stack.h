@@ -34,7 +34,8 @@ struct Stack {
   std::vector<glm::dvec2> shift_px;
 };
 
-// Leaves pictures that lie across the others out, and sorts the rest along the normal (row × column). Adds the
+// Leaves pictures that lie across the others out, gives the rest one orientation, and sorts them along its normal
+// (row × column). Adds the
 // problems of the slices themselves, `mixed_orientation`, `mixed_size`.
 void order_slices(std::vector<DicomSlice>& slices, Problems& problems, std::vector<base::Problem>& warnings);
 

@@ -64,6 +64,26 @@ TEST_F(DicomBounds, FramesThatPromiseAnotherSizeThanTheHeader) {
   EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 22, std::string("\0\0\0\1\0\0\0\1", 8)), "damaged");  // a tile a pixel
 }
 
+TEST_F(DicomBounds, RleFramesThatLie) {
+  const std::string frame = rle_frame(std::vector<int>(16 * 12, 7));
+  const auto with = [&](std::size_t at, const std::string& bytes) {
+    std::string lying = frame;
+    lying.replace(at, bytes.size(), bytes);
+    return bounded(write("PLANTED.dcm", TestDicom::ct_slice({16, 12}).fragments(kRle, {lying}).bytes()), 4096);
+  };
+  EXPECT_EQ(with(0, ""), "");
+  EXPECT_EQ(with(0, std::string("\2\0\x24\0", 4)), "damaged");  // 2359298 segments: GDCM ends there
+  EXPECT_EQ(with(0, "\1"), "damaged");
+  EXPECT_EQ(with(4, "\xFF"), "damaged");
+  EXPECT_EQ(with(8, std::string(4, '\xFF')), "damaged");
+  EXPECT_EQ(with(8, std::string(4, '\0')), "damaged");
+  EXPECT_EQ(with(64, "\xFF"), "damaged");  // two bytes instead of 128
+  EXPECT_EQ(
+      bounded(write("PLANTED.dcm", TestDicom::ct_slice({16, 12}).fragments(kRle, {frame.substr(0, 200)}).bytes()),
+              4096),
+      "damaged");
+}
+
 TEST_F(DicomBounds, AHeaderThatPromisesMoreThanItsFrames) {
   const std::string frame = packed_frame(kJpeg2000, {16, 12}, std::vector<int>(16 * 12, 7));
   EXPECT_EQ(bounded(write("PLANTED.dcm",
@@ -108,6 +128,18 @@ TEST_F(DicomBounds, ThirtyThousandSlices) {
   const auto first = write("s", TestDicom::ct_slice({1, 1}).bytes());
   for (int k = 1; k < 30000; ++k) std::filesystem::create_hard_link(first, folder_ / numbered("s", k));
   EXPECT_EQ(bounded(folder_, std::size_t{30000} * 1024, 60.0), "too_many_slices");
+}
+
+TEST_F(DicomBounds, AFileOfTwoGigabytesIsToldByItsBeginning) {
+  for (int k = 0; k < 3; ++k) write(numbered("s", k), TestDicom::ct_slice({4, 3}).at({0, 0, 2.0 * k}).bytes());
+  TestDicom file = TestDicom::ct_slice({4, 3});
+  const auto large = write("large", file.text(0x00080060, "CS", "US").bytes());
+  std::filesystem::resize_file(large, std::uint64_t{2} << 30);  // a hole: takes no room
+  EXPECT_EQ(bounded(folder_, 0), "");
+  write("large", file.text(0x00080060, "CS", "CT").bytes());
+  std::filesystem::resize_file(large, std::uint64_t{2} << 30);
+  EXPECT_EQ(bounded(folder_, 0), "bad_size");
+  EXPECT_EQ(bounded(large, 0), "bad_size");
 }
 
 TEST_F(DicomBounds, APipeInTheFolderIsNotWaitedFor) {

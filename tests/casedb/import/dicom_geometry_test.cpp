@@ -292,7 +292,7 @@ TEST_F(DicomGeometry, DoubledSlicesWithTheSamePixelsAreDropped) {
   EXPECT_EQ(source->slices_used, 5);
   EXPECT_EQ(source->volume.size_voxels.z, 5);
   EXPECT_EQ(source->volume.at(0, 0, 4), 400);
-  EXPECT_NE(text_of(source->warnings, "duplicate_slices").find("4 slices of 9"), std::string::npos);
+  EXPECT_NE(text_of(source->warnings, "duplicate_slices").find("4 of 9 slices"), std::string::npos);
 }
 
 TEST_F(DicomGeometry, DoubledSlicesWithOtherPixelsAreRefused) {

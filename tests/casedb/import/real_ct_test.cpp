@@ -48,6 +48,34 @@ TEST_F(RealCt, LandmarksOfTheDicomSeries) {
     EXPECT_NEAR(mean_hu(source->volume, landmark.p_lps_mm), landmark.hu, 1.0) << landmark.p_lps_mm.x;
 }
 
+TEST_F(RealCt, LandmarksOfTheDicomSeriesStayWhenASliceIsLostAndOthersAreDoubled) {
+  for (const auto& entry : std::filesystem::directory_iterator(shared_data("ct-abdomen-contrast-dicom"))) {
+    const std::string name = entry.path().filename();
+    if (name == "1-24.dcm") continue;  // 10 mm or more beside every landmark
+    std::filesystem::copy(entry.path(), folder_ / name);
+    if (name.starts_with("1-1")) std::filesystem::copy(entry.path(), folder_ / ("copy" + name));
+  }
+  const auto source = read(folder_);
+  ASSERT_TRUE(source) << source.error().text;
+  EXPECT_EQ(source->volume.size_voxels, glm::ivec3(512, 512, 35));
+  EXPECT_EQ(source->slices_used, 34);
+  EXPECT_TRUE(has_code(source->warnings, "uneven_slices"));
+  EXPECT_TRUE(has_code(source->warnings, "duplicate_slices"));
+  for (const Landmark& landmark : kContrast)
+    EXPECT_NEAR(mean_hu(source->volume, landmark.p_lps_mm), landmark.hu, 1.0) << landmark.p_lps_mm.x;
+  // The lost slice is halfway between its neighbours: the water of the body stays where it was.
+  const auto whole = read(shared_data("ct-abdomen-contrast-dicom"));
+  ASSERT_TRUE(whole);
+  EXPECT_LT(largest_difference(source->volume.lps_from_voxel, whole->volume.lps_from_voxel), 1e-4);
+  std::size_t layers = 0;
+  const std::size_t slice = 512 * 512;
+  for (std::size_t k = 0; k < 35; ++k)
+    layers += std::equal(whole->volume.hu.begin() + static_cast<std::ptrdiff_t>(k * slice),
+                         whole->volume.hu.begin() + static_cast<std::ptrdiff_t>((k + 1) * slice),
+                         source->volume.hu.begin() + static_cast<std::ptrdiff_t>(k * slice));
+  EXPECT_EQ(layers, 34U);  // all but the lost one are as they were
+}
+
 TEST_F(RealCt, LandmarksOfTheNifti) {
   const auto source = read(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz"));
   ASSERT_TRUE(source);
