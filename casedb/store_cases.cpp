@@ -57,6 +57,18 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
         .run();
 }
 
+// Put together once: a list of thousands of cases asks for them again and again.
+struct GridColumns {
+  std::string size[3], spacing[3], matrix[3][4];
+  GridColumns() {
+    for (int axis = 0; axis < 3; ++axis) {
+      size[axis] = std::string("size_") + kAxes[axis] + "_voxels";
+      spacing[axis] = std::string("spacing_") + kAxes[axis] + "_mm";
+      for (int column = 0; column < 4; ++column) matrix[axis][column] = matrix_column(axis, column);
+    }
+  }
+};
+
 CaseRow read_case(const Statement& from) {
   CaseRow row;
   row.case_id = from.text("case_id");
@@ -64,12 +76,12 @@ CaseRow read_case(const Statement& from) {
   row.state = from.text("state");
   row.origin = from.text("origin");
   row.created_us = from.integer("created_us");
+  static const GridColumns names;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = kAxes[axis];
-    row.size_voxels[axis] = from.small_integer("size_" + name + "_voxels");
-    row.spacing_mm[axis] = from.real("spacing_" + name + "_mm");
+    row.size_voxels[axis] = from.small_integer(names.size[axis]);
+    row.spacing_mm[axis] = from.real(names.spacing[axis]);
     for (int column = 0; column < 4; ++column)
-      row.lps_from_voxel[column][axis] = from.real(matrix_column(axis, column));
+      row.lps_from_voxel[column][axis] = from.real(names.matrix[axis][column]);
   }
   row.hu_min = from.small_integer("hu_min");
   row.hu_max = from.small_integer("hu_max");
@@ -243,7 +255,7 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
   return lesion_id;
 }
 
-std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id) {
+std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id) {
   std::vector<LesionRow> rows;
   Statement lesions = question(library.database(), "lesions_of_case");
   for (lesions.bind("case_id", case_id); lesions.step();) {
