@@ -105,15 +105,21 @@ std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::strin
     rows.push_back(read_case(cases));
     place.emplace(rows.back().case_id, rows.size() - 1);
   }
-  // A case added between two questions is not in `place`.
+  // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
+  CaseRow* row = nullptr;
+  const auto belongs = [&](const Statement& from) {
+    const std::string_view id = from.view("case_id");
+    if (row != nullptr && row->case_id == id) return true;
+    const auto at = place.find(std::string(id));
+    row = at == place.end() ? nullptr : &rows[at->second];
+    return row != nullptr;
+  };
   Statement attributes = question(database, "case_attributes");
   for (attributes.bind("case_id", case_id); attributes.step();)
-    if (const auto at = place.find(attributes.text("case_id")); at != place.end())
-      rows[at->second].attributes.emplace_back(attributes.text("name"), attributes.text("value"));
+    if (belongs(attributes)) row->attributes.emplace_back(attributes.text("name"), attributes.text("value"));
   Statement warnings = question(database, "case_warnings");
   for (warnings.bind("case_id", case_id); warnings.step();)
-    if (const auto at = place.find(warnings.text("case_id")); at != place.end())
-      rows[at->second].warnings.push_back({warnings.text("code"), warnings.text("text")});
+    if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
   return rows;
 }
 
