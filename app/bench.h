@@ -41,4 +41,7 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows);
 // Also of stage haptics: segment queries beside Embree, ticks of the proxies.
 void bench_touch(bool quick, std::vector<BenchRow>& rows);
 
+// Stage library: lists, checks, backups and bundles of 5,000 small cases and 20,000 attempts (quick: a tenth).
+base::Result<void> bench_library(bool quick, std::vector<BenchRow>& rows);
+
 }  // namespace seldinger::app

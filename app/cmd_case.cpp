@@ -1,5 +1,6 @@
 // case list, case show, case lesion.
 #include <cstdio>
+#include <unordered_map>
 
 #include "app/answers_json.h"
 #include "app/command.h"
@@ -10,8 +11,11 @@ int run_case_list(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
   std::vector<std::pair<casedb::CaseRow, std::vector<casedb::LesionRow>>> cases;
+  std::unordered_map<std::string, std::vector<casedb::LesionRow>> lesions_of;
+  for (casedb::LesionRow& lesion : casedb::list_lesions(*library))
+    lesions_of[lesion.case_id].push_back(std::move(lesion));
   for (casedb::CaseRow& row : casedb::list_cases(*library)) {
-    auto lesions = casedb::list_lesions(*library, row.case_id);
+    auto lesions = std::move(lesions_of[row.case_id]);
     cases.emplace_back(std::move(row), std::move(lesions));
   }
   if (arguments.has("--json")) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -110,17 +111,18 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
   return {};
 }
 
-base::Result<std::unique_ptr<Sqlite>> read_rows(const OpenFile& file, const BundleList& list,
-                                                const BundledCase& part) {
+base::Result<std::unique_ptr<Sqlite>> read_rows(const OpenFile& file, RowsReader& reader, const BundledCase& part) {
   const std::vector<std::byte> packed = file.read(part.offset, static_cast<std::size_t>(part.packed_bytes));
   if (sha256_hex(packed) != part.sha256) return kDamaged;
   const auto bytes = base::decompress(packed, static_cast<std::size_t>(part.bytes));
   if (!bytes || bytes->size() != part.bytes) return kDamaged;
-  return rows_from_bytes(*bytes, part.case_id, list.schema);
+  return reader.read(*bytes, part.case_id);
 }
 
-// All of the file, before anything is stored.
-base::Result<void> check_parts(const OpenFile& file, const BundleList& list) {
+// All of the file, before anything is stored. Each case is shown when it is found sound, with the names of its
+// files.
+using Show = std::function<void(const BundledCase& part, Sqlite& rows, const std::set<std::string>& names)>;
+base::Result<void> check_parts(const OpenFile& file, const BundleList& list, const Show& show) {
   Assets assets;
   for (const BundledAsset& asset : list.assets) {
     Sha256 hash;
@@ -131,13 +133,15 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list) {
     assets.emplace(asset.sha256, &asset);
   }
   std::set<std::string> used;
+  RowsReader reader(list.schema);
   for (const BundledCase& part : list.cases) {
-    const auto rows = read_rows(file, list, part);
+    const auto rows = read_rows(file, reader, part);
     if (!rows) return rows.error();
     std::set<std::string> named = assets_named(**rows);
     for (const std::string& name : named)
       if (!assets.contains(name)) return kDamaged;
     if (const auto fit = check_files(file, **rows, part.case_id, assets); !fit) return fit.error();
+    show(part, **rows, named);
     used.merge(named);
   }
   if (used.size() != assets.size()) return kDamaged;  // a file that nobody needs
@@ -150,56 +154,57 @@ Bundle told(const BundleList& list, std::uint64_t bytes) {
   return bundle;
 }
 
-// Cases that are absent and those that are the same; `case_differs` names the others.
-base::Result<Unbundled> compared(Library& library, const OpenFile& file, const BundleList& list) {
+// What is known of a bundle beside a library once all of it was read.
+struct Compared {
   Unbundled cases;
-  std::vector<base::Problem> different;
-  for (const BundledCase& part : list.cases) {
-    const auto rows = read_rows(file, list, part);
-    if (!rows) return rows.error();
-    switch (presence(**rows, library.database(), part.case_id)) {
+  std::set<std::string> assets;          // that the absent cases need
+  std::vector<base::Problem> different;  // cases that are there with other content
+};
+
+base::Result<Compared> compared(Library& library, const OpenFile& file, const BundleList& list) {
+  Compared found;
+  const auto sound = check_parts(file, list, [&](const BundledCase& part, Sqlite& rows, const auto& names) {
+    switch (presence(rows, library.database(), part.case_id)) {
       case Presence::absent:
-        cases.stored.push_back(part.case_id);
+        found.cases.stored.push_back(part.case_id);
+        found.assets.insert(names.begin(), names.end());
         break;
       case Presence::same:
-        cases.present.push_back(part.case_id);
+        found.cases.present.push_back(part.case_id);
         break;
       case Presence::different:
-        different.push_back({"case_differs", "case " + part.case_id + " is in the library with other content"});
+        found.different.push_back(
+            {"case_differs", "case " + part.case_id + " is in the library with other content"});
         break;
     }
-  }
-  if (!different.empty())
-    return base::Error{"case_differs", "a case of the bundle is in the library with other content", different};
-  return cases;
+  });
+  if (!sound) return sound.error();
+  if (!found.different.empty())
+    return base::Error{"case_differs", "a case of the bundle is in the library with other content",
+                       found.different};
+  return found;
 }
 
 // The file changed while it was read.
 class Changed {};
 
-// Those cases of it, all or none. False: one of them is there meanwhile.
-base::Result<bool> store(Library& library, const OpenFile& file, const BundleList& list,
-                         const std::vector<std::string>& wanted) {
+// The absent cases, all or none. False: one of them is there meanwhile.
+base::Result<bool> store(Library& library, const OpenFile& file, const BundleList& list, const Compared& found) {
   NewAssets assets(library);
-  std::set<std::string> needed;
-  for (const BundledCase& part : list.cases) {
-    if (std::ranges::find(wanted, part.case_id) == wanted.end()) continue;
-    const auto rows = read_rows(file, list, part);
-    if (!rows) return rows.error();
-    needed.merge(assets_named(**rows));
-  }
   for (const BundledAsset& asset : list.assets)
-    if (needed.contains(asset.sha256))
+    if (found.assets.contains(asset.sha256))
       assets.add([&file, &asset] {
         auto bytes = read_asset(file, asset);
         if (!bytes) throw Changed();
         return std::move(bytes.value());
       });
+  const std::set<std::string_view> absent(found.cases.stored.begin(), found.cases.stored.end());
+  RowsReader reader(list.schema);
   Transaction transaction(library.database());
   assets.make_sure();
   for (const BundledCase& part : list.cases) {
-    if (std::ranges::find(wanted, part.case_id) == wanted.end()) continue;
-    const auto rows = read_rows(file, list, part);
+    if (!absent.contains(part.case_id)) continue;
+    const auto rows = read_rows(file, reader, part);
     if (!rows) return rows.error();
     if (presence(**rows, library.database(), part.case_id) != Presence::absent) return false;
     insert_rows(**rows, library.database(), part.case_id);
@@ -282,7 +287,7 @@ base::Result<Bundle> check_bundle(const fs::path& file) {
     const OpenFile in(file);
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
-    if (const auto sound = check_parts(in, *list); !sound) return sound.error();
+    if (const auto sound = check_parts(in, *list, [](const auto&...) {}); !sound) return sound.error();
     return told(*list, in.size());
   });
 }
@@ -293,14 +298,14 @@ base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
     const OpenFile in(file);
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
-    if (const auto sound = check_parts(in, *list); !sound) return sound.error();
     try {
       for (;;) {
-        auto cases = compared(library, in, *list);
-        if (!cases || cases->stored.empty()) return cases;
-        const auto stored = store(library, in, *list, cases->stored);
+        const auto found = compared(library, in, *list);
+        if (!found) return found.error();
+        if (found->cases.stored.empty()) return found->cases;
+        const auto stored = store(library, in, *list, *found);
         if (!stored) return stored.error();
-        if (*stored) return cases;
+        if (*stored) return found->cases;
       }
     } catch (const Changed&) {
       return kDamaged;

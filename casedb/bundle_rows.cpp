@@ -103,9 +103,9 @@ void bind_value(Statement& to, const Statement& from, const std::string& column)
 struct Damaged {};
 
 // Takes pieces off the front; throws Damaged where there are too few bytes.
-class Reader {
+class Pieces {
  public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit Pieces(std::span<const std::byte> bytes) : rest_(bytes) {}
   std::span<const std::byte> take(std::size_t count) {
     if (count > rest_.size()) throw Damaged();
     const auto taken = rest_.first(count);
@@ -130,7 +130,7 @@ class Reader {
   std::span<const std::byte> rest_;
 };
 
-void bind_value(Statement& to, const std::string& column, Reader& from) {
+void bind_value(Statement& to, const std::string& column, Pieces& from) {
   switch (static_cast<Kind>(from.number<std::uint8_t>())) {
     case Kind::null:
       to.bind_null(column);
@@ -152,7 +152,7 @@ void bind_value(Statement& to, const std::string& column, Reader& from) {
 }
 
 // One table's rows into the database.
-void read_table(Reader& from, Sqlite& database, const std::string& case_id, std::set<std::string_view>& seen) {
+void read_table(Pieces& from, Sqlite& database, const std::string& case_id, std::set<std::string_view>& seen) {
   const std::string_view name = from.text();
   const auto known = travelling_tables();
   const auto table = std::ranges::find(known, name, &TravellingTable::name);
@@ -206,16 +206,20 @@ std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_
   return out;
 }
 
-base::Result<std::unique_ptr<Sqlite>> rows_from_bytes(std::span<const std::byte> bytes, const std::string& case_id,
-                                                      int version) {
+RowsReader::RowsReader(int version) : empty_(":memory:", Sqlite::Mode::create) {
+  build(empty_, library_schema(), version);
+}
+
+base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte> bytes,
+                                                       const std::string& case_id) {
   const base::Error damaged{"damaged", "the rows of a case in the bundle are damaged"};
   const Schema schema = library_schema();
   auto database = std::make_unique<Sqlite>(":memory:", Sqlite::Mode::create);
-  build(*database, schema, version);
+  empty_.copy_to(*database);
   try {
     Transaction transaction(*database);
     database->run("PRAGMA defer_foreign_keys = ON");
-    Reader from(bytes);
+    Pieces from(bytes);
     std::set<std::string_view> seen;
     for (auto tables = from.number<std::uint32_t>(); tables > 0; --tables)
       read_table(from, *database, case_id, seen);

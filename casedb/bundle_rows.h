@@ -19,10 +19,17 @@ constexpr std::size_t kMostRowBytes = std::size_t{8} << 20;  // of one case; its
 // Nobody and nothing that stays is named in them (casedb/tables.h).
 std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_id);
 
-// A database in memory that holds these rows and no others, written at `version` and brought to the newest. Every
-// constraint of the schema holds in it. Refused: `damaged`.
-base::Result<std::unique_ptr<Sqlite>> rows_from_bytes(std::span<const std::byte> bytes, const std::string& case_id,
-                                                      int version);
+// Reads rows that were written at one version of the schema.
+class RowsReader {
+ public:
+  explicit RowsReader(int version);
+  // A database in memory that holds these rows and no others, brought to the newest schema. Every constraint of the
+  // schema holds in it. Refused: `damaged`.
+  base::Result<std::unique_ptr<Sqlite>> read(std::span<const std::byte> bytes, const std::string& case_id);
+
+ private:
+  Sqlite empty_;  // made once: it is copied, not walked, for each case
+};
 
 enum class Presence { absent, same, different };
 // Whether the library has that case, and all that is said of it. What a person may change of a case (title, state)

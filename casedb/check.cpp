@@ -84,12 +84,11 @@ void check_assets(Library& library, CheckReport& report) {
     if (still_named.contains(bad[i])) report.findings.push_back(std::move(found[i]));
 }
 
-void check_recordings(Sqlite& database, CheckReport& report) {
-  const Snapshot snapshot(database);
-  Statement sizes = question(database, "recording_sizes"), chunks = question(database, "every_recording_chunk");
+// By the two questions: how many pieces each recording has, and all of them. How many recordings there are.
+std::size_t check_recordings(Statement sizes, Statement chunks, CheckReport& report) {
+  std::size_t recordings = 0;
   bool more = chunks.step();
-  while (sizes.step()) {
-    ++report.attempts;
+  for (; sizes.step(); ++recordings) {
     const std::string attempt_id = sizes.text("attempt_id");
     std::int64_t count = 0;
     bool in_order = true, sound = true;
@@ -105,6 +104,7 @@ void check_recordings(Sqlite& database, CheckReport& report) {
     if (!sound)
       report.findings.push_back({"recording_damaged", "the recording of attempt " + attempt_id + " is damaged"});
   }
+  return recordings;
 }
 
 void check_people(Library& library, CheckReport& report) {
@@ -153,7 +153,13 @@ base::Result<CheckReport> checked(const fs::path& folder, bool repair) {
   check_files_beside(*library, repair, report);
   check_files_in_assets(*library, repair, report);
   check_assets(*library, report);
-  check_recordings(library->database(), report);
+  {
+    Sqlite& database = library->database();
+    const Snapshot snapshot(database);
+    report.attempts = check_recordings(question(database, "recording_sizes"),
+                                       question(database, "every_recording_chunk"), report);
+    check_recordings(question(database, "open_recording_sizes"), question(database, "every_open_chunk"), report);
+  }
   check_people(*library, report);
   return report;
 }

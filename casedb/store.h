@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,7 +80,8 @@ base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, co
 
 // `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the volume).
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion);
-std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id);  // oldest first
+// Of one case, oldest first; of every one, case by case.
+std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id = {});
 
 // --- attempts ---------------------------------------------------------------------------------------------------
 using MetricValue = assessment::MetricValue;
@@ -125,7 +127,10 @@ struct AttemptRow : AttemptHead {
 
 // `no_case`, `no_lesion`, `no_person`. Durable when it returns.
 base::Result<std::string> add_attempt(Library& library, const NewAttempt& attempt);
-std::vector<AttemptRow> list_attempts(Library& library);                                   // newest first
+// Newest first; `count` of them from the one at `first`, which is 0 for the newest.
+std::vector<AttemptRow> list_attempts(Library& library, std::size_t first = 0,
+                                      std::size_t count = std::numeric_limits<std::size_t>::max());
+std::size_t count_attempts(Library& library);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);    // `no_attempt`
 base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);

@@ -176,9 +176,21 @@ base::Result<std::size_t> add_metrics(Library& library, const std::string& attem
   return news.size();
 }
 
-std::vector<AttemptRow> list_attempts(Library& library) {
+std::vector<AttemptRow> list_attempts(Library& library, std::size_t first, std::size_t count) {
   Sqlite& database = library.database();
-  return read_attempts(question(database, "attempts"), question(database, "metric_values"));
+  const auto bounded = [](std::size_t value) {
+    return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
+  };
+  Statement attempts = question(database, "attempts"), metrics = question(database, "metric_values");
+  for (Statement* part : {&attempts, &metrics}) part->bind("first", bounded(first)).bind("count", bounded(count));
+  const Snapshot one_state(database);  // both questions mean the same attempts
+  return read_attempts(std::move(attempts), std::move(metrics));
+}
+
+std::size_t count_attempts(Library& library) {
+  Statement counted = question(library.database(), "attempt_count");
+  CHECK(counted.step());
+  return static_cast<std::size_t>(counted.integer("attempts"));
 }
 
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id) {

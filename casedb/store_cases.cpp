@@ -57,6 +57,18 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
         .run();
 }
 
+// Put together once: a list of thousands of cases asks for them again and again.
+struct GridColumns {
+  std::string size[3], spacing[3], matrix[3][4];
+  GridColumns() {
+    for (int axis = 0; axis < 3; ++axis) {
+      size[axis] = std::string("size_") + kAxes[axis] + "_voxels";
+      spacing[axis] = std::string("spacing_") + kAxes[axis] + "_mm";
+      for (int column = 0; column < 4; ++column) matrix[axis][column] = matrix_column(axis, column);
+    }
+  }
+};
+
 CaseRow read_case(const Statement& from) {
   CaseRow row;
   row.case_id = from.text("case_id");
@@ -64,12 +76,12 @@ CaseRow read_case(const Statement& from) {
   row.state = from.text("state");
   row.origin = from.text("origin");
   row.created_us = from.integer("created_us");
+  static const GridColumns names;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string name = kAxes[axis];
-    row.size_voxels[axis] = from.small_integer("size_" + name + "_voxels");
-    row.spacing_mm[axis] = from.real("spacing_" + name + "_mm");
+    row.size_voxels[axis] = from.small_integer(names.size[axis]);
+    row.spacing_mm[axis] = from.real(names.spacing[axis]);
     for (int column = 0; column < 4; ++column)
-      row.lps_from_voxel[column][axis] = from.real(matrix_column(axis, column));
+      row.lps_from_voxel[column][axis] = from.real(names.matrix[axis][column]);
   }
   row.hu_min = from.small_integer("hu_min");
   row.hu_max = from.small_integer("hu_max");
@@ -93,15 +105,21 @@ std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::strin
     rows.push_back(read_case(cases));
     place.emplace(rows.back().case_id, rows.size() - 1);
   }
-  // A case added between two questions is not in `place`.
+  // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
+  CaseRow* row = nullptr;
+  const auto belongs = [&](const Statement& from) {
+    const std::string_view id = from.view("case_id");
+    if (row != nullptr && row->case_id == id) return true;
+    const auto at = place.find(std::string(id));
+    row = at == place.end() ? nullptr : &rows[at->second];
+    return row != nullptr;
+  };
   Statement attributes = question(database, "case_attributes");
   for (attributes.bind("case_id", case_id); attributes.step();)
-    if (const auto at = place.find(attributes.text("case_id")); at != place.end())
-      rows[at->second].attributes.emplace_back(attributes.text("name"), attributes.text("value"));
+    if (belongs(attributes)) row->attributes.emplace_back(attributes.text("name"), attributes.text("value"));
   Statement warnings = question(database, "case_warnings");
   for (warnings.bind("case_id", case_id); warnings.step();)
-    if (const auto at = place.find(warnings.text("case_id")); at != place.end())
-      rows[at->second].warnings.push_back({warnings.text("code"), warnings.text("text")});
+    if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
   return rows;
 }
 
@@ -243,7 +261,7 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
   return lesion_id;
 }
 
-std::vector<LesionRow> list_lesions(Library& library, const std::string& case_id) {
+std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id) {
   std::vector<LesionRow> rows;
   Statement lesions = question(library.database(), "lesions_of_case");
   for (lesions.bind("case_id", case_id); lesions.step();) {

@@ -43,9 +43,14 @@ class LibraryQuestions final : public Questions {
     return casedb::list_users(pages_.library);
   }
 
-  std::vector<casedb::AttemptRow> list_attempts() override {
+  std::size_t count_attempts() override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_attempts(pages_.library);
+    return casedb::count_attempts(pages_.library);
+  }
+
+  std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_attempts(pages_.library, first, count);
   }
 
   std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {

@@ -18,9 +18,10 @@ class Questions {
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
 
-  virtual std::vector<casedb::AttemptRow> list_attempts() = 0;                                 // newest first
-  virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;  // newest first
-  virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;    // `no_attempt`
+  virtual std::size_t count_attempts() = 0;
+  virtual std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) = 0;  // newest first
+  virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;       // newest first
+  virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;         // `no_attempt`
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
 };

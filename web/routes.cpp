@@ -130,9 +130,12 @@ Response list_attempts(Site& site, const Call& call) {
     return html_response(200, reports::no_attempts_page(call.reader->visitor()));
   }
   const bool own_only = scope == AttemptScope::own;
-  const auto rows = own_only ? site.questions.list_attempts_of(account.person_id) : site.questions.list_attempts();
-  const std::size_t pages = std::max<std::size_t>(1, (rows.size() + kRowsOfAPage - 1) / kRowsOfAPage);
+  auto rows = own_only ? site.questions.list_attempts_of(account.person_id) : std::vector<casedb::AttemptRow>();
+  const std::size_t total = own_only ? rows.size() : site.questions.count_attempts();
+  const std::size_t pages = std::max<std::size_t>(1, (total + kRowsOfAPage - 1) / kRowsOfAPage);
   const std::size_t page = wanted_page(call.request, pages);
+  const std::size_t first = (page - 1) * kRowsOfAPage;
+  if (!own_only) rows = site.questions.list_attempts(first, kRowsOfAPage);
 
   std::map<std::string, casedb::Account> accounts;
   for (casedb::Account& one : site.questions.list_accounts()) accounts.emplace(one.person_id, one);
@@ -141,12 +144,12 @@ Response list_attempts(Site& site, const Call& call) {
     return found == accounts.end() ? std::nullopt : std::optional(found->second);
   };
   std::vector<reports::AttemptView> views;
-  const std::size_t end = std::min(rows.size(), page * kRowsOfAPage);
-  for (std::size_t i = (page - 1) * kRowsOfAPage; i < end; ++i) {
+  const std::size_t begin = own_only ? first : 0, end = std::min(rows.size(), begin + kRowsOfAPage);
+  for (std::size_t i = begin; i < end; ++i) {
     if (!may_see_attempt(account, rows[i])) continue;  // the question was right already; this holds it to the table
     views.push_back({rows[i], operator_label(account, rows[i], account_of)});
   }
-  const reports::ListPart part{page, pages, rows.size(), own_only};
+  const reports::ListPart part{page, pages, total, own_only};
   return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
 }
 

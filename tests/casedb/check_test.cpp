@@ -128,6 +128,21 @@ TEST_F(CheckTest, AChangedRecordingIsFound) {
   EXPECT_EQ(found(), Codes{"recording_damaged"});
 }
 
+TEST_F(CheckTest, AnOpenAttemptIsLookedAtToo) {
+  {
+    Library library = open_library(folder_);
+    const AttemptRow done = find_attempt(library, attempt_id_).value();
+    const std::string open_id = open_attempt(library, done).value();
+    const auto chunks = cases::chunks_from_recording(sample_recording(5000));
+    for (std::size_t i = 0; i < 2; ++i) ASSERT_TRUE(add_chunk(library, open_id, chunks[i]).has_value());
+  }
+  EXPECT_EQ(found(), Codes{});
+  change("seldinger.sqlite", "UPDATE open_chunk SET data = x'00' WHERE sequence = 1");
+  EXPECT_EQ(found(), Codes{"recording_damaged"});
+  change("seldinger.sqlite", "DELETE FROM open_chunk WHERE sequence = 0");
+  EXPECT_EQ(found(), (Codes{"recording_damaged", "recording_incomplete"}));
+}
+
 TEST_F(CheckTest, ALeftoverOfAKilledWriterIsFoundAndRepaired) {
   const std::string name = std::string(64, 'b') + ".tmp-4711-3";
   std::ofstream(folder_ / "assets" / name) << "half";

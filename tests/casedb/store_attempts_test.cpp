@@ -156,6 +156,15 @@ TEST_F(StoreAttemptsTest, AttemptsAreListedNewestFirstEachWithItsOwnScores) {
   }
   attempt.started_us = 1;  // stored last, made first
   ids.push_back(add(attempt));
+  EXPECT_EQ(count_attempts(library_), ids.size());
+  for (std::size_t first = 0; first <= ids.size() + 1; ++first) {  // a page is that part of the list
+    const auto page = list_attempts(library_, first, 2);
+    ASSERT_EQ(page.size(), first >= ids.size() ? 0 : std::min<std::size_t>(2, ids.size() - first));
+    for (std::size_t i = 0; i < page.size(); ++i) {
+      EXPECT_EQ(page[i].attempt_id, ids[first + i]);
+      EXPECT_EQ(page[i].metrics.size(), find_attempt(library_, page[i].attempt_id).value().metrics.size());
+    }
+  }
   const auto rows = list_attempts(library_);
   ASSERT_EQ(rows.size(), ids.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -41,9 +41,16 @@ class FakeQuestions final : public Questions {
     const std::lock_guard lock(mutex);
     return accounts;
   }
-  std::vector<casedb::AttemptRow> list_attempts() override {
+  std::size_t count_attempts() override {
     fail_if_asked();
-    return attempts;
+    return attempts.size();
+  }
+  std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) override {
+    fail_if_asked();
+    first = std::min(first, attempts.size());
+    count = std::min(count, attempts.size() - first);
+    const auto from = attempts.begin() + static_cast<std::ptrdiff_t>(first);
+    return {from, from + static_cast<std::ptrdiff_t>(count)};
   }
   std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {
     std::vector<casedb::AttemptRow> own;

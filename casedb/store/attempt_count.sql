@@ -1,0 +1,2 @@
+-- How many attempts there are.
+SELECT count(*) AS attempts FROM attempt
