@@ -41,4 +41,7 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows);
 // Also of stage haptics: segment queries beside Embree, ticks of the proxies.
 void bench_touch(bool quick, std::vector<BenchRow>& rows);
 
+// Stage assessment: every metric of an attempt of ten minutes, at the rates that trackers have.
+base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows);
+
 }  // namespace seldinger::app

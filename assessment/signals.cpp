@@ -118,11 +118,11 @@ base::Result<void> take_poses(const cases::Recording& recording, Signals& signal
   return {};
 }
 
-base::Result<void> take_forces(std::span<const ForceSample> forces, Signals& signals) {
+base::Result<void> take_forces(std::span<const cases::ForceSample> forces, Signals& signals) {
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    const ForceSample& force = forces[i];
+    const cases::ForceSample& force = forces[i];
     const std::string row = "force " + std::to_string(i + 1);
-    if (!(std::isfinite(force.t_s) && std::isfinite(force.axial_n) && std::isfinite(force.lateral_n)))
+    if (!(std::isfinite(force.t_s) && std::isfinite(force.needle_axial_n) && std::isfinite(force.needle_lateral_n)))
       return base::Error{"bad_forces", row + " holds a number that is not finite"};
     if (i > 0 && force.t_s < forces[i - 1].t_s)
       return base::Error{"bad_forces", row + " is earlier than the one before"};
@@ -178,15 +178,14 @@ double Signals::inserted_mm(std::size_t i) const {
                       : 0.0;
 }
 
-base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording,
-                                   std::span<const ForceSample> forces) {
+base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording) {
   CHECK(setting.skin != nullptr);
   if (auto sound = check(setting); !sound) return sound.error();
   Signals signals;
   signals.setting = setting;
   signals.endpoint = recording.endpoint;
   if (auto taken = take_poses(recording, signals); !taken) return taken.error();
-  if (auto taken = take_forces(forces, signals); !taken) return taken.error();
+  if (auto taken = take_forces(recording.forces, signals); !taken) return taken.error();
   for (const cases::FrameTruth& frame : recording.frames) {
     if (!std::isfinite(frame.t_s)) return base::Error{"bad_frames", "a frame's time is not finite"};
     if (recording.endpoint && frame.t_s > recording.endpoint->t_s) break;

@@ -28,13 +28,6 @@ struct PlannedEntry {
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, into the body
 };
 
-// What a device or its model felt at the needle.
-struct ForceSample {
-  double t_s = 0.0;
-  double axial_n = 0.0;    // > 0 resists insertion
-  double lateral_n = 0.0;  // ≥ 0
-};
-
 // What is fixed about an attempt. What it points to outlives the signals.
 struct AttemptSetting {
   const cases::MeshIndex* skin = nullptr;
@@ -56,7 +49,7 @@ struct Signals {
   std::vector<cases::SkinPassage> passages;  // one per pose
   std::vector<double> advance_mm;            // one per pose: how far the tip came beyond where it had been (below)
   std::vector<cases::FrameTruth> frames;     // strictly increasing in time
-  std::vector<ForceSample> forces;           // may be empty
+  std::vector<cases::ForceSample> forces;    // empty: no device
   std::optional<cases::Endpoint> endpoint;
   std::optional<double> sample_rate_p5_hz;  // 95 % of the time was sampled at least so often; gaps not counted
   std::vector<Step> steps;                  // the tools' way, filtered
@@ -83,7 +76,6 @@ constexpr double kJiggleMm = 1.0;
 // number not finite, a direction not near unit length), `bad_forces` (as poses), `bad_frames` (a time not finite),
 // `bad_target` (no sphere), `bad_plan`, `bad_skin` (its surface faces inwards, so that everything far away would be
 // in the body).
-base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording,
-                                   std::span<const ForceSample> forces = {});
+base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording);
 
 }  // namespace seldinger::assessment
