@@ -3,6 +3,7 @@
 // or a pose file.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,9 +44,12 @@ inline Manner manner_of(const AttemptSetting& setting) {
   return {setting.modality, setting.approach, setting.instrument.kind};
 }
 
+enum class Gap : std::uint8_t { none, silence, jump };
+
 struct Signals {
   AttemptSetting setting;
   std::vector<cases::PoseSample> poses;      // strictly increasing in time, at most 200 a second
+  std::vector<Gap> gaps;                     // one per pose: what is between it and the next
   std::vector<cases::SkinPassage> passages;  // one per pose
   std::vector<double> advance_mm;            // one per pose: how far the tip came beyond where it had been (below)
   std::vector<cases::FrameTruth> frames;     // strictly increasing in time
@@ -57,8 +61,7 @@ struct Signals {
 
   // Interval i runs from pose i to pose i + 1; a gap belongs to no denominator.
   double interval_s(std::size_t i) const { return poses[i + 1].t_s - poses[i].t_s; }
-  bool jump(std::size_t i) const;
-  bool gap(std::size_t i) const { return interval_s(i) > kGapSeconds + kTimeTolerance_s || jump(i); }
+  bool gap(std::size_t i) const { return gaps[i] != Gap::none; }
   // Along the needle from where it entered the skin to the tip; 0 outside.
   double inserted_mm(std::size_t i) const;
   // Whether nothing is known between any two poses.
