@@ -44,4 +44,7 @@ void bench_touch(bool quick, std::vector<BenchRow>& rows);
 // Stage library: lists, checks, backups and bundles of 5,000 small cases and 20,000 attempts (quick: a tenth).
 base::Result<void> bench_library(bool quick, std::vector<BenchRow>& rows);
 
+// Stage assessment: every metric of an attempt of ten minutes, at the rates that trackers have.
+base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows);
+
 }  // namespace seldinger::app

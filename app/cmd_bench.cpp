@@ -284,7 +284,7 @@ int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
   std::vector<std::string> stages;
-  std::string list = arguments.text("--stage", "import,mpr,xray,ultrasound,haptics,step,library");
+  std::string list = arguments.text("--stage", "import,mpr,xray,ultrasound,haptics,step,library,assessment");
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     stages.push_back(list.substr(begin, comma - begin));
@@ -292,8 +292,8 @@ int run_bench(const Arguments& arguments) {
   }
   for (const std::string& stage : stages)
     if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "ultrasound" && stage != "haptics" &&
-        stage != "step" && stage != "library")
-      throw UsageError("--stage knows import, mpr, xray, ultrasound, haptics, step and library");
+        stage != "step" && stage != "library" && stage != "assessment")
+      throw UsageError("--stage knows import, mpr, xray, ultrasound, haptics, step, library and assessment");
   std::vector<Row> rows;
   for (const std::string& stage : stages) {
     std::fprintf(stderr, "bench %s …\n", stage.c_str());
@@ -309,6 +309,7 @@ int run_bench(const Arguments& arguments) {
     }
     if (stage == "step") done = bench_step(quick, rows);
     if (stage == "library") done = bench_library(quick, rows);
+    if (stage == "assessment") done = bench_assessment(quick, rows);
     if (!done) return refuse(done.error());
   }
   std::error_code error;

@@ -97,6 +97,7 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
   built.lesions = scene->inserted.lesions;
   built.instrument = scene->instrument;
   built.approach = scene->approach;
+  built.structures = scene->structures;
   if (scene->view) {
     if (const auto* xray = std::get_if<XrayView>(&*scene->view)) {
       built.picture.modality = cases::Modality::xray;

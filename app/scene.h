@@ -47,6 +47,8 @@ struct Scene {
   imaging::Inserted inserted;
   cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
   cases::Approach approach = cases::Approach::in_plane;
+  std::vector<cases::Structure>
+      structures;  // what a score holds the needle's way against; pictures do not draw them
   std::optional<View> view;
 };
 

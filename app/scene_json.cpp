@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kFarSource = 1e7;  // mm: a source far away stands for parallel rays
 constexpr int kMaxShapes = 10'000;
+constexpr std::size_t kMaxStructures = 100, kMaxPoints = 1000;
 constexpr std::size_t kMaxClasses = 254;  // a label is one byte; 0 is none
 
 volume::Shape read_shape(const Json& json, const std::string& where, base::Error& error,
@@ -111,6 +112,47 @@ void read_needle(const Json& json, Scene& scene, base::Error& error, std::vector
   reader.unused(unused);
 }
 
+cases::Tube read_tube(SceneReader& reader, const std::string& where, base::Error& error) {
+  cases::Tube tube{{}, reader.number("radius_mm", 0.1, 500.0)};
+  if (!reader.has("points_mm") || !reader["points_mm"].is_array() || reader["points_mm"].empty() ||
+      reader["points_mm"].size() > kMaxPoints) {
+    reader.bad("points_mm", "is not a list of 1 to " + std::to_string(kMaxPoints) + " points");
+    return tube;
+  }
+  for (const Json& point : reader["points_mm"]) {
+    const Json one = {{"points_mm", point}};
+    tube.points_lps_mm.push_back(SceneReader(one, where, error).point("points_mm"));
+  }
+  return tube;
+}
+
+cases::Structure read_structure(const Json& json, const std::string& where, base::Error& error,
+                                std::vector<std::string>& unused) {
+  SceneReader reader(json, where, error);
+  cases::Structure structure;
+  structure.name = reader.text("name");
+  const std::vector<std::string> rules(cases::kStructureRuleNames.begin(), cases::kStructureRuleNames.end());
+  structure.rule = *cases::structure_rule_from(reader.choice("rule", rules, nullptr));
+  const std::string kind = reader.choice("kind", {"sphere", "ellipsoid", "tube"}, nullptr);
+  if (kind == "sphere")
+    structure.shape = cases::Sphere{reader.point("center_mm"), reader.number("radius_mm", 0.1, 500.0)};
+  else if (kind == "ellipsoid")
+    structure.shape = cases::Ellipsoid{reader.point("center_mm"), reader.point("radii_mm", 0.1, 500.0)};
+  else
+    structure.shape = read_tube(reader, where, error);
+  reader.unused(unused);
+  return structure;
+}
+
+void read_structures(SceneReader& root, Scene& scene, base::Error& error, std::vector<std::string>& unused) {
+  const Json& structures = root["structures"];
+  if (!structures.is_array() || structures.size() > kMaxStructures)
+    return root.bad("structures", "is not a list of at most " + std::to_string(kMaxStructures));
+  for (std::size_t i = 0; i < structures.size(); ++i)
+    scene.structures.push_back(
+        read_structure(structures[i], "structures[" + std::to_string(i) + "]", error, unused));
+}
+
 imaging::MprView read_mpr(const Json& json, base::Error& error, std::vector<std::string>& unused) {
   SceneReader reader(json, "view", error);
   imaging::MprView view;
@@ -192,6 +234,7 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
       }
     }
   }
+  if (root.has("structures")) read_structures(root, scene, error, unused);
   if (root.choice("approach", {"in_plane", "out_of_plane"}, "in_plane") == "out_of_plane")
     scene.approach = cases::Approach::out_of_plane;
   if (root.has("view")) {

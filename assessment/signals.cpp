@@ -16,8 +16,8 @@ constexpr double kLowShare = 0.05;  // of the time, sampled more slowly than sam
 constexpr double kFarAwayMm = 1e5;  // outside of any patient
 
 bool near_unit(const glm::dvec3& v) {
-  const double length = glm::length(v);
-  return length > 0.99 && length < 1.01;  // six decimals in a text file keep a unit vector well inside
+  const double length2 = glm::dot(v, v);
+  return length2 > 0.98 && length2 < 1.02;  // six decimals in a text file keep a unit vector well inside
 }
 
 // A surface that faces inwards, or none that can tell in from out.
@@ -43,14 +43,15 @@ base::Result<void> check(const AttemptSetting& setting) {
   return {};
 }
 
-base::Result<void> check(const cases::PoseSample& pose, const std::string& row) {
+// What is wrong with a pose; nothing when it is sound.
+const char* wrong_with(const cases::PoseSample& pose) {
   if (!(std::isfinite(pose.t_s) && base::is_finite(pose.tip_lps_mm) && base::is_finite(pose.needle_direction) &&
         base::is_finite(pose.probe_origin_lps_mm) && base::is_finite(pose.probe_axial) &&
         base::is_finite(pose.probe_lateral)))
-    return base::Error{"bad_poses", row + " holds a number that is not finite"};
+    return " holds a number that is not finite";
   if (!near_unit(pose.needle_direction) || !near_unit(pose.probe_axial) || !near_unit(pose.probe_lateral))
-    return base::Error{"bad_poses", row + " holds a direction that is not of unit length"};
-  return {};
+    return " holds a direction that is not of unit length";
+  return nullptr;
 }
 
 // How often poses came, asked 100 times a second, so that a burst is not more than its time.
@@ -85,10 +86,9 @@ base::Result<void> take_poses(const cases::Recording& recording, Signals& signal
   };
   for (std::size_t i = 0; i < recording.poses.size(); ++i) {
     const cases::PoseSample& pose = recording.poses[i];
-    const std::string row = "pose " + std::to_string(i + 1);
-    if (auto sound = check(pose, row); !sound) return sound.error();
-    if (before != nullptr && pose.t_s < before->t_s)
-      return base::Error{"bad_poses", row + " is earlier than the one before"};
+    const char* wrong = wrong_with(pose);
+    if (wrong == nullptr && before != nullptr && pose.t_s < before->t_s) wrong = " is earlier than the one before";
+    if (wrong != nullptr) return base::Error{"bad_poses", "pose " + std::to_string(i + 1) + wrong};
     if (recording.endpoint && pose.t_s > recording.endpoint->t_s) break;
     if (before != nullptr && pose.t_s == before->t_s) continue;  // a repeated time stamp adds nothing
     if (before != nullptr) {
@@ -113,23 +113,35 @@ base::Result<void> take_poses(const cases::Recording& recording, Signals& signal
       signals.poses.push_back(last);
     else
       signals.poses.back() = last;
-    if (auto sound = check(last, "the endpoint"); !sound) return sound.error();
+    if (const char* wrong = wrong_with(last)) return base::Error{"bad_poses", std::string("the endpoint") + wrong};
   }
   return {};
 }
 
-base::Result<void> take_forces(std::span<const ForceSample> forces, Signals& signals) {
+base::Result<void> take_forces(std::span<const cases::ForceSample> forces, Signals& signals) {
   for (std::size_t i = 0; i < forces.size(); ++i) {
-    const ForceSample& force = forces[i];
-    const std::string row = "force " + std::to_string(i + 1);
-    if (!(std::isfinite(force.t_s) && std::isfinite(force.axial_n) && std::isfinite(force.lateral_n)))
-      return base::Error{"bad_forces", row + " holds a number that is not finite"};
+    const cases::ForceSample& force = forces[i];
+    if (!(std::isfinite(force.t_s) && std::isfinite(force.needle_axial_n) && std::isfinite(force.needle_lateral_n)))
+      return base::Error{"bad_forces", "force " + std::to_string(i + 1) + " holds a number that is not finite"};
     if (i > 0 && force.t_s < forces[i - 1].t_s)
-      return base::Error{"bad_forces", row + " is earlier than the one before"};
+      return base::Error{"bad_forces", "force " + std::to_string(i + 1) + " is earlier than the one before"};
     if (signals.endpoint && force.t_s > signals.endpoint->t_s) break;
     signals.forces.push_back(force);
   }
   return {};
+}
+
+std::vector<Gap> gaps_of(std::span<const cases::PoseSample> poses) {
+  std::vector<Gap> gaps(poses.size(), Gap::none);
+  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+    const double interval_s = poses[i + 1].t_s - poses[i].t_s;
+    const double length_mm = glm::distance(poses[i].tip_lps_mm, poses[i + 1].tip_lps_mm);
+    if (interval_s > kGapSeconds + kTimeTolerance_s)
+      gaps[i] = Gap::silence;
+    else if (length_mm > kJumpMm && length_mm > kJumpMmS * interval_s)
+      gaps[i] = Gap::jump;
+  }
+  return gaps;
 }
 
 std::vector<cases::SkinPassage> passages_of(const cases::MeshIndex& skin,
@@ -167,31 +179,26 @@ std::vector<double> advances_of(const Signals& signals) {
 
 }  // namespace
 
-bool Signals::jump(std::size_t i) const {
-  const double length_mm = glm::distance(poses[i].tip_lps_mm, poses[i + 1].tip_lps_mm);
-  return length_mm > kJumpMm && length_mm > kJumpMmS * interval_s(i);
-}
-
 double Signals::inserted_mm(std::size_t i) const {
   const cases::SkinPassage& skin = passages[i];
   return skin.in_body ? std::max(0.0, glm::dot(skin.tip_lps_mm - skin.entry_lps_mm, poses[i].needle_direction))
                       : 0.0;
 }
 
-base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording,
-                                   std::span<const ForceSample> forces) {
+base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording) {
   CHECK(setting.skin != nullptr);
   if (auto sound = check(setting); !sound) return sound.error();
   Signals signals;
   signals.setting = setting;
   signals.endpoint = recording.endpoint;
   if (auto taken = take_poses(recording, signals); !taken) return taken.error();
-  if (auto taken = take_forces(forces, signals); !taken) return taken.error();
+  if (auto taken = take_forces(recording.forces, signals); !taken) return taken.error();
   for (const cases::FrameTruth& frame : recording.frames) {
     if (!std::isfinite(frame.t_s)) return base::Error{"bad_frames", "a frame's time is not finite"};
     if (recording.endpoint && frame.t_s > recording.endpoint->t_s) break;
     if (signals.frames.empty() || frame.t_s > signals.frames.back().t_s) signals.frames.push_back(frame);
   }
+  signals.gaps = gaps_of(signals.poses);
   signals.passages = passages_of(*setting.skin, signals.poses);
   signals.advance_mm = advances_of(signals);
   signals.steps = steps_of(signals);

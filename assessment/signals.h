@@ -3,6 +3,7 @@
 // or a pose file.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,13 +29,6 @@ struct PlannedEntry {
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, into the body
 };
 
-// What a device or its model felt at the needle.
-struct ForceSample {
-  double t_s = 0.0;
-  double axial_n = 0.0;    // > 0 resists insertion
-  double lateral_n = 0.0;  // ≥ 0
-};
-
 // What is fixed about an attempt. What it points to outlives the signals.
 struct AttemptSetting {
   const cases::MeshIndex* skin = nullptr;
@@ -50,13 +44,16 @@ inline Manner manner_of(const AttemptSetting& setting) {
   return {setting.modality, setting.approach, setting.instrument.kind};
 }
 
+enum class Gap : std::uint8_t { none, silence, jump };
+
 struct Signals {
   AttemptSetting setting;
   std::vector<cases::PoseSample> poses;      // strictly increasing in time, at most 200 a second
+  std::vector<Gap> gaps;                     // one per pose: what is between it and the next
   std::vector<cases::SkinPassage> passages;  // one per pose
   std::vector<double> advance_mm;            // one per pose: how far the tip came beyond where it had been (below)
   std::vector<cases::FrameTruth> frames;     // strictly increasing in time
-  std::vector<ForceSample> forces;           // may be empty
+  std::vector<cases::ForceSample> forces;    // empty: no device
   std::optional<cases::Endpoint> endpoint;
   std::optional<double> sample_rate_p5_hz;  // 95 % of the time was sampled at least so often; gaps not counted
   std::vector<Step> steps;                  // the tools' way, filtered
@@ -64,8 +61,7 @@ struct Signals {
 
   // Interval i runs from pose i to pose i + 1; a gap belongs to no denominator.
   double interval_s(std::size_t i) const { return poses[i + 1].t_s - poses[i].t_s; }
-  bool jump(std::size_t i) const;
-  bool gap(std::size_t i) const { return interval_s(i) > kGapSeconds + kTimeTolerance_s || jump(i); }
+  bool gap(std::size_t i) const { return gaps[i] != Gap::none; }
   // Along the needle from where it entered the skin to the tip; 0 outside.
   double inserted_mm(std::size_t i) const;
   // Whether nothing is known between any two poses.
@@ -83,7 +79,6 @@ constexpr double kJiggleMm = 1.0;
 // number not finite, a direction not near unit length), `bad_forces` (as poses), `bad_frames` (a time not finite),
 // `bad_target` (no sphere), `bad_plan`, `bad_skin` (its surface faces inwards, so that everything far away would be
 // in the body).
-base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording,
-                                   std::span<const ForceSample> forces = {});
+base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording);
 
 }  // namespace seldinger::assessment

@@ -10,13 +10,14 @@ namespace {
 
 Measured force_peak_axial(const Signals& signals) {
   double peak_n = 0.0;
-  for (const ForceSample& force : signals.forces) peak_n = std::max(peak_n, force.axial_n);
+  for (const cases::ForceSample& force : signals.forces) peak_n = std::max(peak_n, force.needle_axial_n);
   return Measured::of(peak_n);
 }
 
 Measured lateral_force_peak(const Signals& signals) {
   double peak_n = 0.0;
-  for (const ForceSample& force : signals.forces) peak_n = std::max(peak_n, std::abs(force.lateral_n));
+  for (const cases::ForceSample& force : signals.forces)
+    peak_n = std::max(peak_n, std::abs(force.needle_lateral_n));
   return Measured::of(peak_n);
 }
 

@@ -24,7 +24,7 @@ Measured sample_rate_p5(const Signals& signals) {
 
 Measured tracking_jumps(const Signals& signals) {
   int jumps = 0;
-  for (std::size_t i = 0; i + 1 < signals.poses.size(); ++i) jumps += signals.jump(i) ? 1 : 0;
+  for (const Gap gap : signals.gaps) jumps += gap == Gap::jump ? 1 : 0;
   return Measured::of(jumps);
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
+#include <variant>
 #include <vector>
 
 #include "assessment/metrics/tables.h"
@@ -16,7 +18,10 @@ using cases::Structure;
 using cases::StructureRule;
 
 constexpr double kContactMm = 0.5;      // clinical.md: any path longer than this inside
-constexpr double kClearanceMm = 50.0;   // nobody asks how far beyond
+constexpr double kClearanceMm = 20.0;   // nobody asks how far beyond
+constexpr double kNearMm = 4.0;         // first asked within this
+constexpr double kDeepMm = 64.0;        // deeper inside is this deep
+constexpr std::size_t kWayPart = 64;    // points of the way asked together
 constexpr double kNeedleEndMm = 200.0;  // farther than any lumen's far wall
 
 bool no_go(const Structure& structure) {
@@ -28,6 +33,8 @@ bool no_go(const Structure& structure) {
 class Boxed {
  public:
   explicit Boxed(const Structure& structure) : structure_(&structure), box_(cases::bounds_of(structure.shape)) {}
+  // By a formula, which is asked at no cost.
+  bool drawn() const { return !std::holds_alternative<cases::VoxelSet>(structure_->shape); }
   // A lower bound of the distance, mm.
   double beyond_mm(const glm::dvec3& p) const {
     return glm::length(glm::max(glm::dvec3(0.0), glm::max(box_.low_lps_mm - p, p - box_.high_lps_mm)));
@@ -39,14 +46,16 @@ class Boxed {
     return cases::stretches_inside(structure_->shape, a, b);
   }
   // Exact below `enough_mm`, else some lower bound that is not below it. Far is asked in voxels at a high price, so
-  // the search widens only as long as it must.
-  double distance_mm(const glm::dvec3& p, double enough_mm) const {
-    const double bound_mm = beyond_mm(p);
+  // the search widens only as long as it must, from a lower bound that is known.
+  double distance_mm(const glm::dvec3& p, double known_mm, double enough_mm) const {
+    const double bound_mm = std::max(known_mm, beyond_mm(p));
     if (bound_mm > 0.0 && bound_mm >= enough_mm) return bound_mm;
-    for (double limit_mm = std::max(4.0, bound_mm);; limit_mm *= 2.0) {
-      limit_mm = std::min(limit_mm, kClearanceMm);
-      const double found_mm = cases::signed_distance_mm(structure_->shape, p, limit_mm);
-      if (std::abs(found_mm) < limit_mm || found_mm >= enough_mm || limit_mm == kClearanceMm) return found_mm;
+    double most_mm = std::max(kNearMm, enough_mm);
+    for (double limit_mm = std::max(kNearMm, bound_mm + kNearMm);; limit_mm *= 2.0) {
+      const double asked_mm = std::min(limit_mm, most_mm);
+      const double found_mm = cases::signed_distance_mm(structure_->shape, p, asked_mm);
+      if (std::abs(found_mm) < asked_mm || found_mm >= enough_mm || limit_mm >= kDeepMm) return found_mm;
+      if (found_mm < 0.0) most_mm = kDeepMm;
     }
   }
   bool contains(const glm::dvec3& p) const {
@@ -178,27 +187,36 @@ Measured nogo_time(const Signals& signals) {
   return Measured::of(time_s);
 }
 
-// A distance changes by no more than the way: a place is only asked where it could be nearer than the nearest.
+// A distance changes by no more than the way: of a part of it, what is not nearer than `nearest_mm` in the middle
+// by the part's extent is nowhere nearer.
+void come_nearer(const Boxed& structure, std::span<const glm::dvec3> way, double known_mm, double& nearest_mm) {
+  if (way.empty()) return;
+  const std::size_t middle = way.size() / 2;
+  double extent_mm = 0.0;
+  for (const glm::dvec3& p : way) extent_mm = std::max(extent_mm, glm::distance(p, way[middle]));
+  const double distance_mm = structure.distance_mm(way[middle], known_mm, nearest_mm + extent_mm);
+  if (distance_mm >= nearest_mm + extent_mm) return;
+  nearest_mm = std::min(nearest_mm, distance_mm);
+  come_nearer(structure, way.first(middle), distance_mm - extent_mm, nearest_mm);
+  come_nearer(structure, way.subspan(middle + 1), distance_mm - extent_mm, nearest_mm);
+}
+
 Measured clearance_min(const Signals& signals) {
-  double nearest_mm = kClearanceMm;
-  for (const Boxed& structure : chosen(signals, &no_go)) {
-    double asked_mm = -kClearanceMm;
-    glm::dvec3 asked(0.0);
-    const auto ask = [&](const glm::dvec3& p) {
-      if (asked_mm - glm::distance(p, asked) >= nearest_mm) return;
-      asked_mm = structure.distance_mm(p, nearest_mm);
-      asked = p;
-      nearest_mm = std::min(nearest_mm, asked_mm);
-    };
-    for (const TraceSegment& segment : signals.trace) {
-      if (!segment.in_body) continue;
-      ask(segment.from_lps_mm);
-      const double length_mm = glm::distance(segment.from_lps_mm, segment.to_lps_mm);
-      const int pieces = std::max(1, static_cast<int>(length_mm / kContactMm));  // a throw is one long segment
-      for (int piece = 1; piece <= pieces; ++piece)
-        ask(glm::mix(segment.from_lps_mm, segment.to_lps_mm, static_cast<double>(piece) / pieces));
-    }
+  std::vector<glm::dvec3> way;
+  for (const TraceSegment& segment : signals.trace) {
+    if (!segment.in_body) continue;
+    const double length_mm = glm::distance(segment.from_lps_mm, segment.to_lps_mm);
+    const int pieces = std::max(1, static_cast<int>(length_mm / kContactMm));  // a throw is one long segment
+    for (int piece = 0; piece <= pieces; ++piece)
+      way.push_back(glm::mix(segment.from_lps_mm, segment.to_lps_mm, static_cast<double>(piece) / pieces));
   }
+  double nearest_mm = kClearanceMm;
+  auto structures = chosen(signals, &no_go);
+  std::stable_partition(structures.begin(), structures.end(), [](const Boxed& one) { return one.drawn(); });
+  for (const Boxed& structure : structures)
+    for (std::size_t from = 0; from < way.size(); from += kWayPart)
+      come_nearer(structure, std::span(way).subspan(from, std::min(kWayPart, way.size() - from)), -kClearanceMm,
+                  nearest_mm);
   return Measured::of(nearest_mm);
 }
 
@@ -247,7 +265,7 @@ constexpr MetricInfo kMetrics[] = {
      kNoGo | kSkin | kMotion | kTissue,
      "Least distance of the tip in tissue, on its way and in a core needle's throw, from a structure to stay out "
      "of; "
-     "negative inside, at most 50.",
+     "negative inside, at most 20.",
      kClinical, &clearance_min},
     {"capsule_punctures", 1, "count", "Capsule punctures", Group::safety, Direction::lower_is_better, kOrgan,
      "Times the tip, a core needle's throw included, went from outside more than 0.5 mm into the organ that "

@@ -335,6 +335,44 @@ TEST(Cli, ScoreOfAPoseFileIsItsClosedForm) {
                  "bad_csv");
 }
 
+TEST(Cli, ScoreHoldsTheWayAgainstAScenesStructures) {
+  const auto scratch = fixtures::fresh_folder("cli_score_structures");
+  const auto scene = [&](const std::string& rule) {
+    write(scratch / "scene.json",
+          std::string("{") + kBall + R"(, "needle": {"tip_mm": [0, 0, 0], "direction": [0, 1, 0]},
+    "lesions": [{"center_mm": [0, 0, 0], "radius_mm": 8, "hu": 20}], "approach": "out_of_plane",
+    "structures": [
+      {"name": "vein", "rule": ")" +
+              rule + R"(", "kind": "tube", "points_mm": [[-20, -30, 3], [20, -30, 3]], "radius_mm": 5},
+      {"name": "organ", "rule": "organ", "kind": "sphere", "center_mm": [0, 0, 0], "radius_mm": 40},
+      {"name": "shell", "rule": "must_cross", "kind": "ellipsoid", "center_mm": [0, -15, 0], "radii_mm": [20, 6, 20]},
+      {"name": "lumen", "rule": "target", "kind": "sphere", "center_mm": [0, 0, 0], "radius_mm": 7}],
+    "view": {"kind": "mpr", "center_mm": [0, 0, 0], "u": [1, 0, 0], "v": [0, 1, 0], "pixel_mm": 0.5, "size_px": [200, 200]}})");
+    return run(kProgram + " score --poses " + (scratch / "poses.csv").string() + " --scene " +
+                   (scratch / "scene.json").string() + " --json",
+               scratch);
+  };
+  write(scratch / "poses.csv", poses(0.0, 0.0));
+  const auto ran = scene("critical");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  std::map<std::string, Json> metrics;
+  const Json answer = Json::parse(ran.out);
+  for (const Json& metric : answer.at("metrics")) metrics[metric.at("id")] = metric;
+  const auto value = [&](const char* id) { return metrics.at(id).at("value").get<double>(); };
+  EXPECT_EQ(value("nogo_contacts"), 1.0);
+  EXPECT_NEAR(value("nogo_length_critical"), 8.0, 0.01) << "a chord 3 mm beside the middle";
+  EXPECT_NEAR(value("clearance_min"), -2.0, 0.05);
+  EXPECT_EQ(value("capsule_punctures"), 1.0);
+  EXPECT_NEAR(value("must_cross_length"), 12.0, 1e-3);
+  EXPECT_EQ(value("posterior_wall"), 0.0);
+  EXPECT_NEAR(value("back_wall_dist"), 7.0, 1e-3);
+  EXPECT_EQ(metrics.at("nogo_length_major").at("reason"), "no_major_structure");
+  EXPECT_EQ(metrics.at("blind_advance").at("reason"), "not_meaningful_out_of_plane");
+  EXPECT_EQ(metrics.at("force_peak_axial").at("reason"), "no_device");
+  EXPECT_EQ(metrics.at("entry_angle_error").at("reason"), "no_plan");
+  expect_refused(scene("forbidden"), "bad_scene");
+}
+
 TEST(Cli, ASceneWithoutABodyHasNullSkinMetricsOnly) {
   const auto scratch = fixtures::fresh_folder("cli_no_body");
   write(scratch / "scene.json", R"({"volume": {"analytic": {"size_voxels": [20, 20, 20], "spacing_mm": [2, 2, 2],

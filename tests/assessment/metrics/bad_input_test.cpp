@@ -107,7 +107,7 @@ TEST(BadTrajectory, NotANumberOrInfiniteIsAnError) {
     sample.recording.frames[3].t_s = bad;
     EXPECT_EQ(measured(sample).error, "bad_frames");
     sample = usual();
-    sample.forces[7].lateral_n = bad;
+    sample.recording.forces[7].needle_lateral_n = bad;
     EXPECT_EQ(measured(sample).error, "bad_forces");
     sample = usual();
     sample.recording.endpoint->tip_lps_mm.x = bad;
@@ -281,7 +281,7 @@ TEST(BadTrajectory, EmptyStructuresAreFarAway) {
   for (cases::Structure& structure : sample.structures) structure.shape = cases::VoxelSet{};
   const Answer answer = measured(sample);
   EXPECT_EQ(answer["nogo_contacts"], 0.0);
-  EXPECT_EQ(answer["clearance_min"], 50.0);
+  EXPECT_EQ(answer["clearance_min"], 20.0);
   EXPECT_EQ(answer.reason("back_wall_dist"), "not_in_target_structure");
 }
 

@@ -171,7 +171,7 @@ TEST(EveryMetric, DocumentsEveryReason) {
     spoiled[3].structures.clear();
     spoiled[4].setting.target.reset();
     spoiled[5].setting.plan.reset();
-    spoiled[6].forces.clear();
+    spoiled[6].recording.forces.clear();
     spoiled[7].skin = cases::MeshIndex();
     for (auto& pose : spoiled[8].recording.poses) pose.tip_lps_mm.y = -50.0;
     spoiled[8].recording.endpoint->tip_lps_mm.y = -50.0;
@@ -198,7 +198,7 @@ TEST(EveryMetric, IsNullWithoutWhatItNeeds) {
     bare.recording.endpoint.reset();
     bare.recording.frames.clear();
     bare.structures.clear();
-    bare.forces.clear();
+    bare.recording.forces.clear();
     bare.setting.target.reset();
     bare.setting.plan.reset();
     bare.skin = cases::MeshIndex();

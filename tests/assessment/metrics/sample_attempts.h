@@ -34,7 +34,6 @@ struct SampleAttempt {
   std::string name;
   AttemptSetting setting;
   cases::Recording recording;
-  std::vector<ForceSample> forces;
   // What the setting points to.
   cases::MeshIndex skin;
   std::vector<cases::Structure> structures;
@@ -43,7 +42,7 @@ struct SampleAttempt {
     AttemptSetting here = setting;
     here.skin = &skin;
     here.structures = structures;
-    return make_signals(here, recording, forces);
+    return make_signals(here, recording);
   }
 };
 
@@ -180,7 +179,8 @@ inline SampleAttempt sample_attempt(const SampleKind& kind, const Sampling& samp
     pose.probe_axial = world.vector({0.0, 1.0, 0.0});
     pose.probe_lateral = world.vector(in_plane ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1));
     sample.recording.poses.push_back(pose);
-    sample.forces.push_back({pose.t_s, 1.5 * std::sin(0.3 * t_s), 0.4 * std::abs(std::cos(0.7 * t_s))});
+    sample.recording.forces.push_back(
+        {pose.t_s, 1.5 * std::sin(0.3 * t_s), 0.4 * std::abs(std::cos(0.7 * t_s)), 1.0});
   }
   const cases::PoseSample& last = sample.recording.poses.back();
   sample.recording.endpoint = cases::Endpoint{last.t_s, last.tip_lps_mm, last.needle_direction};

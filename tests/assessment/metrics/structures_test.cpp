@@ -89,7 +89,7 @@ TEST(NoGo, AChordBesideTheMiddleIsItsClosedForm) {
   EXPECT_NEAR(number("nogo_length_major", one, down, 4.0), 8.0, 0.008);
   EXPECT_NEAR(number("clearance_min", one, down, 4.0), -2.0, 0.02);
   EXPECT_NEAR(number("clearance_min", {ball(StructureRule::major, 30, 5, 12)}, down, 4.0), 7.0, 0.02);
-  EXPECT_EQ(number("clearance_min", {ball(StructureRule::major, 30, 5, 90)}, down, 4.0), 50.0) << "at most";
+  EXPECT_EQ(number("clearance_min", {ball(StructureRule::major, 30, 5, 90)}, down, 4.0), 20.0) << "at most";
 }
 
 TEST(NoGo, AGrazeIsNoContactAndSlownessHelpsNobody) {

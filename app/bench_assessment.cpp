@@ -1,0 +1,115 @@
+// bench --stage assessment: what it takes to score ten minutes, with everything that could be in the way. Goal: 200
+// ms.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "app/attempt_loop.h"
+#include "app/bench.h"
+#include "assessment/metrics/registry.h"
+#include "assessment/operators/lesion_site.h"
+#include "casedb/import/surface.h"
+#include "sim/base/rng.h"
+#include "sim/volume/phantom.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kMinutesS = 600.0, kNoiseMm = 0.05;
+
+// What a torso has beside the target, as voxels, and what a mentor draws.
+std::vector<cases::Structure> structures_of(const volume::Phantom& phantom, const assessment::LesionSite& site) {
+  using cases::StructureRule;
+  const auto classes = volume::tissue_classes(phantom.volume, &phantom.labels);
+  std::vector<std::uint8_t> values(classes.size());
+  std::transform(classes.begin(), classes.end(), values.begin(),
+                 [](volume::TissueClass one) { return static_cast<std::uint8_t>(one); });
+  const auto voxels = [&](volume::TissueClass tissue, StructureRule rule) {
+    return cases::Structure{volume::about(tissue).name, tissue, rule,
+                            cases::voxels_with(phantom.volume, values, static_cast<std::uint8_t>(tissue))};
+  };
+  const glm::dvec3& target = site.lesion.center_lps_mm;
+  const glm::dvec3 beside(6.0, 0.0, 0.0);
+  return {
+      voxels(volume::TissueClass::bone, StructureRule::major),
+      voxels(volume::TissueClass::liver, StructureRule::organ),
+      voxels(volume::TissueClass::gas, StructureRule::critical),
+      {"vein", volume::TissueClass::vessel, StructureRule::critical,
+       cases::Tube{{target + beside, target + beside + glm::dvec3(0, 0, 40)}, 3.0}},
+      {"shell", volume::TissueClass::liver, StructureRule::must_cross, cases::Sphere{target, 30.0}},
+      {"lumen", volume::TissueClass::liver, StructureRule::target, cases::Sphere{target, site.lesion.radius_mm}}};
+}
+
+// The attempt to and fro until ten minutes are over, at a tracker's rate and with its noise.
+cases::Recording ten_minutes(const cases::Recording& once, double rate_hz) {
+  const double length_s = once.poses.back().t_s - once.poses.front().t_s;
+  const auto folded = [&](double t_s) {
+    const double turns = t_s / length_s, part = turns - std::floor(turns);
+    return once.poses.front().t_s + length_s * (static_cast<long long>(turns) % 2 == 0 ? part : 1.0 - part);
+  };
+  cases::Recording recording;
+  base::Rng rng(1);
+  const auto rows = static_cast<long long>(kMinutesS * rate_hz);
+  for (long long row = 0; row <= rows; ++row) {
+    const double t_s = static_cast<double>(row) / rate_hz, at = (folded(t_s) - once.poses.front().t_s) * 100.0;
+    const auto before = std::min(static_cast<std::size_t>(std::max(0.0, at)), once.poses.size() - 2);
+    cases::PoseSample pose = once.poses[before];
+    pose.t_s = t_s;
+    pose.tip_lps_mm = glm::mix(pose.tip_lps_mm, once.poses[before + 1].tip_lps_mm,
+                               std::clamp(at - static_cast<double>(before), 0.0, 1.0)) +
+                      kNoiseMm * glm::dvec3(rng.normal(), rng.normal(), rng.normal());
+    recording.poses.push_back(pose);
+  }
+  for (long long picture = 0; picture < static_cast<long long>(kMinutesS * 30.0); ++picture) {
+    cases::FrameTruth frame = once.frames[static_cast<std::size_t>(picture) % once.frames.size()];
+    frame.t_s = static_cast<double>(picture) / 30.0;
+    recording.frames.push_back(frame);
+  }
+  const cases::PoseSample& last = recording.poses.back();
+  recording.endpoint = cases::Endpoint{last.t_s, last.tip_lps_mm, last.needle_direction};
+  return recording;
+}
+
+}  // namespace
+
+base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
+  volume::Phantom phantom = volume::make_phantom();
+  cases::Case scene;
+  auto skin = casedb::skin_surface(phantom.volume);
+  if (!skin) return skin.error();
+  scene.skin = std::move(*skin);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  const auto site = assessment::find_lesion_site(phantom.volume, scene.skin_index);
+  if (!site) return site.error();
+  scene.lesions.push_back(site->lesion);
+  scene.structures = structures_of(phantom, *site);
+  scene.volume = std::move(phantom.volume);
+  const cases::Recording once = run_attempt(scene, site->plan, *assessment::named_profile("novice"), 1);
+  for (const double rate_hz : {100.0, 1000.0}) {
+    const cases::Recording recording = ten_minutes(once, rate_hz);
+    BenchRow row{"assessment",
+                 "score",
+                 "10 min at " + bench_number(rate_hz) + " Hz, " + std::to_string(assessment::registry().size()) +
+                     " metrics, " + std::to_string(scene.structures.size()) + " structures",
+                 "cpu",
+                 "1 thread",
+                 std::to_string(recording.poses.size()) + " poses",
+                 0,
+                 0,
+                 0,
+                 0,
+                 "",
+                 "",
+                 ""};
+    std::size_t values = 0;
+    time_into(row, quick ? 3 : 11, [&] {
+      const auto metrics = measure(scene, recording);
+      values += metrics ? metrics->size() : 0;
+    });
+    if (values == 0) return base::Error{"bench_failed", "the attempt cannot be scored"};
+    rows.push_back(row);
+  }
+  return {};
+}
+
+}  // namespace seldinger::app
