@@ -86,11 +86,10 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   if (!lesions.empty()) return lesions.front();
   cases::Picture picture;
   picture.modality = row.modality;
-  auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
+  auto scene = build_case(library, row, std::nullopt, picture, needs_of(row.modality));
   if (!scene) return scene.error();
   assessment::LesionRule rule = assessment::lesion_rule(row.modality, row.position);
   if (row.modality == cases::Modality::ultrasound) {
-    if (const auto added = add_ultrasound_tissue(library, row, *scene); !added) return added.error();
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return UltrasoundSight(*scene).looks_from(plan, target);
     };
@@ -133,8 +132,7 @@ base::Result<void> demo_attempts(casedb::Library& library, DemoAnswer& answer) {
     for (const SimulatedAttempt& attempt : answer.attempts) there = there || attempt.operator_name == name;
     if (there) continue;
     if (!simulation) {
-      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id,
-                                          cases::InstrumentKind::access);
+      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id);
       if (!prepared) return prepared.error();
       simulation.emplace(std::move(*prepared));
     }

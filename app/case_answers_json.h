@@ -1,0 +1,23 @@
+// The JSON documents that the commands of a case's author answer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/case_check.h"
+
+namespace seldinger::app {
+
+struct LabelCount {
+  int label = 0;
+  std::string name;
+  std::size_t voxels = 0;
+};
+
+std::string json_of_structure(const std::string& structure_id);
+std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
+std::string json_of_checks(const std::string& case_id, const std::vector<Check>& checks,
+                           const std::vector<std::string>& rule_may_name);
+std::string json_of_version(const casedb::CaseRow& row);
+
+}  // namespace seldinger::app
