@@ -24,12 +24,12 @@ std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled
   return text({{"labels", list}, {"resampled", resampled}});
 }
 
-std::string json_of_checks(const std::string& case_id, const std::vector<Check>& checks,
-                           const std::vector<std::string>& rule_may_name) {
+std::string json_of_checks(const std::string& case_id, const CaseCheck& check) {
   Json list = Json::array();
-  for (const Check& one : checks) list.push_back({{"check", one.name}, {"holds", one.holds}, {"text", one.text}});
+  for (const Check& one : check.checks)
+    list.push_back({{"check", one.name}, {"holds", one.holds}, {"text", one.text}});
   return text(
-      {{"case_id", case_id}, {"holds", all_hold(checks)}, {"checks", list}, {"rule_may_name", rule_may_name}});
+      {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
 }
 
 std::string json_of_version(const casedb::CaseRow& row) {

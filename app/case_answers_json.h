@@ -16,8 +16,7 @@ struct LabelCount {
 
 std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
-std::string json_of_checks(const std::string& case_id, const std::vector<Check>& checks,
-                           const std::vector<std::string>& rule_may_name);
+std::string json_of_checks(const std::string& case_id, const CaseCheck& check);
 std::string json_of_version(const casedb::CaseRow& row);
 
 }  // namespace seldinger::app

@@ -96,6 +96,7 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.picture = picture;
   scene.approach = row.approach;
   scene.position = row.position;
+  scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
 
   const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
   Voxels voxels(library, row, scene.volume);
@@ -117,8 +118,7 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   }
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const cases::Structure& made = scene.structures[i];
-    if (structures[i].kind == casedb::StructureKind::drawn)
-      cases::paint(made.shape, {structures[i].hu, false, 0.0}, scene.volume);
+    if (structures[i].hu) cases::paint(made.shape, {*structures[i].hu, false, 0.0}, scene.volume);
     if (!classes.empty() && structures[i].kind != casedb::StructureKind::tissue_class)
       cases::paint_class(made.shape, made.tissue, scene.volume, classes);
   }
@@ -131,8 +131,7 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   return scene;
 }
 
-base::Result<cases::Case> build_case_of(casedb::Library& library, const casedb::AttemptRow& attempt,
-                                        Needs needs) {
+base::Result<cases::Case> build_case_of(casedb::Library& library, const casedb::AttemptRow& attempt, Needs needs) {
   const auto row = casedb::find_case(library, attempt.case_id);
   if (!row) return row.error();
   std::optional<cases::LesionForm> target;

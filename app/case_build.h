@@ -12,9 +12,9 @@ namespace seldinger::app {
 enum class Needs { metrics, touch, ultrasound };
 
 // Volume, skin and structures of a stored case; the lesion becomes the target. What is drawn is painted into the
-// volume and, where they are needed, into the classes: structures in their order, then the lesion. Instrument and approach
-// are the case's own unless an attempt had others; patient's position the case's. The fluoroscope is the built-in
-// machine, its isocentre at the volume's middle. Refused: damaged or missing assets.
+// volume and, where they are needed, into the classes: structures in their order, then the lesion. Instrument and
+// approach are the case's own unless an attempt had others; patient's position the case's. The fluoroscope is the
+// built-in machine, its isocentre at the volume's middle. Refused: damaged or missing assets.
 base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
                                      const std::optional<cases::LesionForm>& target, const cases::Picture& picture,
                                      Needs needs);

@@ -20,13 +20,13 @@ std::string mm(double value) {
   return text;
 }
 
-void check_rule(const casedb::CaseRow& row, std::vector<Check>& checks) {
+void check_rule(const casedb::CaseRow& row, const assessment::Guidance& guidance, std::vector<Check>& checks) {
   if (row.rule.criteria.empty()) {
     checks.push_back({"rule_present", false, "there is no criterion to pass by"});
     return;
   }
   checks.push_back({"rule_present", true, std::to_string(row.rule.criteria.size()) + " criteria"});
-  const auto problems = assessment::problems_of(row.rule, casedb::guidance_of(row));
+  const auto problems = assessment::problems_of(row.rule, guidance);
   for (const base::Problem& problem : problems)
     checks.push_back({"rule_meaningful", false, problem.code + ": " + problem.text});
   if (problems.empty())
@@ -66,7 +66,7 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
   checks.push_back(
       {"lesion_inside_body", inside,
        which + (depth_mm < 0.0 ? ": its centre lies outside the body"
-                : inside       ? ": its centre lies " + mm(depth_mm) + " below the skin"
+                : inside       ? ": its centre lies " + mm(depth_mm) + " within its surface"
                          : ": it sticks out of the body, its centre only " + mm(depth_mm) + " below the surface")});
   const double bone =
       bone_share(cases::shape_of(lesion.form), lesion.form.center_lps_mm, scene.volume, scene.classes);
@@ -87,13 +87,14 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
 
 }  // namespace
 
-base::Result<std::vector<Check>> check_case(casedb::Library& library, const casedb::CaseRow& row) {
+base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row) {
   cases::Picture picture;
   picture.modality = row.modality;
   // Tissue: whether something is bone is a matter of class.
   const auto scene = build_case(library, row, std::nullopt, picture, Needs::touch);
   if (!scene) return scene.error();
-  std::vector<Check> checks;
+  CaseCheck checked;
+  std::vector<Check>& checks = checked.checks;
   const auto lesions = casedb::list_lesions(library, row.case_id);
   checks.push_back({"lesion_present", !lesions.empty(),
                     lesions.empty() ? "there is no lesion" : std::to_string(lesions.size()) + " placed"});
@@ -121,11 +122,14 @@ base::Result<std::vector<Check>> check_case(casedb::Library& library, const case
     checks.push_back({"structure_in_volume", within,
                       one.name + (within ? " lies within the volume" : " reaches out of the volume")});
   }
-  check_rule(row, checks);
-  return checks;
+  const assessment::Guidance guidance{
+      casedb::manner_of(row), assessment::absent_needs(scene->structures, row.planned_entry_lps_mm.has_value())};
+  check_rule(row, guidance, checks);
+  checked.rule_may_name = assessment::meaningful_metrics(guidance);
+  return checked;
 }
 
-bool all_hold(const std::vector<Check>& checks) {
+bool CaseCheck::holds() const {
   return std::all_of(checks.begin(), checks.end(), [](const Check& one) { return one.holds; });
 }
 

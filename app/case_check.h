@@ -16,12 +16,16 @@ struct Check {
   std::string text;  // what was found, or why it does not hold
 };
 
+struct CaseCheck {
+  std::vector<Check> checks;
+  std::vector<std::string> rule_may_name;  // ids of metrics that can have a value at this case
+  bool holds() const;
+};
+
 // Each lesion inside the body and not in bone; a straight way of the instrument's length from uncut skin that meets
 // no bone, gas, nor critical or major structure, and leads through what must be crossed (not asked where the right
 // decision is to defer); a planned entry on the skin; drawn structures within the volume; a rule whose metrics are
 // known and mean something under the case's guidance. Refused: damaged assets.
-base::Result<std::vector<Check>> check_case(casedb::Library& library, const casedb::CaseRow& row);
-
-bool all_hold(const std::vector<Check>& checks);
+base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row);
 
 }  // namespace seldinger::app

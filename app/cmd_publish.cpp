@@ -15,17 +15,16 @@ int run_case_check(const Arguments& arguments) {
   if (!row) return refuse(row.error());
   const auto checks = check_case(*library, *row);
   if (!checks) return refuse(checks.error());
-  const auto metrics = assessment::meaningful_metrics(casedb::guidance_of(*row));
   if (arguments.has("--json")) {
-    std::fputs(json_of_checks(row->case_id, *checks, metrics).c_str(), stdout);
+    std::fputs(json_of_checks(row->case_id, *checks).c_str(), stdout);
   } else {
-    for (const Check& one : *checks)
+    for (const Check& one : checks->checks)
       std::printf("%s  %-20s %s\n", one.holds ? "holds " : "FAILS ", one.name.c_str(), one.text.c_str());
     std::printf("A rule of this case may name:");
-    for (const std::string& id : metrics) std::printf(" %s", id.c_str());
+    for (const std::string& id : checks->rule_may_name) std::printf(" %s", id.c_str());
     std::printf("\n");
   }
-  return all_hold(*checks) ? kDone : kCheckFailed;
+  return checks->holds() ? kDone : kCheckFailed;
 }
 
 int run_case_review(const Arguments& arguments) {
@@ -50,9 +49,9 @@ int run_case_publish(const Arguments& arguments) {
   if (!row) return refuse(row.error());
   const auto checks = check_case(*library, *row);
   if (!checks) return refuse(checks.error());
-  if (!all_hold(*checks)) {
+  if (!checks->holds()) {
     base::Error error{"checks_failed", "the case is not ready; `seldinger case check` tells all"};
-    for (const Check& one : *checks)
+    for (const Check& one : checks->checks)
       if (!one.holds) error.findings.push_back({one.name, one.text});
     return refuse(error);
   }

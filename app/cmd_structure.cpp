@@ -92,7 +92,7 @@ int run_case_structure(const Arguments& arguments) {
   } else {
     read_drawn(arguments, row);
     row.tissue = tissue_of(arguments, "--tissue");
-    row.hu = arguments.number("--hu", volume::typical_hu(row.tissue));
+    if (arguments.text("--hu") != "as_ct") row.hu = arguments.number("--hu", volume::typical_hu(row.tissue));
   }
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());

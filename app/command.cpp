@@ -48,7 +48,9 @@ constexpr Option kStructureOptions[] = {
     {"--radii-mm", "A,B,C", "drawn: of an ellipsoid, along LPS"},
     {"--tube", "X,Y,Z", "drawn: a point of a tube's middle line; give them in order", true},
     {"--tissue", "TISSUE", "drawn, or a label: the tissue class it has in every picture and to the hand"},
-    {"--hu", "H", "drawn: what CT shows of it; default what is typical of its class (docs/decisions/0018)"},
+    {"--hu", "H|as_ct",
+     "drawn: what CT shows of it, as_ct: what is there; default what is typical of its class "
+     "(docs/decisions/0018)"},
     {"--remove", "NAME", "takes one away again"},
     kJson};
 constexpr Option kLabelOptions[] = {kLibrary, {"--name", "N=TEXT", "what label N is called", true}, kJson};
@@ -162,7 +164,11 @@ constexpr Option kGoalsOptions[] = {
     kJson};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
-    {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--cases", nullptr,
+     "the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; each published, and hit "
+     "once by "
+     "a simulated expert"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},

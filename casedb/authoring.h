@@ -20,7 +20,7 @@ struct StructureRow {
   volume::TissueClass tissue{};  // of a drawn one or a label: overrides what the CT says
   StructureKind kind = StructureKind::drawn;
   cases::Shape drawn;         // kind drawn
-  double hu = 0.0;            // drawn: what the CT would show
+  std::optional<double> hu;   // drawn: what is painted; nothing: what the CT says stays
   std::string labels_sha256;  // kind label
   int label = 0;              // kind label, 1 to 255
 };

@@ -61,7 +61,7 @@ Json json_of_structure(const StructureRow& structure) {
                {"by", name_of(structure.kind)}};
   if (structure.kind == StructureKind::drawn) {
     json["geometry"] = Json::parse(json_of_shape(structure.drawn));
-    json["hu"] = structure.hu;
+    json["hu"] = maybe(structure.hu);
   }
   if (structure.kind == StructureKind::label) json["label"] = structure.label;
   return json;

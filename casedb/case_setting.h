@@ -38,7 +38,7 @@ struct CaseSetting {
   assessment::PassRule rule;
 };
 
-inline assessment::Guidance guidance_of(const CaseSetting& setting) {
+inline assessment::Manner manner_of(const CaseSetting& setting) {
   return {setting.modality, setting.approach, setting.instrument.kind};
 }
 

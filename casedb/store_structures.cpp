@@ -63,7 +63,8 @@ base::Result<void> check_place(Library& library, const CaseRow& row, const Struc
   switch (structure.kind) {
     case StructureKind::drawn:
       if (const auto fit = check_drawn(structure.drawn); !fit) return fit.error();
-      if (!(structure.hu >= volume::kAirHu && structure.hu <= 32767.0)) return bad("HU are from -1024 to 32767");
+      if (structure.hu && !(*structure.hu >= volume::kAirHu && *structure.hu <= 32767.0))
+        return bad("HU are from -1024 to 32767");
       if (!touches(structure.drawn, row)) return bad("the structure lies beside the volume");
       return {};
     case StructureKind::tissue_class: {
@@ -117,7 +118,7 @@ base::Result<std::string> add_structure(Library& library, const StructureRow& st
       .bind("tissue", volume::about(structure.tissue).name)
       .bind("kind", name_of(structure.kind))
       .bind("geometry", drawn ? std::optional(json_of_shape(structure.drawn)) : std::nullopt)
-      .bind("hu", drawn ? std::optional(structure.hu) : std::nullopt)
+      .bind("hu", drawn ? structure.hu : std::nullopt)
       .bind("labels_sha256", label ? std::optional(structure.labels_sha256) : std::nullopt)
       .bind("label", label ? std::optional(structure.label) : std::nullopt)
       .bind("created_us", now_us())
@@ -157,7 +158,7 @@ std::vector<StructureRow> list_structures(Library& library, const std::string& c
       auto shape = shape_from_json(from.text("geometry"));
       if (!shape) throw base::Failure("database", "a stored structure cannot be read");
       row.drawn = std::move(*shape);
-      row.hu = from.real("hu");
+      if (!from.is_null("hu")) row.hu = from.real("hu");
     }
     if (row.kind == StructureKind::label) {
       row.labels_sha256 = from.text("labels_sha256");

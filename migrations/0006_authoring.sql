@@ -102,13 +102,13 @@ CREATE TABLE structure (
   tissue TEXT NOT NULL CHECK (tissue <> ''),
   kind TEXT NOT NULL CHECK (kind IN ('class', 'label', 'drawn')),
   geometry TEXT CHECK (geometry <> ''), -- drawn: casedb/structure_json.h
-  hu REAL, -- drawn: what is painted
+  hu REAL, -- drawn: what is painted; null: what the CT says stays
   labels_sha256 TEXT CHECK (length(labels_sha256) = 64), -- label: the case's own map or one of case_label_map
   label INTEGER CHECK (label BETWEEN 1 AND 255),
   created_us INTEGER NOT NULL,
   UNIQUE (case_id, position),
   UNIQUE (case_id, title),
-  CHECK ((kind = 'drawn') = (geometry IS NOT NULL) AND (kind = 'drawn') = (hu IS NOT NULL)),
+  CHECK ((kind = 'drawn') = (geometry IS NOT NULL) AND (kind = 'drawn' OR hu IS NULL)),
   CHECK ((kind = 'label') = (labels_sha256 IS NOT NULL) AND (kind = 'label') = (label IS NOT NULL))
 ) STRICT;
 

@@ -23,47 +23,13 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
-// A ball of skin, 200 mm wide, about the origin.
-cases::Mesh ball() {
-  cases::Mesh mesh;
-  constexpr float kRadius = 100.0F;
-  mesh.vertices_lps_mm = {{kRadius, 0, 0},  {-kRadius, 0, 0}, {0, kRadius, 0},
-                          {0, -kRadius, 0}, {0, 0, kRadius},  {0, 0, -kRadius}};
-  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  mesh.cut.assign(mesh.triangles.size(), 0);
-  return mesh;
+bool has_rule(std::span<const cases::Structure> structures, cases::StructureRule rule) {
+  return std::any_of(structures.begin(), structures.end(),
+                     [&](const cases::Structure& one) { return one.rule == rule; });
 }
 
-// An attempt in which all goes as it should, so that a metric without a value has none because of the guidance.
-cases::Recording good_attempt(cases::Modality modality) {
-  cases::Recording recording;
-  constexpr double kSeconds = 12.0;
-  for (int i = 0; i <= 1200; ++i) {
-    const double t_s = 0.01 * i;
-    recording.poses.push_back(
-        {t_s, {0.0, 0.0, -130.0 + 130.0 * t_s / kSeconds}, {0, 0, 1}, {0, 0, -100}, {0, 0, 1}, {1, 0, 0}});
-  }
-  for (int i = 0; i <= 360; ++i) {
-    cases::FrameTruth frame;
-    frame.t_s = i / 30.0;
-    frame.live = frame.needle_tip = frame.target = true;
-    frame.needle_length_mm = 30.0;
-    if (modality == cases::Modality::ultrasound) frame.near_plane = cases::NearPlane{true, true, true, true};
-    if (modality == cases::Modality::xray) {
-      cases::BeamTruth beam;
-      beam.beam_s = 1.0 / 30.0;
-      beam.lao_deg = i < 180 ? 0.0 : 50.0;
-      frame.beam = beam;
-    }
-    recording.frames.push_back(frame);
-  }
-  recording.endpoint = cases::Endpoint{kSeconds, {0, 0, 0}, {0, 0, 1}};
-  return recording;
-}
-
-// Reasons that begin so tell that the metric is of another guidance, approach or instrument.
-bool is_of_another(const MetricValue& value) {
-  return !value.value && value.reason.rfind("not_", 0) == 0;
+bool can_have_a_value(const MetricInfo& info, const Guidance& guidance) {
+  return applies(info.needs, guidance.manner) && (info.needs & guidance.absent) == 0;
 }
 
 }  // namespace
@@ -112,24 +78,28 @@ std::optional<Criterion> criterion_from(std::string_view text) {
   return std::nullopt;
 }
 
+std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry) {
+  using enum cases::StructureRule;
+  std::uint32_t absent = planned_entry ? 0U : std::uint32_t{kPlan};
+  const std::pair<cases::StructureRule, std::uint32_t> needs[] = {
+      {critical, kNoGoCritical}, {major, kNoGoMajor}, {advisory, kNoGoAdvisory},
+      {must_cross, kMustCross},  {organ, kOrgan},     {target, kLumen}};
+  for (const auto& [rule, need] : needs)
+    if (!has_rule(structures, rule)) absent |= need;
+  if (!has_rule(structures, critical) && !has_rule(structures, major) && !has_rule(structures, advisory))
+    absent |= kNoGo;
+  return absent;
+}
+
 std::vector<std::string> meaningful_metrics(const Guidance& guidance) {
-  const cases::MeshIndex skin(ball());
-  AttemptSetting setting;
-  setting.skin = &skin;
-  setting.target = cases::Lesion{{0, 0, 0}, 5.0, 0.0};
-  setting.instrument.kind = guidance.instrument;
-  setting.modality = guidance.modality;
-  setting.approach = guidance.approach;
-  const auto signals = make_signals(setting, good_attempt(guidance.modality));
   std::vector<std::string> ids;
-  for (const MetricValue& value : measure_all(signals.value()))
-    if (!is_of_another(value)) ids.push_back(value.id);
+  for (const MetricInfo& info : registry())
+    if (can_have_a_value(info, guidance)) ids.emplace_back(info.id);
   return ids;
 }
 
 std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& guidance) {
   std::vector<base::Problem> problems;
-  const std::vector<std::string> meaningful = meaningful_metrics(guidance);
   for (std::size_t i = 0; i < rule.criteria.size(); ++i) {
     const Criterion& one = rule.criteria[i];
     const MetricInfo* info = find_metric(one.metric);
@@ -138,9 +108,9 @@ std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& gui
     else if (info->version != one.version)
       problems.push_back({"other_version", one.metric + " is measured by version " + std::to_string(info->version) +
                                                ", not " + std::to_string(one.version)});
-    else if (std::find(meaningful.begin(), meaningful.end(), one.metric) == meaningful.end())
-      problems.push_back(
-          {"not_meaningful", one.metric + " says nothing under this guidance, approach and instrument"});
+    else if (!can_have_a_value(*info, guidance))
+      problems.push_back({"not_meaningful", one.metric + " has no value under the case's guidance, approach and "
+                                                         "instrument, or needs a structure that it does not have"});
     if (!std::isfinite(one.value)) problems.push_back({"not_finite", one.metric + " is compared with no number"});
     for (std::size_t other = 0; other < i; ++other)
       if (rule.criteria[other].metric == one.metric && rule.criteria[other].comparison == one.comparison) {

@@ -2,13 +2,16 @@
 // good (clinical.md, "Passing"). Plain data of a case; graded elsewhere.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "assessment/metrics/needs.h"
 #include "sim/base/result.h"
-#include "sim/case/case.h"
+#include "sim/case/structure.h"
 
 namespace seldinger::assessment {
 
@@ -34,12 +37,14 @@ std::optional<Comparison> comparison_from(std::string_view sign) noexcept;
 std::string text_of(const Criterion& criterion);
 std::optional<Criterion> criterion_from(std::string_view text);
 
-// What a rule may name under a case's guidance and instrument: the ids of the metrics that mean something there.
+// What a case is practised with, and what it does not have of what metrics need.
 struct Guidance {
-  cases::Modality modality = cases::Modality::mpr;
-  cases::Approach approach = cases::Approach::in_plane;
-  cases::InstrumentKind instrument = cases::InstrumentKind::access;
+  Manner manner;
+  std::uint32_t absent = 0;  // Need, or-ed: no critical structure, no planned entry, …
 };
+std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry);
+
+// What a rule may name there: the ids of the metrics that can have a value.
 std::vector<std::string> meaningful_metrics(const Guidance& guidance);
 
 // What is wrong with the rule there: `unknown_metric`, `other_version`, `not_meaningful`, `twice`, `not_finite`.

@@ -50,6 +50,10 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
       const double angle = k * std::numbers::pi / 3.0, radius = k < 6 ? limits.clearance_mm : 0.0;
       const glm::dvec3 p =
           target + way.outward * s_mm + (u * base::exact_cos(angle) + v * base::exact_sin(angle)) * radius;
+      const bool open = std::any_of(limits.open.begin(), limits.open.end(), [&](const cases::Shape& shape) {
+        return cases::signed_distance_mm(shape, p, limits.clearance_mm) < limits.clearance_mm;
+      });
+      if (open) continue;
       const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
       if (!hu || *hu > limits.bone_hu || *hu < limits.gas_hu) return false;
     }
@@ -152,6 +156,10 @@ PathLimits path_limits(const cases::Case& scene) {
   PathLimits limits = path_limits(scene.picture.modality, scene.position);
   limits.max_depth_mm = std::min(limits.max_depth_mm, scene.instrument.length_mm);
   limits.structures = scene.structures;
+  for (const cases::Structure& structure : scene.structures)
+    if (structure.rule == cases::StructureRule::target) limits.open.push_back(structure.shape);
+  if (!scene.lesions.empty() && scene.lesions.front().in_volume())
+    limits.open.push_back(*scene.lesions.front().shape);
   const cases::Instrument& needle = scene.instrument;
   if (needle.kind == cases::InstrumentKind::core)  // the middle of the notch comes to the target's
     limits.behind_target_mm = needle.dead_tip_mm + needle.notch_mm / 2.0;

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -52,6 +53,8 @@ struct PathLimits {
   double structure_clearance_mm = 2.0;  // room for a hand's sway (design)
   double must_cross_mm = 10.0;          // clinical.md, cases 3 and 5: renal parenchyma
   double behind_target_mm = 0.0;        // how far beyond the target's centre the tip may come
+  // Here HU do not count: a target, or the lumen it is in, may be full of contrast agent.
+  std::vector<cases::Shape> open{};
   // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
   double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,7 +74,8 @@ struct Case {
   Picture picture;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   PatientPosition position = PatientPosition::supine;
-  Fluoroscope fluoroscope;  // used under xray only
+  std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
+  Fluoroscope fluoroscope;                           // used under xray only
 };
 
 }  // namespace seldinger::cases
