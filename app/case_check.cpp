@@ -129,8 +129,4 @@ base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseR
   return checked;
 }
 
-bool CaseCheck::holds() const {
-  return std::all_of(checks.begin(), checks.end(), [](const Check& one) { return one.holds; });
-}
-
 }  // namespace seldinger::app

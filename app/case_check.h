@@ -5,22 +5,14 @@
 #include <vector>
 
 #include "casedb/authoring.h"
+#include "casedb/case_checks.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
 
 namespace seldinger::app {
 
-struct Check {
-  std::string name;  // stable snake_case: lesion_inside_body
-  bool holds = false;
-  std::string text;  // what was found, or why it does not hold
-};
-
-struct CaseCheck {
-  std::vector<Check> checks;
-  std::vector<std::string> rule_may_name;  // ids of metrics that can have a value at this case
-  bool holds() const;
-};
+using casedb::CaseCheck;
+using casedb::Check;
 
 // Each lesion inside the body and not in bone; a straight way of the instrument's length from uncut skin that meets
 // no bone, gas, nor critical or major structure, and leads through what must be crossed (not asked where the right
