@@ -113,6 +113,10 @@ int run_case_setting(const Arguments& arguments) {
     if (!read) return refuse(read.error());
     rule = std::move(*read);
   }
+  {
+    casedb::CaseSetting any;
+    read_setting(arguments, any);  // wrong use is told before a library is asked for
+  }
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, case_id);

@@ -6,6 +6,7 @@
 #include "casedb/question.h"
 #include "casedb/setting_columns.h"
 #include "casedb/sqlite.h"
+#include "casedb/tables.h"
 #include "casedb/uuid.h"
 #include "sim/base/check.h"
 
@@ -94,6 +95,42 @@ base::Result<void> check_burned_in(Library& library, const CaseRow& row) {
   CHECK(looked.bind("case_id", row.case_id).step());
   if (looked.integer("checked") != 0) return {};
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
+}
+
+// The row of a case and of what belongs to it alone, as they are; columns of later migrations come along.
+void copy_case(Sqlite& database, const std::string& from_case_id, const std::string& case_id) {
+  constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
+      {"case_id", ":case_id"},
+      {"state", "'draft'"},
+      {"audience", "'everyone'"},
+      {"created_us", ":created_us"},
+      {"family_id", "coalesce(family_id, case_id)"},
+      {"version",
+       "(SELECT max(one.version) + 1 FROM training_case AS one WHERE coalesce(one.family_id, one.case_id) = "
+       "coalesce(training_case.family_id, training_case.case_id))"}};
+  for (const TravellingTable& table : travelling_tables()) {
+    if (table.name == "lesion" || table.name == "structure") continue;  // these have ids of their own
+    const bool is_case = table.name == "training_case";
+    std::string columns, values;
+    for (const std::string& column : columns_of(database, table.name)) {
+      const auto own =
+          std::find_if(std::begin(kOwn), std::end(kOwn), [&](const auto& one) { return one.first == column; });
+      const bool replaced = own != std::end(kOwn) && (is_case || column == "case_id");
+      if (!columns.empty()) {
+        columns += ", ";
+        values += ", ";
+      }
+      columns += column;
+      values += replaced ? own->second : std::string_view(column);
+    }
+    if (columns.empty()) continue;
+    Statement copy =
+        database.prepare("INSERT INTO " + std::string(table.name) + " (" + columns + ") SELECT " + values +
+                         " FROM " + std::string(table.name) + " WHERE case_id = :from_case_id");
+    copy.bind("case_id", case_id).bind("from_case_id", from_case_id);
+    if (is_case) copy.bind("created_us", now_us());
+    copy.run();
+  }
 }
 
 }  // namespace
@@ -201,13 +238,7 @@ base::Result<std::string> new_version(Library& library, const std::string& case_
   const auto lesions = list_lesions(library, case_id);
   const auto structures = list_structures(library, case_id);
   const std::string made = new_uuid();
-  question(database, "add_version")
-      .bind("case_id", made)
-      .bind("from_case_id", case_id)
-      .bind("created_us", now_us())
-      .run();
-  for (const char* copy : {"copy_attributes", "copy_warnings", "copy_label_maps"})
-    question(database, copy).bind("case_id", made).bind("from_case_id", case_id).run();
+  copy_case(database, case_id, made);
   for (const LesionRow& lesion : lesions)
     question(database, "copy_lesion")
         .bind("case_id", made)
