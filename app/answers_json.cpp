@@ -18,37 +18,33 @@ Json maybe(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json lesion_json(const casedb::LesionRow& row) {
-  return {{"lesion_id", row.lesion_id},
-          {"center_mm", point(row.lesion.center_lps_mm)},
-          {"radius_mm", row.lesion.radius_mm},
-          {"hu", row.lesion.hu}};
-}
-
-Json case_json(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions) {
+Json case_json(const casedb::CaseParts& parts) {
+  const casedb::CaseRow& row = parts.row;
   Json matrix = Json::array();
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c) matrix.push_back(row.lps_from_voxel[c][r]);
   Json warnings = Json::array(), all = Json::array(), attributes = Json::object();
   for (const base::Problem& warning : row.warnings)
     warnings.push_back({{"code", warning.code}, {"text", warning.text}});
-  for (const casedb::LesionRow& lesion : lesions) all.push_back(lesion_json(lesion));
+  for (const casedb::LesionRow& lesion : parts.lesions) all.push_back(casedb::json_of_lesion(lesion));
   for (const auto& [name, value] : row.attributes) attributes[name] = value;
-  return {{"case_id", row.case_id},
-          {"title", row.title},
-          {"state", row.state},
-          {"origin", row.origin},
-          {"modality", casedb::name_of(row.modality)},
-          {"patient_position", casedb::name_of(row.position)},
-          {"size_voxels", Json::array({row.size_voxels.x, row.size_voxels.y, row.size_voxels.z})},
-          {"spacing_mm", point(row.spacing_mm)},
-          {"lps_from_voxel", matrix},
-          {"hu_min", row.hu_min},
-          {"hu_max", row.hu_max},
-          {"slices_used", row.slices_used},
-          {"attributes", attributes},
-          {"lesions", all},
-          {"warnings", warnings}};
+  Json json = {{"case_id", row.case_id},
+               {"title", row.title},
+               {"state", row.state},
+               {"origin", row.origin},
+               {"modality", casedb::name_of(row.modality)},
+               {"patient_position", casedb::name_of(row.position)},
+               {"size_voxels", Json::array({row.size_voxels.x, row.size_voxels.y, row.size_voxels.z})},
+               {"spacing_mm", point(row.spacing_mm)},
+               {"lps_from_voxel", matrix},
+               {"hu_min", row.hu_min},
+               {"hu_max", row.hu_max},
+               {"slices_used", row.slices_used},
+               {"attributes", attributes},
+               {"lesions", all},
+               {"warnings", warnings}};
+  casedb::add_authoring(parts, json);
+  return json;
 }
 
 Json metrics_json(const std::vector<assessment::MetricValue>& metrics) {
@@ -97,16 +93,21 @@ std::string text(const Json& json) {
 
 }  // namespace
 
-std::string json_of_case(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions) {
-  return text(case_json(row, lesions));
+std::string json_of_case(const casedb::CaseParts& parts) {
+  return text(case_json(parts));
 }
 
-std::string json_of_cases(const std::vector<std::pair<casedb::CaseRow, std::vector<casedb::LesionRow>>>& cases) {
+std::string json_of_cases(const std::vector<casedb::CaseParts>& cases) {
   Json list = Json::array();
-  for (const auto& [row, lesions] : cases) {
+  for (const casedb::CaseParts& parts : cases) {
     Json all = Json::array();
-    for (const casedb::LesionRow& lesion : lesions) all.push_back(lesion_json(lesion));
-    list.push_back({{"case_id", row.case_id}, {"title", row.title}, {"state", row.state}, {"lesions", all}});
+    for (const casedb::LesionRow& lesion : parts.lesions) all.push_back(casedb::json_of_lesion(lesion));
+    list.push_back({{"case_id", parts.row.case_id},
+                    {"title", parts.row.title},
+                    {"state", parts.row.state},
+                    {"version", parts.row.version},
+                    {"family_id", parts.row.family_id},
+                    {"lesions", all}});
   }
   return text({{"cases", list}});
 }
@@ -214,7 +215,7 @@ std::string json_of_facts(const DoctorAnswer& doctor) {
 std::string json_of_demo(const DemoAnswer& demo) {
   Json accounts = Json::array();
   for (const auto& [name, password] : demo.passwords) accounts.push_back({{"name", name}, {"password", password}});
-  Json lesion = lesion_json(demo.lesion);
+  Json lesion = casedb::json_of_lesion(demo.lesion);
   lesion["rule"] = demo.lesion_rule;
   lesion["depth_below_skin_mm"] = demo.lesion_depth_mm;
   return text({{"case_id", demo.found.case_id},

@@ -6,6 +6,7 @@
 
 #include "app/scene_picture.h"
 #include "assessment/metrics/metric.h"
+#include "casedb/case_json.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {
@@ -48,8 +49,8 @@ struct DoctorAnswer {
   std::vector<std::pair<std::string, std::string>> facts;
 };
 
-std::string json_of_case(const casedb::CaseRow& row, const std::vector<casedb::LesionRow>& lesions);
-std::string json_of_cases(const std::vector<std::pair<casedb::CaseRow, std::vector<casedb::LesionRow>>>& cases);
+std::string json_of_case(const casedb::CaseParts& parts);
+std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
 std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics);

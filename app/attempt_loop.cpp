@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <memory>
 
 #include "app/attempt_ticks.h"
@@ -148,6 +149,11 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
   setting.modality = scene.picture.modality;
   setting.approach = scene.approach;
   setting.structures = scene.structures;
+  if (scene.planned_entry_lps_mm && setting.target) {
+    const glm::dvec3 way = setting.target->center_lps_mm - *scene.planned_entry_lps_mm;
+    if (glm::length(way) > 0.0)
+      setting.plan = assessment::PlannedEntry{*scene.planned_entry_lps_mm, glm::normalize(way)};
+  }
   const auto signals = assessment::make_signals(setting, recording);
   if (!signals) return signals.error();
   return assessment::measure_all(*signals);

@@ -1,15 +1,89 @@
 #include "app/case_build.h"
 
 #include <glm/mat4x4.hpp>
+#include <optional>
 
+#include "casedb/authoring.h"
+#include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/imaging/ultrasound/tissue.h"
 
 namespace seldinger::app {
+namespace {
+
+using Classes = std::vector<volume::TissueClass>;
+
+// What a structure of a label or a class is, in voxels.
+class Voxels {
+ public:
+  Voxels(casedb::Library& library, const casedb::CaseRow& row, const volume::Volume& volume)
+      : library_(library), row_(row), volume_(volume) {}
+
+  base::Result<cases::Shape> of(const casedb::StructureRow& structure) {
+    if (structure.kind == casedb::StructureKind::tissue_class) {
+      if (const auto loaded = load_classes(); !loaded) return loaded.error();
+      const std::vector<std::uint8_t> bytes = [&] {
+        std::vector<std::uint8_t> made(classes_->size());
+        for (std::size_t i = 0; i < made.size(); ++i) made[i] = static_cast<std::uint8_t>((*classes_)[i]);
+        return made;
+      }();
+      return cases::Shape{cases::voxels_with(volume_, bytes, static_cast<std::uint8_t>(structure.tissue))};
+    }
+    if (!maps_) {
+      auto loaded = casedb::load_label_maps(library_, row_);
+      if (!loaded) return loaded.error();
+      maps_ = std::move(*loaded);
+    }
+    for (const casedb::StoredLabels& map : *maps_) {
+      if (map.sha256 != structure.labels_sha256) continue;
+      if (map.labels.label.size() != volume_.hu.size()) break;
+      return cases::Shape{
+          cases::voxels_with(volume_, map.labels.label, static_cast<std::uint8_t>(structure.label))};
+    }
+    return base::Error{"damaged", "the stored labels are not the volume's"};
+  }
+
+  // Before anything is painted.
+  base::Result<void> load_classes() {
+    if (classes_) return {};
+    auto loaded = casedb::load_classes(library_, row_);
+    if (!loaded) return loaded.error();
+    classes_ = std::move(*loaded);
+    return {};
+  }
+  Classes take_classes() { return std::move(*classes_); }
+
+ private:
+  casedb::Library& library_;
+  const casedb::CaseRow& row_;
+  const volume::Volume& volume_;
+  std::optional<Classes> classes_;
+  std::optional<std::vector<casedb::StoredLabels>> maps_;
+};
+
+void paint_lesion(const cases::LesionForm& form, Classes& classes, cases::Case& scene) {
+  cases::Lesion lesion = cases::lesion_of(form);
+  if (lesion.in_volume()) {
+    const cases::Painted painted = cases::paint(*lesion.shape, {form.hu, form.adds, form.edge_mm}, scene.volume);
+    if (painted.voxels > 0) {
+      lesion.hu = painted.hu;
+      lesion.around_hu = painted.before_hu;
+    }
+    if (!classes.empty())
+      cases::paint_class(*lesion.shape, imaging::tissue_of_lesion(lesion.hu), scene.volume, classes);
+  }
+  scene.lesions.push_back(std::move(lesion));
+}
+
+}  // namespace
+
+Needs needs_of(cases::Modality modality) noexcept {
+  return modality == cases::Modality::ultrasound ? Needs::ultrasound : Needs::touch;
+}
 
 base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
-                                     const std::optional<cases::Lesion>& target,
-                                     const cases::Instrument& instrument, const cases::Picture& picture,
-                                     cases::Approach approach) {
+                                     const std::optional<cases::LesionForm>& target, const cases::Picture& picture,
+                                     Needs needs) {
   auto volume = casedb::load_volume(library, row);
   if (!volume) return volume.error();
   auto skin = casedb::load_skin(library, row);
@@ -18,28 +92,56 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.volume = std::move(*volume);
   scene.skin = std::move(*skin);
   scene.skin_index = cases::MeshIndex(scene.skin);
-  if (target) scene.lesions.push_back(*target);
-  scene.instrument = instrument;
+  scene.instrument = row.instrument;
   scene.picture = picture;
-  scene.approach = approach;
+  scene.approach = row.approach;
   scene.position = row.position;
+  scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
+
+  const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
+  Voxels voxels(library, row, scene.volume);
+  for (const casedb::StructureRow& one : structures) {
+    cases::Shape shape = one.drawn;
+    if (one.kind != casedb::StructureKind::drawn) {
+      auto found = voxels.of(one);
+      if (!found) return found.error();
+      shape = std::move(*found);
+    }
+    scene.structures.push_back({one.name, one.tissue, one.rule, std::move(shape)});
+  }
+  Classes classes;
+  if (needs != Needs::metrics) {
+    if (const auto loaded = voxels.load_classes(); !loaded) return loaded.error();
+    classes = voxels.take_classes();
+    if (classes.size() != scene.volume.hu.size())
+      return base::Error{"damaged", "the stored classes are not the volume's"};
+  }
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    const cases::Structure& made = scene.structures[i];
+    if (structures[i].hu) cases::paint(made.shape, {*structures[i].hu, false, 0.0}, scene.volume);
+    if (!classes.empty() && structures[i].kind != casedb::StructureKind::tissue_class)
+      cases::paint_class(made.shape, made.tissue, scene.volume, classes);
+  }
+  if (target) paint_lesion(*target, classes, scene);
+  scene.classes = std::move(classes);
+  if (needs == Needs::ultrasound) scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
   // The table is set so that the machine turns about the middle of what there is.
   const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
   scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
   return scene;
 }
 
-base::Result<void> add_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
-  auto classes = casedb::load_classes(library, row);
-  if (!classes) return classes.error();
-  scene.classes = std::move(*classes);
-  return {};
-}
-
-base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene) {
-  if (const auto added = add_tissue(library, row, scene); !added) return added.error();
-  scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
-  return {};
+base::Result<cases::Case> build_case_of(casedb::Library& library, const casedb::AttemptRow& attempt, Needs needs) {
+  const auto row = casedb::find_case(library, attempt.case_id);
+  if (!row) return row.error();
+  std::optional<cases::LesionForm> target;
+  for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
+    if (lesion.lesion_id == attempt.lesion_id) target = lesion.form;
+  auto scene = build_case(library, *row, target, attempt.picture, needs);
+  if (!scene) return scene.error();
+  scene->instrument = attempt.instrument;
+  scene->approach = attempt.approach;
+  return scene;
 }
 
 }  // namespace seldinger::app

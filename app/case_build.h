@@ -7,17 +7,22 @@
 
 namespace seldinger::app {
 
-// Loads volume and skin of a stored case; the lesion becomes the target.
-// The fluoroscope is the built-in machine, its isocentre at the volume's middle; how the patient lies is the
-// case's.
-base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
-                                     const std::optional<cases::Lesion>& target,
-                                     const cases::Instrument& instrument, const cases::Picture& picture,
-                                     cases::Approach approach);
+// What is built depends on what looks at it or feels it: classes cost a file and a byte a voxel.
+// Touch asks the class of a voxel, ultrasound also how bright it is; scoring does without both.
+enum class Needs { metrics, touch, ultrasound };
 
-// What touch asks, a class per voxel: attempts and their replay. Scoring does without.
-base::Result<void> add_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene);
-// That, and what ultrasound of the case is made of.
-base::Result<void> add_ultrasound_tissue(casedb::Library& library, const casedb::CaseRow& row, cases::Case& scene);
+// Volume, skin and structures of a stored case; the lesion becomes the target. What is drawn is painted into the
+// volume and, where they are needed, into the classes: structures in their order, then the lesion. Instrument and
+// approach are the case's own unless an attempt had others; patient's position the case's. The fluoroscope is the
+// built-in machine, its isocentre at the volume's middle. Refused: damaged or missing assets.
+base::Result<cases::Case> build_case(casedb::Library& library, const casedb::CaseRow& row,
+                                     const std::optional<cases::LesionForm>& target, const cases::Picture& picture,
+                                     Needs needs);
+
+// As an attempt was made: its lesion, instrument, picture and approach.
+base::Result<cases::Case> build_case_of(casedb::Library& library, const casedb::AttemptRow& attempt, Needs needs);
+
+// What an attempt by this modality needs.
+Needs needs_of(cases::Modality modality) noexcept;
 
 }  // namespace seldinger::app

@@ -8,6 +8,8 @@
 #include "app/answers_json.h"
 #include "app/case_build.h"
 #include "app/command.h"
+#include "app/demo_cases.h"
+#include "app/demo_library.h"
 #include "app/import_case.h"
 #include "app/serving.h"
 #include "app/simulation.h"
@@ -23,14 +25,6 @@ namespace {
 
 constexpr const char* kOperators[] = {"novice", "intermediate", "expert"};
 constexpr std::uint64_t kSeed = 1;
-
-std::filesystem::path default_library() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
-    return std::filesystem::path(data) / "seldinger" / "demo";
-  const char* home = std::getenv("HOME");
-  if (home == nullptr || *home != '/') throw base::Failure("disk", "there is no home folder; give --library");
-  return std::filesystem::path(home) / ".local" / "share" / "seldinger" / "demo";
-}
 
 volume::Calyces calyces_of(const Arguments& arguments) {
   const std::string kind = arguments.text("--calyces", "normal");
@@ -86,11 +80,10 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   if (!lesions.empty()) return lesions.front();
   cases::Picture picture;
   picture.modality = row.modality;
-  auto scene = build_case(library, row, std::nullopt, {}, picture, cases::Approach::in_plane);
+  auto scene = build_case(library, row, std::nullopt, picture, needs_of(row.modality));
   if (!scene) return scene.error();
   assessment::LesionRule rule = assessment::lesion_rule(row.modality, row.position);
   if (row.modality == cases::Modality::ultrasound) {
-    if (const auto added = add_ultrasound_tissue(library, row, *scene); !added) return added.error();
     rule.looks_from = [&](const assessment::PuncturePlan& plan, const cases::Lesion& target) {
       return UltrasoundSight(*scene).looks_from(plan, target);
     };
@@ -100,25 +93,6 @@ base::Result<casedb::LesionRow> demo_lesion(casedb::Library& library, const case
   const auto lesion_id = casedb::add_lesion(library, row.case_id, site->lesion);
   if (!lesion_id) return lesion_id.error();
   return casedb::list_lesions(library, row.case_id).front();
-}
-
-// Accounts of the demo that are missing get random passwords, shown once.
-base::Result<void> demo_accounts(casedb::Library& library, DemoAnswer& answer) {
-  const std::pair<const char*, casedb::Role> wanted[] = {{"mentor", casedb::Role::mentor},
-                                                         {"novice", casedb::Role::trainee},
-                                                         {"intermediate", casedb::Role::trainee},
-                                                         {"expert", casedb::Role::trainee}};
-  const auto accounts = casedb::list_users(library);
-  for (const auto& [name, role] : wanted) {
-    bool there = false;
-    for (const casedb::Account& account : accounts) there = there || account.login_name == name;
-    if (there) continue;
-    const std::string password = casedb::random_password();
-    const auto added = casedb::add_user(library, name, role, password);
-    if (!added) return added.error();
-    answer.passwords.emplace_back(name, password);
-  }
-  return {};
 }
 
 base::Result<void> demo_attempts(casedb::Library& library, DemoAnswer& answer) {
@@ -133,8 +107,7 @@ base::Result<void> demo_attempts(casedb::Library& library, DemoAnswer& answer) {
     for (const SimulatedAttempt& attempt : answer.attempts) there = there || attempt.operator_name == name;
     if (there) continue;
     if (!simulation) {
-      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id,
-                                          cases::InstrumentKind::access);
+      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id);
       if (!prepared) return prepared.error();
       simulation.emplace(std::move(*prepared));
     }
@@ -197,8 +170,9 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
 }  // namespace
 
 int run_demo(const Arguments& arguments) {
+  if (arguments.has("--cases")) return run_demo_cases(arguments);
   const std::filesystem::path folder =
-      arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : default_library();
+      arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library();
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
   std::optional<casedb::Library> library;
   DemoAnswer answer;
@@ -211,7 +185,12 @@ int run_demo(const Arguments& arguments) {
   answer.lesion_rule = assessment::describe(assessment::lesion_rule(answer.found.modality, answer.found.position));
   if (const auto skin = casedb::load_skin(*library, answer.found))
     answer.lesion_depth_mm = -cases::MeshIndex(*skin).closest_skin(answer.lesion.lesion.center_lps_mm).distance_mm;
-  if (const auto made = demo_accounts(*library, answer); !made) return refuse(made.error());
+  auto passwords = add_missing_accounts(*library, {{"mentor", casedb::Role::mentor},
+                                                   {"novice", casedb::Role::trainee},
+                                                   {"intermediate", casedb::Role::trainee},
+                                                   {"expert", casedb::Role::trainee}});
+  if (!passwords) return refuse(passwords.error());
+  answer.passwords = std::move(*passwords);
   if (const auto made = demo_attempts(*library, answer); !made) return refuse(made.error());
   const bool json = arguments.has("--json"), serving = !arguments.has("--no-serve");
   if (!json) print_answer(answer, folder);

@@ -13,7 +13,7 @@ int run_import(const Arguments& arguments) {
   const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
-  if (!position) throw UsageError("--position is supine or prone");
+  if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
   std::optional<std::string> series;
   if (arguments.has("--series")) series = arguments.text("--series");
   auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import");
@@ -26,7 +26,7 @@ int run_import(const Arguments& arguments) {
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   if (arguments.has("--json")) {
-    std::fputs(json_of_case(*row, {}).c_str(), stdout);
+    std::fputs(json_of_case(casedb::load_parts(*library, *row)).c_str(), stdout);
     return kDone;
   }
   std::printf("case %s\n%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n",

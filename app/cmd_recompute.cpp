@@ -21,22 +21,19 @@ bool close(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || std::abs(*a - *b) <= kSame * std::max(1.0, std::abs(*a)));
 }
 
-// Attempts at one case share what is costly of it.
+// Attempts at one lesion share what is costly of its case.
 class Scenes {
  public:
   explicit Scenes(casedb::Library& library) : library_(library) {}
 
   base::Result<cases::Case*> of(const casedb::AttemptRow& attempt) {
-    if (case_id_ != attempt.case_id) {
-      case_id_.clear();
-      const auto row = casedb::find_case(library_, attempt.case_id);
-      if (!row) return row.error();
-      auto built = build_case(library_, *row, std::nullopt, attempt.instrument, attempt.picture, attempt.approach);
+    if (lesion_id_ != attempt.lesion_id) {  // a lesion is one of its case
+      lesion_id_.clear();
+      auto built = build_case_of(library_, attempt, Needs::metrics);
       if (!built) return built.error();
       scene_ = std::move(*built);
-      case_id_ = attempt.case_id;
+      lesion_id_ = attempt.lesion_id;
     }
-    scene_.lesions = {attempt.lesion};
     scene_.instrument = attempt.instrument;
     scene_.picture = attempt.picture;
     scene_.approach = attempt.approach;
@@ -45,7 +42,7 @@ class Scenes {
 
  private:
   casedb::Library& library_;
-  std::string case_id_;
+  std::string lesion_id_;
   cases::Case scene_;
 };
 

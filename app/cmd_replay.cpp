@@ -21,13 +21,8 @@ base::Result<Verdict> verify(casedb::Library& library, const casedb::AttemptRow&
     return Verdict{std::nullopt, std::nullopt, "recorded by another step version"};
   const auto recording = casedb::load_recording(library, attempt.attempt_id);
   if (!recording) return Verdict{false, std::nullopt, recording.error().text};
-  const auto row = casedb::find_case(library, attempt.case_id);
-  if (!row) return row.error();
-  auto scene = build_case(library, *row, attempt.lesion, attempt.instrument, attempt.picture, attempt.approach);
+  const auto scene = build_case_of(library, attempt, recording->forces.empty() ? Needs::metrics : Needs::touch);
   if (!scene) return Verdict{false, std::nullopt, scene.error().text};
-  if (!recording->forces.empty())
-    if (const auto added = add_tissue(library, *row, *scene); !added)
-      return Verdict{false, std::nullopt, added.error().text};
   const Replay replayed = replay(*scene, *recording);
   if (replayed.same) return Verdict{true, std::nullopt, ""};
   return Verdict{false, replayed.first_difference_tick, "the replayed state differs"};

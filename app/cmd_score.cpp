@@ -121,10 +121,7 @@ base::Result<Metrics> score_attempt(const std::string& attempt_id, const std::st
   if (!attempt) return attempt.error();
   const auto recording = casedb::load_recording(*library, attempt_id);
   if (!recording) return recording.error();
-  const auto row = casedb::find_case(*library, attempt->case_id);
-  if (!row) return row.error();
-  const auto scene =
-      build_case(*library, *row, attempt->lesion, attempt->instrument, attempt->picture, attempt->approach);
+  const auto scene = build_case_of(*library, *attempt, Needs::metrics);
   if (!scene) return scene.error();
   return measure(*scene, *recording);
 }

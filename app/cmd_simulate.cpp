@@ -23,15 +23,22 @@ int run_simulate(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
-  const std::string instrument_name = arguments.text("--instrument", "access");
-  if (instrument_name != "access" && instrument_name != "core") throw UsageError("--instrument is access or core");
+  std::optional<cases::InstrumentKind> kind;
+  if (arguments.has("--instrument")) {
+    const std::string name = arguments.text("--instrument");
+    if (name != "access" && name != "core") throw UsageError("--instrument is access or core");
+    kind = name == "core" ? cases::InstrumentKind::core : cases::InstrumentKind::access;
+  }
+  std::optional<cases::Modality> modality;
+  if (arguments.has("--modality")) {
+    modality = casedb::modality_from(arguments.text("--modality"));
+    if (!modality) throw UsageError("--modality is " + casedb::modality_names());
+  }
   const auto profile = profile_of(arguments.required("--operator"));
   if (!profile) return refuse(profile.error());
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  auto simulation =
-      Simulation::prepare(*library, case_id, arguments.text("--lesion"),
-                          instrument_name == "core" ? cases::InstrumentKind::core : cases::InstrumentKind::access);
+  auto simulation = Simulation::prepare(*library, case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
   std::vector<SimulatedAttempt> attempts;
   for (long long i = 0; i < count; ++i) {

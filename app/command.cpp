@@ -18,18 +18,78 @@ constexpr Option kImportOptions[] = {
     {"--title", "TEXT", "the case's title; never taken from the source"},
     {"--series", "UID|N", "which series, when the folder holds several"},
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
-    {"--position", "supine|prone", "how the patient lies; default supine"},
+    {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
     kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
 constexpr Option kLibraryJson[] = {kLibrary, kJson};
 constexpr Option kJsonOnly[] = {kJson};
 constexpr Option kLibraryOnly[] = {kLibrary};
-constexpr Option kLesionOptions[] = {kLibrary,
-                                     {"--center-mm", "X,Y,Z", "centre, LPS"},
-                                     {"--radius-mm", "R", "radius"},
-                                     {"--hu", "H", "its HU"},
-                                     kJson};
+constexpr Option kLesionOptions[] = {
+    kLibrary,
+    {"--center-mm", "X,Y,Z", "centre, LPS"},
+    {"--radius-mm", "R", "of a sphere, or the mean one of an irregular lesion"},
+    {"--radii-mm", "A,B,C", "an ellipsoid's, along LPS"},
+    {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
+    {"--seed", "N", "which irregular one; default 1"},
+    {"--hu", "H", "its HU"},
+    {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
+    {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},
+    {"--remove", "LESION", "takes one away again"},
+    kJson};
+constexpr Option kStructureOptions[] = {
+    kLibrary,
+    {"--name", "TEXT", "what it is called"},
+    {"--rule", "advisory|major|critical|must_cross|organ|target", "what a needle in it means"},
+    {"--class", "TISSUE", "all voxels of the case's tissue class"},
+    {"--label", "NAME|N", "a label of the case's label maps"},
+    {"--center-mm", "X,Y,Z", "drawn: a sphere or an ellipsoid"},
+    {"--radius-mm", "R", "drawn: of a sphere or a tube"},
+    {"--radii-mm", "A,B,C", "drawn: of an ellipsoid, along LPS"},
+    {"--tube", "X,Y,Z", "drawn: a point of a tube's middle line; give them in order", true},
+    {"--tissue", "TISSUE", "drawn, or a label: the tissue class it has in every picture and to the hand"},
+    {"--hu", "H|as_ct",
+     "drawn: what CT shows of it, as_ct: what is there; default what is typical of its class "
+     "(docs/decisions/0018)"},
+    {"--remove", "NAME", "takes one away again"},
+    kJson};
+constexpr Option kLabelOptions[] = {kLibrary, {"--name", "N=TEXT", "what label N is called", true}, kJson};
+constexpr Option kSettingOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "the case's title"},
+    {"--modality", "mpr|xray|ultrasound", "what it is practised with"},
+    {"--also", "mpr|xray|ultrasound", "what it may be practised with too", true},
+    {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies"},
+    {"--approach", "in_plane|out_of_plane", "of needle to picture"},
+    {"--instrument", "access|core", "access: the tip decides; core: the fired notch"},
+    {"--gauge", "G", "16 to 25"},
+    {"--length-mm", "L", "the needle's"},
+    {"--throw-mm", "T", "core: the way the tip goes when fired"},
+    {"--notch-mm", "N", "core: length of the sample notch"},
+    {"--dead-tip-mm", "D", "core: from the notch's end to the tip"},
+    {"--inr", "X", "what the laboratory found"},
+    {"--platelets", "X", "per nl (10⁹/l)"},
+    {"--allergy", "TEXT", "told at the sign-in"},
+    {"--indication", "TEXT", "why"},
+    {"--decision", "proceed|defer", "what is right"},
+    {"--entry-mm", "X,Y,Z", "the planned entry"},
+    {"--difficulty", "easy|moderate|hard", "how hard it is"},
+    {"--time-limit-s", "S", "an attempt ends then"},
+    {"--attempt-limit", "N", "so many a trainee"},
+    {"--pass", "METRIC>=VALUE", "a criterion: <=, >= or =; with --critical it makes the whole rule anew", true},
+    {"--critical", "METRIC=VALUE", "a criterion that must not be missed whatever else is good", true},
+    {"--rule", "FILE.json", "the rule from a file"}};
+constexpr Option kByOption{"--by", "NAME", "the account that decides"};
+constexpr Option kNoteOption{"--note", "TEXT", "one line kept with the decision"};
+constexpr Option kReviewOptions[] = {kLibrary,
+                                     kByOption,
+                                     {"--approve", nullptr, "a second person's word"},
+                                     {"--return", nullptr, "back to draft"},
+                                     kNoteOption};
+constexpr Option kPublishOptions[] = {
+    kLibrary, kByOption, {"--own-cohort", nullptr, "unreviewed, to the mentor's own cohort only"}, kNoteOption};
+constexpr Option kRetireOptions[] = {kLibrary, kByOption, kNoteOption};
+constexpr Option kVersionOptions[] = {kLibrary, kByOption, kJson};
 constexpr Option kBundleOptions[] = {
     kLibrary, {"--out", "FILE.sdbundle", "the file; replaced when it is there"}, kJson};
 constexpr Option kCheckOptions[] = {
@@ -50,7 +110,8 @@ constexpr Option kSimulateOptions[] = {
     {"--operator", "novice|intermediate|expert|FILE.json", "who"},
     {"--seed", "N", "attempt i uses seed N + i"},
     {"--count", "K", "how many attempts; default 1"},
-    {"--instrument", "access|core", "default access: the tip decides; core: the fired notch"},
+    {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
+    {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     kJson};
 constexpr Option kScoreOptions[] = {kLibrary,
@@ -104,7 +165,11 @@ constexpr Option kGoalsOptions[] = {
     kJson};
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
-    {"--ct", "SOURCE", "a CT to use in place of the built-in case"},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--cases", nullptr,
+     "the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; each published, and hit "
+     "once by "
+     "a simulated expert"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
@@ -122,9 +187,29 @@ constexpr Command kCommands[] = {
     {"sample", "CASE", 1, 1, kSampleOptions, "Prints the HU at points of a case.", &run_sample},
     {"case list", "", 0, 0, kLibraryJson, "Lists the cases, oldest first.", &run_case_list},
     {"case show", "CASE", 1, 1, kLibraryJson, "Shows one case.", &run_case_show},
-    {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a spherical lesion in a case.", &run_case_lesion},
+    {"case lesion", "CASE", 1, 1, kLesionOptions, "Places a lesion in a case.", &run_case_lesion},
     {"case mesh", "CASE", 1, 1, kMeshOptions, "Writes a case's skin as binary glTF, for browsers and others.",
      &run_case_mesh},
+    {"case structure", "CASE", 1, 1, kStructureOptions,
+     "Adds a structure to a case: a tissue class, a label, or drawn; and what touching it means.",
+     &run_case_structure},
+    {"case label", "CASE FILE", 2, 2, kLabelOptions,
+     "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest voxel.",
+     &run_case_label},
+    {"case setting", "CASE", 1, 1, kSettingOptions,
+     "Sets what a case asks of whoever attempts it: guidance, needle, patient, limits, pass rule. What is not "
+     "given "
+     "stays.",
+     &run_case_setting},
+    {"case check", "CASE", 1, 1, kLibraryJson,
+     "Tells whether a case is worth an attempt, and what its rule may name; 1 when it is not.", &run_case_check},
+    {"case review", "CASE", 1, 1, kReviewOptions,
+     "Submits a draft to review; with --approve or --return a second person's answer.", &run_case_review},
+    {"case publish", "CASE", 1, 1, kPublishOptions,
+     "Publishes a case that holds its check and was approved; it never changes again.", &run_case_publish},
+    {"case retire", "CASE", 1, 1, kRetireOptions, "Retires a published case; its attempts stay.", &run_case_retire},
+    {"case version", "CASE", 1, 1, kVersionOptions, "Makes the next version of a case, as a draft.",
+     &run_case_version},
     {"case bundle", "CASE", 1, 1, kBundleOptions,
      "Writes a case as one checked file for another library; attempts and people stay.", &run_case_bundle},
     {"bundle export", "", 0, 0, kBundleOptions, "Writes every case of a library as one such file.",

@@ -93,9 +93,10 @@ std::vector<assessment::MetricValue> score_of(casedb::Library& library, const ca
   if (!recording || recording->poses.empty() || !row) return {};
   for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
     if (lesion.lesion_id == attempt.lesion_id) {
-      const auto scene =
-          build_case(library, *row, lesion.lesion, attempt.instrument, attempt.picture, attempt.approach);
+      auto scene = build_case(library, *row, lesion.form, attempt.picture, Needs::metrics);
       if (!scene) return {};
+      scene->instrument = attempt.instrument;
+      scene->approach = attempt.approach;
       auto metrics = measure(*scene, *recording);
       return metrics ? std::move(*metrics) : std::vector<assessment::MetricValue>{};
     }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/case_check.h"
 #include "app/version.h"
 #include "web/library_questions.h"
 
@@ -23,11 +24,11 @@ base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& a
                                        const std::function<void(const std::string& url)>& ready) {
   const std::filesystem::path folder = library.folder();
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  auto server = web::open_server(std::move(library), {at.host, at.port}, kVersion, log);
+  auto server = web::open_server(std::move(library), {at.host, at.port}, kVersion, log, check_case);
   if (!server && server.error().code == "port_taken" && at.any_port_if_taken) {
     auto again = casedb::Library::open(folder);
     if (!again) return again.error();
-    server = web::open_server(std::move(*again), {at.host, 0}, kVersion, log);
+    server = web::open_server(std::move(*again), {at.host, 0}, kVersion, log, check_case);
   }
   if (!server) return server.error();
   running = &*server;

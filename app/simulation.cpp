@@ -15,7 +15,9 @@
 namespace seldinger::app {
 
 base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std::string& case_id,
-                                             const std::string& lesion_id, cases::InstrumentKind kind) {
+                                             const std::string& lesion_id,
+                                             std::optional<cases::InstrumentKind> kind,
+                                             std::optional<cases::Modality> modality) {
   const auto row = casedb::find_case(library, case_id);
   if (!row) return row.error();
   const casedb::LesionRow* found = nullptr;
@@ -25,23 +27,20 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
   if (found == nullptr)
     return base::Error{"no_lesion", lesion_id.empty() ? "the case has no lesion; `seldinger case lesion` places one"
                                                       : "the case has no lesion of that id"};
-  cases::Instrument instrument;
-  instrument.kind = kind;
   cases::Picture picture;
-  picture.modality = row->modality;
-  auto scene = build_case(library, *row, found->lesion, instrument, picture, cases::Approach::in_plane);
+  picture.modality = modality.value_or(row->modality);
+  const auto& further = row->further_modalities;
+  if (picture.modality != row->modality &&
+      std::find(further.begin(), further.end(), picture.modality) == further.end())
+    return base::Error{"other_modality", "the case is not practised with this modality"};
+  auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
   if (!scene) return scene.error();
-  assessment::PathLimits limits = assessment::path_limits(row->modality, row->position);
-  const bool ultrasound = row->modality == cases::Modality::ultrasound;
-  if (const auto added =
-          ultrasound ? add_ultrasound_tissue(library, *row, *scene) : add_tissue(library, *row, *scene);
-      !added)
-    return added.error();
-  if (ultrasound) {
+  scene->instrument.kind = kind.value_or(row->instrument.kind);
+  assessment::PathLimits limits = assessment::path_limits(*scene);
+  if (picture.modality == cases::Modality::ultrasound)
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
-      return UltrasoundSight(*scene).looks_from(plan, found->lesion);
+      return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
     };
-  }
   const auto plan =
       assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();

@@ -14,10 +14,13 @@ namespace seldinger::app {
 
 class Simulation {
  public:
-  // An empty lesion id takes the case's first lesion. Refused: `no_case`, `no_lesion`, `no_path`, damaged assets.
-  // `library` must outlive it.
+  // An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the
+  // modality is the case's unless given. Refused: `no_case`, `no_lesion`, `no_path`, `other_modality` (not one of
+  // the case's), damaged assets. `library` must outlive it.
   static base::Result<Simulation> prepare(casedb::Library& library, const std::string& case_id,
-                                          const std::string& lesion_id, cases::InstrumentKind kind);
+                                          const std::string& lesion_id,
+                                          std::optional<cases::InstrumentKind> kind = std::nullopt,
+                                          std::optional<cases::Modality> modality = std::nullopt);
 
   // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,

@@ -28,7 +28,7 @@ cases::Picture ultrasound_picture(double target_below_skin_mm);
 
 class UltrasoundSight {
  public:
-  // The scene has its tissue (add_ultrasound_tissue; CHECK) and outlives it.
+  // The scene has its tissue (Needs::ultrasound; CHECK) and outlives it.
   explicit UltrasoundSight(const cases::Case& scene);
 
   // PathLimits::looks_from, by the picture that ultrasound_picture chooses there, with this target.

@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "assessment/metrics/metric.h"
+#include "casedb/case_setting.h"
 #include "casedb/library.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
+#include "sim/case/lesion_form.h"
 #include "sim/case/recording.h"
 #include "sim/case/servo_record.h"
 #include "sim/volume/classes.h"
@@ -24,7 +26,7 @@ enum class Role { trainee, mentor, researcher, director, admin };
 std::string name_of(Role role);
 std::optional<Role> role_from(const std::string& name);
 
-// As the database and the command line write them: mpr, xray, ultrasound; supine, prone.
+// As the database and the command line write them: mpr, xray, ultrasound; supine, prone, lateral_left, …
 std::string name_of(cases::Modality modality);
 std::optional<cases::Modality> modality_from(const std::string& name);
 // All of them, as a usage tells: "mpr, xray or ultrasound".
@@ -33,7 +35,7 @@ std::string name_of(cases::PatientPosition position);
 std::optional<cases::PatientPosition> position_from(const std::string& name);
 
 // --- cases ------------------------------------------------------------------------------------------------------
-struct NewCase {
+struct NewCase : CaseSetting {
   std::string title;   // never from the source
   std::string origin;  // "import" or "phantom:<version>"
   volume::Volume volume;
@@ -42,11 +44,9 @@ struct NewCase {
   std::vector<std::pair<std::string, std::string>> attributes;  // the allow-list, name → value
   std::vector<base::Problem> warnings;
   int slices_used = 0;
-  cases::Modality modality = cases::Modality::mpr;  // what it is practised with
-  cases::PatientPosition position = cases::PatientPosition::supine;
 };
 
-struct CaseRow {
+struct CaseRow : CaseSetting {
   std::string case_id, title, state /* "draft" */, origin;
   std::int64_t created_us = 0;
   glm::ivec3 size_voxels{0};
@@ -57,13 +57,15 @@ struct CaseRow {
       classes_sha256 /* empty: stored before schema 3 */;
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<base::Problem> warnings;
-  cases::Modality modality = cases::Modality::mpr;
-  cases::PatientPosition position = cases::PatientPosition::supine;
+  std::string family_id;  // the case_id of version 1
+  int version = 1;
+  bool own_cohort_only = false;  // published without a second person's review
 };
 
 struct LesionRow {
   std::string lesion_id, case_id;
-  cases::Lesion lesion;
+  cases::LesionForm form;
+  cases::Lesion lesion;  // without its shape: that is made with the scene
   std::int64_t created_us = 0;
 };
 
@@ -78,7 +80,10 @@ base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row)
 // second for 512 x 512 x 100 voxels.
 base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row);
 
-// `no_case`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the volume).
+// `no_case`, `not_a_draft`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the
+// volume).
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form);
+// A plain sphere.
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion);
 // Of one case, oldest first; of every one, case by case.
 std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id = {});

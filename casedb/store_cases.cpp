@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
 #include "casedb/new_assets.h"
 #include "casedb/question.h"
+#include "casedb/setting_columns.h"
 #include "casedb/sqlite.h"
 #include "casedb/store.h"
 #include "casedb/uuid.h"
@@ -38,7 +40,8 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   }
   insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
   insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
-  insert.bind("modality", name_of(new_case.modality)).bind("patient_position", name_of(new_case.position));
+  bind_setting(insert, new_case);
+  insert.bind_null("family_id").bind("version", 1);
   insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
 
   Statement attribute = question(database, "add_case_attribute");
@@ -90,9 +93,10 @@ CaseRow read_case(const Statement& from) {
   row.skin_sha256 = from.text("skin_sha256");
   row.labels_sha256 = from.text("labels_sha256");
   row.classes_sha256 = from.text("classes_sha256");
-  // The schema takes no others.
-  row.modality = *modality_from(from.text("modality"));
-  row.position = *position_from(from.text("patient_position"));
+  read_setting(from, row);
+  row.family_id = from.is_null("family_id") ? row.case_id : from.text("family_id");
+  row.version = from.small_integer("version");
+  row.own_cohort_only = from.text("audience") == "own_cohort";
   return row;
 }
 
@@ -123,15 +127,26 @@ std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::strin
   return rows;
 }
 
-bool sound_lesion(const CaseRow& row, const cases::Lesion& lesion) {
+bool sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
   const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
   // A target larger than the volume is a mistake in the unit.
   const double diagonal_mm = glm::length(glm::dvec3(row.size_voxels) * row.spacing_mm);
-  if (!(lesion.radius_mm > 0.0 && lesion.radius_mm <= diagonal_mm)) return false;
-  if (!(lesion.hu >= -1024.0 && lesion.hu <= 32767.0)) return false;  // what a voxel can hold
-  for (int axis = 0; axis < 3; ++axis)
-    if (!std::isfinite(lesion.center_lps_mm[axis])) return false;
-  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(lesion.center_lps_mm, 1.0)));
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(form.radii_mm[axis] > 0.0 && form.radii_mm[axis] <= diagonal_mm)) return false;
+    if (!std::isfinite(form.center_lps_mm[axis])) return false;
+  }
+  // What a voxel can hold; what is added may also take away.
+  if (!(form.hu >= (form.adds ? -4000.0 : -1024.0) && form.hu <= 32767.0)) return false;
+  if (!(form.roughness >= 0.0 && form.roughness <= cases::kMostRoughness)) return false;
+  if (!(form.edge_mm >= 0.0 && form.edge_mm <= 2.0 * std::min({form.radii_mm.x, form.radii_mm.y, form.radii_mm.z})))
+    return false;
+  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(form.center_lps_mm, 1.0)));
+}
+
+// The ball of its volume; an irregular one's is known with its shape.
+double radius_of(const cases::LesionForm& form) {
+  if (form.kind != cases::LesionKind::ellipsoid) return form.radii_mm.x;
+  return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
 }
 
 }  // namespace
@@ -154,12 +169,12 @@ std::string modality_names() {
 }
 
 std::string name_of(cases::PatientPosition position) {
-  return position == cases::PatientPosition::prone ? "prone" : "supine";
+  return std::string(cases::kPatientPositionNames[static_cast<std::size_t>(position)]);
 }
 
 std::optional<cases::PatientPosition> position_from(const std::string& name) {
-  if (name == "supine") return cases::PatientPosition::supine;
-  if (name == "prone") return cases::PatientPosition::prone;
+  for (std::size_t i = 0; i < cases::kPatientPositionNames.size(); ++i)
+    if (cases::kPatientPositionNames[i] == name) return static_cast<cases::PatientPosition>(i);
   return std::nullopt;
 }
 
@@ -237,24 +252,41 @@ base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, co
 }
 
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion) {
+  cases::LesionForm form;
+  form.center_lps_mm = lesion.center_lps_mm;
+  form.radii_mm = glm::dvec3(lesion.radius_mm);
+  form.hu = lesion.hu;
+  return add_lesion(library, case_id, form);
+}
+
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
   Transaction transaction(library.database());
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (!sound_lesion(*row, lesion))
-    return base::Error{
-        "bad_lesion",
-        "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, and HU "
-        "from -1024 to 32767"};
+  if (row->state != "draft") return kNotADraft;
+  if (!sound_lesion(*row, form))
+    return base::Error{"bad_lesion",
+                       "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "
+                       "from -1024 to 32767, roughness from 0 to 0.3 and an edge no wider than the lesion"};
   const std::int64_t created_us = now_us();
   std::string lesion_id = new_uuid();
+  const bool ellipsoid = form.kind == cases::LesionKind::ellipsoid;
   question(library.database(), "add_lesion")
       .bind("lesion_id", lesion_id)
       .bind("case_id", case_id)
-      .bind("center_x_lps_mm", lesion.center_lps_mm.x)
-      .bind("center_y_lps_mm", lesion.center_lps_mm.y)
-      .bind("center_z_lps_mm", lesion.center_lps_mm.z)
-      .bind("radius_mm", lesion.radius_mm)
-      .bind("hu", lesion.hu)
+      .bind("center_x_lps_mm", form.center_lps_mm.x)
+      .bind("center_y_lps_mm", form.center_lps_mm.y)
+      .bind("center_z_lps_mm", form.center_lps_mm.z)
+      .bind("radius_mm", radius_of(form))
+      .bind("hu", form.hu)
+      .bind("kind", cases::kLesionKindNames[static_cast<std::size_t>(form.kind)])
+      .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
+      .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
+      .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
+      .bind("roughness", form.roughness)
+      .bind("seed", std::bit_cast<std::int64_t>(form.seed))
+      .bind("adds", form.adds ? 1 : 0)
+      .bind("edge_mm", form.edge_mm)
       .bind("created_us", created_us)
       .run();
   transaction.commit();
@@ -273,6 +305,18 @@ std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::s
     row.lesion.radius_mm = lesions.real("radius_mm");
     row.lesion.hu = lesions.real("hu");
     row.created_us = lesions.integer("created_us");
+    cases::LesionForm& form = row.form;
+    for (std::size_t kind = 0; kind < cases::kLesionKindNames.size(); ++kind)
+      if (lesions.view("kind") == cases::kLesionKindNames[kind]) form.kind = static_cast<cases::LesionKind>(kind);
+    form.center_lps_mm = row.lesion.center_lps_mm;
+    form.radii_mm = glm::dvec3(row.lesion.radius_mm);
+    if (form.kind == cases::LesionKind::ellipsoid)
+      form.radii_mm = {lesions.real("radius_x_mm"), lesions.real("radius_y_mm"), lesions.real("radius_z_mm")};
+    form.hu = row.lesion.hu;
+    form.roughness = lesions.real("roughness");
+    form.seed = std::bit_cast<std::uint64_t>(lesions.integer("seed"));
+    form.adds = lesions.integer("adds") != 0;
+    form.edge_mm = lesions.real("edge_mm");
   }
   return rows;
 }

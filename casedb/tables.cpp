@@ -8,16 +8,19 @@ namespace {
 
 constexpr std::string_view kAssetEnding = "_sha256";
 constexpr std::string_view kOfCase = "case_id = :case_id";
-constexpr std::array<std::string_view, 2> kTitleAndState{"title", "state"};
+constexpr std::array<std::string_view, 3> kChanging{"title", "state", "audience"};
 
 constexpr TravellingTable kTravelling[] = {
-    {"training_case", kOfCase, kTitleAndState},
+    {"training_case", kOfCase, kChanging},
     {"case_attribute", kOfCase, {}},
     {"case_warning", kOfCase, {}},
     {"lesion", kOfCase, {}},
+    {"structure", kOfCase, {}},
+    {"case_label_map", kOfCase, {}},
 };
-constexpr std::string_view kStaying[] = {"person", "account", "attempt", "recording_chunk", "metric_value",
-                                         "open_attempt", "open_chunk", "servo_record"};
+constexpr std::string_view kStaying[] = {"person",          "account",      "attempt",
+                                         "recording_chunk", "metric_value", "open_attempt",
+                                         "open_chunk",      "servo_record", "case_decision"};
 
 }  // namespace
 

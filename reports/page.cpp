@@ -14,7 +14,9 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
           "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n"
           "<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n");
   if (!visitor.name.empty()) {
-    html.raw("<nav aria-label=\"Main\"><a href=\"/attempts\">Attempts</a></nav>\n<div class=\"who\"><span>")
+    html.raw("<nav aria-label=\"Main\"><a href=\"/attempts\">Attempts</a>");
+    if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
+    html.raw("</nav>\n<div class=\"who\"><span>")
         .name(visitor.name)
         .raw(" <span class=\"role\">")
         .text(visitor.role)

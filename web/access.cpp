@@ -30,6 +30,21 @@ bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& ro
   return false;
 }
 
+bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept {
+  switch (role) {
+    case casedb::Role::mentor:
+      return true;
+    case casedb::Role::director:
+      return row.state != "draft";
+    case casedb::Role::researcher:
+    case casedb::Role::admin:
+      return row.state == "published" || row.state == "retired";
+    case casedb::Role::trainee:
+      return false;
+  }
+  return false;
+}
+
 std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
                            const AccountOf& account_of) {
   if (!row.person_id.has_value()) return reports::simulated_operator_text(row.operator_name);

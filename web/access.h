@@ -16,6 +16,10 @@ AttemptScope attempt_scope(casedb::Role role) noexcept;
 
 bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row);
 
+// Which cases a role reads: a mentor all, a director all but drafts, researcher and admin what is or was published;
+// a trainee attempts cases and reads none (what is right would be told).
+bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept;
+
 // How the operator is called for this reader: the log-in name, except that a researcher reads a pseudonym.
 // `account_of` answers none for a person whose account is gone.
 using AccountOf = std::function<std::optional<casedb::Account>(const std::string& person_id)>;

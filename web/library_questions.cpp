@@ -21,8 +21,8 @@ struct Handle {
 
 class LibraryQuestions final : public Questions {
  public:
-  LibraryQuestions(casedb::Library pages, casedb::Library first, casedb::Library second)
-      : pages_(std::move(pages)), first_(std::move(first)), second_(std::move(second)) {}
+  LibraryQuestions(casedb::Library pages, casedb::Library first, casedb::Library second, CaseChecker check)
+      : pages_(std::move(pages)), first_(std::move(first)), second_(std::move(second)), check_(std::move(check)) {}
 
   std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
     std::unique_lock first(first_.mutex, std::try_to_lock);
@@ -63,6 +63,23 @@ class LibraryQuestions final : public Questions {
     return casedb::find_attempt(pages_.library, attempt_id);
   }
 
+  std::vector<casedb::CaseRow> list_cases() override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_cases(pages_.library);
+  }
+
+  base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::load_parts(pages_.library, case_id);
+  }
+
+  base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) override {
+    if (!check_) return base::Error{"not_checked", "cases are not checked here"};
+    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
+    if (!library) return library.error();
+    return check_(*library, row);
+  }
+
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {
     const std::lock_guard lock(pages_.mutex);
     return pages_.library.load_asset(row.picture_sha256);
@@ -75,22 +92,23 @@ class LibraryQuestions final : public Questions {
 
  private:
   Handle pages_, first_, second_;
+  CaseChecker check_;
 };
 
 }  // namespace
 
-base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library) {
+base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check) {
   auto first = casedb::Library::open(library.folder());
   if (!first.has_value()) return first.error();
   auto second = casedb::Library::open(library.folder());
   if (!second.has_value()) return second.error();
-  return std::unique_ptr<Questions>(
-      std::make_unique<LibraryQuestions>(std::move(library), std::move(*first), std::move(*second)));
+  return std::unique_ptr<Questions>(std::make_unique<LibraryQuestions>(std::move(library), std::move(*first),
+                                                                       std::move(*second), std::move(check)));
 }
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
-                                 std::function<void(const std::string&)> log) {
-  auto questions = questions_of(std::move(library));
+                                 std::function<void(const std::string&)> log, CaseChecker check) {
+  auto questions = questions_of(std::move(library), std::move(check));
   if (!questions.has_value()) return questions.error();
   Surroundings surroundings;
   surroundings.now_us = [] {

@@ -1,6 +1,7 @@
 // The questions put to a real library, and the server that `seldinger serve` runs over it.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "casedb/library.h"
@@ -11,10 +12,12 @@ namespace seldinger::web {
 
 // Opens two further handles of the same library for log-ins, so that hashing a password holds up no page. Refused
 // as Library::open.
-base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library);
+// `check` looks at a case of a library of its own; empty: cases are not checked here.
+using CaseChecker = std::function<base::Result<casedb::CaseCheck>(casedb::Library&, const casedb::CaseRow&)>;
+base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check = {});
 
 // As Server::open, with time, chance and hash of this machine. `log` gets one line a fault.
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
-                                 std::function<void(const std::string&)> log);
+                                 std::function<void(const std::string&)> log, CaseChecker check = {});
 
 }  // namespace seldinger::web

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "casedb/case_checks.h"
+#include "casedb/case_json.h"
 #include "casedb/store.h"
 
 namespace seldinger::web {
@@ -22,6 +24,10 @@ class Questions {
   virtual std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) = 0;  // newest first
   virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;       // newest first
   virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;         // `no_attempt`
+  virtual std::vector<casedb::CaseRow> list_cases() = 0;                                       // oldest first
+  virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;           // `no_case`
+  // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
+  virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
 };

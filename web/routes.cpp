@@ -6,10 +6,12 @@
 
 #include "reports/attempt_page.h"
 #include "reports/attempts_page.h"
+#include "reports/case_page.h"
 #include "reports/login_page.h"
 #include "sim/base/embedded.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
+#include "web/case_json.h"
 
 namespace seldinger::embedded {
 std::span<const base::EmbeddedFile> frontend();
@@ -155,7 +157,7 @@ Response list_attempts(Site& site, const Call& call) {
 
 // The attempt when it exists and this reader may see it. Both are asked before either is answered.
 std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) {
-  auto row = site.questions.find_attempt(call.attempt_id);
+  auto row = site.questions.find_attempt(call.id);
   if (!row.has_value() || !may_see_attempt(call.reader->account, *row)) return std::nullopt;
   return std::move(*row);
 }
@@ -196,6 +198,46 @@ Response show_metrics(Site& site, const Call& call) {
   return {.content_type = "application/json", .body = metrics_json(*row)};
 }
 
+// --- cases
+// ------------------------------------------------------------------------------------------------------
+
+Response list_cases(Site& site, const Call& call) {
+  std::vector<casedb::CaseRow> seen;
+  for (casedb::CaseRow& row : site.questions.list_cases())
+    if (may_see_case(call.reader->account.role, row)) seen.push_back(std::move(row));
+  return html_response(200, reports::cases_page(call.reader->visitor(), seen));
+}
+
+std::optional<casedb::CaseParts> visible_case(Site& site, const Call& call) {
+  auto parts = site.questions.find_case(call.id);
+  if (!parts.has_value() || !may_see_case(call.reader->account.role, parts->row)) return std::nullopt;
+  return std::move(*parts);
+}
+
+Response show_case(Site& site, const Call& call) {
+  const auto parts = visible_case(site, call);
+  if (!parts.has_value()) return refusal(404, call.reader);
+  return html_response(200, reports::case_page(call.reader->visitor(), *parts));
+}
+
+Response show_case_json(Site& site, const Call& call) {
+  const auto parts = visible_case(site, call);
+  if (!parts.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json", .body = case_json(*parts)};
+}
+
+Response show_checks(Site& site, const Call& call) {
+  const auto parts = visible_case(site, call);
+  if (!parts.has_value()) return refusal(404, call.reader);
+  const auto check = site.questions.check_case(parts->row);
+  if (!check.has_value()) {
+    site.surroundings.log("error: " + check.error().code + ": a case cannot be checked");
+    return refusal(500, call.reader);
+  }
+  return {.content_type = "application/json", .body = checks_json(parts->row.case_id, *check)};
+}
+
+constexpr std::string_view kCases = "mentor: all; director: no drafts; researcher, admin: published and retired";
 constexpr std::string_view kOwn = "trainee: own";
 constexpr std::string_view kOwnOrNone = "trainee: own; director, admin: none, the page says so";
 
@@ -213,6 +255,12 @@ constexpr Route kRoutes[] = {
      "the picture at the moment of firing", show_picture},
     {"GET", "/attempts/{attempt_id}/metrics.json", kAttemptReaders, false, kOwn,
      "its metrics as `score` prints them", show_metrics},
+    {"GET", "/cases", kCaseReaders, true, kCases, "the list, oldest first", list_cases},
+    {"GET", "/cases/{case_id}", kCaseReaders, true, kCases,
+     "one case: state, version, who reviewed it, needle, patient, structures, rule", show_case},
+    {"GET", "/cases/{case_id}/case.json", kCaseReaders, false, kCases, "as `case show` prints it", show_case_json},
+    {"GET", "/cases/{case_id}/checks.json", kCaseReaders, false, kCases, "its checks as `case check` prints them",
+     show_checks},
 };
 
 bool is_uuid(std::string_view text) {
@@ -232,15 +280,14 @@ std::span<const Route> routes() {
   return kRoutes;
 }
 
-bool matches(std::string_view pattern, std::string_view path, std::string& attempt_id) {
-  constexpr std::string_view kHole = "{attempt_id}";
-  const std::size_t hole = pattern.find(kHole);
+bool matches(std::string_view pattern, std::string_view path, std::string& id) {
+  const std::size_t hole = pattern.find('{');
   if (hole == pattern.npos) return pattern == path;
-  const std::string_view before = pattern.substr(0, hole), after = pattern.substr(hole + kHole.size());
+  const std::string_view before = pattern.substr(0, hole), after = pattern.substr(pattern.find('}') + 1);
   if (path.size() != before.size() + 36 + after.size()) return false;
-  const std::string_view id = path.substr(hole, 36);
-  if (path.substr(0, hole) != before || path.substr(hole + 36) != after || !is_uuid(id)) return false;
-  attempt_id = id;
+  const std::string_view found = path.substr(hole, 36);
+  if (path.substr(0, hole) != before || path.substr(hole + 36) != after || !is_uuid(found)) return false;
+  id = found;
   return true;
 }
 

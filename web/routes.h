@@ -22,16 +22,19 @@ inline constexpr Roles kEveryRole = bit_of(casedb::Role::trainee) | bit_of(cased
 inline constexpr Roles kAttemptReaders =
     bit_of(casedb::Role::trainee) | bit_of(casedb::Role::mentor) | bit_of(casedb::Role::researcher);
 
+inline constexpr Roles kCaseReaders = bit_of(casedb::Role::mentor) | bit_of(casedb::Role::researcher) |
+                                      bit_of(casedb::Role::director) | bit_of(casedb::Role::admin);
+
 struct Call {
   const Request& request;
   const Reader* reader = nullptr;             // null: not logged in
-  std::string attempt_id{};                   // of the pattern
+  std::string id{};                           // of the pattern
   std::map<std::string, std::string> form{};  // of a POST
 };
 
 struct Route {
   std::string_view method;   // GET (which also answers HEAD) or POST
-  std::string_view pattern;  // "{attempt_id}" stands for one UUID
+  std::string_view pattern;  // "{attempt_id}" or "{case_id}" stands for one UUID
   Roles roles = kOpen;
   bool is_page = true;     // whoever is not logged in is sent to the log-in page; else 401
   std::string_view scope;  // what the roles leave open, for docs/routes.md
@@ -41,8 +44,8 @@ struct Route {
 
 std::span<const Route> routes();
 
-// Whether `path` fits; fills attempt_id.
-bool matches(std::string_view pattern, std::string_view path, std::string& attempt_id);
+// Whether `path` fits; fills the pattern's id.
+bool matches(std::string_view pattern, std::string_view path, std::string& id);
 
 // docs/routes.md
 std::string routes_markdown();

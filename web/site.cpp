@@ -81,9 +81,9 @@ Response Site::route(const Request& request) {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
 
   const Route* found = nullptr;
-  std::string allowed, attempt_id;
+  std::string allowed, id;
   for (const Route& candidate : routes()) {
-    if (!matches(candidate.pattern, request.path, attempt_id)) continue;
+    if (!matches(candidate.pattern, request.path, id)) continue;
     if (!allowed.empty()) allowed += ", ";
     allowed += candidate.method == "GET" ? "GET, HEAD" : candidate.method;
     if (candidate.method == method) found = &candidate;
@@ -100,7 +100,7 @@ Response Site::route(const Request& request) {
     return response;
   }
 
-  Call call{request, who, attempt_id};
+  Call call{request, who, id};
   if (is_change) {
     const std::string type = request.header("content-type");
     if (type.substr(0, type.find(';')) != "application/x-www-form-urlencoded") return refusal(415, who);

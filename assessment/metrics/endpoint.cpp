@@ -9,6 +9,7 @@
 namespace seldinger::assessment {
 namespace {
 
+constexpr double kFarMm = 500.0;    // no needle is farther from its target
 constexpr double kMinCoreMm = 5.0;  // assessment.md §8, hit: min_core_mm
 
 bool core(const Signals& signals) {
@@ -22,15 +23,14 @@ glm::dvec3 notch_start(const Signals& signals) {
          signals.endpoint->direction * (needle.throw_mm - needle.dead_tip_mm - needle.notch_mm);
 }
 
-// Length of start + s·direction, 0 ≤ s ≤ length, inside a sphere.
-double length_in_sphere(const glm::dvec3& start, const glm::dvec3& direction, double length_mm,
-                        const cases::Lesion& sphere) {
-  const glm::dvec3 d = sphere.center_lps_mm - start;
-  const double middle = glm::dot(d, direction);
-  const double half2 = sphere.radius_mm * sphere.radius_mm - (glm::dot(d, d) - middle * middle);
-  if (half2 <= 0.0) return 0.0;
-  const double half = std::sqrt(half2);
-  return std::max(0.0, std::min(middle + half, length_mm) - std::max(middle - half, 0.0));
+// Length of start + s·direction, 0 ≤ s ≤ length, inside the target.
+double length_in(const cases::Lesion& target, const glm::dvec3& start, const glm::dvec3& direction,
+                 double length_mm) {
+  double inside_mm = 0.0;
+  for (const cases::Stretch& part :
+       cases::stretches_inside(cases::shape_of(target), start, start + direction * length_mm))
+    inside_mm += (part.to - part.from) * length_mm;
+  return inside_mm;
 }
 
 // The point that counts, to the target's centre: the tip, or the middle of a core needle's notch (clinical.md).
@@ -41,9 +41,17 @@ glm::dvec3 to_target(const Signals& signals) {
   return signals.setting.target->center_lps_mm - point;
 }
 
+// From that point to the target's surface, negative inside.
+double to_surface_mm(const Signals& signals) {
+  const cases::Lesion& target = *signals.setting.target;
+  // A plain sphere's distance has no limit to be told.
+  if (!target.shape) return glm::length(to_target(signals)) - target.radius_mm;
+  return cases::signed_distance_mm(*target.shape, target.center_lps_mm - to_target(signals), kFarMm);
+}
+
 Measured core_in_target(const Signals& signals) {
-  return Measured::of(length_in_sphere(notch_start(signals), signals.endpoint->direction,
-                                       signals.setting.instrument.notch_mm, *signals.setting.target));
+  return Measured::of(length_in(*signals.setting.target, notch_start(signals), signals.endpoint->direction,
+                                signals.setting.instrument.notch_mm));
 }
 
 Measured hit(const Signals& signals) {
@@ -62,7 +70,7 @@ Measured tip_target_dist(const Signals& signals) {
 }
 
 Measured tip_target_surface(const Signals& signals) {
-  return Measured::of(glm::length(to_target(signals)) - signals.setting.target->radius_mm);
+  return Measured::of(to_surface_mm(signals));
 }
 
 Measured tip_target_axial(const Signals& signals) {
@@ -104,7 +112,7 @@ constexpr MetricInfo kMetrics[] = {
 
 bool target_hit(const Signals& signals) {
   if (core(signals)) return *core_in_target(signals).value >= kMinCoreMm;
-  return glm::length(to_target(signals)) <= signals.setting.target->radius_mm;
+  return to_surface_mm(signals) <= 0.0;
 }
 
 std::span<const MetricInfo> endpoint_metrics() {

@@ -26,7 +26,7 @@ constexpr double kWayWorth = 0.5, kShadowPrice = 4.0, kDepthPrice = 0.3;
 constexpr int kWaysJudged = 32;  // so many free ways, from the shortest, are compared
 
 double tableward(const glm::dvec3& outward, cases::PatientPosition position) {
-  return position == cases::PatientPosition::prone ? -outward.y : outward.y;
+  return -glm::dot(outward, cases::upwards(position));
 }
 
 struct Way {
@@ -50,9 +50,38 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
       const double angle = k * std::numbers::pi / 3.0, radius = k < 6 ? limits.clearance_mm : 0.0;
       const glm::dvec3 p =
           target + way.outward * s_mm + (u * base::exact_cos(angle) + v * base::exact_sin(angle)) * radius;
+      const bool open = std::any_of(limits.open.begin(), limits.open.end(), [&](const cases::Shape& shape) {
+        return cases::signed_distance_mm(shape, p, limits.clearance_mm) < limits.clearance_mm;
+      });
+      if (open) continue;
       const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
       if (!hu || *hu > limits.bone_hu || *hu < limits.gas_hu) return false;
     }
+  return true;
+}
+
+// Whether the way keeps off what must not be met and leads through what must be crossed.
+bool spares_structures(const glm::dvec3& target, const Way& way, const PathLimits& limits) {
+  const glm::dvec3 entry = target + way.outward * way.depth_mm;
+  const glm::dvec3 end = target - way.outward * limits.behind_target_mm;
+  for (const cases::Structure& structure : limits.structures) {
+    if (structure.rule == cases::StructureRule::must_cross) {
+      double crossed_mm = 0.0;
+      for (const cases::Stretch& part : cases::stretches_inside(structure.shape, entry, target))
+        crossed_mm += (part.to - part.from) * way.depth_mm;
+      if (crossed_mm < limits.must_cross_mm) return false;
+      continue;
+    }
+    if (structure.rule != cases::StructureRule::critical && structure.rule != cases::StructureRule::major) continue;
+    if (!cases::stretches_inside(structure.shape, entry, end).empty()) return false;
+    // A step of the clearance: what lies nearer between two steps is missed by no more than an eighth of it.
+    const double length_mm = glm::distance(entry, end), clear_mm = limits.structure_clearance_mm;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length_mm / std::max(clear_mm, 0.5))));
+    for (int i = 0; i <= steps && clear_mm > 0.0; ++i)
+      if (cases::signed_distance_mm(structure.shape, entry + (end - entry) * (static_cast<double>(i) / steps),
+                                    clear_mm) < clear_mm)
+        return false;
+  }
   return true;
 }
 
@@ -123,9 +152,26 @@ PathLimits path_limits(cases::Modality modality, cases::PatientPosition position
   return limits;
 }
 
+PathLimits path_limits(const cases::Case& scene) {
+  PathLimits limits = path_limits(scene.picture.modality, scene.position);
+  limits.max_depth_mm = std::min(limits.max_depth_mm, scene.instrument.length_mm);
+  limits.structures = scene.structures;
+  for (const cases::Structure& structure : scene.structures)
+    if (structure.rule == cases::StructureRule::target) limits.open.push_back(structure.shape);
+  if (!scene.lesions.empty() && scene.lesions.front().in_volume())
+    limits.open.push_back(*scene.lesions.front().shape);
+  const cases::Instrument& needle = scene.instrument;
+  if (needle.kind == cases::InstrumentKind::core)  // the middle of the notch comes to the target's
+    limits.behind_target_mm = needle.dead_tip_mm + needle.notch_mm / 2.0;
+  return limits;
+}
+
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target, const PathLimits& limits) {
-  const base::Error none{"no_path", "no straight path from the skin to the target is free of bone and gas"};
+  const base::Error none{"no_path",
+                         limits.structures.empty()
+                             ? "no straight path from the skin to the target is free of bone and gas"
+                             : "no straight path from the skin to the target is free of bone, gas and structures"};
   if (skin.empty()) return none;
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   std::vector<Way> ways;
@@ -151,6 +197,7 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     plan.direction = -way.outward;
     plan.depth_mm = way.depth_mm;
     if (!free_path(volume, voxel_from_lps, target, way, limits)) continue;
+    if (!spares_structures(target, way, limits)) continue;
     constexpr double kAsideMm = 150.0;
     plan.probe = {plan.entry_lps_mm + way.outward * kAsideMm, plan.direction, base::perpendiculars(way.outward).u};
     if (!limits.needs_probe) return plan;

@@ -4,6 +4,8 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -45,6 +47,14 @@ struct PathLimits {
   // Told by whoever makes pictures; nothing: the target is not seen from there, or the probe is in the way. Left
   // empty, every place on the skin will do.
   std::function<std::optional<ProbeView>(const PuncturePlan&)> looks_from{};
+  // What the way, and what a core needle is thrown through behind the target, keeps clear of (major and critical),
+  // and what it must lead through for must_cross_mm. Outlive the plan's making.
+  std::span<const cases::Structure> structures{};
+  double structure_clearance_mm = 2.0;  // room for a hand's sway (design)
+  double must_cross_mm = 10.0;          // clinical.md, cases 3 and 5: renal parenchyma
+  double behind_target_mm = 0.0;        // how far beyond the target's centre the tip may come
+  // Here HU do not count: a target, or the lumen it is in, may be full of contrast agent.
+  std::vector<cases::Shape> open{};
   // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
   double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };
@@ -54,10 +64,12 @@ constexpr double kBullsEyeLaoDeg = 55.0, kBullsEyeCranialDeg = 35.0;
 
 // The limits of a case: under xray, those of a bull's-eye view.
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position);
+// As that, of a case with its structures and its needle: no way is longer than it. The case outlives the limits.
+PathLimits path_limits(const cases::Case& scene);
 
 // The shortest straight path to the target that starts on skin (not a cut cap, not the side on the table), is free
-// of bone and gas, and can be seen. Where `looks_from` judges, the probe stands where most of the way and of the
-// needle shows. The same for the same scene. Refused: `no_path`.
+// of bone and gas and of structures as the limits say, and can be seen. Where `looks_from` judges, the probe stands
+// where most of the way and of the needle shows. The same for the same scene. Refused: `no_path`.
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target_lps_mm, const PathLimits& limits = {});
 

@@ -12,31 +12,50 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-// A prone patient is the supine one turned by half a turn about his long axis: the rays then run from the front to
-// the back, and what the machine calls left is his right, so LAO is the other way round for the machine.
-double towards_back(PatientPosition position) noexcept {
-  return position == PatientPosition::prone ? 1.0 : -1.0;
+// At 0° the rays run up from under the table. LAO turns them to the patient's left, whether he is supine or prone.
+// Of one on his side it keeps to the machine: where a supine patient has his left, he has his front when he was
+// rolled onto his left side, and his back on his right.
+struct Turned {
+  glm::dvec3 ahead, aside;  // at 0°, and at 90° LAO
+};
+Turned turned(PatientPosition position) noexcept {
+  switch (position) {
+    case PatientPosition::prone:  // what the machine calls left is his right, so LAO is the other way round for it
+      return {upwards(position), {1.0, 0.0, 0.0}};
+    case PatientPosition::lateral_left:
+      return {upwards(position), {0.0, -1.0, 0.0}};
+    case PatientPosition::lateral_right:
+      return {upwards(position), {0.0, 1.0, 0.0}};
+    case PatientPosition::supine:
+      break;
+  }
+  return {upwards(position), {1.0, 0.0, 0.0}};
 }
 
 }  // namespace
 
 glm::dvec3 beam_direction(double lao_deg, double cranial_deg, PatientPosition position) noexcept {
   const double lao = lao_deg * kRadPerDeg, cranial = cranial_deg * kRadPerDeg;
-  const double level = base::exact_cos(cranial);
-  return {base::exact_sin(lao) * level, towards_back(position) * base::exact_cos(lao) * level,
-          base::exact_sin(cranial)};
+  const double level = base::exact_cos(cranial), up = base::exact_cos(lao) * level,
+               out = base::exact_sin(lao) * level;
+  const Turned axes = turned(position);
+  glm::dvec3 direction = axes.ahead * up + axes.aside * out;
+  direction.z = base::exact_sin(cranial);
+  return direction;
 }
 
 BeamAngles angles_of_beam(const glm::dvec3& direction, PatientPosition position) noexcept {
-  const double ahead = towards_back(position) * direction.y;
+  const Turned axes = turned(position);
+  const double ahead = axes.ahead.x * direction.x + axes.ahead.y * direction.y;
+  const double aside = axes.aside.x * direction.x + axes.aside.y * direction.y;
   const double level = std::sqrt(direction.x * direction.x + direction.y * direction.y);
   BeamAngles angles;
   if (ahead > 0.0)
-    angles.lao_deg = base::exact_atan(direction.x / ahead) / kRadPerDeg;
+    angles.lao_deg = base::exact_atan(aside / ahead) / kRadPerDeg;
   else if (ahead < 0.0)
-    angles.lao_deg = base::exact_atan(direction.x / ahead) / kRadPerDeg + (direction.x < 0.0 ? -180.0 : 180.0);
-  else if (direction.x != 0.0)
-    angles.lao_deg = direction.x > 0.0 ? 90.0 : -90.0;
+    angles.lao_deg = base::exact_atan(aside / ahead) / kRadPerDeg + (aside < 0.0 ? -180.0 : 180.0);
+  else if (aside != 0.0)
+    angles.lao_deg = aside > 0.0 ? 90.0 : -90.0;
   if (level > 0.0)
     angles.cranial_deg = base::exact_atan(direction.z / level) / kRadPerDeg;
   else
@@ -46,9 +65,10 @@ BeamAngles angles_of_beam(const glm::dvec3& direction, PatientPosition position)
 
 BeamFrame beam_frame(const Fluoroscope& fluoroscope, const CArm& arm, PatientPosition position) noexcept {
   BeamFrame frame;
-  const double lao = arm.lao_deg * kRadPerDeg;
   frame.direction = beam_direction(arm.lao_deg, arm.cranial_deg, position);
-  frame.u = {-towards_back(position) * base::exact_cos(lao), base::exact_sin(lao), 0.0};
+  // Level, and to the right of somebody who looks from the detector with the head up.
+  const glm::dvec3 level = beam_direction(arm.lao_deg, 0.0, position);
+  frame.u = {-level.y, level.x, 0.0};
   frame.v = glm::cross(frame.u, frame.direction);
   frame.sid_mm = arm.sid_mm;
   frame.source_lps_mm = arm.isocentre_lps_mm - frame.direction * fluoroscope.source_isocentre_mm;

@@ -12,7 +12,8 @@
 namespace seldinger::cases {
 
 // Unit vector of travel of the central ray, tube to detector (LPS). LAO and cranial are named after the patient, so
-// that LAO turns the detector to the patient's left whether he lies on his back or on his face.
+// that LAO turns the detector to the patient's left whether he lies on his back or on his face; of one who lies on
+// his left (right) side it turns it to his front (back).
 glm::dvec3 beam_direction(double lao_deg, double cranial_deg, PatientPosition position) noexcept;
 
 // The angles at which the central ray runs along `direction` (unit). Beyond a machine's limits for some.

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,11 +32,20 @@ struct Instrument {
   double dead_tip_mm = 4.0;  // core only: from the notch's end to the tip
 };
 
+// A sphere of one HU is drawn by the pictures. Any other (sim/case/lesion_form.h) has a shape and lies in the
+// volume: pictures do not draw it, and for what they show it counts as the ball of its volume.
 struct Lesion {
   glm::dvec3 center_lps_mm{0.0};
-  double radius_mm = 0.0;
-  double hu = 0.0;
+  double radius_mm = 0.0;                // of the sphere, or of the ball of the shape's volume
+  double hu = 0.0;                       // of one in the volume: its mean, once it lies there
+  std::shared_ptr<const Shape> shape{};  // null: the sphere
+  double around_hu = 0.0;                // of one in the volume: mean of what was there
+  bool in_volume() const noexcept { return shape != nullptr; }
 };
+
+inline Shape shape_of(const Lesion& lesion) {
+  return lesion.shape ? *lesion.shape : Shape{Sphere{lesion.center_lps_mm, lesion.radius_mm}};
+}
 
 enum class Approach { in_plane, out_of_plane };
 enum class Modality { mpr, xray, ultrasound };
@@ -63,7 +74,8 @@ struct Case {
   Picture picture;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   PatientPosition position = PatientPosition::supine;
-  Fluoroscope fluoroscope;  // used under xray only
+  std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
+  Fluoroscope fluoroscope;                           // used under xray only
 };
 
 }  // namespace seldinger::cases

@@ -1,8 +1,30 @@
 // How the patient lies on the table.
 #pragma once
 
+#include <array>
+#include <glm/vec3.hpp>
+#include <string_view>
+
 namespace seldinger::cases {
 
-enum class PatientPosition { supine, prone };
+// lateral_left: on his left side, so that his right one is up.
+enum class PatientPosition { supine, prone, lateral_left, lateral_right };
+constexpr std::array<std::string_view, 4> kPatientPositionNames = {"supine", "prone", "lateral_left",
+                                                                   "lateral_right"};
+
+// Away from the table, against gravity (LPS, unit).
+inline glm::dvec3 upwards(PatientPosition position) noexcept {
+  switch (position) {
+    case PatientPosition::prone:
+      return {0.0, 1.0, 0.0};
+    case PatientPosition::lateral_left:
+      return {-1.0, 0.0, 0.0};
+    case PatientPosition::lateral_right:
+      return {1.0, 0.0, 0.0};
+    case PatientPosition::supine:
+      break;
+  }
+  return {0.0, -1.0, 0.0};
+}
 
 }  // namespace seldinger::cases

@@ -50,7 +50,7 @@ TwoHands::TwoHands(const cases::Case& scene, const std::array<HandSettings, 2>& 
       bone_(scene.volume, kBoneHu),
       needle_(scene),
       probe_(scene, ProbeSettings{}.radius_mm),
-      up_(0.0, scene.position == cases::PatientPosition::supine ? -1.0 : 1.0, 0.0),
+      up_(cases::upwards(scene.position)),
       stations_{station(settings[0]), station(settings[1])} {}
 
 TwoHands::Station TwoHands::station(const HandSettings& settings) const {

@@ -83,4 +83,42 @@ std::optional<TissueClass> tissue_of_name(std::string_view name) noexcept {
   return std::nullopt;
 }
 
+// HU of unenhanced tissue: Prokop and Galanski, Spiral and Multislice CT of the Body (Thieme 2003), as in the
+// built-in torso; blood of normal haematocrit 35 to 50 HU, cortical bone from 700, lung in breath-hold about -850.
+double typical_hu(TissueClass tissue) noexcept {
+  using enum TissueClass;
+  switch (tissue) {
+    case air:
+    case gas:
+      return -1000.0;
+    case lung:
+      return -850.0;
+    case fat:
+      return -100.0;
+    case fluid:
+      return 8.0;
+    case soft_tissue:
+      return 40.0;
+    case liver:
+      return 60.0;
+    case kidney:
+      return 32.0;
+    case spleen:
+      return 50.0;
+    case muscle:
+      return 58.0;
+    case skin:
+      return 40.0;
+    case connective:
+      return 90.0;
+    case vessel:
+      return 43.0;
+    case bone:
+      return 700.0;
+    case metal:
+      return 3000.0;
+  }
+  return 0.0;
+}
+
 }  // namespace seldinger::volume

@@ -42,6 +42,9 @@ struct TissueAbout {
 };
 const TissueAbout& about(TissueClass tissue) noexcept;
 
+// HU of a class, for what is drawn without an HU of its own: CT would show nothing of it (decision 0018).
+double typical_hu(TissueClass tissue) noexcept;
+
 // The class that a label's name means ("rib" is bone); nothing for a name that is not known.
 std::optional<TissueClass> tissue_of_name(std::string_view name) noexcept;
 

@@ -120,11 +120,14 @@ TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
   const std::string lesion_id = add_lesion(library_, case_id, sample_lesion()).value();
   const std::string attempt_id = add_attempt(library_, sample_attempt(case_id, lesion_id)).value();
   const std::string nobody(36, '0');
+  const std::string lesion =
+      "INSERT INTO lesion (lesion_id, case_id, center_x_lps_mm, center_y_lps_mm, center_z_lps_mm, radius_mm, hu, "
+      "created_us) VALUES ";
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 1, 0)");
-  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + nobody + "', 0, 0, 0, 1, 0, 0)");
-  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + case_id + "', 0, 0, 0, 0, 0, 0)");       // radius 0
-  refuse("INSERT INTO lesion VALUES ('" + nobody + "', '" + case_id + "', 'here', 0, 0, 1, 0, 0)");  // STRICT
-  refuse("INSERT INTO case_attribute VALUES ('" + case_id + "', 9, 'modality', 'MR')");              // twice
+  refuse(lesion + "('" + nobody + "', '" + nobody + "', 0, 0, 0, 1, 0, 0)");
+  refuse(lesion + "('" + nobody + "', '" + case_id + "', 0, 0, 0, 0, 0, 0)");            // radius 0
+  refuse(lesion + "('" + nobody + "', '" + case_id + "', 'here', 0, 0, 1, 0, 0)");       // STRICT
+  refuse("INSERT INTO case_attribute VALUES ('" + case_id + "', 9, 'modality', 'MR')");  // twice
   refuse("INSERT INTO recording_chunk VALUES ('" + nobody + "', 0, 0, x'00')");
   refuse("UPDATE training_case SET state = 'lost'");
   refuse("DELETE FROM training_case");

@@ -22,6 +22,10 @@ TEST_F(StoreCasesTest, KeepsWhatItIsPractisedWithAndHowThePatientLies) {
   const CaseRow row = find_case(library_, case_id).value();
   EXPECT_EQ(row.modality, cases::Modality::xray);
   EXPECT_EQ(row.position, cases::PatientPosition::prone);
+  // A draft's guidance may change until the first attempt.
+  static_cast<void>(
+      add_attempt(library_, sample_attempt(case_id, add_lesion(library_, case_id, sample_lesion()).value()))
+          .value());
   for (const char* change : {"modality = 'mpr'", "patient_position = 'supine'"})
     EXPECT_TRUE(refused_by_constraint([&] {
       library_.database().run(std::string("UPDATE training_case SET ") + change);
@@ -37,7 +41,8 @@ TEST_F(StoreCasesTest, NamesOfModalitiesAndPositionsComeBack) {
     EXPECT_EQ(find_case(library_, add_case(library_, one)).value().modality, modality);
   }
   EXPECT_EQ(modality_names(), "mpr, xray or ultrasound");
-  for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone})
+  for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone,
+                              cases::PatientPosition::lateral_left, cases::PatientPosition::lateral_right})
     EXPECT_EQ(position_from(name_of(position)), position);
   EXPECT_FALSE(modality_from("XRAY").has_value());
   EXPECT_FALSE(position_from("").has_value());

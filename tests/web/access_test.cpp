@@ -41,13 +41,14 @@ bool may_read(Role role, Whose whose) {
 
 std::string filled(std::string_view pattern, const std::string& attempt_id) {
   std::string path(pattern);
-  const std::string hole = "{attempt_id}";
-  if (const std::size_t at = path.find(hole); at != path.npos) path.replace(at, hole.size(), attempt_id);
+  if (const std::size_t at = path.find('{'); at != path.npos) path.replace(at, path.find('}') - at + 1, attempt_id);
   return path;
 }
 
 // What GET answers to somebody of this role; -1 for a path the table does not know.
 int expected_status(std::string_view pattern, Role role, Whose whose) {
+  if (pattern == "/cases") return role == Role::trainee ? 404 : 200;
+  if (pattern.substr(0, 7) == "/cases/") return 404;  // these ids are attempts'
   if (pattern == "/healthz" || pattern == "/style.css") return 200;
   if (pattern == "/" || pattern == "/login") return 303;
   if (pattern == "/attempts") return 200;
@@ -75,7 +76,7 @@ TEST(AccessMatrix, EveryRoleOnEveryRouteAnswersAsTheTableSays) {
       }
     }
   }
-  EXPECT_EQ(checks, 5 * 8 * 4 * 2);
+  EXPECT_EQ(checks, 5 * 12 * 4 * 2);
 }
 
 TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
@@ -145,6 +146,49 @@ TEST(AccessMatrix, TenThousandOtherIdsLeakNothing) {
     ASSERT_EQ(response.status, 404) << id;
     ASSERT_THAT(response.body, Not(HasSubstr("Case of")));
   }
+}
+
+// assessment.md §10: who reads which state of a case, written apart from the program.
+TEST(AccessMatrix, CasesAreSeenByRoleAndState) {
+  const std::pair<std::string, std::set<Role>> readers[] = {
+      {kDraftCase, {Role::mentor}},
+      {kReviewCase, {Role::mentor, Role::director}},
+      {kPublishedCase, {Role::mentor, Role::director, Role::researcher, Role::admin}},
+      {kRetiredCase, {Role::mentor, Role::director, Role::researcher, Role::admin}},
+      {kMissingAttempt, {}}};
+  for (const Role role : kRoles) {
+    FakeSite fake;
+    FakeBrowser browser(*fake.site);
+    browser.log_in_as(role);
+    const std::string list = browser.get("/cases").body;
+    for (const auto& [id, who] : readers) {
+      const bool may = who.count(role) != 0;
+      for (const char* end : {"", "/case.json", "/checks.json"}) {
+        const Response response = browser.get("/cases/" + id + end);
+        EXPECT_EQ(response.status, may ? 200 : 404) << casedb::name_of(role) << " " << id << end;
+        if (!may) {
+          EXPECT_EQ(bytes_of(response, true), bytes_of(browser.get("/cases/" + kMissingAttempt + end), true));
+        }
+      }
+      EXPECT_EQ(list.find(id) != list.npos, may) << casedb::name_of(role) << " " << id;
+    }
+  }
+}
+
+TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  fake.questions.cases[0].title = "<script>x</script>";
+  fake.questions.cases[0].clinic.indication = "\"quoted\" & <b>";
+  fake.questions.cases[0].rule.criteria = {*assessment::criterion_from("hit >= 1")};
+  browser.log_in_as(Role::mentor);
+  const std::string page = browser.get("/cases/" + kDraftCase).body;
+  EXPECT_THAT(page, Not(HasSubstr("<script>x")));
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page, HasSubstr("hit &gt;= 1"));
+  EXPECT_THAT(page, HasSubstr("draft, version 1"));
+  EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/checks.json").body, HasSubstr("\"holds\":false"));
+  EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/case.json").body, HasSubstr("\"metric\":\"hit\""));
 }
 
 TEST(AccessNames, AResearcherReadsPseudonymsAMentorNames) {

@@ -66,6 +66,15 @@ class FakeQuestions final : public Questions {
     }
     return base::Error{"no_attempt", "there is no such attempt"};
   }
+  std::vector<casedb::CaseRow> list_cases() override { return cases; }
+  base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
+    for (const casedb::CaseRow& row : cases)
+      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}};
+    return base::Error{"no_case", "there is no such case"};
+  }
+  base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow&) override {
+    return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}};
+  }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
   base::Result<cases::Recording> load_recording(const std::string&) override {
     return base::Error{"damaged", "the recording is damaged"};
@@ -75,6 +84,7 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::Account> accounts;
   std::map<std::string, std::string> passwords;  // by log-in name
   std::vector<casedb::AttemptRow> attempts;      // newest first
+  std::vector<casedb::CaseRow> cases;            // oldest first
   std::vector<std::byte> picture;
   std::function<void()> fault;  // thrown from questions about attempts and accounts
   std::function<void()> during_log_in;
@@ -91,6 +101,20 @@ inline const std::string kOwnAttempt = "0190a1b2-0000-7000-8000-0000000000a1";
 inline const std::string kOthersAttempt = "0190a1b2-0000-7000-8000-0000000000a2";
 inline const std::string kNobodysAttempt = "0190a1b2-0000-7000-8000-0000000000a3";
 inline const std::string kMissingAttempt = "0190a1b2-0000-7000-8000-0000000000ff";
+
+// Of each state: the number's last digit.
+inline const std::string kDraftCase = "0190a1b2-0000-7000-8000-0000000000c0";
+inline const std::string kReviewCase = "0190a1b2-0000-7000-8000-0000000000c1";
+inline const std::string kPublishedCase = "0190a1b2-0000-7000-8000-0000000000c2";
+inline const std::string kRetiredCase = "0190a1b2-0000-7000-8000-0000000000c3";
+
+inline casedb::CaseRow case_row(const std::string& id, const std::string& state) {
+  casedb::CaseRow row;
+  row.case_id = row.family_id = id;
+  row.title = "Case, a " + state;
+  row.state = state;
+  return row;
+}
 
 inline casedb::AttemptRow attempt_row(const std::string& id, std::optional<std::string> person_id) {
   casedb::AttemptRow row;
@@ -112,6 +136,8 @@ inline void fill(FakeQuestions& questions) {
     questions.passwords[name] = kPassword;
   }
   questions.accounts.push_back({"person-of-other-zzz999", "Other Trainee", Role::trainee, true});
+  questions.cases = {case_row(kDraftCase, "draft"), case_row(kReviewCase, "review"),
+                     case_row(kPublishedCase, "published"), case_row(kRetiredCase, "retired")};
   questions.attempts = {attempt_row(kOwnAttempt, "person-of-trainee"),
                         attempt_row(kOthersAttempt, "person-of-other-zzz999"),
                         attempt_row(kNobodysAttempt, std::nullopt)};

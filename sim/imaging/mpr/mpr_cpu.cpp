@@ -66,7 +66,7 @@ class Painter {
     const glm::dvec3 row_mm = shaders::mpr_row_start(plane_.position_first_mm, plane_.position_per_row_mm, row);
     // Backwards, so that the first lesion that contains a point is the last to write.
     for (auto lesion = inserted_.lesions.rbegin(); lesion != inserted_.lesions.rend(); ++lesion)
-      paint_lesion(*lesion, row_mm, pixels);
+      if (!lesion->in_volume()) paint_lesion(*lesion, row_mm, pixels);
     if (needle_ != nullptr) paint_needle(row_mm, pixels);
   }
 

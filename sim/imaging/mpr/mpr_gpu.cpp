@@ -71,11 +71,11 @@ MprParameters parameters_from(const glm::dmat4& voxel_from_lps, glm::ivec3 size_
     p.needle_slab_half_mm = static_cast<float>(0.5 * view.needle_slab_mm);
     p.needle_hu = static_cast<float>(needle.hu);
   }
-  p.lesion_count = static_cast<int>(inserted.lesions.size());
-  for (std::size_t i = 0; i < inserted.lesions.size(); ++i) {
-    const cases::Lesion& lesion = inserted.lesions[i];
-    p.lesion_sphere_mm[i] = vec4_from(lesion.center_lps_mm - view.center_lps_mm, lesion.radius_mm);
-    p.lesion_hu[i].x = static_cast<float>(lesion.hu);
+  for (const cases::Lesion& lesion : inserted.lesions) {
+    if (lesion.in_volume()) continue;
+    p.lesion_sphere_mm[p.lesion_count] = vec4_from(lesion.center_lps_mm - view.center_lps_mm, lesion.radius_mm);
+    p.lesion_hu[p.lesion_count].x = static_cast<float>(lesion.hu);
+    ++p.lesion_count;
   }
   return p;
 }

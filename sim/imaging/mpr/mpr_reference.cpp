@@ -84,7 +84,7 @@ HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const I
                       ? volume::sample_nearest(volume, index).value_or(volume::kAirHu)
                       : volume::sample_trilinear(volume, index).value_or(volume::kAirHu);
       for (const cases::Lesion& lesion : inserted.lesions)
-        if (glm::distance(p_lps_mm, lesion.center_lps_mm) <= lesion.radius_mm) {
+        if (!lesion.in_volume() && glm::distance(p_lps_mm, lesion.center_lps_mm) <= lesion.radius_mm) {
           hu = lesion.hu;
           break;
         }

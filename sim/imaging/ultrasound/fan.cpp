@@ -43,7 +43,7 @@ Fan fan_of(const UltrasoundView& view) noexcept {
 }
 
 bool is_shown(const cases::Lesion& lesion) noexcept {
-  return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0;
+  return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0 && !lesion.in_volume();
 }
 
 bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept {

@@ -23,7 +23,7 @@ struct Fan {
 };
 Fan fan_of(const UltrasoundView& view) noexcept;
 
-bool is_shown(const cases::Lesion& lesion) noexcept;  // finite, with a radius
+bool is_shown(const cases::Lesion& lesion) noexcept;  // drawn over the volume: finite, with a radius
 // Whether the element in the middle of a beam's aperture is in contact; `beam` is continuous. An empty list: all
 // are.
 bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;

@@ -60,7 +60,7 @@ class ThesisRecipe {
       if (needle) return n.hu;
     }
     for (const cases::Lesion& lesion : inserted_.lesions)
-      if (glm::length(p - lesion.center_lps_mm) <= lesion.radius_mm) return lesion.hu;
+      if (!lesion.in_volume() && glm::length(p - lesion.center_lps_mm) <= lesion.radius_mm) return lesion.hu;
     return volume::sample_trilinear(volume_, glm::dvec3(voxel_from_lps_ * glm::dvec4(p, 1.0))).value_or(-1024.0);
   }
   double noise_at(const glm::dvec3& p) const {

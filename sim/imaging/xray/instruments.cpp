@@ -36,7 +36,8 @@ struct Pierced {
         lumen = cylinder_chord(ray, n.tip_lps_mm, n.direction, n.length_mm, n.inner_radius_mm);
     }
     for (std::size_t i = 0; i < inserted.lesions.size(); ++i)
-      lesions[i] = sphere_chord(ray, inserted.lesions[i].center_lps_mm, inserted.lesions[i].radius_mm);
+      if (!inserted.lesions[i].in_volume())
+        lesions[i] = sphere_chord(ray, inserted.lesions[i].center_lps_mm, inserted.lesions[i].radius_mm);
   }
 
   // Where something begins or ends, in order.
@@ -198,7 +199,8 @@ void overlay_instruments(const volume::Volume& volume, const XrayGeometry& geome
     lengths.iron_mm.assign(lengths.water_mm.size(), 0.0F);
   }
   for (const cases::Lesion& lesion : inserted.lesions)
-    mark(geometry, shadow_of(geometry, lesion.center_lps_mm, lesion.center_lps_mm, lesion.radius_mm), marked);
+    if (!lesion.in_volume())
+      mark(geometry, shadow_of(geometry, lesion.center_lps_mm, lesion.center_lps_mm, lesion.radius_mm), marked);
   for (std::size_t i = 0; i < marked.size(); ++i) {
     if (!marked[i]) continue;
     const auto width = static_cast<std::size_t>(geometry.width_px);

@@ -140,7 +140,12 @@ std::optional<Contrast> target_contrast(const volume::Volume& volume, const Xray
   const auto through = ray_through(volume, geometry, target.center_lps_mm, pulse.sid_mm);
   if (!through) return std::nullopt;
   Inserted with{std::nullopt, inserted.lesions}, without = with;
-  without.lesions.erase(without.lesions.begin());
+  if (target.in_volume()) {  // drawn as the ball of its volume: once as it is, once as what was there
+    with.lesions.front().shape = without.lesions.front().shape = nullptr;
+    without.lesions.front().hu = target.around_hu;
+  } else {
+    without.lesions.erase(without.lesions.begin());
+  }
   const double shadow_mm2 =
       kPi * target.radius_mm * target.radius_mm * through->magnification * through->magnification;
   return contrast_on(volume, *through, beam, pulse.mas(), with, without, std::min(shadow_mm2, kLargestPatchMm2));

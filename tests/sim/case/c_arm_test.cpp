@@ -41,13 +41,17 @@ TEST(BeamDirection, OfTheNamedViews) {
   expect_near(beam_direction(30, -20, supine), {0.4698463103929542, -0.8137976813493738, -0.3420201433256687},
               1e-13);
   expect_near(beam_direction(0, 0, prone), {0, 1, 0}, 1e-15);
-  expect_near(beam_direction(90, 0, prone), {1, 0, 0}, 1e-13);  // still his left
+  expect_near(beam_direction(90, 0, prone), {1, 0, 0}, 1e-13);         // still his left
+  expect_near(beam_direction(0, 0, lateral_left), {-1, 0, 0}, 1e-15);  // his right side is up
+  expect_near(beam_direction(90, 0, lateral_left), {0, -1, 0}, 1e-13);
+  expect_near(beam_direction(0, 0, lateral_right), {1, 0, 0}, 1e-15);
+  expect_near(beam_direction(90, 0, lateral_right), {0, 1, 0}, 1e-13);
 }
 
 TEST(BeamDirection, AnglesComeBack) {
   base::Rng rng(4);
   for (int i = 0; i < 1000; ++i)
-    for (const PatientPosition position : {supine, prone}) {
+    for (const PatientPosition position : {supine, prone, lateral_left, lateral_right}) {
       const double lao = -179.0 + 358.0 * rng.uniform(), cranial = -89.0 + 178.0 * rng.uniform();
       const BeamAngles back = angles_of_beam(beam_direction(lao, cranial, position), position);
       ASSERT_NEAR(back.lao_deg, lao, 1e-9);
@@ -58,7 +62,7 @@ TEST(BeamDirection, AnglesComeBack) {
 TEST(BeamFrame, IsOrthonormalAndTheIsocentreIsInTheMiddleAtAnyAngle) {
   base::Rng rng(5);
   for (int i = 0; i < 200; ++i)
-    for (const PatientPosition position : {supine, prone}) {
+    for (const PatientPosition position : {supine, prone, lateral_left, lateral_right}) {
       const glm::dvec3 isocentre(rng.normal() * 50, rng.normal() * 50, rng.normal() * 50);
       CArm arm = arm_at(-100 + 200 * rng.uniform(), -45 + 90 * rng.uniform(), isocentre);
       arm.sid_mm = 900 + 300 * rng.uniform();

@@ -1,0 +1,132 @@
+#include "app/case_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "app/case_build.h"
+#include "assessment/operators/plan.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kMostBoneShare = 0.05;   // of a lesion's voxels: more is no biopsy with these needles
+constexpr double kEntryNearSkinMm = 5.0;  // a mentor marks an entry on a slice, not on the mesh
+
+std::string mm(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", value);
+  return text;
+}
+
+void check_rule(const casedb::CaseRow& row, const assessment::Guidance& guidance, std::vector<Check>& checks) {
+  if (row.rule.criteria.empty()) {
+    checks.push_back({"rule_present", false, "there is no criterion to pass by"});
+    return;
+  }
+  checks.push_back({"rule_present", true, std::to_string(row.rule.criteria.size()) + " criteria"});
+  const auto problems = assessment::problems_of(row.rule, guidance);
+  for (const base::Problem& problem : problems)
+    checks.push_back({"rule_meaningful", false, problem.code + ": " + problem.text});
+  if (problems.empty())
+    checks.push_back({"rule_meaningful", true, "every metric is known and means something here"});
+}
+
+// Share of the lesion's voxels that are bone; of one smaller than a voxel, that voxel's.
+double bone_share(const cases::Shape& shape, const glm::dvec3& center_lps_mm, const volume::Volume& volume,
+                  const std::vector<volume::TissueClass>& classes) {
+  const cases::Bounds bounds = cases::bounds_of(shape);
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  const double reach_mm = glm::length(bounds.high_lps_mm - bounds.low_lps_mm) / 2.0;
+  const glm::dvec3 middle(voxel_from_lps * glm::dvec4((bounds.low_lps_mm + bounds.high_lps_mm) / 2.0, 1.0));
+  const glm::dvec3 reach = reach_mm / volume.spacing_mm + 1.0;
+  std::size_t all = 0, bone = 0;
+  const glm::dvec3 last(volume.size_voxels - 1);
+  const glm::ivec3 low(glm::clamp(glm::floor(middle - reach), glm::dvec3(0.0), last));
+  const glm::ivec3 high(glm::clamp(glm::ceil(middle + reach), glm::dvec3(0.0), last));
+  for (int k = low.z; k <= high.z; ++k)
+    for (int j = low.y; j <= high.y; ++j)
+      for (int i = low.x; i <= high.x; ++i) {
+        const glm::dvec3 p(volume.lps_from_voxel * glm::dvec4(i, j, k, 1.0));
+        if (cases::signed_distance_mm(shape, p, 0.01) > 0.0) continue;
+        ++all;
+        bone += classes[volume.index(i, j, k)] == volume::TissueClass::bone ? 1 : 0;
+      }
+  if (all > 0) return static_cast<double>(bone) / static_cast<double>(all);
+  const glm::ivec3 at(glm::clamp(glm::floor(glm::dvec3(voxel_from_lps * glm::dvec4(center_lps_mm, 1.0)) + 0.5),
+                                 glm::dvec3(0.0), last));
+  return classes[volume.index(at.x, at.y, at.z)] == volume::TissueClass::bone ? 1.0 : 0.0;
+}
+
+void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const casedb::LesionRow& lesion,
+                  const std::string& which, std::vector<Check>& checks) {
+  const double depth_mm = -scene.skin_index.closest(lesion.lesion.center_lps_mm).distance_mm;
+  const bool inside = depth_mm >= lesion.lesion.radius_mm;
+  checks.push_back(
+      {"lesion_inside_body", inside,
+       which + (depth_mm < 0.0 ? ": its centre lies outside the body"
+                : inside       ? ": its centre lies " + mm(depth_mm) + " within its surface"
+                         : ": it sticks out of the body, its centre only " + mm(depth_mm) + " below the surface")});
+  const double bone =
+      bone_share(cases::shape_of(lesion.form), lesion.form.center_lps_mm, scene.volume, scene.classes);
+  char share[64];
+  std::snprintf(share, sizeof share, ": %.0f %% of it is bone", 100.0 * bone);
+  checks.push_back({"lesion_not_in_bone", bone <= kMostBoneShare, which + share});
+  if (row.clinic.defer) {
+    checks.push_back({"lesion_reachable", true, which + ": not asked, the right decision is to defer"});
+    return;
+  }
+  assessment::PathLimits limits = assessment::path_limits(scene);
+  limits.needs_probe = false;
+  limits.max_depth_mm = scene.instrument.length_mm;
+  const auto plan = assessment::plan_puncture(scene.volume, scene.skin_index, lesion.lesion.center_lps_mm, limits);
+  checks.push_back({"lesion_reachable", plan.has_value(),
+                    which + ": " + (plan ? "a free way of " + mm(plan->depth_mm) : plan.error().text)});
+}
+
+}  // namespace
+
+base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row) {
+  cases::Picture picture;
+  picture.modality = row.modality;
+  // Tissue: whether something is bone is a matter of class.
+  const auto scene = build_case(library, row, std::nullopt, picture, Needs::touch);
+  if (!scene) return scene.error();
+  CaseCheck checked;
+  std::vector<Check>& checks = checked.checks;
+  const auto lesions = casedb::list_lesions(library, row.case_id);
+  checks.push_back({"lesion_present", !lesions.empty(),
+                    lesions.empty() ? "there is no lesion" : std::to_string(lesions.size()) + " placed"});
+  for (std::size_t i = 0; i < lesions.size(); ++i)
+    check_lesion(*scene, row, lesions[i], "lesion " + std::to_string(i + 1), checks);
+  if (row.planned_entry_lps_mm) {
+    const auto near = scene->skin_index.closest_skin(*row.planned_entry_lps_mm);
+    const double off_mm = std::abs(near.distance_mm);
+    checks.push_back(
+        {"entry_on_skin", off_mm <= kEntryNearSkinMm, "the planned entry is " + mm(off_mm) + " from it"});
+  }
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(scene->volume);
+  const auto inside = [&](const glm::dvec3& p) {
+    return volume::inside(scene->volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
+  };
+  for (const casedb::StructureRow& one : casedb::list_structures(library, row.case_id)) {
+    if (one.kind != casedb::StructureKind::drawn) continue;
+    bool within = true;
+    if (const auto* tube = std::get_if<cases::Tube>(&one.drawn)) {
+      within = std::all_of(tube->points_lps_mm.begin(), tube->points_lps_mm.end(), inside);
+    } else {
+      const cases::Bounds bounds = cases::bounds_of(one.drawn);
+      within = inside((bounds.low_lps_mm + bounds.high_lps_mm) / 2.0);
+    }
+    checks.push_back({"structure_in_volume", within,
+                      one.name + (within ? " lies within the volume" : " reaches out of the volume")});
+  }
+  const assessment::Guidance guidance{
+      casedb::manner_of(row), assessment::absent_needs(scene->structures, row.planned_entry_lps_mm.has_value())};
+  check_rule(row, guidance, checks);
+  checked.rule_may_name = assessment::meaningful_metrics(guidance);
+  return checked;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,23 @@
+// What a case must hold to be worth an attempt (docs/mentor.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "casedb/authoring.h"
+#include "casedb/case_checks.h"
+#include "casedb/store.h"
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+using casedb::CaseCheck;
+using casedb::Check;
+
+// Each lesion inside the body and not in bone; a straight way of the instrument's length from uncut skin that meets
+// no bone, gas, nor critical or major structure, and leads through what must be crossed (not asked where the right
+// decision is to defer); a planned entry on the skin; drawn structures within the volume; a rule whose metrics are
+// known and mean something under the case's guidance. Refused: damaged assets.
+base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row);
+
+}  // namespace seldinger::app

@@ -1,0 +1,124 @@
+#include "assessment/grading/rule.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "assessment/metrics/registry.h"
+
+namespace seldinger::assessment {
+namespace {
+
+constexpr std::string_view kSigns[] = {"<=", ">=", "="};  // in the order of Comparison
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::string number_text(double value) {
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+bool has_rule(std::span<const cases::Structure> structures, cases::StructureRule rule) {
+  return std::any_of(structures.begin(), structures.end(),
+                     [&](const cases::Structure& one) { return one.rule == rule; });
+}
+
+bool can_have_a_value(const MetricInfo& info, const Guidance& guidance) {
+  return applies(info.needs, guidance.manner) && (info.needs & guidance.absent) == 0;
+}
+
+}  // namespace
+
+std::string_view sign_of(Comparison comparison) noexcept {
+  return kSigns[static_cast<std::size_t>(comparison)];
+}
+
+std::optional<Comparison> comparison_from(std::string_view sign) noexcept {
+  for (std::size_t i = 0; i < std::size(kSigns); ++i)
+    if (kSigns[i] == sign) return static_cast<Comparison>(i);
+  return std::nullopt;
+}
+
+std::string text_of(const Criterion& criterion) {
+  std::string text = criterion.metric;
+  if (criterion.version != 1) text.append("@").append(std::to_string(criterion.version));
+  return text.append(" ").append(sign_of(criterion.comparison)).append(" ").append(number_text(criterion.value));
+}
+
+std::optional<Criterion> criterion_from(std::string_view text) {
+  for (const std::string_view sign : kSigns) {
+    const std::size_t at = text.find(sign);
+    if (at == text.npos) continue;
+    Criterion criterion;
+    criterion.comparison = *comparison_from(sign);
+    std::string_view name = trimmed(text.substr(0, at));
+    const std::string_view value = trimmed(text.substr(at + sign.size()));
+    if (const std::size_t mark = name.find('@'); mark != name.npos) {
+      const std::string_view version = name.substr(mark + 1);
+      const auto read = std::from_chars(version.data(), version.data() + version.size(), criterion.version);
+      if (read.ec != std::errc() || read.ptr != version.data() + version.size() || criterion.version < 1)
+        return std::nullopt;
+      name = name.substr(0, mark);
+    }
+    const bool is_id = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+      return c == '_' || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    });
+    const auto read = std::from_chars(value.data(), value.data() + value.size(), criterion.value);
+    if (!is_id || read.ec != std::errc() || read.ptr != value.data() + value.size() ||
+        !std::isfinite(criterion.value))
+      return std::nullopt;
+    criterion.metric = name;
+    return criterion;
+  }
+  return std::nullopt;
+}
+
+std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry) {
+  using enum cases::StructureRule;
+  std::uint32_t absent = planned_entry ? 0U : std::uint32_t{kPlan};
+  const std::pair<cases::StructureRule, std::uint32_t> needs[] = {
+      {critical, kNoGoCritical}, {major, kNoGoMajor}, {advisory, kNoGoAdvisory},
+      {must_cross, kMustCross},  {organ, kOrgan},     {target, kLumen}};
+  for (const auto& [rule, need] : needs)
+    if (!has_rule(structures, rule)) absent |= need;
+  if (!has_rule(structures, critical) && !has_rule(structures, major) && !has_rule(structures, advisory))
+    absent |= kNoGo;
+  return absent;
+}
+
+std::vector<std::string> meaningful_metrics(const Guidance& guidance) {
+  std::vector<std::string> ids;
+  for (const MetricInfo& info : registry())
+    if (can_have_a_value(info, guidance)) ids.emplace_back(info.id);
+  return ids;
+}
+
+std::vector<base::Problem> problems_of(const PassRule& rule, const Guidance& guidance) {
+  std::vector<base::Problem> problems;
+  for (std::size_t i = 0; i < rule.criteria.size(); ++i) {
+    const Criterion& one = rule.criteria[i];
+    const MetricInfo* info = find_metric(one.metric);
+    if (info == nullptr)
+      problems.push_back({"unknown_metric", "no metric is called " + one.metric});
+    else if (info->version != one.version)
+      problems.push_back({"other_version", one.metric + " is measured by version " + std::to_string(info->version) +
+                                               ", not " + std::to_string(one.version)});
+    else if (!can_have_a_value(*info, guidance))
+      problems.push_back({"not_meaningful", one.metric + " has no value under the case's guidance, approach and "
+                                                         "instrument, or needs a structure that it does not have"});
+    if (!std::isfinite(one.value)) problems.push_back({"not_finite", one.metric + " is compared with no number"});
+    for (std::size_t other = 0; other < i; ++other)
+      if (rule.criteria[other].metric == one.metric && rule.criteria[other].comparison == one.comparison) {
+        problems.push_back({"twice", one.metric + " is asked for twice"});
+        break;
+      }
+  }
+  return problems;
+}
+
+}  // namespace seldinger::assessment

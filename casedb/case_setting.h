@@ -1,0 +1,52 @@
+// What a case asks of whoever attempts it, beside its volume: guidance, instrument, patient, and when it passes.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assessment/grading/rule.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+
+namespace seldinger::casedb {
+
+enum class Difficulty { easy, moderate, hard };
+constexpr std::array<std::string_view, 3> kDifficultyNames = {"easy", "moderate", "hard"};
+
+// What is known at the sign-in (clinical.md, "Steps around the puncture").
+struct Clinic {
+  std::optional<double> inr, platelets_per_nl;  // 10⁹/l
+  std::string allergy, indication;              // a mentor's words; empty: none told
+  bool defer = false;                           // the right decision
+};
+
+struct CaseSetting {
+  cases::Modality modality = cases::Modality::mpr;  // what it is practised with
+  std::vector<cases::Modality> further_modalities;  // what it may be practised with too
+  cases::PatientPosition position = cases::PatientPosition::supine;
+  cases::Instrument instrument;
+  cases::Approach approach = cases::Approach::in_plane;
+  Clinic clinic;
+  std::optional<glm::dvec3> planned_entry_lps_mm;
+  Difficulty difficulty = Difficulty::moderate;
+  std::optional<double> time_limit_s;
+  std::optional<int> attempt_limit;
+  assessment::PassRule rule;
+};
+
+inline assessment::Manner manner_of(const CaseSetting& setting) {
+  return {setting.modality, setting.approach, setting.instrument.kind};
+}
+
+std::string name_of(cases::InstrumentKind kind);
+std::string name_of(cases::Approach approach);
+
+// `bad_setting` with all that is not sound: lengths, laboratory values, limits, a modality twice, texts over 200
+// bytes or with control characters. The rule's metrics are looked at by the case's check.
+base::Result<void> check_setting(const CaseSetting& setting);
+
+}  // namespace seldinger::casedb

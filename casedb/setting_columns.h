@@ -1,0 +1,16 @@
+// A case's setting in the columns of training_case.
+#pragma once
+
+#include "casedb/case_setting.h"
+#include "casedb/sqlite.h"
+#include "sim/base/result.h"
+
+namespace seldinger::casedb {
+
+inline const base::Error kNotADraft{"not_a_draft",
+                                    "only a draft is changed; `seldinger case version` makes the next one"};
+
+void bind_setting(Statement& statement, const CaseSetting& setting);
+void read_setting(const Statement& from, CaseSetting& setting);
+
+}  // namespace seldinger::casedb

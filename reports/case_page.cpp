@@ -1,0 +1,107 @@
+#include "reports/case_page.h"
+
+#include "reports/attempt_words.h"
+
+namespace seldinger::reports {
+namespace {
+
+void add_fact(Html& html, std::string_view name, std::string_view value) {
+  if (value.empty()) return;
+  html.raw("<tr><th scope=\"row\">").text(name).raw("</th><td>").text(value).raw("</td></tr>\n");
+}
+
+std::string state_text(const casedb::CaseRow& row) {
+  return row.state + ", version " + std::to_string(row.version) +
+         (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
+}
+
+std::string guidance_text(const casedb::CaseRow& row) {
+  std::string text = casedb::name_of(row.modality) + ", " + casedb::name_of(row.approach) + ", patient " +
+                     casedb::name_of(row.position);
+  for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
+  return text;
+}
+
+std::string lesion_text(const casedb::LesionRow& lesion) {
+  const cases::LesionForm& form = lesion.form;
+  return std::string(cases::kLesionKindNames[static_cast<std::size_t>(form.kind)]) + ", " +
+         reports::lesion_text(lesion.lesion) + ", " + (form.adds ? "tissue plus " : "") + number_text(form.hu, 0) +
+         " HU";
+}
+
+std::string measured_text(const std::optional<double>& value, int digits) {
+  return value ? number_text(*value, digits) : "";
+}
+
+void add_table(Html& html, std::string_view caption) {
+  html.raw("<div class=\"wide\">\n<table>\n<caption>").text(caption).raw("</caption>\n<tbody>\n");
+}
+void end_table(Html& html) {
+  html.raw("</tbody>\n</table>\n</div>\n");
+}
+
+}  // namespace
+
+std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
+  const casedb::CaseRow& row = parts.row;
+  Html html;
+  html.raw("<h1>").name(row.title).raw("</h1>\n");
+  add_table(html, "The case");
+  add_fact(html, "State", state_text(row));
+  const auto review = casedb::review_of(parts.decisions);
+  add_fact(html, "Reviewed by", review ? review->pseudonym : "nobody");
+  add_fact(html, "Guidance", guidance_text(row));
+  add_fact(html, "Needle",
+           instrument_text(row.instrument) + ", " + number_text(row.instrument.length_mm, 0) + " mm");
+  add_fact(html, "Difficulty", casedb::kDifficultyNames[static_cast<std::size_t>(row.difficulty)]);
+  add_fact(html, "Indication", row.clinic.indication);
+  add_fact(html, "INR", measured_text(row.clinic.inr, 1));
+  add_fact(html, "Platelets per nl", measured_text(row.clinic.platelets_per_nl, 0));
+  add_fact(html, "Allergy", row.clinic.allergy);
+  add_fact(html, "Right decision", row.clinic.defer ? "defer" : "proceed");
+  add_fact(html, "Time limit, s", measured_text(row.time_limit_s, 0));
+  add_fact(html, "Attempts", row.attempt_limit ? std::to_string(*row.attempt_limit) : "");
+  for (const casedb::LesionRow& lesion : parts.lesions) add_fact(html, "Lesion", lesion_text(lesion));
+  end_table(html);
+
+  add_table(html, "Structures");
+  for (const casedb::StructureRow& one : parts.structures)
+    add_fact(html, one.name,
+             std::string(cases::name_of(one.rule)) + ", " + volume::about(one.tissue).name + ", " +
+                 casedb::name_of(one.kind));
+  end_table(html);
+
+  add_table(html, "To pass");
+  for (const assessment::Criterion& one : row.rule.criteria)
+    add_fact(html, one.critical ? "critical" : "criterion", assessment::text_of(one));
+  end_table(html);
+
+  add_table(html, "Decisions");
+  for (const casedb::Decision& one : parts.decisions)
+    add_fact(html, casedb::name_of(one.kind),
+             one.pseudonym + ", " + utc_text(one.decided_us) + (one.note.empty() ? "" : ": " + one.note));
+  end_table(html);
+  html.raw("<p><a href=\"/cases/").text(row.case_id).raw("/case.json\">as JSON</a>, <a href=\"/cases/");
+  html.text(row.case_id).raw("/checks.json\">its checks</a></p>\n");
+  return page(row.title, visitor, html);
+}
+
+std::string cases_page(const Visitor& visitor, std::span<const casedb::CaseRow> rows) {
+  Html html;
+  html.raw("<h1>Cases</h1>\n");
+  add_table(html, "Oldest first");
+  for (const casedb::CaseRow& row : rows)
+    html.raw("<tr><th scope=\"row\"><a href=\"/cases/")
+        .text(row.case_id)
+        .raw("\">")
+        .name(row.title)
+        .raw("</a></th><td>")
+        .text(state_text(row))
+        .raw("</td><td>")
+        .text(guidance_text(row))
+        .raw("</td></tr>\n");
+  end_table(html);
+  return page("Cases", visitor, html);
+}
+
+}  // namespace seldinger::reports

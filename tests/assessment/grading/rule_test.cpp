@@ -1,0 +1,117 @@
+// Pass rules: text and JSON there and back, and what is wrong with one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "assessment/grading/rule_json.h"
+#include "assessment/metrics/registry.h"
+
+namespace seldinger::assessment {
+namespace {
+
+bool has(const std::vector<std::string>& all, const char* one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+std::vector<std::string> codes(const PassRule& rule, const Guidance& guidance) {
+  std::vector<std::string> found;
+  for (const base::Problem& problem : problems_of(rule, guidance)) found.push_back(problem.code);
+  return found;
+}
+
+TEST(RuleTest, TextsComeBack) {
+  for (const char* text : {"hit >= 1", "tip_target_axial >= -3.5", "skin_punctures@2 <= 1", "gap_share = 0.25"}) {
+    const auto criterion = criterion_from(text);
+    ASSERT_TRUE(criterion.has_value()) << text;
+    EXPECT_EQ(text_of(*criterion), text);
+  }
+  EXPECT_EQ(text_of(*criterion_from("  hit<=1 ")), "hit <= 1");
+  for (const char* text : {"", "hit", "hit >=", ">= 1", "Hit >= 1", "hit > 1", "hit >= x", "hit >= 1e999",
+                           "hit >= nan", "hit@0 >= 1", "hit@x >= 1", "hit >= 1 2", "hit; drop >= 1"})
+    EXPECT_FALSE(criterion_from(text).has_value()) << text;
+}
+
+TEST(RuleTest, JsonComesBack) {
+  PassRule rule;
+  rule.criteria = {{"core_in_target", 3, Comparison::at_least, 0.1 + 0.2, false},
+                   {"hand_in_beam", 1, Comparison::equal, 0.0, true}};
+  const auto back = rule_from_json(json_of_rule(rule));
+  ASSERT_TRUE(back.has_value());
+  ASSERT_EQ(back->criteria.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(back->criteria[i].metric, rule.criteria[i].metric);
+    EXPECT_EQ(back->criteria[i].version, rule.criteria[i].version);
+    EXPECT_EQ(back->criteria[i].comparison, rule.criteria[i].comparison);
+    EXPECT_EQ(back->criteria[i].value, rule.criteria[i].value);
+    EXPECT_EQ(back->criteria[i].critical, rule.criteria[i].critical);
+  }
+  const auto short_form = rule_from_json(R"({"criteria":[{"metric":"hit","comparison":">=","value":1}]})");
+  ASSERT_TRUE(short_form.has_value());
+  EXPECT_EQ(short_form->criteria[0].version, 1);
+}
+
+TEST(RuleTest, JsonThatIsNoRuleIsRefusedWithAllItsProblems) {
+  for (const char* text : {"", "[]", "{}", R"({"criteria":1})", R"({"criteria":[],"more":1})",
+                           R"({"criteria":[7]})", R"({"criteria":[{"comparison":">=","value":1}]})",
+                           R"({"criteria":[{"metric":"hit","comparison":">","value":1}]})",
+                           R"({"criteria":[{"metric":"hit","comparison":">=","value":"1"}]})",
+                           R"({"criteria":[{"metric":"hit","comparison":">=","value":1,"version":0}]})",
+                           R"({"criteria":[{"metric":"hit","comparison":">=","value":1,"critical":1}]})",
+                           R"({"criteria":[{"metric":"hit","comparison":">=","value":1,"weight":1}]})"}) {
+    const auto refused = rule_from_json(text);
+    ASSERT_FALSE(refused.has_value()) << text;
+    EXPECT_EQ(refused.error().code, "bad_rule");
+  }
+  EXPECT_EQ(rule_from_json(R"({"criteria":[7,{"metric":1}]})").error().findings.size(), 2U);
+}
+
+TEST(RuleTest, OnlyWhatMeansSomethingMayBeNamed) {
+  const Guidance slices{{cases::Modality::mpr, cases::Approach::in_plane, cases::InstrumentKind::access}};
+  const Guidance beam{{cases::Modality::xray, cases::Approach::in_plane, cases::InstrumentKind::core}};
+  const Guidance beside{
+      {cases::Modality::ultrasound, cases::Approach::out_of_plane, cases::InstrumentKind::access}};
+  EXPECT_TRUE(has(meaningful_metrics(slices), "hit"));
+  EXPECT_TRUE(has(meaningful_metrics(slices), "advance_visible_share"));
+  EXPECT_FALSE(has(meaningful_metrics(slices), "core_in_target"));
+  EXPECT_FALSE(has(meaningful_metrics(slices), "dap"));
+  EXPECT_TRUE(has(meaningful_metrics(beam), "core_in_target"));
+  EXPECT_TRUE(has(meaningful_metrics(beam), "dap"));
+  EXPECT_FALSE(has(meaningful_metrics(beam), "advance_visible_share"));
+  EXPECT_FALSE(has(meaningful_metrics(beside), "vis_needle"));
+  EXPECT_TRUE(has(meaningful_metrics(beside), "skin_punctures"));
+}
+
+TEST(RuleTest, AMetricOfAStructureNeedsOne) {
+  Guidance guidance;
+  guidance.absent = absent_needs({}, false);
+  for (const char* id : {"nogo_length", "nogo_length_critical", "capsule_punctures", "must_cross_length",
+                         "posterior_wall", "entry_point_error"})
+    EXPECT_FALSE(has(meaningful_metrics(guidance), id)) << id;
+  std::vector<cases::Structure> structures(2);
+  structures[0].rule = cases::StructureRule::critical;
+  structures[1].rule = cases::StructureRule::organ;
+  guidance.absent = absent_needs(structures, true);
+  for (const char* id : {"nogo_length", "nogo_length_critical", "capsule_punctures", "entry_point_error"})
+    EXPECT_TRUE(has(meaningful_metrics(guidance), id)) << id;
+  for (const char* id : {"nogo_length_major", "must_cross_length", "posterior_wall"})
+    EXPECT_FALSE(has(meaningful_metrics(guidance), id)) << id;
+}
+
+TEST(RuleTest, EachProblemHasItsCode) {
+  const Guidance slices{};
+  PassRule rule;
+  EXPECT_TRUE(codes(rule, slices).empty());
+  rule.criteria = {*criterion_from("hit >= 1")};
+  EXPECT_TRUE(codes(rule, slices).empty());
+  rule.criteria = {*criterion_from("hit >= 1"), *criterion_from("hit >= 1")};
+  EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"twice"});
+  rule.criteria = {*criterion_from("gut_feeling >= 1")};
+  EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"unknown_metric"});
+  rule.criteria = {*criterion_from("hit@99 >= 1")};
+  EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"other_version"});
+  rule.criteria = {*criterion_from("dap <= 1")};
+  EXPECT_EQ(codes(rule, slices), std::vector<std::string>{"not_meaningful"});
+}
+
+}  // namespace
+}  // namespace seldinger::assessment
