@@ -12,6 +12,8 @@
 namespace seldinger::cases {
 namespace {
 
+constexpr std::size_t kHeaderBytes = 104;  // of an unpacked chunk; then its rows
+
 std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -84,9 +86,9 @@ TEST(RecordingFuzz, DamageIsRefusedWithinBounds) {
         }
         case 2: {  // the header inside, which says how much there is
           std::string text = text_of(base::decompress(chunk.data, std::size_t{1} << 30).value());
-          std::string head = text.substr(0, 96);
+          std::string head = text.substr(0, kHeaderBytes);
           fixtures::mutate(head, rng);
-          head.append(text, 96);
+          head.append(text, kHeaderBytes);
           text = std::move(head);
           chunk.data = base::compress(bytes_of(text));
           chunk.checksum = base::hash_bytes(chunk.data);
@@ -114,7 +116,7 @@ TEST(RecordingFuzz, ALieAboutTheSizeCostsNoMemory) {
   for (const std::uint32_t rows : {50'000U, 50'001U, 1'000'000U, 0xffffffffU}) {
     std::string text = text_of(base::decompress(good[0].data, std::size_t{1} << 30).value());
     std::memcpy(text.data() + 12, &rows, sizeof rows);
-    for (const std::size_t size : {text.size(), std::size_t{96} + std::size_t{400} * 1024 * 1024}) {
+    for (const std::size_t size : {text.size(), kHeaderBytes + std::size_t{400} * 1024 * 1024}) {
       text.resize(size, '\0');
       std::vector<RecordingChunk> chunks = good;
       chunks[0].data = base::compress(bytes_of(text));
