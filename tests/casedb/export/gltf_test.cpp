@@ -52,7 +52,7 @@ std::vector<T> items(const Glb& glb, std::size_t accessor, std::size_t per_item)
   EXPECT_EQ(view["byteLength"], found.size() * sizeof(T));
   const std::size_t from = view["byteOffset"];
   EXPECT_LE(from + found.size() * sizeof(T), glb.binary.size());
-  std::memcpy(found.data(), glb.binary.data() + from, found.size() * sizeof(T));
+  std::memcpy(static_cast<void*>(found.data()), glb.binary.data() + from, found.size() * sizeof(T));
   return found;
 }
 
