@@ -1,6 +1,7 @@
 #include "reports/case_page.h"
 
 #include "reports/attempt_words.h"
+#include "reports/metric_words.h"
 
 namespace seldinger::reports {
 namespace {
