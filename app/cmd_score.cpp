@@ -98,6 +98,7 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
   built.instrument = scene->instrument;
   built.approach = scene->approach;
   built.structures = scene->structures;
+  built.planned_entry_lps_mm = scene->planned_entry_lps_mm;
   if (scene->view) {
     if (const auto* xray = std::get_if<XrayView>(&*scene->view)) {
       built.picture.modality = cases::Modality::xray;

@@ -47,8 +47,9 @@ struct Scene {
   imaging::Inserted inserted;
   cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
   cases::Approach approach = cases::Approach::in_plane;
-  std::vector<cases::Structure>
-      structures;  // what a score holds the needle's way against; pictures do not draw them
+  // What a score holds the needle's way against; pictures do not draw them.
+  std::optional<glm::dvec3> planned_entry_lps_mm;
+  std::vector<cases::Structure> structures;
   std::optional<View> view;
 };
 

@@ -234,6 +234,7 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
       }
     }
   }
+  if (root.has("planned_entry_mm")) scene.planned_entry_lps_mm = root.point("planned_entry_mm");
   if (root.has("structures")) read_structures(root, scene, error, unused);
   if (root.choice("approach", {"in_plane", "out_of_plane"}, "in_plane") == "out_of_plane")
     scene.approach = cases::Approach::out_of_plane;

@@ -340,7 +340,7 @@ TEST(Cli, ScoreHoldsTheWayAgainstAScenesStructures) {
   const auto scene = [&](const std::string& rule) {
     write(scratch / "scene.json",
           std::string("{") + kBall + R"(, "needle": {"tip_mm": [0, 0, 0], "direction": [0, 1, 0]},
-    "lesions": [{"center_mm": [0, 0, 0], "radius_mm": 8, "hu": 20}], "approach": "out_of_plane",
+    "lesions": [{"center_mm": [0, 0, 0], "radius_mm": 8, "hu": 20}], "approach": "out_of_plane", "planned_entry_mm": [0, -60, 8],
     "structures": [
       {"name": "vein", "rule": ")" +
               rule + R"(", "kind": "tube", "points_mm": [[-20, -30, 3], [20, -30, 3]], "radius_mm": 5},
@@ -369,7 +369,8 @@ TEST(Cli, ScoreHoldsTheWayAgainstAScenesStructures) {
   EXPECT_EQ(metrics.at("nogo_length_major").at("reason"), "no_major_structure");
   EXPECT_EQ(metrics.at("blind_advance").at("reason"), "not_meaningful_out_of_plane");
   EXPECT_EQ(metrics.at("force_peak_axial").at("reason"), "no_device");
-  EXPECT_EQ(metrics.at("entry_angle_error").at("reason"), "no_plan");
+  EXPECT_NEAR(value("entry_angle_error"), std::atan2(8.0, 60.0) * 180.0 / std::acos(-1.0), 1e-3);
+  EXPECT_NEAR(value("entry_point_error"), 8.0, 0.5) << "the ball's skin is made of voxels of 2 mm";
   expect_refused(scene("forbidden"), "bad_scene");
 }
 

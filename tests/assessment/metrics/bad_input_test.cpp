@@ -8,6 +8,7 @@
 
 #include "assessment/metrics/quality.h"
 #include "assessment/metrics/registry.h"
+#include "sim/base/rng.h"
 #include "tests/assessment/metrics/sample_attempts.h"
 
 namespace seldinger::assessment {
@@ -371,6 +372,36 @@ TEST(BadTrajectory, SessionOverMidnight) {
     if (metric.value) {
       EXPECT_NEAR(*metric.value, *night[id.c_str()], 1e-6 * (1.0 + std::abs(*metric.value))) << id;
     }
+  }
+}
+
+// Whatever comes: jumps, rests, gaps, any direction, structures anywhere. measured() asserts.
+TEST(BadTrajectory, AnyWayStaysFinite) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    base::Rng rng(seed);
+    const auto anywhere = [&](double mm) {
+      return mm * glm::dvec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5);
+    };
+    const auto direction = [&] {
+      const glm::dvec3 v = anywhere(2.0);
+      return glm::length(v) > 1e-3 ? glm::normalize(v) : glm::dvec3(1, 0, 0);
+    };
+    auto sample = usual(kSampleKinds[seed % std::size(kSampleKinds)]);
+    for (cases::Structure& structure : sample.structures)
+      structure.shape = cases::Sphere{anywhere(100.0), 20.0 * rng.uniform() + 1e-9};
+    sample.setting.target->center_lps_mm = anywhere(100.0);
+    sample.recording.poses.resize(1 + static_cast<std::size_t>(rng.uniform() * 400.0));
+    glm::dvec3 tip = anywhere(100.0);
+    double t_s = 0.0;
+    for (auto& pose : sample.recording.poses) {
+      t_s += rng.uniform() < 0.02 ? rng.uniform() : 0.001 + 0.02 * rng.uniform();
+      if (rng.uniform() < 0.05) tip = anywhere(rng.uniform() < 0.5 ? 100.0 : 1e4);
+      if (rng.uniform() < 0.7) tip += anywhere(2.0);
+      pose = {t_s, tip, direction(), anywhere(100.0), direction(), direction()};
+    }
+    sample.recording.endpoint = endpoint_of(sample.recording.poses.back());
+    if (rng.uniform() < 0.3) sample.recording.endpoint.reset();
+    EXPECT_EQ(measured(sample).error, "") << seed;
   }
 }
 
