@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "casedb/authoring.h"
 #include "casedb/bundle_rows.h"
 #include "casedb/check.h"
 #include "casedb/migrate.h"
@@ -28,8 +29,15 @@ class BundleTest : public testing::Test {
     labelled.labels = sample_labels();
     case_id_ = add_case(home_, labelled);
     lesion_id_ = add_lesion(home_, case_id_, sample_lesion()).value();
-    home_.database().run("UPDATE training_case SET state = 'published'");
+    StructureRow vein;
+    vein.case_id = case_id_;
+    vein.name = "vein";
+    vein.tissue = volume::TissueClass::vessel;
+    vein.drawn = cases::Sphere{sample_lesion().center_lps_mm, 0.25};
+    vein.hu = 43.0;
+    static_cast<void>(add_structure(home_, vein).value());
   }
+  void publish() { home_.database().run("UPDATE training_case SET state = 'published'"); }
   void write() { ASSERT_TRUE(write_bundle(home_, {case_id_}, file_, "0.1.0").has_value()); }
   std::string refusal() {
     const auto cases = import_bundle(away_, file_);
@@ -38,6 +46,7 @@ class BundleTest : public testing::Test {
 };
 
 TEST_F(BundleTest, ACaseIsTheSameElsewhere) {
+  publish();  // to which nothing can be added: all that belongs to it comes before it
   write();
   const Bundle told = check_bundle(file_).value();
   EXPECT_EQ(told.case_ids, std::vector{case_id_});
@@ -58,6 +67,10 @@ TEST_F(BundleTest, ACaseIsTheSameElsewhere) {
   EXPECT_EQ(load_classes(away_, row).value(), load_classes(home_, original).value());
   const LesionRow lesion = list_lesions(away_, case_id_).at(0);
   EXPECT_EQ(lesion.lesion_id, lesion_id_);
+  ASSERT_EQ(list_structures(away_, case_id_).size(), 1U);
+  EXPECT_EQ(list_structures(away_, case_id_)[0].name, "vein");
+  EXPECT_TRUE(refused_by_constraint([&] { away_.database().run("DELETE FROM structure"); }))
+      << "published here too";
   EXPECT_TRUE(same_bits(lesion.lesion.center_lps_mm, sample_lesion().center_lps_mm));
   EXPECT_EQ(bytes_from_rows(away_.database(), case_id_), bytes_from_rows(home_.database(), case_id_));
   EXPECT_TRUE(check_library(away_.folder(), false).value().holds());
@@ -74,8 +87,8 @@ TEST_F(BundleTest, ACaseThatIsThereAlreadyIsLeftAlone) {
   write();
   ASSERT_EQ(refusal(), "none");
   // What people here may do with a case does not make it another.
-  away_.database().run("UPDATE training_case SET title = 'Ours', state = 'retired'");
   static_cast<void>(add_lesion(away_, case_id_, sample_lesion()).value());
+  away_.database().run("UPDATE training_case SET title = 'Ours', state = 'retired'");
   const auto before = state_of(away_);
   const auto again = import_bundle(away_, file_).value();
   EXPECT_TRUE(again.stored.empty());
