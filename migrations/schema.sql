@@ -48,6 +48,35 @@ CREATE TABLE case_attribute (
   UNIQUE (case_id, name)
 ) STRICT;
 
+CREATE TABLE case_decision (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  position INTEGER NOT NULL CHECK (position >= 0),
+  decision TEXT NOT NULL CHECK (decision IN ('made', 'submitted', 'returned', 'approved', 'published', 'retired')),
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  note TEXT NOT NULL,
+  decided_us INTEGER NOT NULL,
+  PRIMARY KEY (case_id, position)
+) STRICT;
+
+CREATE TABLE case_dropped (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id) ON DELETE CASCADE,
+  position INTEGER NOT NULL CHECK (position >= 0),
+  tag TEXT NOT NULL,
+  keyword TEXT NOT NULL, -- of the de-identification table; empty where it has none
+  reason TEXT NOT NULL CHECK (reason IN ('not_on_the_list', 'private', 'value_not_accepted')),
+  count INTEGER NOT NULL CHECK (count > 0),
+  PRIMARY KEY (case_id, position)
+) STRICT;
+
+CREATE TABLE case_label_map (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  position INTEGER NOT NULL CHECK (position >= 0),
+  labels_sha256 TEXT NOT NULL CHECK (length(labels_sha256) = 64), -- a file of assets/
+  created_us INTEGER NOT NULL,
+  PRIMARY KEY (case_id, position),
+  UNIQUE (case_id, labels_sha256)
+) STRICT;
+
 CREATE TABLE case_warning (
   case_id TEXT NOT NULL REFERENCES training_case (case_id),
   position INTEGER NOT NULL CHECK (position >= 0),
@@ -64,7 +93,8 @@ CREATE TABLE lesion (
   center_z_lps_mm REAL NOT NULL,
   radius_mm REAL NOT NULL CHECK (radius_mm > 0),
   hu REAL NOT NULL,
-  created_us INTEGER NOT NULL,
+  created_us INTEGER NOT NULL, kind TEXT NOT NULL DEFAULT 'sphere'
+  CHECK (kind IN ('sphere', 'ellipsoid', 'irregular')), radius_x_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_x_mm, 0) > 0)), radius_y_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_y_mm, 0) > 0)), radius_z_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_z_mm, 0) > 0)), roughness REAL NOT NULL DEFAULT 0.0 CHECK (roughness >= 0), seed INTEGER NOT NULL DEFAULT 1, adds INTEGER NOT NULL DEFAULT 0 CHECK (adds IN (0, 1)), edge_mm REAL NOT NULL DEFAULT 0.0 CHECK (edge_mm >= 0),
   UNIQUE (lesion_id, case_id) -- so that an attempt's lesion is one of its case
 ) STRICT;
 
@@ -140,6 +170,25 @@ CREATE TABLE servo_record (
   compute BLOB NOT NULL
 ) STRICT;
 
+CREATE TABLE structure (
+  structure_id TEXT NOT NULL PRIMARY KEY CHECK (length(structure_id) = 36),
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  position INTEGER NOT NULL CHECK (position >= 0), -- later ones are painted over earlier ones
+  title TEXT NOT NULL CHECK (title <> ''),
+  rule TEXT NOT NULL CHECK (rule IN ('advisory', 'major', 'critical', 'must_cross', 'organ', 'target')),
+  tissue TEXT NOT NULL CHECK (tissue <> ''),
+  kind TEXT NOT NULL CHECK (kind IN ('class', 'label', 'drawn')),
+  geometry TEXT CHECK (geometry <> ''), -- drawn: casedb/structure_json.h
+  hu REAL, -- drawn: what is painted; null: what the CT says stays
+  labels_sha256 TEXT CHECK (length(labels_sha256) = 64), -- label: the case's own map or one of case_label_map
+  label INTEGER CHECK (label BETWEEN 1 AND 255),
+  created_us INTEGER NOT NULL,
+  UNIQUE (case_id, position),
+  UNIQUE (case_id, title),
+  CHECK ((kind = 'drawn') = (geometry IS NOT NULL) AND (kind = 'drawn' OR hu IS NULL)),
+  CHECK ((kind = 'label') = (labels_sha256 IS NOT NULL) AND (kind = 'label') = (label IS NOT NULL))
+) STRICT;
+
 CREATE TABLE training_case (
   case_id TEXT NOT NULL PRIMARY KEY CHECK (length(case_id) = 36),
   title TEXT NOT NULL, -- given by a person, never by the source
@@ -173,9 +222,19 @@ CREATE TABLE training_case (
   skin_sha256 TEXT NOT NULL CHECK (length(skin_sha256) = 64),
   labels_sha256 TEXT CHECK (length(labels_sha256) = 64), -- null: no labels
   modality TEXT NOT NULL DEFAULT 'mpr' CHECK (modality IN ('mpr', 'xray', 'ultrasound')), -- what it is practised with
-  patient_position TEXT NOT NULL DEFAULT 'supine' CHECK (patient_position IN ('supine', 'prone')),
   classes_sha256 TEXT CHECK (length(classes_sha256) = 64) -- null: from before schema 3
-) STRICT;
+, patient_position TEXT NOT NULL DEFAULT 'supine'
+  CHECK (patient_position IN ('supine', 'prone', 'lateral_left', 'lateral_right')), further_modalities TEXT NOT NULL DEFAULT '', approach TEXT NOT NULL DEFAULT 'in_plane'
+  CHECK (approach IN ('in_plane', 'out_of_plane')), instrument_kind TEXT NOT NULL DEFAULT 'access'
+  CHECK (instrument_kind IN ('access', 'core')), instrument_length_mm REAL NOT NULL DEFAULT 200.0 CHECK (instrument_length_mm > 0), instrument_radius_mm REAL NOT NULL DEFAULT 0.36 CHECK (instrument_radius_mm > 0), instrument_inner_radius_mm REAL NOT NULL DEFAULT 0.0, instrument_hu REAL NOT NULL DEFAULT 3000.0, instrument_throw_mm REAL NOT NULL DEFAULT 22.0 CHECK (instrument_throw_mm >= 0), instrument_notch_mm REAL NOT NULL DEFAULT 18.0 CHECK (instrument_notch_mm >= 0), instrument_dead_tip_mm REAL NOT NULL DEFAULT 4.0
+  CHECK (instrument_dead_tip_mm >= 0), inr REAL CHECK (inr > 0), platelets_per_nl REAL CHECK (platelets_per_nl >= 0), allergy TEXT NOT NULL DEFAULT '', indication TEXT NOT NULL DEFAULT '', decision TEXT NOT NULL DEFAULT 'proceed' CHECK (decision IN ('proceed', 'defer')), planned_entry_x_lps_mm REAL, planned_entry_y_lps_mm REAL, planned_entry_z_lps_mm REAL
+  CHECK ((planned_entry_x_lps_mm IS NULL) = (planned_entry_z_lps_mm IS NULL)
+    AND (planned_entry_y_lps_mm IS NULL) = (planned_entry_z_lps_mm IS NULL)), difficulty TEXT NOT NULL DEFAULT 'moderate'
+  CHECK (difficulty IN ('easy', 'moderate', 'hard')), time_limit_s REAL CHECK (time_limit_s > 0), attempt_limit INTEGER CHECK (attempt_limit > 0), pass_rule TEXT CHECK (pass_rule <> ''), family_id TEXT CHECK (length(family_id) = 36), version INTEGER NOT NULL DEFAULT 1
+  CHECK (version > 0 AND (version = 1) = (family_id IS NULL)), audience TEXT NOT NULL DEFAULT 'everyone'
+  CHECK (audience IN ('everyone', 'own_cohort')), face_state TEXT NOT NULL DEFAULT 'unchecked'
+  CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
+  CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL)) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
@@ -184,6 +243,8 @@ CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
 CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
+
+CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
 
 CREATE VIEW attempt_summary AS
 SELECT attempt.*, training_case.title AS case_title, lesion.center_x_lps_mm, lesion.center_y_lps_mm,
@@ -202,9 +263,31 @@ BEGIN
   SELECT RAISE(ABORT, 'an attempt cannot be deleted');
 END;
 
+CREATE TRIGGER case_decision_is_immutable BEFORE UPDATE ON case_decision
+BEGIN
+  SELECT RAISE(ABORT, 'a decision cannot be changed');
+END;
+
+CREATE TRIGGER case_decision_is_kept BEFORE DELETE ON case_decision
+BEGIN
+  SELECT RAISE(ABORT, 'a decision cannot be deleted');
+END;
+
+CREATE TRIGGER lesion_comes_to_a_draft BEFORE INSERT ON lesion
+WHEN (SELECT state FROM training_case WHERE training_case.case_id = NEW.case_id) <> 'draft'
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft is changed: make a new version');
+END;
+
 CREATE TRIGGER lesion_is_immutable BEFORE UPDATE ON lesion
 BEGIN
   SELECT RAISE(ABORT, 'a lesion cannot be changed');
+END;
+
+CREATE TRIGGER lesion_leaves_a_draft BEFORE DELETE ON lesion
+WHEN (SELECT state FROM training_case WHERE training_case.case_id = OLD.case_id) <> 'draft'
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft is changed: make a new version');
 END;
 
 CREATE TRIGGER metric_value_is_immutable BEFORE UPDATE ON metric_value
@@ -237,6 +320,40 @@ BEGIN
   SELECT RAISE(ABORT, 'a servo record cannot be deleted');
 END;
 
+CREATE TRIGGER structure_comes_to_a_draft BEFORE INSERT ON structure
+WHEN (SELECT state FROM training_case WHERE training_case.case_id = NEW.case_id) <> 'draft'
+  OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = NEW.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = NEW.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER structure_is_immutable BEFORE UPDATE ON structure
+BEGIN
+  SELECT RAISE(ABORT, 'a structure cannot be changed');
+END;
+
+CREATE TRIGGER structure_leaves_a_draft BEFORE DELETE ON structure
+WHEN (SELECT state FROM training_case WHERE training_case.case_id = OLD.case_id) <> 'draft'
+  OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER training_case_goes_forward BEFORE UPDATE OF state ON training_case
+WHEN (OLD.state = 'published' AND NEW.state NOT IN ('published', 'retired'))
+  OR (OLD.state = 'retired' AND NEW.state <> 'retired')
+BEGIN
+  SELECT RAISE(ABORT, 'a published case is not changed: make a new version');
+END;
+
+CREATE TRIGGER training_case_keeps_its_burned_in_check BEFORE UPDATE OF burned_in_checked_us ON training_case
+WHEN OLD.burned_in_checked_us IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'a confirmation cannot be changed');
+END;
+
 CREATE TRIGGER training_case_keeps_its_classes BEFORE UPDATE OF classes_sha256 ON training_case
 BEGIN
   SELECT RAISE(ABORT, 'the tissue classes of a case cannot be changed');
@@ -252,7 +369,35 @@ BEGIN
   SELECT RAISE(ABORT, 'the data of a case cannot be changed');
 END;
 
-CREATE TRIGGER training_case_keeps_its_guidance BEFORE UPDATE OF modality, patient_position ON training_case
+CREATE TRIGGER training_case_keeps_its_face_state BEFORE UPDATE OF face_state ON training_case
 BEGIN
-  SELECT RAISE(ABORT, 'the guidance of a case cannot be changed');
+  SELECT RAISE(ABORT, 'the face state of a case cannot be changed');
+END;
+
+CREATE TRIGGER training_case_keeps_its_place BEFORE UPDATE OF family_id, version ON training_case
+BEGIN
+  SELECT RAISE(ABORT, 'the version of a case cannot be changed');
+END;
+
+CREATE TRIGGER training_case_keeps_its_setting
+BEFORE UPDATE OF modality, patient_position, further_modalities, approach, instrument_kind, instrument_length_mm,
+  instrument_radius_mm, instrument_inner_radius_mm, instrument_hu, instrument_throw_mm, instrument_notch_mm,
+  instrument_dead_tip_mm, inr, platelets_per_nl, allergy, indication, decision, planned_entry_x_lps_mm,
+  planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty, time_limit_s, attempt_limit, pass_rule
+ON training_case
+WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER training_case_published_is_kept BEFORE DELETE ON training_case WHEN OLD.state = 'published'
+BEGIN
+  SELECT RAISE(ABORT, 'a published case is retired, not deleted');
+END;
+
+CREATE TRIGGER training_case_published_keeps_its_name BEFORE UPDATE OF title, audience ON training_case
+WHEN OLD.state IN ('published', 'retired') AND (OLD.title <> NEW.title OR OLD.audience <> NEW.audience)
+BEGIN
+  SELECT RAISE(ABORT, 'a published case is not changed: make a new version');
 END;
