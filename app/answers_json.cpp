@@ -18,6 +18,18 @@ Json maybe(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json burned_in_json(const std::optional<casedb::BurnedInCheck>& check) {
+  if (!check) return nullptr;
+  return {{"checked_us", check->checked_us}, {"person_id", maybe(check->person_id)}};
+}
+
+Json dropped_json(const std::vector<casedb::Dropped>& dropped) {
+  Json list = Json::array();
+  for (const casedb::Dropped& one : dropped)
+    list.push_back({{"tag", one.tag}, {"keyword", one.keyword}, {"reason", one.reason}, {"count", one.count}});
+  return list;
+}
+
 Json case_json(const casedb::CaseParts& parts) {
   const casedb::CaseRow& row = parts.row;
   Json matrix = Json::array();
@@ -41,6 +53,9 @@ Json case_json(const casedb::CaseParts& parts) {
                {"hu_max", row.hu_max},
                {"slices_used", row.slices_used},
                {"attributes", attributes},
+               {"face_state", casedb::name_of(row.face_state)},
+               {"burned_in_checked", burned_in_json(row.burned_in_checked)},
+               {"dropped", dropped_json(row.dropped)},
                {"lesions", all},
                {"warnings", warnings}};
   casedb::add_authoring(parts, json);

@@ -4,6 +4,7 @@
 
 #include "app/answers_json.h"
 #include "app/command.h"
+#include "app/privacy_text.h"
 #include "casedb/authoring.h"
 
 namespace seldinger::app {
@@ -55,6 +56,7 @@ int run_case_show(const Arguments& arguments) {
   for (const auto& [name, value] : row.attributes) std::printf("%s: %s\n", name.c_str(), value.c_str());
   for (const base::Problem& warning : row.warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  std::fputs(privacy_text(row).c_str(), stdout);
   for (const casedb::LesionRow& lesion : parts->lesions) {
     const cases::LesionForm& form = lesion.form;
     std::printf("lesion   %s at %.1f,%.1f,%.1f mm, %s, radius %.1f mm, %s%.0f HU\n", lesion.lesion_id.c_str(),

@@ -123,6 +123,7 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
     static_cast<casedb::CaseSetting&>(made) = wanted.setting;
     made.rule = with_versions(wanted.setting.rule);
     made.title = wanted.title;
+    made.no_burned_in_text = true;  // its CTs are known ones (source_of), looked through when the table was made
     answer.case_id = casedb::add_case(library, made);
     if (const auto added = add_parts(library, wanted, answer.case_id); !added) return added.error();
   }

@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "casedb/import/allow_list.h"
 #include "web/routes.h"
 
 namespace seldinger::app {
@@ -19,6 +20,10 @@ int run_help(const Arguments& arguments) {
   }
   if (arguments.has("--routes")) {
     std::fputs(web::routes_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--attributes")) {
+    std::fputs(casedb::allow_list_markdown().c_str(), stdout);
     return kDone;
   }
   std::string wanted;

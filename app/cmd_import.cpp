@@ -5,8 +5,32 @@
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/import_case.h"
+#include "app/privacy_text.h"
 
 namespace seldinger::app {
+
+namespace {
+
+casedb::FaceChoice face_choice(const std::string& text) {
+  if (text == "refuse") return casedb::FaceChoice::refuse;
+  if (text == "crop") return casedb::FaceChoice::crop;
+  if (text == "deface") return casedb::FaceChoice::deface;
+  throw UsageError("--face is refuse, crop or deface");
+}
+
+// Who may say that no text is burned in.
+base::Result<std::string> confirming_person(casedb::Library& library, const std::string& name) {
+  for (const casedb::Account& account : casedb::list_users(library)) {
+    if (account.login_name != name || !account.enabled) continue;
+    const bool may = account.role == casedb::Role::mentor || account.role == casedb::Role::director ||
+                     account.role == casedb::Role::admin;
+    if (may) return account.person_id;
+    return base::Error{"not_allowed", "a mentor, director or admin confirms that no text is burned in"};
+  }
+  return base::Error{"no_user", "there is no open account of that name"};
+}
+
+}  // namespace
 
 int run_import(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
@@ -16,8 +40,21 @@ int run_import(const Arguments& arguments) {
   if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
   std::optional<std::string> series;
   if (arguments.has("--series")) series = arguments.text("--series");
-  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import");
+  const casedb::FaceChoice face = face_choice(arguments.text("--face", "refuse"));
+  if (arguments.has("--by") && !arguments.has("--no-burned-in-text"))
+    throw UsageError("--by goes with --no-burned-in-text");
+  std::optional<std::string> confirmed_by;
+  if (arguments.has("--by")) {
+    auto library = casedb::Library::open(folder);
+    if (!library) return refuse(library.error());
+    auto person = confirming_person(*library, arguments.text("--by"));
+    if (!person) return refuse(person.error());
+    confirmed_by = std::move(*person);
+  }
+  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face);
   if (!imported) return refuse(imported.error());
+  imported->no_burned_in_text = arguments.has("--no-burned-in-text");
+  imported->burned_in_checked_by = confirmed_by;
   imported->modality = *modality;
   imported->position = *position;
   auto library = casedb::Library::open_or_create(folder);
@@ -34,6 +71,7 @@ int run_import(const Arguments& arguments) {
               row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max, row->slices_used);
   for (const base::Problem& warning : row->warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  std::fputs(privacy_text(*row).c_str(), stdout);
   return kDone;
 }
 

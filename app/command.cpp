@@ -10,15 +10,25 @@ namespace {
 constexpr Option kLibrary{"--library", "DIR", "the library's folder"};
 constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
 
-constexpr Option kHelpOptions[] = {{"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
-                                   {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
-                                   {"--routes", nullptr, "print the table of web routes (docs/routes.md)"}};
+constexpr Option kHelpOptions[] = {
+    {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+    {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
+    {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
+    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"}};
 constexpr Option kImportOptions[] = {
     kLibrary,
     {"--title", "TEXT", "the case's title; never taken from the source"},
     {"--series", "UID|N", "which series, when the folder holds several"},
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
+    {"--face", "refuse|crop|deface",
+     "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"},
+    kJson};
+constexpr Option kDeidentifyOptions[] = {
+    {"--key", "FILE",
+     "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
     kJson};
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
@@ -210,6 +220,11 @@ constexpr Command kCommands[] = {
     {"case retire", "CASE", 1, 1, kRetireOptions, "Retires a published case; its attempts stay.", &run_case_retire},
     {"case version", "CASE", 1, 1, kVersionOptions, "Makes the next version of a case, as a draft.",
      &run_case_version},
+    {"deidentify", "IN OUT", 2, 2, kDeidentifyOptions,
+     "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, into a "
+     "new "
+     "folder. Pixels stay as they are.",
+     &run_deidentify},
     {"case bundle", "CASE", 1, 1, kBundleOptions,
      "Writes a case as one checked file for another library; attempts and people stay.", &run_case_bundle},
     {"bundle export", "", 0, 0, kBundleOptions, "Writes every case of a library as one such file.",

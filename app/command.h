@@ -60,6 +60,7 @@ int run_case_review(const Arguments& arguments);
 int run_case_publish(const Arguments& arguments);
 int run_case_retire(const Arguments& arguments);
 int run_case_version(const Arguments& arguments);
+int run_deidentify(const Arguments& arguments);
 int run_render(const Arguments& arguments);
 int run_sheet(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);

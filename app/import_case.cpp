@@ -43,10 +43,12 @@ class TemporaryFolder {
 
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin) {
+                                          const std::string& origin, casedb::FaceChoice face) {
   progress("reading the volume");
   auto read = casedb::read_source(source, series);
   if (!read) return read.error();
+  const auto face_state = casedb::settle_face(read->volume, face, read->says_head);
+  if (!face_state) return face_state.error();
   progress("making the skin");
   auto skin = casedb::skin_surface(read->volume);
   if (!skin) return skin.error();
@@ -61,6 +63,8 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   made.attributes = std::move(read->attributes);
   made.warnings = std::move(read->warnings);
   made.slices_used = read->slices_used;
+  made.face_state = *face_state;
+  made.dropped = std::move(read->dropped);
   return made;
 }
 
@@ -85,6 +89,7 @@ base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces) {
                                                                     : "Built-in torso";
   auto imported = import_case(folder.path(), {}, title, phantom_origin(calyces));
   if (imported) imported->labels = std::move(phantom.labels);
+  if (imported) imported->no_burned_in_text = true;  // we made every voxel
   return imported;
 }
 

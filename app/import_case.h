@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "casedb/import/face.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
 #include "sim/volume/phantom.h"
@@ -14,7 +15,8 @@ namespace seldinger::app {
 // An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin);
+                                          const std::string& origin,
+                                          casedb::FaceChoice face = casedb::FaceChoice::refuse);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
 base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);

@@ -90,6 +90,16 @@ std::string sha256_hex(std::span<const std::byte> bytes) {
   return hash.hex();
 }
 
+std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) noexcept {
+  static_assert(std::tuple_size_v<HashKey> == crypto_generichash_KEYBYTES);
+  start_sodium();
+  std::array<std::byte, 16> hash{};
+  crypto_generichash(reinterpret_cast<unsigned char*>(hash.data()), hash.size(),
+                     reinterpret_cast<const unsigned char*>(text.data()), text.size(),
+                     reinterpret_cast<const unsigned char*>(key.data()), key.size());
+  return hash;
+}
+
 void wipe(std::string& secret) noexcept {
   sodium_memzero(secret.data(), secret.size());
   secret.clear();

@@ -1,10 +1,12 @@
 // Passwords, random numbers that nobody guesses, and SHA-256: the door of libsodium.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace seldinger::casedb {
 
@@ -34,6 +36,9 @@ class Sha256 {
   struct State;
   std::unique_ptr<State> state_;
 };
+// 16 bytes that say nothing of `text` to who does not know the key (BLAKE2b, RFC 7693, keyed).
+using HashKey = std::array<std::byte, 32>;
+std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) noexcept;
 void wipe(std::string& secret) noexcept;  // overwrites, then empties
 
 }  // namespace seldinger::casedb

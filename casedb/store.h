@@ -12,6 +12,7 @@
 #include "assessment/metrics/metric.h"
 #include "casedb/case_setting.h"
 #include "casedb/library.h"
+#include "casedb/privacy.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/lesion_form.h"
@@ -44,6 +45,10 @@ struct NewCase : CaseSetting {
   std::vector<std::pair<std::string, std::string>> attributes;  // the allow-list, name → value
   std::vector<base::Problem> warnings;
   int slices_used = 0;
+  FaceState face_state = FaceState::unchecked;
+  bool no_burned_in_text = false;                   // somebody looked
+  std::optional<std::string> burned_in_checked_by;  // person_id, when it was a person of this library
+  std::vector<Dropped> dropped;
 };
 
 struct CaseRow : CaseSetting {
@@ -60,6 +65,9 @@ struct CaseRow : CaseSetting {
   std::string family_id;  // the case_id of version 1
   int version = 1;
   bool own_cohort_only = false;  // published without a second person's review
+  FaceState face_state = FaceState::unchecked;
+  std::optional<BurnedInCheck> burned_in_checked;  // nothing: nobody has confirmed that no text is burned in
+  std::vector<Dropped> dropped;
 };
 
 struct LesionRow {
@@ -79,6 +87,11 @@ base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row)
 // One class per voxel, as add_case stored them. A case from before schema 3 has none: they are computed, in about a
 // second for 512 x 512 x 100 voxels.
 base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row);
+
+// Keeps that a person (or nobody known) looked through the slices and saw no text: `no_case`, `no_person`. The
+// first confirmation stays.
+base::Result<void> confirm_no_burned_in_text(Library& library, const std::string& case_id,
+                                             const std::optional<std::string>& person_id);
 
 // `no_case`, `not_a_draft`, `bad_lesion` (radius or numbers not sound, centre outside the volume, larger than the
 // volume).

@@ -41,6 +41,9 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
   insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
   bind_setting(insert, new_case);
+  insert.bind("face_state", name_of(new_case.face_state));
+  insert.bind("burned_in_checked_us", new_case.no_burned_in_text ? std::optional(created_us) : std::nullopt);
+  insert.bind("burned_in_checked_by", new_case.burned_in_checked_by);
   insert.bind_null("family_id").bind("version", 1);
   insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
 
@@ -57,6 +60,15 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
         .bind("position", static_cast<std::int64_t>(i))
         .bind("code", new_case.warnings[i].code)
         .bind("text", new_case.warnings[i].text)
+        .run();
+  Statement dropped = question(database, "add_case_dropped");
+  for (std::size_t i = 0; i < new_case.dropped.size(); ++i)
+    dropped.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("tag", new_case.dropped[i].tag)
+        .bind("keyword", new_case.dropped[i].keyword)
+        .bind("reason", new_case.dropped[i].reason)
+        .bind("count", new_case.dropped[i].count)
         .run();
 }
 
@@ -97,6 +109,11 @@ CaseRow read_case(const Statement& from) {
   row.family_id = from.is_null("family_id") ? row.case_id : from.text("family_id");
   row.version = from.small_integer("version");
   row.own_cohort_only = from.text("audience") == "own_cohort";
+  row.face_state = *face_state_from(from.text("face_state"));  // the schema takes no others
+  if (!from.is_null("burned_in_checked_us")) {
+    row.burned_in_checked = BurnedInCheck{from.integer("burned_in_checked_us"), {}};
+    if (!from.is_null("burned_in_checked_by")) row.burned_in_checked->person_id = from.text("burned_in_checked_by");
+  }
   return row;
 }
 
@@ -124,6 +141,11 @@ std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::strin
   Statement warnings = question(database, "case_warnings");
   for (warnings.bind("case_id", case_id); warnings.step();)
     if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
+  Statement dropped = question(database, "case_dropped");
+  for (dropped.bind("case_id", case_id); dropped.step();)
+    if (belongs(dropped))
+      row->dropped.push_back(
+          {dropped.text("tag"), dropped.text("keyword"), dropped.text("reason"), dropped.integer("count")});
   return rows;
 }
 
@@ -249,6 +271,24 @@ base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, co
   if (labels->label.size() != volume->hu.size())
     return base::Error{"damaged", "the stored labels are not the volume's"};
   return volume::tissue_classes(*volume, &*labels);
+}
+
+base::Result<void> confirm_no_burned_in_text(Library& library, const std::string& case_id,
+                                             const std::optional<std::string>& person_id) {
+  Transaction transaction(library.database());
+  if (const auto row = find_case(library, case_id); !row) return row.error();
+  if (person_id) {
+    Statement person = question(library.database(), "person_exists");
+    CHECK(person.bind("person_id", *person_id).step());
+    if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+  }
+  question(library.database(), "confirm_no_burned_in_text")
+      .bind("case_id", case_id)
+      .bind("checked_us", now_us())
+      .bind("person_id", person_id)
+      .run();
+  transaction.commit();
+  return {};
 }
 
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion) {

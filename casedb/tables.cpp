@@ -8,14 +8,13 @@ namespace {
 
 constexpr std::string_view kAssetEnding = "_sha256";
 constexpr std::string_view kOfCase = "case_id = :case_id";
-constexpr std::array<std::string_view, 3> kChanging{"title", "state", "audience"};
+// Also that somebody looked for burned-in text: here, or in the library that it came from.
+constexpr std::array<std::string_view, 5> kChanging{"title", "state", "audience", "burned_in_checked_us",
+                                                    "burned_in_checked_by"};
 
 constexpr TravellingTable kTravelling[] = {
-    {"training_case", kOfCase, kChanging},
-    {"case_attribute", kOfCase, {}},
-    {"case_warning", kOfCase, {}},
-    {"lesion", kOfCase, {}},
-    {"structure", kOfCase, {}},
+    {"training_case", kOfCase, kChanging}, {"case_attribute", kOfCase, {}}, {"case_warning", kOfCase, {}},
+    {"case_dropped", kOfCase, {}},         {"lesion", kOfCase, {}},         {"structure", kOfCase, {}},
     {"case_label_map", kOfCase, {}},
 };
 constexpr std::string_view kStaying[] = {"person",          "account",      "attempt",

@@ -5,6 +5,7 @@
 #include <gdcmWriter.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include <sstream>
 #include <vector>
 
+#include "casedb/export/uid.h"
 #include "sim/base/failure.h"
 #include "sim/base/hash.h"
 
@@ -24,19 +26,14 @@ constexpr const char* kCtImageStorage = "1.2.840.10008.5.1.4.1.1.2";
 constexpr std::size_t kDecimalString = 16, kLongString = 64;  // PS3.5 §6.2: bytes of a DS, characters of an LO
 constexpr double kRightAngle = 1e-6;                          // |cosine| between axes taken as perpendicular
 
-__extension__ using Uint128 = unsigned __int128;
-
-// A UUID from a hash (version 8, RFC 9562: bits of our own) as a UID (PS3.5 §B.2): at most 44 characters.
+// A UID from a hash.
 std::string uid_from(std::uint64_t content, std::uint64_t role) {
-  const std::uint64_t high = base::hash_combine(base::hash_combine(content, role), std::uint64_t{1});
-  const std::uint64_t low = base::hash_combine(base::hash_combine(content, role), std::uint64_t{2});
-  Uint128 uuid = (high & ~std::uint64_t{0xf000}) | 0x8000;
-  uuid = (uuid << 64) | (low & ~(std::uint64_t{3} << 62)) | (std::uint64_t{2} << 62);
-  std::string uid;
-  for (; uuid != 0; uuid /= 10) uid.push_back(static_cast<char>('0' + static_cast<int>(uuid % 10)));
-  uid += ".52.2";  // all backwards
-  std::reverse(uid.begin(), uid.end());
-  return uid;
+  std::array<std::byte, 16> bits{};
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::uint64_t hash = base::hash_combine(base::hash_combine(content, role), std::uint64_t{half + 1});
+    for (std::size_t i = 0; i < 8; ++i) bits[8 * half + i] = static_cast<std::byte>(hash >> (56 - 8 * i));
+  }
+  return uid_of(bits);
 }
 
 enum UidRole : std::uint64_t { kStudy, kSeries, kFrameOfReference, kFirstInstance };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "casedb/import/allow_list.h"
 #include "casedb/import/byte_count.h"
 
 namespace seldinger::casedb {
@@ -42,6 +43,10 @@ constexpr std::array<DicomTag, 5> kMacros = {0x00189329, 0x00289110, 0x00209113,
 template <std::size_t N>
 bool is_among(DicomTag tag, const std::array<DicomTag, N>& tags) {
   return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+bool is_wanted(DicomTag tag) {
+  return is_among(tag, kWanted) || is_on_allow_list(tag);
 }
 
 bool is_upper(char c) noexcept {
@@ -136,6 +141,8 @@ class Walk {
       if (undefined && element.tag == kItemEnd) return true;
       if ((element.tag >> 16) == 0xFFFE) return stop(DicomState::damaged);
       if (scope.place == Place::data_set && element.tag == kPixels) return pixels(element);
+      if (scope.place == Place::data_set && (element.tag & 0xFFFF) != 0)  // group lengths say nothing
+        file_.tags.push_back(element.tag);
       if (!value(element, scope, depth, end)) return false;
     }
     return true;
@@ -150,7 +157,7 @@ class Walk {
     const bool undefined = element.length == kUndefined;
     if (!undefined && element.length > end - at_) return too_short(end);
     if (undefined || leads_on(element.tag, scope.place)) return items(element, scope, depth, end);
-    if (scope.into != nullptr && scope.place != Place::groups && is_among(element.tag, kWanted))
+    if (scope.into != nullptr && scope.place != Place::groups && is_wanted(element.tag))
       (*scope.into)[element.tag] = {
           element.vr, element.length <= kLongestValue
                           ? std::string(reinterpret_cast<const char*>(file_.bytes.data()) + at_, element.length)
@@ -166,7 +173,7 @@ class Walk {
     if (depth > kDeepest || !may_nest) return stop(DicomState::damaged);
     const Format outer = format_;
     if (sequence.is("UN")) format_ = {false, false};  // PS3.5 §6.2.2 note: implicit little endian inside
-    if (scope.place == Place::data_set && is_among(sequence.tag, kWanted)) file_.values[sequence.tag] = {};
+    if (scope.place == Place::data_set && is_wanted(sequence.tag)) file_.values[sequence.tag] = {};
     const std::size_t stop_at = undefined ? end : at_ + sequence.length;
     bool good = true;
     while (good && (undefined || at_ < stop_at)) {

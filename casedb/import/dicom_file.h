@@ -33,6 +33,7 @@ struct DicomFile {
   bool big_endian = false;
   bool wrong_syntax = false;        // explicit where implicit was promised, or the other way round
   DicomValues values;               // of the wanted elements before the pixels
+  std::vector<DicomTag> tags;       // of all elements of the data set's top level before the pixels
   DicomValues shared;               // of the functional groups: the same for all frames,
   std::vector<DicomValues> frames;  // and each frame's own
   bool has_pixels = false;

@@ -18,34 +18,6 @@ bool is_one_of(const std::string& value, std::span<const char* const> terms) {
   return std::any_of(terms.begin(), terms.end(), [&](const char* term) { return value == term; });
 }
 
-// PS3.3 C.7.3.1.1.2.
-constexpr std::array<const char*, 16> kPositions = {"HFP", "HFS", "HFDR", "HFDL", "FFDR", "FFDL", "FFP",  "FFS",
-                                                    "LFP", "LFS", "RFP",  "RFS",  "AFDR", "AFDL", "PFDR", "PFDL"};
-// The regions of PS3.16 Annex L a CT puncture case can show; any other word may be free text and is dropped.
-constexpr std::array<const char*, 22> kBodyParts = {
-    "ABDOMEN", "ABDOMENPELVIS", "BREAST", "CHEST",  "CHESTABDOMEN", "CHESTABDPELVIS", "CSPINE",    "HEART",
-    "HIP",     "KIDNEY",        "LIVER",  "LSPINE", "LUNG",         "NECK",           "NECKCHEST", "PANCREAS",
-    "PELVIS",  "SHOULDER",      "SPINE",  "THORAX", "TSPINE",       "WHOLEBODY"};
-
-std::string plain_number(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.6g", value);
-  return text.data();
-}
-
-std::vector<std::pair<std::string, std::string>> allowed_attributes(const DicomFile& file) {
-  std::vector<std::pair<std::string, std::string>> kept = {{"modality", "CT"}};
-  if (const std::string part = file.text(0x00180015); is_one_of(part, kBodyParts))
-    kept.emplace_back("body_part_examined", part);
-  if (const auto mm = file.numbers(0x00180050); mm.size() == 1 && mm[0] > 0.0 && mm[0] < 100.0)
-    kept.emplace_back("slice_thickness_mm", plain_number(mm[0]));
-  if (const auto kv = file.numbers(0x00180060); kv.size() == 1 && kv[0] >= 10.0 && kv[0] <= 500.0)
-    kept.emplace_back("tube_voltage_kv", plain_number(kv[0]));
-  if (const std::string position = file.text(0x00185100); is_one_of(position, kPositions))
-    kept.emplace_back("patient_position", position);
-  return kept;
-}
-
 bool has_part(const std::string& image_type, const char* part) {
   return ("\\" + image_type + "\\").find(std::string("\\") + part + "\\") != std::string::npos;
 }
@@ -228,6 +200,7 @@ DicomSlice slice_from(const DicomFile& header) {
   read_pixel_format(header, slice);
   read_values(header, slice);
   slice.attributes = allowed_attributes(header);
+  slice.says_head = says_head(header);
   return slice;
 }
 
@@ -242,6 +215,7 @@ std::vector<DicomSlice> slices_of(const DicomFile& file, const std::filesystem::
       continue;
     }
     slice.file = path;
+    if (slices.empty()) slice.dropped = dropped_elements(file);  // once, however many frames
     if (slice.problems.empty()) {
       const auto pixels = static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y);
       if (!places) places = frame_pixels(file, pixels * static_cast<std::size_t>(slice.bits_allocated / 8));

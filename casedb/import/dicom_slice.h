@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "casedb/import/allow_list.h"
 #include "casedb/import/dicom_file.h"
 #include "sim/base/result.h"
 
@@ -43,7 +44,9 @@ struct DicomSlice {
   double lossy_ratio = 0.0;                                     // as declared; 0 when it is not
   double thickness_mm = 0.0;                                    // 0 when it is not said
   std::vector<std::pair<std::string, std::string>> attributes;  // allow-list, validated
-  std::vector<base::Problem> problems;                          // why this slice cannot be read
+  std::vector<DroppedElement> dropped;                          // a file's first slice tells of all its frames
+  bool says_head = false;
+  std::vector<base::Problem> problems;  // why this slice cannot be read
 };
 
 enum class DicomKind {

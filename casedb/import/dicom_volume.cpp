@@ -177,6 +177,19 @@ void fill(const Slices& slices, const Stack& stack, SliceReader& reader, Problem
 
 }  // namespace
 
+namespace {
+
+void tell_privacy(const Slices& slices, Source& source) {
+  DroppedCount dropped;
+  for (const DicomSlice& slice : slices) {
+    dropped.add(slice.dropped);
+    source.says_head = source.says_head || slice.says_head;
+  }
+  source.dropped = dropped.counts();
+}
+
+}  // namespace
+
 base::Result<Source> volume_of(Slices slices, Problems problems, Warnings warnings) {
   if (slices.size() > kMostSlices) {
     problems.add("too_many_slices", "the series has " + std::to_string(slices.size()) + " slices, more than 4096");
@@ -196,6 +209,7 @@ base::Result<Source> volume_of(Slices slices, Problems problems, Warnings warnin
   Source source;
   source.slices_used = static_cast<int>(slices.size());
   source.attributes = slices.front().attributes;
+  tell_privacy(slices, source);
   volume::Volume& volume = source.volume;
   volume.size_voxels = stack.size_voxels;
   volume.lps_from_voxel = stack.lps_from_voxel;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "casedb/privacy.h"
 #include "sim/base/result.h"
 #include "sim/case/mesh.h"
 #include "sim/volume/volume.h"
@@ -18,6 +19,8 @@ struct Source {
   volume::Volume volume;
   std::vector<std::pair<std::string, std::string>> attributes;  // of the allow-list only
   std::vector<base::Problem> warnings;                          // e.g. single_slice
+  std::vector<Dropped> dropped;                                 // what else the source told, counted
+  bool says_head = false;                                       // the source says it shows a head: a hint only
   int slices_used = 0;
 };
 

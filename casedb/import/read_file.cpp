@@ -195,6 +195,7 @@ base::Result<Source> read_volume_file(const std::filesystem::path& file, FileFor
     problems.add("damaged", "the file cannot be read as what it begins as");
   }
   if (!problems.empty()) return problems.error();
+  source.dropped = dropped_fields(file, format);
   source.slices_used = volume.size_voxels.z;
   if (volume.size_voxels.z == 1) source.warnings.push_back({"single_slice", "the case is one slice"});
   return source;

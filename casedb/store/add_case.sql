@@ -8,7 +8,8 @@ INSERT INTO training_case (
   instrument_kind, instrument_length_mm, instrument_radius_mm, instrument_inner_radius_mm, instrument_hu,
   instrument_throw_mm, instrument_notch_mm, instrument_dead_tip_mm, inr, platelets_per_nl, allergy,
   indication, decision, planned_entry_x_lps_mm, planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty,
-  time_limit_s, attempt_limit, pass_rule, family_id, version
+  time_limit_s, attempt_limit, pass_rule, family_id, version, face_state, burned_in_checked_us,
+  burned_in_checked_by
 ) VALUES (
   :case_id, :title, :state, :origin, :created_us, :size_x_voxels, :size_y_voxels, :size_z_voxels,
   :spacing_x_mm, :spacing_y_mm, :spacing_z_mm, :lps_from_voxel_00, :lps_from_voxel_01, :lps_from_voxel_02,
@@ -19,5 +20,6 @@ INSERT INTO training_case (
   :instrument_inner_radius_mm, :instrument_hu, :instrument_throw_mm, :instrument_notch_mm,
   :instrument_dead_tip_mm, :inr, :platelets_per_nl, :allergy, :indication, :decision,
   :planned_entry_x_lps_mm, :planned_entry_y_lps_mm, :planned_entry_z_lps_mm, :difficulty, :time_limit_s,
-  :attempt_limit, :pass_rule, :family_id, :version
+  :attempt_limit, :pass_rule, :family_id, :version, :face_state, :burned_in_checked_us,
+  :burned_in_checked_by
 )

@@ -274,6 +274,8 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(publish_case(library_, case_id_, "dora", false)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "dora", true));
   EXPECT_EQ(code(publish_case(library_, case_id_, "tim", false)), "not_allowed");
+  EXPECT_EQ(code(publish_case(library_, case_id_, "ann", false)), "burned_in_unchecked");
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish_case(library_, case_id_, "ann", false));
   EXPECT_EQ(state(), "published");
   EXPECT_FALSE(find_case(library_, case_id_).value().own_cohort_only);
@@ -299,6 +301,7 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
 TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
   add_users();
   EXPECT_EQ(code(publish_case(library_, case_id_, "dora", true)), "not_allowed");
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish_case(library_, case_id_, "ann", true));
   EXPECT_TRUE(find_case(library_, case_id_).value().own_cohort_only);
   EXPECT_FALSE(review_of(list_decisions(library_, case_id_)).has_value());
@@ -317,6 +320,7 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
   static_cast<void>(add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0})).value());
   const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish_case(library_, case_id_, "ann", true));
   EXPECT_EQ(code(new_version(library_, case_id_, "tim")), "not_allowed");
   const std::string second = new_version(library_, case_id_, "ann").value();

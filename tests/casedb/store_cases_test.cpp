@@ -32,6 +32,51 @@ TEST_F(StoreCasesTest, KeepsWhatItIsPractisedWithAndHowThePatientLies) {
     })) << change;
 }
 
+TEST_F(StoreCasesTest, KeepsWhatIsKnownOfThePrivacyOfItsSource) {
+  const CaseRow plain = find_case(library_, add_case(library_, sample_case())).value();
+  EXPECT_EQ(plain.face_state, FaceState::unchecked);
+  EXPECT_FALSE(plain.burned_in_checked.has_value());
+  EXPECT_TRUE(plain.dropped.empty());
+  NewCase checked = sample_case();
+  checked.face_state = FaceState::cropped;
+  checked.no_burned_in_text = true;
+  checked.dropped = {{"0009,xxxx", "", "private", 12}, {"0010,0010", "PatientName", "not_on_the_list", 3}};
+  const CaseRow row = find_case(library_, add_case(library_, checked)).value();
+  EXPECT_EQ(row.face_state, FaceState::cropped);
+  ASSERT_TRUE(row.burned_in_checked.has_value());
+  EXPECT_EQ(row.burned_in_checked->checked_us, row.created_us);
+  EXPECT_FALSE(row.burned_in_checked->person_id.has_value());
+  ASSERT_EQ(row.dropped.size(), 2U);
+  EXPECT_EQ(row.dropped[1].tag, "0010,0010");
+  EXPECT_EQ(row.dropped[1].keyword, "PatientName");
+  EXPECT_EQ(row.dropped[1].reason, "not_on_the_list");
+  EXPECT_EQ(row.dropped[0].count, 12);
+  for (const FaceState state : {FaceState::unchecked, FaceState::none, FaceState::cropped, FaceState::defaced})
+    EXPECT_EQ(face_state_from(name_of(state)), state);
+  EXPECT_FALSE(face_state_from("face").has_value());
+}
+
+TEST_F(StoreCasesTest, NoBurnedInTextIsConfirmedOnceByAPersonOrNobodyKnown) {
+  const std::string person = add_user(library_, "ada", Role::mentor, "a long password").value();
+  const std::string case_id = add_case(library_, sample_case());
+  EXPECT_EQ(confirm_no_burned_in_text(library_, "nothing", person).error().code, "no_case");
+  EXPECT_EQ(confirm_no_burned_in_text(library_, case_id, std::string("nobody")).error().code, "no_person");
+  EXPECT_FALSE(find_case(library_, case_id).value().burned_in_checked.has_value());
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id, person));
+  const BurnedInCheck first = find_case(library_, case_id).value().burned_in_checked.value();
+  EXPECT_EQ(first.person_id, person);
+  EXPECT_GT(first.checked_us, 1'600'000'000'000'000);
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id, std::nullopt));
+  const BurnedInCheck still = find_case(library_, case_id).value().burned_in_checked.value();
+  EXPECT_EQ(still.checked_us, first.checked_us);
+  EXPECT_EQ(still.person_id, person);
+  for (const char* change :
+       {"UPDATE training_case SET burned_in_checked_us = 1", "UPDATE training_case SET face_state = 'none'",
+        "INSERT INTO case_dropped SELECT case_id, 0, '0010,0010', '', 'a reason', 1 FROM training_case",
+        "INSERT INTO case_dropped SELECT case_id, 0, '0010,0010', '', 'private', 0 FROM training_case"})
+    EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(change); })) << change;
+}
+
 TEST_F(StoreCasesTest, NamesOfModalitiesAndPositionsComeBack) {
   for (const auto modality : {cases::Modality::mpr, cases::Modality::xray, cases::Modality::ultrasound}) {
     EXPECT_EQ(modality_from(name_of(modality)), modality);

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "casedb/import/allow_list.h"
 #include "web/routes.h"
 
 namespace {
@@ -28,6 +29,10 @@ TEST(Docs, MetricsAreTheRegistry) {
 
 TEST(Docs, RoutesAreTheRegistry) {
   EXPECT_EQ(file("docs/routes.md"), seldinger::web::routes_markdown());
+}
+
+TEST(Docs, AttributesAreTheAllowList) {
+  EXPECT_EQ(file("docs/attributes.md"), seldinger::casedb::allow_list_markdown());
 }
 
 TEST(Docs, HelpNamesEveryCommandAndOption) {

@@ -150,8 +150,11 @@ TEST_F(DicomSeries, OneSliceIsACaseWithAWarning) {
 TEST_F(DicomSeries, AttributesAreOfTheAllowListOnly) {
   auto source = read(write("s", TestDicom::ct_slice(kSize).bytes()));
   ASSERT_TRUE(source);
-  const std::vector<std::pair<std::string, std::string>> expected = {
-      {"modality", "CT"}, {"slice_thickness_mm", "2.5"}, {"tube_voltage_kv", "120"}, {"patient_position", "HFS"}};
+  const std::vector<std::pair<std::string, std::string>> expected = {{"modality", "CT"},
+                                                                     {"image_type", "ORIGINAL PRIMARY AXIAL"},
+                                                                     {"slice_thickness_mm", "2.5"},
+                                                                     {"tube_voltage_kv", "120"},
+                                                                     {"patient_position", "HFS"}};
   EXPECT_EQ(source->attributes, expected);  // the body part is free text here
   source = read(write("s", TestDicom::ct_slice(kSize)
                                .text(0x00180015, "CS", "ABDOMEN")
@@ -159,8 +162,10 @@ TEST_F(DicomSeries, AttributesAreOfTheAllowListOnly) {
                                .text(0x00185100, "CS", "PLANTED")
                                .bytes()));
   ASSERT_TRUE(source);
-  const std::vector<std::pair<std::string, std::string>> fewer = {
-      {"modality", "CT"}, {"body_part_examined", "ABDOMEN"}, {"slice_thickness_mm", "2.5"}};
+  const std::vector<std::pair<std::string, std::string>> fewer = {{"modality", "CT"},
+                                                                  {"image_type", "ORIGINAL PRIMARY AXIAL"},
+                                                                  {"body_part_examined", "ABDOMEN"},
+                                                                  {"slice_thickness_mm", "2.5"}};
   EXPECT_EQ(source->attributes, fewer);
 }
 

@@ -1,0 +1,138 @@
+#include "casedb/export/deidentify.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <span>
+#include <system_error>
+
+#include "casedb/disk.h"
+#include "sim/base/check.h"
+#include "sim/base/failure.h"
+#include "sim/base/hex.h"
+
+namespace seldinger::casedb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 100000;
+
+// Not whole, so that something might be missing from what is handed on without a word.
+bool refuses_all(const std::string& code) {
+  static constexpr const char* kCodes[] = {"not_readable", "truncated", "damaged",
+                                           "too_deep",     "too_large", "unknown_syntax"};
+  return std::any_of(std::begin(kCodes), std::end(kCodes), [&](const char* one) { return code == one; });
+}
+
+base::Result<std::vector<fs::path>> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  fs::recursive_directory_iterator walk(folder, error);
+  for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
+    std::error_code ignored;
+    if (walk->is_regular_file(ignored)) files.push_back(walk->path());
+    if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 100000 files"};
+  }
+  if (error) return base::Error{"not_readable", "the folder cannot be read"};
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Beside what it becomes, so that one rename makes it appear; gone again unless it became that.
+class Unfinished {
+ public:
+  explicit Unfinished(const fs::path& out) {
+    std::array<std::byte, 8> random;
+    fill_random(random);
+    const fs::path whole = fs::absolute(out).lexically_normal();
+    path_ = (whole.has_filename() ? whole : whole.parent_path()).string() + ".unfinished-" +
+            base::hex_from_bytes(random);
+    fs::create_directories(path_);
+  }
+  Unfinished(const Unfinished&) = delete;
+  Unfinished& operator=(const Unfinished&) = delete;
+  ~Unfinished() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const noexcept { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string numbered_name(std::size_t number) {
+  std::array<char, 32> name;
+  std::snprintf(name.data(), name.size(), "image_%06zu.dcm", number);
+  return name.data();
+}
+
+base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>& files, const fs::path& out,
+                                const HashKey& key) {
+  const bool one_file = !fs::is_directory(in);
+  const Unfinished unfinished(out);
+  Deidentified done;
+  std::vector<std::pair<std::string, fs::path>> written;  // by new UID, which is as good as shuffled
+  std::map<std::string, base::Problem> refusals;
+  for (const fs::path& file : files) {
+    auto clean = deidentify_file(file, key);
+    if (!clean) {
+      if (one_file) return clean.error();
+      ++done.left_out[clean.error().code];
+      if (refuses_all(clean.error().code))
+        refusals.try_emplace(clean.error().code, base::Problem{clean.error().code, clean.error().text});
+      continue;
+    }
+    if (!refusals.empty()) continue;
+    for (const auto& [what, count] : clean->counts) done.counts[what] += count;
+    const fs::path path = unfinished.path() / numbered_name(written.size() + 1).insert(0, "new_");
+    write_durably(path, std::as_bytes(std::span(clean->bytes)));
+    written.emplace_back(std::move(clean->sop_instance_uid), path);
+  }
+  if (!refusals.empty()) {
+    base::Error error{refusals.begin()->second.code, refusals.begin()->second.text};
+    for (const auto& [code, problem] : refusals)
+      error.findings.push_back({code, std::to_string(done.left_out[code]) + " of " + std::to_string(files.size()) +
+                                          " files: " + problem.text});
+    return error;
+  }
+  if (written.empty()) {
+    base::Error error{"nothing_left", "no file can be handed on"};
+    for (const auto& [code, count] : done.left_out)
+      error.findings.push_back({code, std::to_string(count) + (count == 1 ? " file" : " files")});
+    return error;
+  }
+  std::sort(written.begin(), written.end());
+  done.files = static_cast<int>(written.size());
+  for (std::size_t i = 0; i < written.size(); ++i)
+    fs::rename(written[i].second, unfinished.path() / numbered_name(i + 1));
+  if (one_file && out.extension() == ".dcm") {
+    fs::rename(unfinished.path() / numbered_name(1), out);
+  } else {
+    sync_folder(unfinished.path());
+    fs::rename(unfinished.path(), fs::absolute(out).lexically_normal());
+  }
+  return done;
+}
+
+}  // namespace
+
+base::Result<Deidentified> deidentify(const fs::path& in, const fs::path& out, const HashKey& key) {
+  try {
+    if (!fs::exists(in)) return base::Error{"not_found", "there is no such file or folder"};
+    if (fs::exists(out) && !(fs::is_directory(out) && fs::is_empty(out)))
+      return base::Error{"out_not_empty", "what is to be written there already is, and is no empty folder"};
+    std::vector<fs::path> files{in};
+    if (fs::is_directory(in)) {
+      auto found = files_below(in);
+      if (!found) return found.error();
+      files = std::move(*found);
+    }
+    return into(in, files, out, key);
+  } catch (const fs::filesystem_error& error) {  // its text holds paths
+    throw base::Failure("disk", "the files cannot be written: " + error.code().message());
+  }
+}
+
+}  // namespace seldinger::casedb
