@@ -58,6 +58,16 @@ CREATE TABLE case_decision (
   PRIMARY KEY (case_id, position)
 ) STRICT;
 
+CREATE TABLE case_dropped (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id) ON DELETE CASCADE,
+  position INTEGER NOT NULL CHECK (position >= 0),
+  tag TEXT NOT NULL,
+  keyword TEXT NOT NULL, -- of the de-identification table; empty where it has none
+  reason TEXT NOT NULL CHECK (reason IN ('not_on_the_list', 'private', 'value_not_accepted')),
+  count INTEGER NOT NULL CHECK (count > 0),
+  PRIMARY KEY (case_id, position)
+) STRICT;
+
 CREATE TABLE case_label_map (
   case_id TEXT NOT NULL REFERENCES training_case (case_id),
   position INTEGER NOT NULL CHECK (position >= 0),
@@ -222,7 +232,9 @@ CREATE TABLE training_case (
     AND (planned_entry_y_lps_mm IS NULL) = (planned_entry_z_lps_mm IS NULL)), difficulty TEXT NOT NULL DEFAULT 'moderate'
   CHECK (difficulty IN ('easy', 'moderate', 'hard')), time_limit_s REAL CHECK (time_limit_s > 0), attempt_limit INTEGER CHECK (attempt_limit > 0), pass_rule TEXT CHECK (pass_rule <> ''), family_id TEXT CHECK (length(family_id) = 36), version INTEGER NOT NULL DEFAULT 1
   CHECK (version > 0 AND (version = 1) = (family_id IS NULL)), audience TEXT NOT NULL DEFAULT 'everyone'
-  CHECK (audience IN ('everyone', 'own_cohort'))) STRICT;
+  CHECK (audience IN ('everyone', 'own_cohort')), face_state TEXT NOT NULL DEFAULT 'unchecked'
+  CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
+  CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL)) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
@@ -336,6 +348,12 @@ BEGIN
   SELECT RAISE(ABORT, 'a published case is not changed: make a new version');
 END;
 
+CREATE TRIGGER training_case_keeps_its_burned_in_check BEFORE UPDATE OF burned_in_checked_us ON training_case
+WHEN OLD.burned_in_checked_us IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'a confirmation cannot be changed');
+END;
+
 CREATE TRIGGER training_case_keeps_its_classes BEFORE UPDATE OF classes_sha256 ON training_case
 BEGIN
   SELECT RAISE(ABORT, 'the tissue classes of a case cannot be changed');
@@ -349,6 +367,11 @@ BEFORE UPDATE OF case_id, origin, created_us, size_x_voxels, size_y_voxels, size
 ON training_case
 BEGIN
   SELECT RAISE(ABORT, 'the data of a case cannot be changed');
+END;
+
+CREATE TRIGGER training_case_keeps_its_face_state BEFORE UPDATE OF face_state ON training_case
+BEGIN
+  SELECT RAISE(ABORT, 'the face state of a case cannot be changed');
 END;
 
 CREATE TRIGGER training_case_keeps_its_place BEFORE UPDATE OF family_id, version ON training_case
