@@ -36,6 +36,9 @@ base::Result<void> remove_structure(Library& library, const std::string& case_id
                                                                                           // `no_structure`
 std::vector<StructureRow> list_structures(Library& library, const std::string& case_id);  // in their order
 
+// Whether structures and setting of a case can be read: asked of rows that come from outside.
+bool authored_rows_are_sound(Sqlite& database, const std::string& case_id);
+
 // A label map beside the case's volume: voxels as many. Adding it changes nothing yet; a structure may be one of
 // its labels. Answers its SHA-256. Refused: `no_case`, `not_a_draft`, `has_attempts`, `bad_labels` (size, names).
 base::Result<std::string> add_label_map(Library& library, const std::string& case_id,

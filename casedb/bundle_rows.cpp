@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "casedb/authoring.h"
 #include "casedb/migrate.h"
 #include "casedb/tables.h"
 #include "casedb/utf8.h"
@@ -228,6 +229,7 @@ base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte
     if (!from.empty() || count_of(*database, travelling_tables().front().name) != 1) return damaged;
     transaction.commit();
     build(*database, schema, newest_version(schema));
+    if (!authored_rows_are_sound(*database, case_id)) return damaged;
   } catch (const Damaged&) {
     return damaged;
   } catch (const DatabaseFailure& failure) {

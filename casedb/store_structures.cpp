@@ -90,6 +90,32 @@ base::Result<void> check_place(Library& library, const CaseRow& row, const Struc
   CHECK(false);
 }
 
+// Nothing when a text in it is not one that the store writes.
+std::optional<StructureRow> read_structure(const Statement& from) {
+  StructureRow row;
+  row.structure_id = from.text("structure_id");
+  row.case_id = from.text("case_id");
+  row.name = from.text("title");
+  const auto rule = cases::structure_rule_from(from.text("rule"));
+  const auto tissue = volume::tissue_of_name(from.text("tissue"));
+  if (!rule || !tissue) return std::nullopt;
+  row.rule = *rule;
+  row.tissue = *tissue;
+  for (std::size_t kind = 0; kind < std::size(kKinds); ++kind)
+    if (from.text("kind") == kKinds[kind]) row.kind = static_cast<StructureKind>(kind);
+  if (row.kind == StructureKind::drawn) {
+    auto shape = shape_from_json(from.text("geometry"));
+    if (!shape) return std::nullopt;
+    row.drawn = std::move(*shape);
+    if (!from.is_null("hu")) row.hu = from.real("hu");
+  }
+  if (row.kind == StructureKind::label) {
+    row.labels_sha256 = from.text("labels_sha256");
+    row.label = from.small_integer("label");
+  }
+  return row;
+}
+
 }  // namespace
 
 std::string name_of(StructureKind kind) {
@@ -143,29 +169,28 @@ std::vector<StructureRow> list_structures(Library& library, const std::string& c
   std::vector<StructureRow> rows;
   Statement from = question(library.database(), "structures_of_case");
   for (from.bind("case_id", case_id); from.step();) {
-    StructureRow& row = rows.emplace_back();
-    row.structure_id = from.text("structure_id");
-    row.case_id = from.text("case_id");
-    row.name = from.text("title");
-    const auto rule = cases::structure_rule_from(from.text("rule"));
-    const auto tissue = volume::tissue_of_name(from.text("tissue"));
-    if (!rule || !tissue) throw base::Failure("database", "a stored structure cannot be read");
-    row.rule = *rule;
-    row.tissue = *tissue;
-    for (std::size_t kind = 0; kind < std::size(kKinds); ++kind)
-      if (from.text("kind") == kKinds[kind]) row.kind = static_cast<StructureKind>(kind);
-    if (row.kind == StructureKind::drawn) {
-      auto shape = shape_from_json(from.text("geometry"));
-      if (!shape) throw base::Failure("database", "a stored structure cannot be read");
-      row.drawn = std::move(*shape);
-      if (!from.is_null("hu")) row.hu = from.real("hu");
-    }
-    if (row.kind == StructureKind::label) {
-      row.labels_sha256 = from.text("labels_sha256");
-      row.label = from.small_integer("label");
-    }
+    auto row = read_structure(from);
+    if (!row) throw base::Failure("database", "a stored structure cannot be read");
+    rows.push_back(std::move(*row));
   }
   return rows;
+}
+
+bool authored_rows_are_sound(Sqlite& database, const std::string& case_id) {
+  Statement structures = question(database, "structures_of_case");
+  for (structures.bind("case_id", case_id); structures.step();)
+    if (!read_structure(structures)) return false;
+  Statement cases = question(database, "cases");
+  for (cases.bind("case_id", case_id); cases.step();) {
+    CaseSetting setting;
+    try {
+      read_setting(cases, setting);
+    } catch (const base::Failure&) {  // its rule
+      return false;
+    }
+    if (!check_setting(setting)) return false;
+  }
+  return true;
 }
 
 base::Result<std::string> add_label_map(Library& library, const std::string& case_id,

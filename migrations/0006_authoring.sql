@@ -48,14 +48,14 @@ ALTER TABLE training_case ADD COLUMN planned_entry_z_lps_mm REAL
 ALTER TABLE training_case ADD COLUMN difficulty TEXT NOT NULL DEFAULT 'moderate'
   CHECK (difficulty IN ('easy', 'moderate', 'hard'));
 ALTER TABLE training_case ADD COLUMN time_limit_s REAL CHECK (time_limit_s > 0); -- null: none
-ALTER TABLE training_case ADD COLUMN attempt_limit INTEGER CHECK (attempt_limit > 0); -- null: none
+ALTER TABLE training_case ADD COLUMN attempt_limit INTEGER CHECK (attempt_limit BETWEEN 1 AND 1000); -- null: none
 ALTER TABLE training_case ADD COLUMN pass_rule TEXT CHECK (pass_rule <> ''); -- assessment/grading/rule_json.h
 
 -- --- versions ---
 -- The case_id of version 1, which need not be in this library; null: this is it.
 ALTER TABLE training_case ADD COLUMN family_id TEXT CHECK (length(family_id) = 36);
 ALTER TABLE training_case ADD COLUMN version INTEGER NOT NULL DEFAULT 1
-  CHECK (version > 0 AND (version = 1) = (family_id IS NULL));
+  CHECK (version BETWEEN 1 AND 1000000 AND (version = 1) = (family_id IS NULL));
 ALTER TABLE training_case ADD COLUMN audience TEXT NOT NULL DEFAULT 'everyone'
   CHECK (audience IN ('everyone', 'own_cohort')); -- of a published one; own_cohort: no second person has reviewed it
 

@@ -239,6 +239,7 @@ TEST_F(BundleTest, FilesThatAreNotWhatTheCaseSaysAreRefused) {
 }
 
 TEST_F(BundleTest, RowsThatTheSchemaRefusesAreRefused) {
+  publish();
   write();
   const auto before = state_of(away_);
   const Parts good = parts_of(file_);
