@@ -82,18 +82,9 @@ const Decision* last_of(const std::vector<Decision>& decisions, DecisionKind kin
   return found;
 }
 
-// A case that comes from a patient is published only when a person has looked for burned-in text. The column comes
-// with de-identification; where the schema has none, nobody can have looked.
-base::Result<void> check_burned_in(Library& library, const CaseRow& row) {
-  if (row.origin != "import") return {};
-  Sqlite& database = library.database();
-  if (database.integer(
-          "SELECT count(*) FROM pragma_table_info('training_case') WHERE name = 'burned_in_checked_us'") == 0)
-    return {};
-  Statement looked = database.prepare(
-      "SELECT burned_in_checked_us IS NOT NULL AS checked FROM training_case WHERE case_id = :case_id");
-  CHECK(looked.bind("case_id", row.case_id).step());
-  if (looked.integer("checked") != 0) return {};
+// A case that comes from a patient is published only when a person has looked for burned-in text.
+base::Result<void> check_burned_in(const CaseRow& row) {
+  if (row.origin != "import" || row.burned_in_checked) return {};
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
 }
 
@@ -203,7 +194,7 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
     return not_allowed("a mentor publishes a case, a director what was reviewed");
   if (!reviewed && !own_cohort)
     return not_allowed("a second person has not approved the case; to his own cohort a mentor may publish it so");
-  if (const auto fit = check_burned_in(library, wanted->row); !fit) return fit.error();
+  if (const auto fit = check_burned_in(wanted->row); !fit) return fit.error();
   decide(library, *wanted, DecisionKind::published, note);
   set_state(library, *wanted, "published", !reviewed);
   transaction.commit();
