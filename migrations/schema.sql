@@ -230,8 +230,8 @@ CREATE TABLE training_case (
   CHECK (instrument_dead_tip_mm >= 0), inr REAL CHECK (inr > 0), platelets_per_nl REAL CHECK (platelets_per_nl >= 0), allergy TEXT NOT NULL DEFAULT '', indication TEXT NOT NULL DEFAULT '', decision TEXT NOT NULL DEFAULT 'proceed' CHECK (decision IN ('proceed', 'defer')), planned_entry_x_lps_mm REAL, planned_entry_y_lps_mm REAL, planned_entry_z_lps_mm REAL
   CHECK ((planned_entry_x_lps_mm IS NULL) = (planned_entry_z_lps_mm IS NULL)
     AND (planned_entry_y_lps_mm IS NULL) = (planned_entry_z_lps_mm IS NULL)), difficulty TEXT NOT NULL DEFAULT 'moderate'
-  CHECK (difficulty IN ('easy', 'moderate', 'hard')), time_limit_s REAL CHECK (time_limit_s > 0), attempt_limit INTEGER CHECK (attempt_limit > 0), pass_rule TEXT CHECK (pass_rule <> ''), family_id TEXT CHECK (length(family_id) = 36), version INTEGER NOT NULL DEFAULT 1
-  CHECK (version > 0 AND (version = 1) = (family_id IS NULL)), audience TEXT NOT NULL DEFAULT 'everyone'
+  CHECK (difficulty IN ('easy', 'moderate', 'hard')), time_limit_s REAL CHECK (time_limit_s > 0), attempt_limit INTEGER CHECK (attempt_limit BETWEEN 1 AND 1000), pass_rule TEXT CHECK (pass_rule <> ''), family_id TEXT CHECK (length(family_id) = 36), version INTEGER NOT NULL DEFAULT 1
+  CHECK (version BETWEEN 1 AND 1000000 AND (version = 1) = (family_id IS NULL)), audience TEXT NOT NULL DEFAULT 'everyone'
   CHECK (audience IN ('everyone', 'own_cohort')), face_state TEXT NOT NULL DEFAULT 'unchecked'
   CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
   CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL)) STRICT;
