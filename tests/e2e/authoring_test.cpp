@@ -15,20 +15,20 @@ using fixtures::run;
 const std::string kProgram = SELDINGER_PROGRAM;
 const std::string kData = SELDINGER_SHARED_DATA_DIR;
 
-// A small body in a MetaImage: a ball of soft tissue of 60 mm radius in air, with a plate of bone in front.
+// A small body in a MetaImage: a trunk of soft tissue of 60 mm radius in air, with a plate of bone in front.
 void write_ball(const std::filesystem::path& file, bool labels) {
   constexpr int kSize = 70;
   std::ofstream out(file, std::ios::binary);
   out << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\nCompressedData = "
          "False\n"
-         "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = -69 -69 -69\nElementSpacing = 2 2 2\nDimSize = 70 70 70\n"
+         "TransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = -207 -69 -69\nElementSpacing = 6 2 2\nDimSize = 70 70 70\n"
          "ElementType = MET_SHORT\nElementDataFile = LOCAL\n";
   for (int k = 0; k < kSize; ++k)
     for (int j = 0; j < kSize; ++j)
       for (int i = 0; i < kSize; ++i) {
-        const double x = -69.0 + 2.0 * i, y = -69.0 + 2.0 * j, z = -69.0 + 2.0 * k;
-        const bool inside = x * x + y * y + z * z <= 60.0 * 60.0;
-        const std::int16_t value = labels ? static_cast<std::int16_t>(x > 20 && x < 30 && inside ? 2 : 0)
+        const double x = -207.0 + 6.0 * i, y = -69.0 + 2.0 * j;
+        const bool inside = x * x / 9.0 + y * y <= 60.0 * 60.0;  // 360 mm wide: no head
+        const std::int16_t value = labels ? static_cast<std::int16_t>(x > 20 && x < 45 && inside ? 2 : 0)
                                           : static_cast<std::int16_t>(!inside     ? -1000
                                                                       : y < -45.0 ? 900
                                                                                   : 50);
@@ -105,11 +105,12 @@ TEST_F(AuthoringCommands, LesionsInBoneAndOutsideAreTold) {
   ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1'").exit_code, 0);
   answer("case lesion " + case_id_ + " --center-mm 0,-52,0 --radius-mm 4 --hu 20 --json");
   EXPECT_NE(failed(check(1)).find("lesion_not_in_bone"), std::string::npos);
-  answer("case lesion " + case_id_ + " --center-mm 0,0,64 --radius-mm 4 --hu 20 --json");
+  answer("case lesion " + case_id_ + " --center-mm 0,64,0 --radius-mm 4 --hu 20 --json");
   EXPECT_NE(failed(check(1)).find("lesion_inside_body"), std::string::npos);
 }
 
 TEST_F(AuthoringCommands, LesionsOfEveryShapeAreAttempted) {
+  ASSERT_EQ(call("case setting " + case_id_ + " --position prone").exit_code, 0);
   for (const char* shape : {"--radii-mm 6,4,8 --hu 300", "--radius-mm 6 --irregular 0.15 --seed 4 --contrast-hu 80",
                             "--radius-mm 6 --hu 200 --edge-mm 3"}) {
     const Json lesion = answer("case lesion " + case_id_ + " --center-mm 0,30,0 " + shape + " --json");
@@ -142,9 +143,9 @@ TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {
   std::string text = fixtures::whole_file(file);
   const std::size_t data = text.find("LOCAL\n") + 6;
   std::string coarse = text.substr(0, data);
-  for (const auto& [from, to] : {std::pair{"ElementSpacing = 2 2 2", "ElementSpacing = 2 2 4"},
+  for (const auto& [from, to] : {std::pair{"ElementSpacing = 6 2 2", "ElementSpacing = 6 2 4"},
                                  {"DimSize = 70 70 70", "DimSize = 70 70 35"},
-                                 {"Offset = -69 -69 -69", "Offset = -69 -69 -68"}})
+                                 {"Offset = -207 -69 -69", "Offset = -207 -69 -68"}})
     coarse.replace(coarse.find(from), std::string(from).size(), to);
   constexpr std::size_t kSlice = 70UL * 70UL * 2UL;
   for (std::size_t k = 0; k < 35; ++k) coarse += text.substr(data + 2 * k * kSlice, kSlice);
@@ -155,7 +156,7 @@ TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {
   EXPECT_NEAR(got / voxels, 1.0, 0.05);
 
   std::string elsewhere = text;
-  elsewhere.replace(elsewhere.find("Offset = -69 -69 -69"), 20, "Offset = -69 -69 -29");
+  elsewhere.replace(elsewhere.find("Offset = -207 -69 -69"), 21, "Offset = -207 -69 -29");
   std::ofstream(scratch_ / "elsewhere.mha", std::ios::binary) << elsewhere;
   EXPECT_EQ(code_of("case label " + case_id_ + " " + (scratch_ / "elsewhere.mha").string()), "labels_elsewhere");
   EXPECT_EQ(code_of("case label " + case_id_ + " " + (scratch_ / "ball.mha").string()), "bad_labels") << "HU";
