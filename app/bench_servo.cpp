@@ -43,7 +43,7 @@ base::Result<void> bench_pair(const ServoScene& torso, const haptics::TwoHands& 
     std::sort(times_ms.begin(), times_ms.end());
     for (const auto& [quantile, share] : {std::pair{"p50", 0.5}, std::pair{"p99.9", 0.999}}) {
       BenchRow row{"haptics",
-                   std::string("servo step, ") + name,
+                   std::string("servo step of ") + name,
                    std::string(quantile) + " of a tick's time, " + what + ", " +
                        std::to_string(torso.scene.skin.triangles.size()) + " triangles",
                    "cpu",

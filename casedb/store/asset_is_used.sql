@@ -4,5 +4,7 @@ SELECT EXISTS (
 ) OR EXISTS (
   SELECT 1 FROM case_label_map WHERE labels_sha256 = :sha256
 ) OR EXISTS (
+  SELECT 1 FROM structure WHERE labels_sha256 = :sha256
+) OR EXISTS (
   SELECT 1 FROM attempt WHERE picture_sha256 = :sha256
 ) AS used

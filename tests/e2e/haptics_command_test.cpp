@@ -172,7 +172,7 @@ TEST(HapticsBench, ChartsBothLawsAgainstThePublishedLines) {
   std::string line;
   int ours = 0, thesis = 0, servo = 0;
   while (std::getline(lines, line)) {
-    if (line.rfind("haptics,servo step, ", 0) == 0) ++servo;
+    if (line.rfind("haptics,servo step of ", 0) == 0) ++servo;
     const std::size_t unit = line.find(",N rms,");
     if (unit == std::string::npos) continue;
     const double error_n = std::strtod(line.c_str() + line.rfind(',', unit - 1) + 1, nullptr);
