@@ -51,7 +51,8 @@ int run_import(const Arguments& arguments) {
     if (!person) return refuse(person.error());
     confirmed_by = std::move(*person);
   }
-  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face);
+  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face,
+                              arguments.has("--denoise"));
   if (!imported) return refuse(imported.error());
   imported->no_burned_in_text = arguments.has("--no-burned-in-text");
   imported->burned_in_checked_by = confirmed_by;
@@ -119,6 +120,18 @@ int run_sample(const Arguments& arguments) {
     else
       std::printf("outside the volume\n");
   }
+  return kDone;
+}
+
+int run_case_confirm(const Arguments& arguments) {
+  if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto person = confirming_person(*library, arguments.required("--by"));
+  if (!person) return refuse(person.error());
+  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), *person);
+  if (!kept) return refuse(kept.error());
+  std::puts("confirmed");
   return kDone;
 }
 

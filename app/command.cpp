@@ -23,9 +23,14 @@ constexpr Option kImportOptions[] = {
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
     {"--face", "refuse|crop|deface",
      "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
+    {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
     {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"},
     kJson};
+constexpr Option kConfirmOptions[] = {
+    kLibrary,
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"}};
 constexpr Option kDeidentifyOptions[] = {
     {"--key", "FILE",
      "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
@@ -213,6 +218,9 @@ constexpr Command kCommands[] = {
      &run_case_setting},
     {"case check", "CASE", 1, 1, kLibraryJson,
      "Tells whether a case is worth an attempt, and what its rule may name; 1 when it is not.", &run_case_check},
+    {"case confirm", "CASE", 1, 1, kConfirmOptions,
+     "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
+     &run_case_confirm},
     {"case review", "CASE", 1, 1, kReviewOptions,
      "Submits a draft to review; with --approve or --return a second person's answer.", &run_case_review},
     {"case publish", "CASE", 1, 1, kPublishOptions,

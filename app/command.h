@@ -44,6 +44,7 @@ int run_sample(const Arguments& arguments);
 int run_case_list(const Arguments& arguments);
 int run_case_show(const Arguments& arguments);
 int run_case_lesion(const Arguments& arguments);
+int run_case_confirm(const Arguments& arguments);
 int run_case_mesh(const Arguments& arguments);
 int run_case_bundle(const Arguments& arguments);
 int run_bundle_export(const Arguments& arguments);

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "casedb/export/dicom_series.h"
+#include "casedb/import/diffusion.h"
 #include "casedb/import/import.h"
 #include "casedb/import/surface.h"
 #include "sim/base/failure.h"
@@ -43,12 +44,16 @@ class TemporaryFolder {
 
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin, casedb::FaceChoice face) {
+                                          const std::string& origin, casedb::FaceChoice face, bool denoise) {
   progress("reading the volume");
   auto read = casedb::read_source(source, series);
   if (!read) return read.error();
   const auto face_state = casedb::settle_face(read->volume, face, read->says_head);
   if (!face_state) return face_state.error();
+  if (denoise) {
+    progress("taking noise away");
+    read->warnings.push_back(casedb::denoise(read->volume));
+  }
   progress("making the skin");
   auto skin = casedb::skin_surface(read->volume);
   if (!skin) return skin.error();

@@ -16,7 +16,8 @@ namespace seldinger::app {
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin,
-                                          casedb::FaceChoice face = casedb::FaceChoice::refuse);
+                                          casedb::FaceChoice face = casedb::FaceChoice::refuse,
+                                          bool denoise = false);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
 base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);

@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace seldinger::casedb {
 
 double stable_step(const volume::Volume& volume) {
   const glm::dvec3& spacing = volume.spacing_mm;
-  return 0.9 * std::min({spacing.x, spacing.y, spacing.z}) / 16.0;
+  return 0.9 * std::min({1.0, spacing.x, spacing.y, spacing.z}) / 16.0;
 }
 
 double noise_sd_hu(const volume::Volume& volume) {
@@ -60,6 +61,15 @@ volume::Volume diffused(const volume::Volume& volume, const DiffusionOptions& op
     made.hu[at] =
         static_cast<std::int16_t>(std::clamp(std::lround(from[at]), long{volume::kAirHu}, long{INT16_MAX}));
   return made;
+}
+
+base::Problem denoise(volume::Volume& volume) {
+  const double before_hu = noise_sd_hu(volume);
+  volume = diffused(volume);
+  char text[128];
+  std::snprintf(text, sizeof text, "asked for: anisotropic diffusion took noise from %.1f to %.1f HU", before_hu,
+                noise_sd_hu(volume));
+  return {"denoised", text};
 }
 
 }  // namespace seldinger::casedb

@@ -3,6 +3,8 @@
 // that is written.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -217,7 +219,18 @@ TEST_F(NoIdentifier, SomebodyWhoMayConfirmsThatNoTextIsBurnedIn) {
   ASSERT_EQ(by_ada.exit_code, 0) << by_ada.err;
   EXPECT_TRUE(Json::parse(by_ada.out).at("burned_in_checked").at("person_id").is_string());
   EXPECT_EQ(by_ada.out.find("ada"), std::string::npos);
-  EXPECT_TRUE(Json::parse(import("").out).at("burned_in_checked").is_null());
+  const Json later = Json::parse(import(" --denoise").out);
+  EXPECT_TRUE(later.at("burned_in_checked").is_null());
+  const auto& warnings = later.at("warnings");
+  EXPECT_TRUE(
+      std::any_of(warnings.begin(), warnings.end(), [](const Json& one) { return one.at("code") == "denoised"; }));
+  const std::string confirm = kProgram + " case confirm " + later.at("case_id").get<std::string>() + to + " --by ";
+  EXPECT_EQ(run(confirm + "ada", folder_ / "run").exit_code, 2) << "what is confirmed is said";
+  EXPECT_EQ(run(confirm + "tom --no-burned-in-text", folder_ / "run").exit_code, 3);
+  EXPECT_EQ(run(confirm + "ada --no-burned-in-text", folder_ / "run").exit_code, 0);
+  const auto shown =
+      run(kProgram + " case show " + later.at("case_id").get<std::string>() + to + " --json", folder_ / "run");
+  EXPECT_TRUE(Json::parse(shown.out).at("burned_in_checked").at("person_id").is_string());
   const auto by_tom = import(" --no-burned-in-text --by tom"), by_nobody = import(" --no-burned-in-text --by eve");
   EXPECT_EQ(by_tom.exit_code, 3);
   EXPECT_EQ(by_tom.err.rfind("error: not_allowed: ", 0), 0U) << by_tom.err;
