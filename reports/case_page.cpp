@@ -1,5 +1,8 @@
 #include "reports/case_page.h"
 
+#include <algorithm>
+
+#include "assessment/metrics/registry.h"
 #include "reports/attempt_words.h"
 #include "reports/metric_words.h"
 
@@ -11,16 +14,35 @@ void add_fact(Html& html, std::string_view name, std::string_view value) {
   html.raw("<tr><th scope=\"row\">").text(name).raw("</th><td>").text(value).raw("</td></tr>\n");
 }
 
+std::string words(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
 std::string state_text(const casedb::CaseRow& row) {
   return row.state + ", version " + std::to_string(row.version) +
          (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
 }
 
 std::string guidance_text(const casedb::CaseRow& row) {
-  std::string text = casedb::name_of(row.modality) + ", " + casedb::name_of(row.approach) + ", patient " +
-                     casedb::name_of(row.position);
+  std::string text = casedb::name_of(row.modality) + ", ";
+  if (row.modality != cases::Modality::xray) text += words(casedb::name_of(row.approach)) + ", ";
+  text += "patient " + words(casedb::name_of(row.position));
   for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
   return text;
+}
+
+// "at least 8.0 mm", "at most 0.0 mm", "Yes".
+std::string bound_text(const assessment::Criterion& criterion) {
+  const assessment::MetricInfo* info = assessment::find_metric(criterion.metric);
+  casedb::MetricValue value{criterion.metric, criterion.version, criterion.value, info != nullptr ? info->unit : "",
+                            ""};
+  const bool yes_or_no = value.unit == "bool";
+  const char* sign = yes_or_no                                                  ? ""
+                     : criterion.comparison == assessment::Comparison::at_least ? "at least "
+                     : criterion.comparison == assessment::Comparison::at_most  ? "at most "
+                                                                                : "";
+  return sign + value_text(value) + (criterion.critical ? "; missing it is a critical error" : "");
 }
 
 std::string lesion_text(const casedb::LesionRow& lesion) {
@@ -68,13 +90,15 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_table(html, "Structures");
   for (const casedb::StructureRow& one : parts.structures)
     add_fact(html, one.name,
-             std::string(cases::name_of(one.rule)) + ", " + volume::about(one.tissue).name + ", " +
+             words(std::string(cases::name_of(one.rule))) + ", " + words(volume::about(one.tissue).name) + ", " +
                  casedb::name_of(one.kind));
   end_table(html);
 
   add_table(html, "To pass");
   for (const assessment::Criterion& one : row.rule.criteria)
-    add_fact(html, one.critical ? "critical" : "criterion", assessment::text_of(one));
+    add_fact(html, metric_label(one.metric), bound_text(one));
+  // clinical.md, "Passing": eight consultants with three attempts each; until then nobody's standard.
+  add_fact(html, "Standing", row.rule.criteria.empty() ? "" : "provisional: no consultants have set the standard");
   end_table(html);
 
   add_table(html, "Decisions");

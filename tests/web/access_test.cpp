@@ -180,12 +180,16 @@ TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
   FakeBrowser browser(*fake.site);
   fake.questions.cases[0].title = "<script>x</script>";
   fake.questions.cases[0].clinic.indication = "\"quoted\" & <b>";
-  fake.questions.cases[0].rule.criteria = {*assessment::criterion_from("hit >= 1")};
+  fake.questions.cases[0].rule.criteria = {*assessment::criterion_from("hit >= 1"),
+                                           *assessment::criterion_from("core_in_target >= 8")};
+  fake.questions.cases[0].rule.criteria[1].critical = true;
   browser.log_in_as(Role::mentor);
   const std::string page = browser.get("/cases/" + kDraftCase).body;
   EXPECT_THAT(page, Not(HasSubstr("<script>x")));
   EXPECT_THAT(page, Not(HasSubstr("<b>")));
-  EXPECT_THAT(page, HasSubstr("hit &gt;= 1"));
+  EXPECT_THAT(page, HasSubstr("Target hit</th><td>Yes</td>"));
+  EXPECT_THAT(page, HasSubstr("at least 8.0 mm; missing it is a critical error"));
+  EXPECT_THAT(page, HasSubstr("provisional"));
   EXPECT_THAT(page, HasSubstr("draft, version 1"));
   EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/checks.json").body, HasSubstr("\"holds\":false"));
   EXPECT_THAT(browser.get("/cases/" + kDraftCase + "/case.json").body, HasSubstr("\"metric\":\"hit\""));
