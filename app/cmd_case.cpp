@@ -16,7 +16,7 @@ int run_case_list(const Arguments& arguments) {
   std::unordered_map<std::string, std::vector<casedb::LesionRow>> lesions_of;
   for (casedb::LesionRow& lesion : casedb::list_lesions(*library))
     lesions_of[lesion.case_id].push_back(std::move(lesion));
-  for (casedb::CaseRow& row : casedb::list_cases(*library)) {
+  for (casedb::CaseRow& row : casedb::list_case_heads(*library)) {
     auto lesions = std::move(lesions_of[row.case_id]);
     cases.push_back({std::move(row), std::move(lesions), {}, {}});
   }

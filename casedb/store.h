@@ -79,7 +79,9 @@ struct LesionRow {
 
 // Also computes the tissue classes and stores them.
 std::string add_case(Library& library, const NewCase& new_case);
-std::vector<CaseRow> list_cases(Library& library);                              // oldest first
+std::vector<CaseRow> list_cases(Library& library);  // oldest first
+// The same for lists of thousands: without attributes, warnings and what was dropped.
+std::vector<CaseRow> list_case_heads(Library& library);
 base::Result<CaseRow> find_case(Library& library, const std::string& case_id);  // `no_case`
 base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row);
 base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row);

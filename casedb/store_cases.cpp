@@ -117,15 +117,18 @@ CaseRow read_case(const Statement& from) {
   return row;
 }
 
-// Every case, or the one.
-std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
+// Every case, or the one; without what lies in tables of its own.
+std::vector<CaseRow> read_heads(Sqlite& database, const std::optional<std::string>& case_id) {
   std::vector<CaseRow> rows;
-  std::unordered_map<std::string, std::size_t> place;
   Statement cases = question(database, "cases");
-  for (cases.bind("case_id", case_id); cases.step();) {
-    rows.push_back(read_case(cases));
-    place.emplace(rows.back().case_id, rows.size() - 1);
-  }
+  for (cases.bind("case_id", case_id); cases.step();) rows.push_back(read_case(cases));
+  return rows;
+}
+
+std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
+  std::vector<CaseRow> rows = read_heads(database, case_id);
+  std::unordered_map<std::string, std::size_t> place;
+  for (std::size_t at = 0; at < rows.size(); ++at) place.emplace(rows[at].case_id, at);
   // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
   CaseRow* row = nullptr;
   const auto belongs = [&](const Statement& from) {
@@ -225,6 +228,10 @@ std::string add_case(Library& library, const NewCase& new_case) {
   transaction.commit();
   assets.keep();
   return case_id;
+}
+
+std::vector<CaseRow> list_case_heads(Library& library) {
+  return read_heads(library.database(), std::nullopt);
 }
 
 std::vector<CaseRow> list_cases(Library& library) {

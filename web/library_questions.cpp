@@ -65,7 +65,7 @@ class LibraryQuestions final : public Questions {
 
   std::vector<casedb::CaseRow> list_cases() override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_cases(pages_.library);
+    return casedb::list_case_heads(pages_.library);
   }
 
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {

@@ -221,6 +221,23 @@ TEST_F(StoreCasesTest, CasesAreListedOldestFirstWithTheirOwnAttributes) {
   }
 }
 
+TEST_F(StoreCasesTest, HeadsAreTheSameCasesWithoutTheirParts) {
+  for (const char* title : {"A", "B"}) {
+    NewCase sample = sample_case(title);
+    sample.attributes = {{"kvp", "120"}};
+    add_case(library_, sample);
+  }
+  const auto heads = list_case_heads(library_), whole = list_cases(library_);
+  ASSERT_EQ(heads.size(), 2U);
+  for (std::size_t at = 0; at < 2; ++at) {
+    EXPECT_EQ(heads[at].case_id, whole[at].case_id);
+    EXPECT_EQ(heads[at].title, whole[at].title);
+    EXPECT_EQ(heads[at].volume_sha256, whole[at].volume_sha256);
+    EXPECT_TRUE(heads[at].attributes.empty() && heads[at].warnings.empty());
+    EXPECT_FALSE(whole[at].attributes.empty());
+  }
+}
+
 TEST_F(StoreCasesTest, CasesOfTheSameVolumeShareItsFile) {
   add_case(library_, sample_case("A"));
   add_case(library_, sample_case("B"));
