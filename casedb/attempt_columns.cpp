@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "casedb/question.h"
+#include "casedb/setting_columns.h"
 #include "sim/base/check.h"
 #include "sim/base/codec.h"
 
@@ -18,13 +19,6 @@ std::int64_t stored_bits(std::uint64_t value) noexcept {
 }
 std::uint64_t bits_from_stored(std::int64_t value) noexcept {
   return std::bit_cast<std::uint64_t>(value);
-}
-
-const char* kind_name(cases::InstrumentKind kind) {
-  return kind == cases::InstrumentKind::core ? "core" : "access";
-}
-const char* approach_name(cases::Approach approach) {
-  return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
 }
 
 constexpr std::array kEnds = {"fired", "stopped", "time_limit", "device_lost", "interrupted"};
@@ -67,13 +61,7 @@ Statement& bind_head(Statement& insert, const std::string& attempt_id, const Att
   insert.bind("attempt_id", attempt_id).bind("case_id", head.case_id).bind("lesion_id", head.lesion_id);
   insert.bind("person_id", head.person_id).bind("operator_name", head.operator_name);
   insert.bind("seed", stored_bits(head.seed)).bind("program_version", head.program_version);
-  insert.bind("approach", approach_name(head.approach));
-  const cases::Instrument& instrument = head.instrument;
-  insert.bind("instrument_kind", kind_name(instrument.kind)).bind("instrument_length_mm", instrument.length_mm);
-  insert.bind("instrument_radius_mm", instrument.radius_mm);
-  insert.bind("instrument_inner_radius_mm", instrument.inner_radius_mm).bind("instrument_hu", instrument.hu);
-  insert.bind("instrument_throw_mm", instrument.throw_mm).bind("instrument_notch_mm", instrument.notch_mm);
-  insert.bind("instrument_dead_tip_mm", instrument.dead_tip_mm);
+  bind_needle(insert, head.instrument, head.approach);
   const cases::Picture& picture = head.picture;
   insert.bind("picture_modality", name_of(picture.modality)).bind("picture_depth_mm", picture.depth_mm);
   insert.bind("picture_width_mm", picture.width_mm).bind("picture_rate_hz", picture.rate_hz);
@@ -89,24 +77,12 @@ AttemptHead read_head(const Statement& from) {
   head.program_version = from.text("program_version");
   if (!from.is_null("person_id")) head.person_id = from.text("person_id");
   head.seed = bits_from_stored(from.integer("seed"));
-  head.instrument.kind = from.text("instrument_kind") == kind_name(cases::InstrumentKind::core)
-                             ? cases::InstrumentKind::core
-                             : cases::InstrumentKind::access;
-  head.instrument.length_mm = from.real("instrument_length_mm");
-  head.instrument.radius_mm = from.real("instrument_radius_mm");
-  head.instrument.inner_radius_mm = from.real("instrument_inner_radius_mm");
-  head.instrument.hu = from.real("instrument_hu");
-  head.instrument.throw_mm = from.real("instrument_throw_mm");
-  head.instrument.notch_mm = from.real("instrument_notch_mm");
-  head.instrument.dead_tip_mm = from.real("instrument_dead_tip_mm");
+  read_needle(from, head.instrument, head.approach);
   head.picture.modality = *modality_from(from.text("picture_modality"));  // the schema takes no others
   head.picture.depth_mm = from.real("picture_depth_mm");
   head.picture.width_mm = from.real("picture_width_mm");
   head.picture.rate_hz = from.real("picture_rate_hz");
   head.picture.probe = from.text("picture_probe");
-  head.approach = from.text("approach") == approach_name(cases::Approach::out_of_plane)
-                      ? cases::Approach::out_of_plane
-                      : cases::Approach::in_plane;
   head.started_us = from.integer("started_us");
   return head;
 }

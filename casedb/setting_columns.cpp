@@ -77,24 +77,43 @@ base::Result<void> check_setting(const CaseSetting& setting) {
   return {};
 }
 
+void bind_needle(Statement& statement, const cases::Instrument& needle, cases::Approach approach) {
+  statement.bind("approach", name_of(approach));
+  statement.bind("instrument_kind", name_of(needle.kind)).bind("instrument_length_mm", needle.length_mm);
+  statement.bind("instrument_radius_mm", needle.radius_mm);
+  statement.bind("instrument_inner_radius_mm", needle.inner_radius_mm).bind("instrument_hu", needle.hu);
+  statement.bind("instrument_throw_mm", needle.throw_mm).bind("instrument_notch_mm", needle.notch_mm);
+  statement.bind("instrument_dead_tip_mm", needle.dead_tip_mm);
+}
+
+void read_needle(const Statement& from, cases::Instrument& needle, cases::Approach& approach) {
+  approach = from.text("approach") == name_of(cases::Approach::out_of_plane) ? cases::Approach::out_of_plane
+                                                                             : cases::Approach::in_plane;
+  needle.kind = from.text("instrument_kind") == name_of(cases::InstrumentKind::core)
+                    ? cases::InstrumentKind::core
+                    : cases::InstrumentKind::access;
+  needle.length_mm = from.real("instrument_length_mm");
+  needle.radius_mm = from.real("instrument_radius_mm");
+  needle.inner_radius_mm = from.real("instrument_inner_radius_mm");
+  needle.hu = from.real("instrument_hu");
+  needle.throw_mm = from.real("instrument_throw_mm");
+  needle.notch_mm = from.real("instrument_notch_mm");
+  needle.dead_tip_mm = from.real("instrument_dead_tip_mm");
+}
+
 void bind_setting(Statement& statement, const CaseSetting& setting) {
   std::string further;
   for (const cases::Modality one : setting.further_modalities) {
     if (!further.empty()) further.push_back(',');
     further.append(name_of(one));
   }
-  const cases::Instrument& needle = setting.instrument;
   const Clinic& clinic = setting.clinic;
   const auto entry = [&](int axis) {
     return setting.planned_entry_lps_mm ? std::optional((*setting.planned_entry_lps_mm)[axis]) : std::nullopt;
   };
   statement.bind("modality", name_of(setting.modality)).bind("patient_position", name_of(setting.position));
-  statement.bind("further_modalities", further).bind("approach", name_of(setting.approach));
-  statement.bind("instrument_kind", name_of(needle.kind)).bind("instrument_length_mm", needle.length_mm);
-  statement.bind("instrument_radius_mm", needle.radius_mm);
-  statement.bind("instrument_inner_radius_mm", needle.inner_radius_mm).bind("instrument_hu", needle.hu);
-  statement.bind("instrument_throw_mm", needle.throw_mm).bind("instrument_notch_mm", needle.notch_mm);
-  statement.bind("instrument_dead_tip_mm", needle.dead_tip_mm);
+  statement.bind("further_modalities", further);
+  bind_needle(statement, setting.instrument, setting.approach);
   statement.bind("inr", clinic.inr).bind("platelets_per_nl", clinic.platelets_per_nl);
   statement.bind("allergy", clinic.allergy).bind("indication", clinic.indication);
   statement.bind("decision", clinic.defer ? "defer" : "proceed");
@@ -115,19 +134,7 @@ void read_setting(const Statement& from, CaseSetting& setting) {
     if (const auto one = modality_from(further.substr(at, end - at))) setting.further_modalities.push_back(*one);
     at = end + 1;
   }
-  setting.approach = from.text("approach") == name_of(cases::Approach::out_of_plane) ? cases::Approach::out_of_plane
-                                                                                     : cases::Approach::in_plane;
-  cases::Instrument& needle = setting.instrument;
-  needle.kind = from.text("instrument_kind") == name_of(cases::InstrumentKind::core)
-                    ? cases::InstrumentKind::core
-                    : cases::InstrumentKind::access;
-  needle.length_mm = from.real("instrument_length_mm");
-  needle.radius_mm = from.real("instrument_radius_mm");
-  needle.inner_radius_mm = from.real("instrument_inner_radius_mm");
-  needle.hu = from.real("instrument_hu");
-  needle.throw_mm = from.real("instrument_throw_mm");
-  needle.notch_mm = from.real("instrument_notch_mm");
-  needle.dead_tip_mm = from.real("instrument_dead_tip_mm");
+  read_needle(from, setting.instrument, setting.approach);
   const auto maybe = [&](const char* column) {
     return from.is_null(column) ? std::nullopt : std::optional(from.real(column));
   };
