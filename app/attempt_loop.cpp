@@ -47,6 +47,7 @@ class Attempt {
   explicit Attempt(const cases::Case& scene) : ticks_(scene) {
     recording_.step_version = engine::kStepVersion;
     recording_.dt_s = engine::kTickSeconds;
+    recording_.events.emplace();
   }
   const cases::State& state() const noexcept { return ticks_.state(); }
 
@@ -57,6 +58,7 @@ class Attempt {
     if (tick.pose) recording_.poses.push_back(*tick.pose);
     if (tick.force) recording_.forces.push_back(*tick.force);
     if (tick.endpoint) recording_.endpoint = tick.endpoint;
+    assessment::add_events(state().t_s, tick, *recording_.events);
   }
   void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
   cases::Recording take() { return std::move(recording_); }
@@ -199,10 +201,17 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording) {
   std::uint64_t hash = 0;
   std::size_t pose = 0;
   ModelForces forces(scene);
+  engine::Patient patient(scene);
+  std::vector<cases::Event> events;
   for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
     engine::step(scene, recording.inputs[i], recording.dt_s, state);
     hash = cases::state_hash(state, hash);
     bool same = static_cast<std::uint32_t>(hash) == recording.hashes[i];
+    assessment::RecordedTick tick;
+    tick.inputs = recording.inputs[i];
+    tick.reaction = patient.advance(tick.inputs, state);
+    const std::size_t told = events.size();
+    assessment::add_events(state.t_s, tick, events);
     const auto force = forces.advance(state, recording.dt_s);
     if ((state.tick - 1) % kPoseTicks == 0) {
       const cases::PoseSample now = pose_of(state);
@@ -211,13 +220,16 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording) {
         same = same && pose < recording.forces.size() && recording.forces[pose] == *force;
       ++pose;
     }
+    for (std::size_t e = told; recording.events && e < events.size(); ++e)
+      same = same && e < recording.events->size() && (*recording.events)[e] == events[e];
     if (!same) return {false, state.tick};
   }
   const bool endpoint_same =
       state.fire.fired == recording.endpoint.has_value() &&
       (!recording.endpoint ||
        (*recording.endpoint == cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction}));
-  return {pose == recording.poses.size() && endpoint_same, state.tick};
+  const bool events_same = !recording.events || recording.events->size() == events.size();
+  return {pose == recording.poses.size() && endpoint_same && events_same, state.tick};
 }
 
 }  // namespace seldinger::app

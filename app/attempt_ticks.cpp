@@ -41,6 +41,7 @@ assessment::RecordedTick AttemptTicks::advance(const cases::Inputs& hands) noexc
   engine::step(scene_, tick.inputs, kTickS, state_);
   hash_ = cases::state_hash(state_, hash_);
   tick.hash = static_cast<std::uint32_t>(hash_);
+  tick.reaction = patient_.advance(tick.inputs, state_);
   const auto force = forces_.advance(state_, kTickS);
   if ((state_.tick - 1) % kPoseTicks == 0) {
     tick.pose = pose_of(state_);

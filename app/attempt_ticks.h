@@ -8,6 +8,7 @@
 #include "sim/case/case.h"
 #include "sim/case/state.h"
 #include "sim/devices/virtual_device.h"
+#include "sim/engine/patient.h"
 #include "sim/haptics/two_hands.h"
 
 namespace seldinger::app {
@@ -31,7 +32,7 @@ class ModelForces {
 class AttemptTicks {
  public:
   // The scene must outlive it.
-  explicit AttemptTicks(const cases::Case& scene) : scene_(scene), forces_(scene) {}
+  explicit AttemptTicks(const cases::Case& scene) : scene_(scene), forces_(scene), patient_(scene) {}
   const cases::State& state() const noexcept { return state_; }
 
   // One tick of where hands want to be, and what it leaves behind. Allocates nothing.
@@ -40,6 +41,7 @@ class AttemptTicks {
  private:
   const cases::Case& scene_;
   ModelForces forces_;
+  engine::Patient patient_;
   devices::VirtualDevice needle_arm_, probe_arm_;
   cases::State state_;
   std::uint64_t hash_ = 0;

@@ -15,9 +15,15 @@ constexpr std::chrono::milliseconds kNap{20};
 
 }  // namespace
 
+void add_events(double t_s, const RecordedTick& tick, std::vector<cases::Event>& events) {
+  for (const cases::EventKind kind : {tick.inputs.event, tick.reaction})
+    if (kind != cases::EventKind::none) events.push_back({t_s, kind});
+}
+
 Recorder::Recorder(std::uint32_t step_version, double dt_s, Store store)
     : step_version_(step_version), dt_s_(dt_s), store_(std::move(store)), queue_(kQueueTicks) {
   CHECK(dt_s > 0.0);
+  piece_.events.emplace();
   thread_ = std::thread([this] { run(); });
 }
 
@@ -79,6 +85,7 @@ void Recorder::take(std::size_t ticks) {
     if (tick.pose) piece_.poses.push_back(*tick.pose);
     if (tick.force) piece_.forces.push_back(*tick.force);
     if (tick.endpoint) piece_.endpoint = tick.endpoint;
+    add_events(static_cast<double>(ticks_ + i + 1) * dt_s_, tick, *piece_.events);
   }
   taken_.store(at, std::memory_order_release);
   ticks_ += ticks;
@@ -104,6 +111,7 @@ void Recorder::store_piece(double end_s) {
     }
   }
   piece_ = {};
+  piece_.events.emplace();
 }
 
 }  // namespace seldinger::assessment

@@ -22,8 +22,12 @@ struct RecordedTick {
   std::uint32_t hash = 0;
   std::optional<cases::PoseSample> pose{};
   std::optional<cases::ForceSample> force{};
+  cases::EventKind reaction = cases::EventKind::none;  // the patient's; what was asked for is in the inputs
   std::optional<cases::Endpoint> endpoint{};
 };
+
+// What was asked for in a tick that ended at t_s, then the reaction.
+void add_events(double t_s, const RecordedTick& tick, std::vector<cases::Event>& events);
 
 class Recorder {
  public:

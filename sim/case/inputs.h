@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sim/case/event.h"
 #include "sim/case/fluoroscope.h"
 
 namespace seldinger::cases {
@@ -19,8 +20,9 @@ struct ToolPose {
 struct Inputs {
   ToolPose needle;
   ToolPose probe;
-  bool fire = false;    // trigger is down
-  bool freeze = false;  // picture is frozen
+  bool fire = false;                  // trigger is down
+  bool freeze = false;                // picture is frozen
+  EventKind event = EventKind::none;  // said or asked for in this tick, by trainee or mentor
   FluoroscopeInputs fluoroscope;
   ExposureReport exposure;  // of the last exposed frame, by imaging; each frame's counts once
 };

@@ -11,21 +11,24 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 4, kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2,
-                        kFormatWithoutFluoroscope = 1;
+constexpr std::uint32_t kFormat = 5, kFormatWithoutEvents = 4, kFormatWithoutForces = 3,
+                        kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
+
+constexpr std::uint32_t kNotListened = 0xffff'ffff;
 
 struct Header {
   std::uint32_t magic = kMagic, format = kFormat;
   std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0, fluoroscope = 0;
   double dt_s = 0.0;
   double endpoint[7] = {};
-  std::uint32_t forces = 0, unused = 0;  // from here on since format 4
+  std::uint32_t forces = 0;             // from here on since format 4
+  std::uint32_t events = kNotListened;  // since format 5; 0 before
 };
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-constexpr std::size_t kPoseColumns = 16, kForceColumns = 4;
+constexpr std::size_t kPoseColumns = 16, kForceColumns = 4, kEventColumns = 2;
 constexpr std::size_t kMaxInputColumns = 37;
 std::size_t input_columns(bool fluoroscope) {
   return fluoroscope ? kMaxInputColumns : 20;
@@ -36,6 +39,7 @@ std::size_t frame_columns(bool fluoroscope) {
 
 // Bits of a row's one word of yes and no.
 enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
+constexpr unsigned kEventShift = 8;  // its kind, eight bits
 enum FrameBit : unsigned {
   kLive = 1,
   kNeedleTip = 2,
@@ -162,7 +166,7 @@ struct Rows {
 };
 
 struct Piece {
-  Rows inputs, poses, forces, frames;
+  Rows inputs, poses, forces, frames, events;
   bool with_endpoint = false;
 };
 
@@ -185,6 +189,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   header.poses = piece.poses.count();
   header.forces = piece.forces.count();
   header.frames = piece.frames.count();
+  if (recording.events) header.events = piece.events.count();
   if (piece.with_endpoint) {
     const Endpoint& endpoint = *recording.endpoint;
     header.has_endpoint = 1;
@@ -208,7 +213,8 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
     put(at, inputs.probe);
     *at++ = (inputs.fire ? kFire : 0U) | (inputs.freeze ? kFreeze : 0U) | (asked.pedal ? kPedal : 0U) |
             (fluoroscope && asked.automatic_exposure ? kAutomatic : 0U) | (asked.hand_away ? kHandAway : 0U) |
-            (inputs.exposure.hand_in_beam ? kHandInBeam : 0U);
+            (inputs.exposure.hand_in_beam ? kHandInBeam : 0U) |
+            std::uint64_t{static_cast<std::uint8_t>(inputs.event)} << kEventShift;
     *at++ = recording.hashes[i];
     if (fluoroscope) put(at, asked, inputs.exposure);
   }
@@ -250,6 +256,14 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   }
   append_table(raw, rows, frame_columns(fluoroscope));
 
+  rows.assign(piece.events.count() * kEventColumns, 0);
+  at = rows.data();
+  for (std::size_t i = piece.events.first; i < piece.events.end; ++i) {
+    put(at, (*recording.events)[i].t_s);
+    *at++ = static_cast<std::uint8_t>((*recording.events)[i].kind);
+  }
+  append_table(raw, rows, kEventColumns);
+
   RecordingChunk chunk;
   chunk.sequence = sequence;
   chunk.data = base::compress(raw);
@@ -278,6 +292,7 @@ std::vector<RecordingChunk> chunks_from_recording(const Recording& recording) {
     advance(piece.poses, recording.poses);
     advance(piece.forces, recording.forces);
     advance(piece.frames, recording.frames);
+    if (recording.events) advance(piece.events, *recording.events);
     piece.with_endpoint = endpoint_left && (last || recording.endpoint->t_s < end_s);
     if (piece.with_endpoint) endpoint_left = false;
     chunks.push_back(make_chunk(recording, static_cast<std::uint32_t>(chunks.size()), piece));
@@ -289,11 +304,14 @@ RecordingChunk chunk_of(const Recording& piece, std::uint32_t sequence) {
   CHECK(piece.hashes.size() == piece.inputs.size());
   CHECK(piece.dt_s > 0.0);
   CHECK(piece.inputs.size() <= kMaxRows && piece.frames.size() <= kMaxRows);
+  const std::size_t events = piece.events ? piece.events->size() : 0;
+  CHECK(events <= kMaxRows);
   return make_chunk(piece, sequence,
                     {{0, piece.inputs.size()},
                      {0, piece.poses.size()},
                      {0, piece.forces.size()},
                      {0, piece.frames.size()},
+                     {0, events},
                      piece.endpoint.has_value()});
 }
 
@@ -319,18 +337,23 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (header.fluoroscope > (header.format == kFormatWithoutFluoroscope ? 0U : 1U))
       return base::Error{"damaged", where + " cannot be read"};
     const bool fluoroscope = header.fluoroscope == 1;
+    if (header.format <= kFormatWithoutEvents) header.events = kNotListened;
+    const bool listened = header.events != kNotListened;
+    const std::uint32_t events = listened ? header.events : 0;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
-        header.forces > kMaxRows ||
-        raw->size() !=
-            header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
-                               header.forces * kForceColumns + header.frames * frame_columns(fluoroscope)))
+        header.forces > kMaxRows || events > kMaxRows ||
+        raw->size() != header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
+                                          header.forces * kForceColumns +
+                                          header.frames * frame_columns(fluoroscope) + events * kEventColumns))
       return base::Error{"damaged", where + " has a wrong size"};
-    if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s))
+    if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s ||
+                  listened != recording.events.has_value()))
       return base::Error{"damaged", where + " belongs to another recording"};
     if (!(header.dt_s > 0.0 && header.dt_s <= 1.0))
       return base::Error{"damaged", where + " has no sound time step"};
     recording.step_version = header.step_version;
     recording.dt_s = header.dt_s;
+    if (listened && !recording.events) recording.events.emplace();
     if (header.has_endpoint != 0)
       recording.endpoint = Endpoint{header.endpoint[0],
                                     {header.endpoint[1], header.endpoint[2], header.endpoint[3]},
@@ -345,6 +368,11 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       const std::uint64_t bits = *at++;
       in.fire = (bits & kFire) != 0;
       in.freeze = (bits & kFreeze) != 0;
+      if (listened) {
+        in.event = static_cast<EventKind>(bits >> kEventShift & 0xffU);
+        if (in.event != EventKind::none && find_event(in.event) == nullptr)
+          return base::Error{"damaged", where + " holds an unknown event"};
+      }
       recording.hashes.push_back(static_cast<std::uint32_t>(*at++));
       if (!fluoroscope) continue;
       in.fluoroscope.pedal = (bits & kPedal) != 0;
@@ -388,6 +416,16 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       frame.beam = beam;
       frame.beam->arm_moving = (bits & kArmMoving) != 0;
       frame.beam->hand_in_beam = (bits & kHand) != 0;
+    }
+    const auto said = table_at(from, events, kEventColumns);
+    at = said.data();
+    for (std::uint32_t row = 0; row < events; ++row) {
+      Event& event = recording.events->emplace_back();
+      event.t_s = get(at);
+      const std::uint64_t kind = *at++;
+      event.kind = static_cast<EventKind>(kind);
+      if (kind > 0xffU || find_event(event.kind) == nullptr)
+        return base::Error{"damaged", where + " holds an unknown event"};
     }
   }
   return recording;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/result.h"
+#include "sim/case/event.h"
 #include "sim/case/inputs.h"
 
 namespace seldinger::cases {
@@ -79,6 +80,9 @@ struct Recording {
   std::vector<PoseSample> poses;      // 100 Hz
   std::vector<ForceSample> forces;    // 100 Hz, each beside its pose; empty: nothing was to be felt
   std::vector<FrameTruth> frames;     // the picture's rate; a fluoroscope's: each pulse, and when its time is over
+  // What was said, asked for and answered, by rising time; nothing: it was not listened to (a pose file, a
+  // recording before format 5), and what is missing is no omission.
+  std::optional<std::vector<Event>> events{};
   std::optional<Endpoint> endpoint;
 };
 
@@ -91,8 +95,8 @@ struct RecordingChunk {
 
 // Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Since
 // format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3
-// frames of ultrasound say what was near its plane; since format 4 there are forces. Formats 1 to 3, without, are
-// read too.
+// frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events. Formats
+// 1 to 4, without, are read too.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 constexpr double kChunkSeconds = 2.0;

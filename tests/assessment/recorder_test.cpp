@@ -22,6 +22,8 @@ RecordedTick tick_of(std::uint64_t at) {
     tick.pose->t_s = t_s;
     tick.force = cases::ForceSample{t_s, 1.0, 2.0, 3.0};
   }
+  if (at % 1500 == 700) tick.inputs.event = cases::EventKind::nick;
+  if (at % 3000 == 700) tick.reaction = cases::EventKind::pain_bone;
   if (at == 4321) tick.endpoint = cases::Endpoint{t_s, {1, 2, 3}, {0, 0, 1}};
   return tick;
 }
@@ -60,6 +62,11 @@ TEST(Recorder, WhatGoesInComesOut) {
   }
   for (std::size_t i = 1; i < recording->frames.size(); ++i)
     EXPECT_GT(recording->frames[i].t_s, recording->frames[i - 1].t_s);
+  std::vector<cases::Event> events;
+  for (std::uint64_t at = 0; at < kTicks; ++at)
+    add_events(static_cast<double>(at + 1) * 0.001, tick_of(at), events);
+  EXPECT_EQ(events.size(), 4U + 2U);
+  EXPECT_EQ(recording->events, events);
   EXPECT_EQ(recording->endpoint, tick_of(4321).endpoint);
 }
 

@@ -37,6 +37,14 @@ Recording random_recording(std::size_t ticks, std::uint64_t seed) {
       recording.poses.push_back({t_s, random_vector(rng), random_vector(rng), random_vector(rng),
                                  random_vector(rng), random_vector(rng)});
     if (i % 10 == 0 && seed % 2 == 0) recording.forces.push_back({t_s, rng.normal(), rng.uniform(), rng.uniform()});
+    if (seed % 2 == 0) {
+      if (i == 0) recording.events.emplace();
+      if (i % 701 == 3) {
+        const EventKind kind = event_kinds()[i % event_kinds().size()].kind;
+        recording.inputs.back().event = kind;
+        recording.events->push_back({t_s, kind});
+      }
+    }
     if (i % 33 == 0) recording.frames.push_back({t_s, i % 2 == 0, i % 5 == 0, i % 7 == 0, rng.uniform() * 100.0});
   }
   if (ticks > 0)
@@ -89,12 +97,14 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.inputs[i].probe.side, b.inputs[i].probe.side);
     EXPECT_EQ(a.inputs[i].fire, b.inputs[i].fire);
     EXPECT_EQ(a.inputs[i].freeze, b.inputs[i].freeze);
+    EXPECT_EQ(a.inputs[i].event, b.inputs[i].event);
     EXPECT_EQ(a.inputs[i].fluoroscope, b.inputs[i].fluoroscope);
     EXPECT_EQ(a.inputs[i].exposure, b.inputs[i].exposure);
   }
   EXPECT_EQ(a.hashes, b.hashes);
   EXPECT_EQ(a.poses, b.poses);
   EXPECT_EQ(a.forces, b.forces);
+  EXPECT_EQ(a.events, b.events);
   EXPECT_EQ(a.endpoint, b.endpoint);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
@@ -123,6 +133,7 @@ TEST(Recording, ComesBackBitForBit) {
 TEST(Recording, InPiecesItIsTheSameRecording) {
   const Recording whole = random_recording(5100, 8);
   ASSERT_FALSE(whole.forces.empty());
+  ASSERT_EQ(whole.events->size(), 8U);
   std::vector<RecordingChunk> chunks;
   for (std::size_t begin = 0; begin < whole.inputs.size(); begin += 700) {
     const std::size_t end = std::min(begin + 700, whole.inputs.size());
@@ -144,6 +155,7 @@ TEST(Recording, InPiecesItIsTheSameRecording) {
     range(whole.poses, piece.poses, now);
     range(whole.forces, piece.forces, now);
     range(whole.frames, piece.frames, now);
+    range(*whole.events, piece.events.emplace(), now);
     if (now(*whole.endpoint)) piece.endpoint = whole.endpoint;
     chunks.push_back(chunk_of(piece, static_cast<std::uint32_t>(chunks.size())));
   }
@@ -275,9 +287,42 @@ TEST(Recording, OfFormat2SaysNothingOfThePlane) {
   EXPECT_EQ(now->frames[0].near_plane, (NearPlane{true, false, false, true}));
 }
 
+// A chunk's bytes, changed, as a chunk of its own.
+RecordingChunk with_bytes(const RecordingChunk& chunk, const std::function<void(std::vector<std::byte>&)>& change) {
+  auto raw = *base::decompress(chunk.data, 1U << 24);
+  change(raw);
+  RecordingChunk made{chunk.sequence, 0, base::compress(raw)};
+  made.checksum = base::hash_bytes(made.data);
+  return made;
+}
+
+TEST(Recording, OfFormat4SaysNothingOfEvents) {
+  Recording recording = random_recording(1500, 18);
+  recording.events->clear();
+  const auto as_format_4 = with_bytes(chunks_from_recording(recording)[0], [](std::vector<std::byte>& raw) {
+    raw[4] = std::byte{4};
+    std::memset(raw.data() + 100, 0, 4);  // the word that was not used
+  });
+  for (Inputs& inputs : recording.inputs) inputs.event = EventKind::none;  // its bits had no meaning
+  recording.events.reset();
+  const auto back = recording_from_chunks(std::vector{as_format_4});
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+}
+
+TEST(Recording, AnUnknownEventIsDamage) {
+  Recording recording = random_recording(1500, 18);
+  ASSERT_GT(recording.events->size(), 1U);
+  recording.events->back().kind = static_cast<EventKind>(31);
+  EXPECT_EQ(recording_from_chunks(chunks_from_recording(recording)).error().code, "damaged");
+  recording = random_recording(1500, 18);
+  recording.inputs[7].event = static_cast<EventKind>(200);
+  EXPECT_EQ(recording_from_chunks(chunks_from_recording(recording)).error().code, "damaged");
+}
+
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 5U, 77U})
+  for (const std::uint32_t format : {0U, 6U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")

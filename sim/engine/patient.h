@@ -1,0 +1,48 @@
+// How the patient reacts to what is done and asked: pain where the needle meets bone or skin that is not numb, and
+// holding the breath. Same inputs, same reactions, on every machine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "sim/case/case.h"
+#include "sim/case/event.h"
+#include "sim/case/inputs.h"
+#include "sim/case/state.h"
+
+namespace seldinger::engine {
+
+// How far about its place an anaesthetic works (a wheal and what spreads from it), how long a patient takes to stop
+// breathing when asked, and can: judgement. That it takes a minute to work is left out: nobody trains waiting.
+constexpr double kNumbMm = 15.0, kGrantSeconds = 1.2, kHoldSeconds = 20.0;
+// Bone felt again so much later hurts again.
+constexpr double kBoneAgainSeconds = 0.5;
+
+class Patient {
+ public:
+  // The scene must outlive it. Without classes nothing is bone.
+  explicit Patient(const cases::Case& scene);
+
+  // After a tick: what the inputs asked, and where the needle is now. At most one reaction a tick; a second one
+  // comes in the next. Allocates nothing.
+  cases::EventKind advance(const cases::Inputs& inputs, const cases::State& state) noexcept;
+
+  bool holds_breath() const noexcept { return holds_; }
+
+ private:
+  glm::dvec3 pointed_at(const cases::NeedleState& needle) const noexcept;
+  bool in_bone(const glm::dvec3& tip_lps_mm) const noexcept;
+  void note(cases::EventKind kind) noexcept;
+
+  const cases::Case& scene_;
+  glm::dmat4 voxel_from_lps_{1.0};
+  std::array<glm::dvec3, 4> numb_lps_mm_{};  // the latest places
+  std::uint32_t numbed_ = 0;                 // how many there were
+  bool was_in_body_ = false, asked_ = false, holds_ = false;
+  double asked_s_ = 0.0, held_s_ = 0.0, bone_s_ = -1e9;
+  std::array<cases::EventKind, 4> waiting_{};  // reactions not told yet, in their order
+};
+
+}  // namespace seldinger::engine
