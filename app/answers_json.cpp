@@ -1,5 +1,6 @@
 #include "app/answers_json.h"
 
+#include "app/course_json.h"
 #include "app/servo_record_json.h"
 
 #include <nlohmann/json.hpp>
@@ -143,17 +144,20 @@ std::string json_of_lesion(const std::string& lesion_id) {
   return text({{"lesion_id", lesion_id}});
 }
 
-std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics) {
-  return text({{"metrics", metrics_json(metrics)}});
+std::string json_of_score(const Scored& scored) {
+  return text({{"metrics", metrics_json(scored.metrics)}, {"steps", json_of_steps(scored.steps)}});
 }
 
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts) {
   return text({{"attempts", attempts_json(attempts)}});
 }
 
-std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo) {
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo,
+                            const Course& course) {
   Json json = attempt_json(attempt);
   json["servo"] = servo ? json_of_servo_record(*servo) : Json(nullptr);
+  json["steps"] = json_of_steps(course.steps);
+  json["events"] = json_of_events(course.events);
   return text(json);
 }
 
@@ -170,6 +174,7 @@ std::string json_of_recompute(const Recomputed& recomputed) {
   return text({{"attempts", recomputed.attempts},
                {"values", recomputed.values},
                {"added", recomputed.added},
+               {"steps_added", recomputed.steps_added},
                {"not_bit_identical", recomputed.not_bit_identical},
                {"differences", differences},
                {"not_scored", not_scored}});

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/attempt_loop.h"
 #include "app/scene_picture.h"
 #include "assessment/metrics/metric.h"
 #include "casedb/case_json.h"
@@ -30,7 +31,7 @@ struct Recomputed {
     int version = 1;
     std::optional<double> stored, now;
   };
-  std::size_t attempts = 0, values = 0, added = 0, not_bit_identical = 0;
+  std::size_t attempts = 0, values = 0, added = 0, steps_added = 0, not_bit_identical = 0;
   std::vector<Difference> differences;                            // by more than 1e-9 of the value
   std::vector<std::pair<std::string, base::Error>> not_scored{};  // attempts that cannot be
 };
@@ -53,9 +54,15 @@ std::string json_of_case(const casedb::CaseParts& parts);
 std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
-std::string json_of_metrics(const std::vector<assessment::MetricValue>& metrics);
+std::string json_of_score(const Scored& scored);  // metrics and steps
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
-std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo);
+// An attempt whose recording cannot be read has no course.
+struct Course {
+  std::vector<assessment::StepResult> steps;
+  std::optional<std::vector<cases::Event>> events{};
+};
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo,
+                            const Course& course);
 std::string json_of_recompute(const Recomputed& recomputed);
 std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
                              const std::vector<casedb::OpenAttempt>& running);

@@ -44,14 +44,15 @@ imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose
 // One attempt in virtual time, and its recording.
 class Attempt {
  public:
-  explicit Attempt(const cases::Case& scene) : ticks_(scene) {
+  Attempt(const cases::Case& scene, std::span<const cases::Event> scenario) : ticks_(scene), scenario_(scenario) {
     recording_.step_version = engine::kStepVersion;
     recording_.dt_s = engine::kTickSeconds;
     recording_.events.emplace();
   }
   const cases::State& state() const noexcept { return ticks_.state(); }
 
-  void tick(const cases::Inputs& hands) {
+  void tick(cases::Inputs hands) {
+    scenario_.add_to(hands, state().t_s);
     const assessment::RecordedTick tick = ticks_.advance(hands);
     recording_.inputs.push_back(tick.inputs);
     recording_.hashes.push_back(tick.hash);
@@ -65,6 +66,7 @@ class Attempt {
 
  private:
   AttemptTicks ticks_;
+  Scenario scenario_;
   cases::Recording recording_;
 };
 
@@ -72,9 +74,9 @@ class Attempt {
 template <typename TruthOf>
 cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                                    const assessment::OperatorProfile& profile, std::uint64_t seed,
-                                   const TruthOf& truth_of) {
+                                   std::span<const cases::Event> scenario, const TruthOf& truth_of) {
   assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
-  Attempt attempt(scene);
+  Attempt attempt(scene, scenario);
   const cases::State& state = attempt.state();
   cases::FrameTruth frame;
   bool new_frame = false;
@@ -93,10 +95,11 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
 }
 
 cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                                  const assessment::OperatorProfile& profile, std::uint64_t seed) {
+                                  const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                  std::span<const cases::Event> scenario) {
   assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position, seed);
   FluoroscopyRoom room(scene);
-  Attempt attempt(scene);
+  Attempt attempt(scene, scenario);
   const cases::State& state = attempt.state();
   FluoroscopyRoom::Exposed exposed;
   bool new_frame = false, live = false;
@@ -137,13 +140,16 @@ std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case
 }
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                             const assessment::OperatorProfile& profile, std::uint64_t seed) {
-  if (scene.picture.modality == cases::Modality::xray) return run_xray_attempt(scene, plan, profile, seed);
-  return run_probe_attempt(scene, plan, profile, seed, sight_of(scene));
+                             const assessment::OperatorProfile& profile, std::uint64_t seed,
+                             std::span<const cases::Event> scenario) {
+  if (scene.picture.modality == cases::Modality::xray)
+    return run_xray_attempt(scene, plan, profile, seed, scenario);
+  return run_probe_attempt(scene, plan, profile, seed, scenario, sight_of(scene));
 }
 
-base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
-                                                           const cases::Recording& recording) {
+namespace {
+
+base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording) {
   assessment::AttemptSetting setting;
   setting.skin = &scene.skin_index;
   if (!scene.lesions.empty()) setting.target = scene.lesions[0];
@@ -156,7 +162,22 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
     if (glm::length(way) > 0.0)
       setting.plan = assessment::PlannedEntry{*scene.planned_entry_lps_mm, glm::normalize(way)};
   }
-  const auto signals = assessment::make_signals(setting, recording);
+  setting.position = scene.position;
+  setting.defer_is_right = scene.defer_is_right;
+  return assessment::make_signals(setting, recording);
+}
+
+}  // namespace
+
+base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording) {
+  const auto signals = signals_of(scene, recording);
+  if (!signals) return signals.error();
+  return Scored{assessment::measure_all(*signals), assessment::walk_steps(*signals)};
+}
+
+base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
+                                                           const cases::Recording& recording) {
+  const auto signals = signals_of(scene, recording);
   if (!signals) return signals.error();
   return assessment::measure_all(*signals);
 }

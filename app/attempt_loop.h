@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
+#include "assessment/procedure/steps.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
@@ -17,13 +19,21 @@ namespace seldinger::app {
 
 constexpr double kMaxAttemptSeconds = 300.0;  // an operator who has not fired by then gives up
 
+// `scenario`: a mentor's events, by rising time.
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
-                             const assessment::OperatorProfile& profile, std::uint64_t seed);
+                             const assessment::OperatorProfile& profile, std::uint64_t seed,
+                             std::span<const cases::Event> scenario = {});
 
 // What the picture under the probe shows of a state, of slice or ultrasound (CHECKed); the scene must outlive it.
 std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene);
 
-// The metrics of a recording made in this scene.
+// What a recording made in this scene says: its metrics, and what became of each step.
+struct Scored {
+  std::vector<assessment::MetricValue> metrics;
+  std::vector<assessment::StepResult> steps;
+};
+base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording);
+// The metrics alone.
 base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
                                                            const cases::Recording& recording);
 

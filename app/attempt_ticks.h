@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "assessment/recorder.h"
 #include "sim/case/case.h"
@@ -27,6 +28,21 @@ class ModelForces {
  private:
   std::optional<haptics::TwoHands> hands_;
   haptics::HandStates states_{};
+};
+
+// A mentor's events, each put into the first tick from its time on in which nobody else says anything.
+class Scenario {
+ public:
+  // By rising time; what they lie in outlives it.
+  explicit Scenario(std::span<const cases::Event> events) : events_(events) {}
+  void add_to(cases::Inputs& inputs, double t_s) noexcept {
+    if (events_.empty() || t_s < events_.front().t_s || inputs.event != cases::EventKind::none) return;
+    inputs.event = events_.front().kind;
+    events_ = events_.subspan(1);
+  }
+
+ private:
+  std::span<const cases::Event> events_;
 };
 
 class AttemptTicks {

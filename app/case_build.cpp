@@ -97,6 +97,7 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.approach = row.approach;
   scene.position = row.position;
   scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
+  scene.defer_is_right = row.clinic.defer;
 
   const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
   Voxels voxels(library, row, scene.volume);

@@ -21,6 +21,20 @@ std::string value_of(const casedb::AttemptRow& attempt, const char* id, const ch
   return "–";
 }
 
+void print_course(const Course& course) {
+  for (const assessment::StepResult& step : course.steps) {
+    const assessment::StepInfo* info = assessment::find_step(step.id);
+    if (step.state == assessment::StepState::not_asked) continue;
+    char when[16] = "       –";
+    if (step.t_s) std::snprintf(when, sizeof when, "%6.1f s", *step.t_s);
+    std::printf("  %-8s %s  %s\n", std::string(assessment::name_of(step.state)).c_str(), when,
+                info != nullptr ? info->words : step.id.c_str());
+  }
+  for (const cases::Event& event : course.events.value_or(std::vector<cases::Event>{}))
+    if (const cases::EventInfo* info = cases::find_event(event.kind))
+      std::printf("  event    %6.1f s  %s\n", event.t_s, info->words);
+}
+
 }  // namespace
 
 int run_attempt_list(const Arguments& arguments) {
@@ -50,8 +64,12 @@ int run_attempt_show(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());
+  Course course{casedb::list_steps(*library, attempt->attempt_id)};
+  if (auto recording = casedb::load_recording(*library, attempt->attempt_id))
+    course.events = std::move(recording->events);
   if (arguments.has("--json")) {
-    std::fputs(json_of_attempt(*attempt, casedb::find_servo_record(*library, attempt->attempt_id)).c_str(), stdout);
+    std::fputs(json_of_attempt(*attempt, casedb::find_servo_record(*library, attempt->attempt_id), course).c_str(),
+               stdout);
     return kDone;
   }
   std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\nguidance %s\noperator %s, seed %llu\n",
@@ -61,6 +79,7 @@ int run_attempt_show(const Arguments& arguments) {
               static_cast<unsigned long long>(attempt->seed));
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
   print_metrics(attempt->metrics);
+  print_course(course);
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
     std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());
   return kDone;

@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/procedure/steps.h"
 #include "casedb/import/allow_list.h"
 #include "web/routes.h"
 
@@ -12,6 +13,10 @@ namespace seldinger::app {
 int run_help(const Arguments& arguments) {
   if (arguments.has("--metrics")) {
     std::fputs(assessment::metrics_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--steps")) {
+    std::fputs(assessment::steps_markdown().c_str(), stdout);
     return kDone;
   }
   if (arguments.has("--commands")) {

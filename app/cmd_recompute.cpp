@@ -52,9 +52,9 @@ base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow&
   if (!scene) return scene.error();
   const auto recording = casedb::load_recording(library, attempt.attempt_id);
   if (!recording) return recording.error();
-  const auto metrics = measure(**scene, *recording);
-  if (!metrics) return metrics.error();
-  for (const assessment::MetricValue& now : *metrics)
+  const auto scored = score(**scene, *recording);
+  if (!scored) return scored.error();
+  for (const assessment::MetricValue& now : scored->metrics)
     for (const assessment::MetricValue& stored : attempt.metrics)
       if (stored.id == now.id && stored.version == now.version) {
         ++sum.values;
@@ -62,9 +62,12 @@ base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow&
         if (!close(stored.value, now.value))
           sum.differences.push_back({attempt.attempt_id, now.id, now.version, stored.value, now.value});
       }
-  const auto added = casedb::add_metrics(library, attempt.attempt_id, *metrics);
+  const auto added = casedb::add_metrics(library, attempt.attempt_id, scored->metrics);
   if (!added) return added.error();
   sum.added += *added;
+  const auto steps_added = casedb::add_steps(library, attempt.attempt_id, scored->steps);
+  if (!steps_added) return steps_added.error();
+  sum.steps_added += *steps_added;
   return {};
 }
 
@@ -93,8 +96,10 @@ int run_recompute(const Arguments& arguments) {
   if (arguments.has("--json")) {
     std::fputs(json_of_recompute(sum).c_str(), stdout);
   } else {
-    std::printf("%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added\n",
-                sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added);
+    std::printf(
+        "%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added, and %zu "
+        "steps\n",
+        sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added, sum.steps_added);
     for (const Recomputed::Difference& one : sum.differences)
       std::printf("DIFFERENT: %s %s version %d\n", one.attempt_id.c_str(), one.metric_id.c_str(), one.version);
     for (const auto& [attempt_id, error] : sum.not_scored)

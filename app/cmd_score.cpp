@@ -20,8 +20,6 @@
 namespace seldinger::app {
 namespace {
 
-using Metrics = std::vector<assessment::MetricValue>;
-
 imaging::NeedlePose needle_of(const cases::Instrument& instrument) {
   return {{},           {0.0, 0.0, 1.0}, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
           instrument.hu};
@@ -78,8 +76,8 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
   return {};
 }
 
-base::Result<Metrics> score_poses(const std::string& poses, const std::string& scene_path,
-                                  const std::string& library, std::vector<std::string>& notes) {
+base::Result<Scored> score_poses(const std::string& poses, const std::string& scene_path,
+                                 const std::string& library, std::vector<std::string>& notes) {
   const auto scene = read_scene(scene_path, notes);
   if (!scene) return scene.error();
   const auto text = read_text(poses);
@@ -112,10 +110,10 @@ base::Result<Metrics> score_poses(const std::string& poses, const std::string& s
       if (!added) return added.error();
     }
   }
-  return measure(built, *recording);
+  return score(built, *recording);
 }
 
-base::Result<Metrics> score_attempt(const std::string& attempt_id, const std::string& folder) {
+base::Result<Scored> score_attempt(const std::string& attempt_id, const std::string& folder) {
   auto library = casedb::Library::open(folder);
   if (!library) return library.error();
   const auto attempt = casedb::find_attempt(*library, attempt_id);
@@ -124,7 +122,7 @@ base::Result<Metrics> score_attempt(const std::string& attempt_id, const std::st
   if (!recording) return recording.error();
   const auto scene = build_case_of(*library, *attempt, Needs::metrics);
   if (!scene) return scene.error();
-  return measure(*scene, *recording);
+  return score(*scene, *recording);
 }
 
 }  // namespace
@@ -133,15 +131,15 @@ int run_score(const Arguments& arguments) {
   const bool stored = arguments.positionals() == 1;
   if (stored == arguments.has("--poses")) throw UsageError("give either ATTEMPT or --poses with --scene");
   std::vector<std::string> notes;
-  const auto metrics = stored ? score_attempt(arguments.positional(0), arguments.required("--library"))
-                              : score_poses(arguments.text("--poses"), arguments.required("--scene"),
-                                            arguments.text("--library"), notes);
-  if (!metrics) return refuse(metrics.error());
+  const auto scored = stored ? score_attempt(arguments.positional(0), arguments.required("--library"))
+                             : score_poses(arguments.text("--poses"), arguments.required("--scene"),
+                                           arguments.text("--library"), notes);
+  if (!scored) return refuse(scored.error());
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (arguments.has("--json"))
-    std::fputs(json_of_metrics(*metrics).c_str(), stdout);
+    std::fputs(json_of_score(*scored).c_str(), stdout);
   else
-    print_metrics(*metrics);
+    print_metrics(scored->metrics);
   return kDone;
 }
 

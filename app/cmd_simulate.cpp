@@ -1,4 +1,5 @@
 // simulate.
+#include <algorithm>
 #include <cstdio>
 
 #include "app/answers_json.h"
@@ -15,6 +16,16 @@ base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
   const auto text = read_text(name, 1U << 20U);
   if (!text) return text.error();
   return assessment::profile_from_json(*text);
+}
+
+// "cough@12.5"
+cases::Event mentors_event(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto kind = cases::event_from(text.substr(0, at));
+  const double t_s = at == text.npos ? -1.0 : parse_number(text.substr(at + 1)).value_or(-1.0);
+  if (!kind || cases::find_event(*kind)->source != cases::EventSource::mentor || !(t_s >= 0.0))
+    throw UsageError("--event is cough, bleeding or pressure_drop, @ and a time in seconds: cough@12.5");
+  return {t_s, *kind};
 }
 
 }  // namespace
@@ -34,12 +45,18 @@ int run_simulate(const Arguments& arguments) {
     modality = casedb::modality_from(arguments.text("--modality"));
     if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   }
+  std::vector<cases::Event> scenario;
+  if (arguments.has("--event"))
+    for (const std::string& text : arguments.all("--event")) scenario.push_back(mentors_event(text));
+  std::stable_sort(scenario.begin(), scenario.end(),
+                   [](const cases::Event& a, const cases::Event& b) { return a.t_s < b.t_s; });
   const auto profile = profile_of(arguments.required("--operator"));
   if (!profile) return refuse(profile.error());
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
   auto simulation = Simulation::prepare(*library, case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
+  simulation->set_scenario(std::move(scenario));
   std::vector<SimulatedAttempt> attempts;
   for (long long i = 0; i < count; ++i) {
     const auto this_seed = seed + static_cast<std::uint64_t>(i);

@@ -12,6 +12,7 @@ constexpr Option kJson{"--json", nullptr, "one JSON document on standard output,
 
 constexpr Option kHelpOptions[] = {
     {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+    {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
     {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
     {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"}};
@@ -127,6 +128,7 @@ constexpr Option kSimulateOptions[] = {
     {"--count", "K", "how many attempts; default 1"},
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
+    {"--event", "KIND@SECONDS", "a mentor's event at that time: cough, bleeding or pressure_drop; again for more"},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     kJson};
 constexpr Option kScoreOptions[] = {kLibrary,

@@ -233,7 +233,7 @@ DemoCase to_be_deferred() {
   made.setting.clinic.inr = 2.4;
   made.setting.clinic.platelets_per_nl = 38.0;
   made.setting.clinic.defer = true;
-  made.setting.rule = rule({}, {"skin_punctures <= 0"});
+  made.setting.rule = rule({"decision_right >= 1"}, {"skin_punctures <= 0"});
   return made;
 }
 

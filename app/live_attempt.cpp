@@ -76,9 +76,10 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
                                          : casedb::AttemptEnd::time_limit;
   const auto recording = casedb::load_open_recording(library_, *attempt_id);
   if (!recording) return recording.error();
-  auto metrics = measure(scene_, *recording);
-  if (!metrics) return metrics.error();
-  outcome.metrics = std::move(*metrics);
+  auto scored = score(scene_, *recording);
+  if (!scored) return scored.error();
+  outcome.metrics = std::move(scored->metrics);
+  outcome.steps = std::move(scored->steps);
   outcome.picture_png = picture_at_endpoint(scene_, *recording);
   if (const auto closed = casedb::close_attempt(library_, *attempt_id, outcome); !closed) return closed.error();
   return StoredAttempt{*attempt_id, outcome.metrics};
@@ -87,7 +88,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
 namespace {
 
 // Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-std::vector<assessment::MetricValue> score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
   const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
   const auto row = casedb::find_case(library, attempt.case_id);
   if (!recording || recording->poses.empty() || !row) return {};
@@ -97,8 +98,8 @@ std::vector<assessment::MetricValue> score_of(casedb::Library& library, const ca
       if (!scene) return {};
       scene->instrument = attempt.instrument;
       scene->approach = attempt.approach;
-      auto metrics = measure(*scene, *recording);
-      return metrics ? std::move(*metrics) : std::vector<assessment::MetricValue>{};
+      auto scored = score(*scene, *recording);
+      return scored ? std::move(*scored) : Scored{};
     }
   return {};
 }
@@ -111,7 +112,9 @@ std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
     if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
     casedb::AttemptOutcome outcome;
     outcome.end = casedb::AttemptEnd::interrupted;
-    outcome.metrics = score_of(library, attempt);
+    Scored scored = score_of(library, attempt);
+    outcome.metrics = std::move(scored.metrics);
+    outcome.steps = std::move(scored.steps);
     // Another process may have been faster.
     if (casedb::close_attempt(library, attempt.attempt_id, outcome)) closed.push_back(attempt.attempt_id);
   }

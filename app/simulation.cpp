@@ -71,11 +71,15 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
   if (scene_.picture.modality == cases::Modality::xray)
     return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
   assessment::ScriptedOperator person(profile, plan_, scene_.instrument, seed);
+  Scenario scenario(scenario_);
   LiveAttempt live(*library_, head(profile, seed, std::nullopt), scene_);
-  const auto stored =
-      live.run([&](const cases::State& state,
-                   const cases::FrameTruth* frame) { return person.act(state, frame, engine::kTickSeconds); },
-               [&] { return person.done(); });
+  const auto stored = live.run(
+      [&](const cases::State& state, const cases::FrameTruth* frame) {
+        cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
+        scenario.add_to(inputs, state.t_s);
+        return inputs;
+      },
+      [&] { return person.done(); });
   if (!stored) return stored.error();
   return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
 }
@@ -84,12 +88,13 @@ base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorPro
                                                    const std::optional<std::string>& person_id) {
   casedb::NewAttempt attempt;
   static_cast<casedb::AttemptHead&>(attempt) = head(profile, seed, person_id);
-  attempt.recording = run_attempt(scene_, plan_, profile, seed);
+  attempt.recording = run_attempt(scene_, plan_, profile, seed, scenario_);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
   attempt.end = attempt.recording.endpoint ? casedb::AttemptEnd::fired : casedb::AttemptEnd::time_limit;
-  auto metrics = measure(scene_, attempt.recording);
-  if (!metrics) return metrics.error();
-  attempt.metrics = std::move(*metrics);
+  auto scored = score(scene_, attempt.recording);
+  if (!scored) return scored.error();
+  attempt.metrics = std::move(scored->metrics);
+  attempt.steps = std::move(scored->steps);
   attempt.picture_png = picture_at_endpoint(scene_, attempt.recording);
   const auto attempt_id = casedb::add_attempt(*library_, attempt);
   if (!attempt_id) return attempt_id.error();

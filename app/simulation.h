@@ -22,6 +22,9 @@ class Simulation {
                                           std::optional<cases::InstrumentKind> kind = std::nullopt,
                                           std::optional<cases::Modality> modality = std::nullopt);
 
+  // What a mentor lets happen in each of the attempts, by rising time.
+  void set_scenario(std::vector<cases::Event> events) { scenario_ = std::move(events); }
+
   // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                          const std::optional<std::string>& person_id);
@@ -46,6 +49,7 @@ class Simulation {
   casedb::LesionRow lesion_;
   cases::Case scene_;
   assessment::PuncturePlan plan_;
+  std::vector<cases::Event> scenario_;
 };
 
 void print_metrics(const std::vector<assessment::MetricValue>& metrics);

@@ -160,6 +160,23 @@ std::vector<cases::SkinPassage> passages_of(const cases::MeshIndex& skin,
   return passages;
 }
 
+Aftermath aftermath_of(const Signals& signals, const cases::Recording& recording) {
+  Aftermath after;
+  if (!signals.endpoint) return after;
+  cases::SkinPassage passage = signals.passages.back();
+  if (!passage.in_body) after.needle_out_s = signals.endpoint->t_s;
+  for (const cases::PoseSample& pose : recording.poses) {
+    if (after.needle_out_s) break;
+    if (pose.t_s <= signals.endpoint->t_s) continue;
+    cases::advance_passage(*signals.setting.skin, pose.tip_lps_mm, passage);
+    if (!passage.in_body) after.needle_out_s = pose.t_s;
+  }
+  for (const cases::FrameTruth& frame : recording.frames)
+    if (!after.scanned_s && after.needle_out_s && frame.t_s > *after.needle_out_s && frame.live && frame.target)
+      after.scanned_s = frame.t_s;
+  return after;
+}
+
 std::vector<double> advances_of(const Signals& signals) {
   std::vector<double> advances(signals.poses.size(), 0.0);
   double reached_mm = 0.0;
@@ -198,11 +215,15 @@ base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::R
     if (recording.endpoint && frame.t_s > recording.endpoint->t_s) break;
     if (signals.frames.empty() || frame.t_s > signals.frames.back().t_s) signals.frames.push_back(frame);
   }
+  signals.events = recording.events;
+  for (const cases::Event& event : signals.events.value_or(std::vector<cases::Event>{}))
+    if (!std::isfinite(event.t_s)) return base::Error{"bad_events", "an event's time is not finite"};
   signals.gaps = gaps_of(signals.poses);
   signals.passages = passages_of(*setting.skin, signals.poses);
   signals.advance_mm = advances_of(signals);
   signals.steps = steps_of(signals);
   signals.trace = trace_of(signals);
+  signals.after = aftermath_of(signals, recording);
   return signals;
 }
 

@@ -38,6 +38,8 @@ struct AttemptSetting {
   cases::Approach approach = cases::Approach::in_plane;
   std::optional<PlannedEntry> plan{};
   std::span<const cases::Structure> structures{};
+  cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
+  std::optional<bool> defer_is_right{};                              // what the case has to be decided
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {
@@ -45,6 +47,12 @@ inline Manner manner_of(const AttemptSetting& setting) {
 }
 
 enum class Gap : std::uint8_t { none, silence, jump };
+
+// What was done after the endpoint: when the tip left the skin (it may never have been in), and when a picture then
+// showed the target.
+struct Aftermath {
+  std::optional<double> needle_out_s, scanned_s;
+};
 
 struct Signals {
   AttemptSetting setting;
@@ -54,6 +62,9 @@ struct Signals {
   std::vector<double> advance_mm;            // one per pose: how far the tip came beyond where it had been (below)
   std::vector<cases::FrameTruth> frames;     // strictly increasing in time
   std::vector<cases::ForceSample> forces;    // empty: no device
+  // Of the whole recording, after the endpoint too; nothing: it was not listened to.
+  std::optional<std::vector<cases::Event>> events;
+  Aftermath after;
   std::optional<cases::Endpoint> endpoint;
   std::optional<double> sample_rate_p5_hz;  // 95 % of the time was sampled at least so often; gaps not counted
   std::vector<Step> steps;                  // the tools' way, filtered
@@ -76,9 +87,9 @@ struct Signals {
 constexpr double kJiggleMm = 1.0;
 
 // Poses, frames and forces after the endpoint are left out. Refused: `bad_poses` (none, times not increasing, a
-// number not finite, a direction not near unit length), `bad_forces` (as poses), `bad_frames` (a time not finite),
-// `bad_target` (no sphere), `bad_plan`, `bad_skin` (its surface faces inwards, so that everything far away would be
-// in the body).
+// number not finite, a direction not near unit length), `bad_forces` (as poses), `bad_frames` and
+// `bad_events` (a time not finite), `bad_target` (no sphere), `bad_plan`, `bad_skin` (its surface faces inwards, so
+// that everything far away would be in the body).
 base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::Recording& recording);
 
 }  // namespace seldinger::assessment

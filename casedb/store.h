@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assessment/metrics/metric.h"
+#include "assessment/procedure/steps.h"
 #include "casedb/case_setting.h"
 #include "casedb/library.h"
 #include "casedb/privacy.h"
@@ -127,6 +128,7 @@ std::string name_of(AttemptEnd end);
 struct AttemptOutcome {
   std::optional<AttemptEnd> end{};
   std::vector<MetricValue> metrics;
+  std::vector<assessment::StepResult> steps{};
   std::vector<std::byte> picture_png;         // the picture at the moment of firing; may be empty
   std::optional<cases::ServoRecord> servo{};  // none: it ran in virtual time
 };
@@ -154,10 +156,15 @@ std::size_t count_attempts(Library& library);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);    // `no_attempt`
 base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);
+// Its steps, newest version of each, in order; none: stored before schema 8, and not recomputed since.
+std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id);
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id);
 // Those whose version is not there yet: older values are kept. How many; `no_attempt`.
 base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,
                                       const std::vector<MetricValue>& metrics);
+// The same of its steps; all of a version are added, or none.
+base::Result<std::size_t> add_steps(Library& library, const std::string& attempt_id,
+                                    const std::vector<assessment::StepResult>& steps);
 
 // An attempt that is stored while it runs. Each chunk is durable when add_chunk returns; a program that dies leaves
 // an open attempt behind, for somebody else to close as interrupted.

@@ -44,6 +44,20 @@ void insert_metrics(Sqlite& database, const std::string& attempt_id, const std::
         .run();
 }
 
+void insert_steps(Sqlite& database, const std::string& attempt_id,
+                  const std::vector<assessment::StepResult>& steps) {
+  Statement insert = question(database, "add_attempt_step");
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    insert.bind("attempt_id", attempt_id)
+        .bind("step_id", steps[i].id)
+        .bind("version", steps[i].version)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("state", std::string(assessment::name_of(steps[i].state)))
+        .bind("t_s", steps[i].t_s)
+        .bind("reason", steps[i].reason)
+        .run();
+}
+
 AttemptRow read_attempt(const Statement& from) {
   AttemptRow row;
   static_cast<AttemptHead&>(row) = read_head(from);
@@ -118,6 +132,7 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   insert_attempt(database, attempt, attempt_id, chunks.size(), picture_sha256);
   insert_chunks(database, attempt_id, chunks);
   insert_metrics(database, attempt_id, attempt.metrics);
+  insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
   transaction.commit();
   assets.keep();
@@ -149,6 +164,7 @@ base::Result<void> close_attempt(Library& library, const std::string& attempt_id
   insert_attempt(database, attempt, attempt_id, chunks.size(), picture_sha256);
   insert_chunks(database, attempt_id, chunks);
   insert_metrics(database, attempt_id, attempt.metrics);
+  insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
   question(database, "remove_open_attempt").bind("attempt_id", attempt_id).run();
   transaction.commit();
@@ -174,6 +190,41 @@ base::Result<std::size_t> add_metrics(Library& library, const std::string& attem
   insert_metrics(database, attempt_id, news);
   transaction.commit();
   return news.size();
+}
+
+base::Result<std::size_t> add_steps(Library& library, const std::string& attempt_id,
+                                    const std::vector<assessment::StepResult>& steps) {
+  Sqlite& database = library.database();
+  Transaction transaction(database);
+  Statement attempt = question(database, "recording_size");
+  if (!attempt.bind("attempt_id", attempt_id).step())
+    return base::Error{"no_attempt", "there is no such attempt in the library"};
+  attempt.rewind();
+  std::set<int> there;
+  Statement known = question(database, "step_versions_of_attempt");
+  for (known.bind("attempt_id", attempt_id); known.step();) there.insert(known.small_integer("version"));
+  std::vector<assessment::StepResult> news;
+  for (const assessment::StepResult& step : steps)
+    if (!there.contains(step.version)) news.push_back(step);
+  insert_steps(database, attempt_id, news);
+  transaction.commit();
+  return news.size();
+}
+
+std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id) {
+  std::vector<assessment::StepResult> steps;
+  Statement rows = question(library.database(), "steps_of_attempt");
+  for (rows.bind("attempt_id", attempt_id); rows.step();) {
+    assessment::StepResult& step = steps.emplace_back();
+    step.id = rows.text("step_id");
+    step.version = rows.small_integer("version");
+    const auto state = assessment::step_state_from(rows.text("state"));
+    CHECK(state.has_value());  // the column's own check
+    step.state = *state;
+    if (!rows.is_null("t_s")) step.t_s = rows.real("t_s");
+    step.reason = rows.text("reason");
+  }
+  return steps;
 }
 
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first, std::size_t count) {

@@ -22,6 +22,8 @@ constexpr std::string_view words_of(assessment::Group group) {
       return "Target";
     case assessment::Group::safety:
       return "Safety";
+    case assessment::Group::procedure:
+      return "Procedure";
     case assessment::Group::picture:
       return "Picture";
     case assessment::Group::path:

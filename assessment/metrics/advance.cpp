@@ -18,10 +18,11 @@ constexpr double kMinPlaneSine = 0.5;  // the probe's axes are perpendicular, or
 
 struct Seen {
   double advance_mm = 0.0, visible_mm = 0.0, longest_blind_mm = 0.0;
+  std::optional<double> blind_s;  // when a blind run was first longer than was asked for
 };
 
 // What a picture showed counts for the step of the way that began with it.
-Seen seen_advance(const Signals& signals) {
+Seen seen_advance(const Signals& signals, double blind_run_mm = 0.0) {
   Seen seen;
   double blind_mm = 0.0;
   bool visible = false;
@@ -41,6 +42,7 @@ Seen seen_advance(const Signals& signals) {
     } else {
       blind_mm += advance_mm;
       seen.longest_blind_mm = std::max(seen.longest_blind_mm, blind_mm);
+      if (!seen.blind_s && blind_mm > blind_run_mm) seen.blind_s = signals.poses[i].t_s;
     }
   }
   return seen;
@@ -101,12 +103,20 @@ Measured plane_angle_max(const Signals& signals) {
   return angle.reason != nullptr ? Measured::none(angle.reason) : Measured::of(angle.max_deg);
 }
 
-Measured advance_beyond_plane(const Signals& signals) {
-  double beyond_mm = 0.0;
+struct Beyond {
+  double advance_mm = 0.0;
+  bool no_plane = false;
+  std::optional<double> first_s;  // when it was first more than was asked for
+};
+Beyond beyond_plane(const Signals& signals, double more_than_mm = 0.0) {
+  Beyond beyond;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
     if (!(signals.advance_mm[i] > 0.0)) continue;
     const auto normal = plane_normal(signals.poses[i]);
-    if (!normal) return Measured::none("no_picture_plane");
+    if (!normal) {
+      beyond.no_plane = true;
+      return beyond;
+    }
     // The far side is where the needle points to.
     const glm::dvec3 far = glm::dot(*normal, signals.poses[i].needle_direction) < 0.0 ? -*normal : *normal;
     const auto past_mm = [&](const glm::dvec3& tip) {
@@ -115,9 +125,15 @@ Measured advance_beyond_plane(const Signals& signals) {
     const double to_mm = past_mm(signals.poses[i].tip_lps_mm);
     if (!(to_mm > 0.0)) continue;
     const double from_mm = past_mm(signals.poses[i - 1].tip_lps_mm);
-    beyond_mm += signals.advance_mm[i] * (from_mm < 0.0 ? to_mm / (to_mm - from_mm) : 1.0);
+    beyond.advance_mm += signals.advance_mm[i] * (from_mm < 0.0 ? to_mm / (to_mm - from_mm) : 1.0);
+    if (!beyond.first_s && beyond.advance_mm > more_than_mm) beyond.first_s = signals.poses[i].t_s;
   }
-  return Measured::of(beyond_mm);
+  return beyond;
+}
+
+Measured advance_beyond_plane(const Signals& signals) {
+  const Beyond beyond = beyond_plane(signals);
+  return beyond.no_plane ? Measured::none("no_picture_plane") : Measured::of(beyond.advance_mm);
 }
 
 // The probe is followed by a point that it drags along once it is kProbePlayMm away: the point's way is the drift.
@@ -178,6 +194,14 @@ constexpr MetricInfo kMetrics[] = {
 };
 
 }  // namespace
+
+std::optional<double> first_blind_run_s(const Signals& signals, double longer_than_mm) {
+  return seen_advance(signals, longer_than_mm).blind_s;
+}
+
+std::optional<double> first_beyond_plane_s(const Signals& signals, double more_than_mm) {
+  return beyond_plane(signals, more_than_mm).first_s;
+}
 
 std::span<const MetricInfo> advance_metrics() {
   return kMetrics;

@@ -22,7 +22,7 @@ struct MetricValue {
 enum class Direction { none, lower_is_better, higher_is_better };
 
 // What it speaks of, in the order of what a trainee asks first.
-enum class Group { target, safety, picture, path, time, dose, recording };
+enum class Group { target, safety, procedure, picture, path, time, dose, recording };
 
 // The number, or why there is none.
 struct Measured {

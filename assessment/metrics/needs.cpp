@@ -50,6 +50,14 @@ bool in_tissue(const Signals& signals) {
                      [](const cases::SkinPassage& passage) { return passage.in_body; });
 }
 
+bool trouble_made(const Signals& signals) {
+  return signals.events &&
+         std::any_of(signals.events->begin(), signals.events->end(), [](const cases::Event& event) {
+           const cases::EventInfo* info = cases::find_event(event.kind);
+           return info != nullptr && info->source == cases::EventSource::mentor;
+         });
+}
+
 constexpr NeedInfo kNeeds[] = {
     {kXray, "fluoroscopy", "not_xray", &of_manner<kXray>},
     {kUltrasound, "ultrasound", "not_ultrasound", &of_manner<kUltrasound>},
@@ -77,6 +85,10 @@ constexpr NeedInfo kNeeds[] = {
     {kNearPlane, "what was near the plane", "near_plane_not_recorded", &near_plane_recorded},
     {kMotion, "more than gaps", "only_gaps", [](const Signals& s) { return !s.only_gaps(); }},
     {kTissue, "the tip in tissue", "never_in_tissue", &in_tissue},
+    {kEvents, "what was said", "events_not_recorded", [](const Signals& s) { return s.events.has_value(); }},
+    {kTrouble, "a mentor's event", "no_such_event", &trouble_made},
+    {kDecision, "the right decision", "no_right_decision",
+     [](const Signals& s) { return s.setting.defer_is_right.has_value(); }},
 };
 
 }  // namespace
@@ -98,7 +110,7 @@ bool applies(std::uint32_t needs, const Manner& manner) {
 
 bool absent_from_case(std::string_view reason) {
   constexpr std::uint32_t of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory |
-                                    kMustCross | kOrgan | kLumen | kSkin | kForces;
+                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kDecision;
   return std::any_of(std::begin(kNeeds), std::end(kNeeds),
                      [&](const NeedInfo& info) { return (info.need & of_case) != 0 && reason == info.reason; });
 }

@@ -45,6 +45,10 @@ enum Need : std::uint32_t {
   kNearPlane = 1U << 20U,
   kMotion = 1U << 21U,  // more than gaps
   kTissue = 1U << 22U,  // the tip was in the body
+  kEvents = 1U << 23U,
+  kTrouble = 1U << 24U,  // an event of a mentor's
+  // Of the case.
+  kDecision = 1U << 25U,
 };
 
 struct NeedInfo {

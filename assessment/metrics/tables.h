@@ -20,6 +20,7 @@ std::span<const MetricInfo> force_metrics();
 std::span<const MetricInfo> time_metrics();
 std::span<const MetricInfo> fluoroscopy_metrics();
 std::span<const MetricInfo> recording_metrics();
+std::span<const MetricInfo> procedure_metrics();
 
 // At the endpoint; there is one, and a target.
 bool target_hit(const Signals& signals);
@@ -31,6 +32,10 @@ struct PunctureCounts {
   std::size_t first_pose = 0;
 };
 PunctureCounts count_punctures(const Signals& signals);
+
+// When a blind run, as blind_advance_max counts it, was first longer; when advance_beyond_plane was first more.
+std::optional<double> first_blind_run_s(const Signals& signals, double longer_than_mm);
+std::optional<double> first_beyond_plane_s(const Signals& signals, double more_than_mm);
 
 // Sources that more than one table names.
 inline constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";

@@ -75,6 +75,7 @@ struct Case {
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   PatientPosition position = PatientPosition::supine;
   std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
+  std::optional<bool> defer_is_right{};              // what has to be decided at the sign-in; nothing: nobody said
   Fluoroscope fluoroscope;                           // used under xray only
 };
 

@@ -56,6 +56,30 @@ TEST_F(StoreAttemptsTest, AnAttemptComesBackAsItWentIn) {
   EXPECT_EQ(again.load_asset(row.picture_sha256).value(), attempt.picture_png);
 }
 
+TEST_F(StoreAttemptsTest, StepsComeBackInTheirOrder) {
+  using assessment::StepState;
+  NewAttempt attempt = sample();
+  attempt.steps = {{"sign_in", 1, StepState::done, 1.25, ""},
+                   {"decide", 1, StepState::skipped, std::nullopt, ""},
+                   {"insert", 1, StepState::violated, 0.1 + 0.2, ""},
+                   {"a_step_of_old", 1, StepState::not_asked, std::nullopt, "not_xray"}};
+  const std::string attempt_id = add(attempt);
+  EXPECT_EQ(list_steps(library_, attempt_id), attempt.steps);
+  EXPECT_TRUE(list_steps(library_, add(sample())).empty());
+
+  // Another version is added beside it and is what is told; the same one again is not.
+  auto again = attempt.steps;
+  again[1] = {"decide", 1, StepState::done, 3.0, ""};
+  EXPECT_EQ(add_steps(library_, attempt_id, again).value(), 0U);
+  EXPECT_EQ(list_steps(library_, attempt_id), attempt.steps);
+  again.pop_back();
+  for (auto& step : again) step.version = 2;
+  EXPECT_EQ(add_steps(library_, attempt_id, again).value(), 3U);
+  again.push_back(attempt.steps.back());
+  EXPECT_EQ(list_steps(library_, attempt_id), again);
+  EXPECT_EQ(add_steps(library_, "nobody", again).error().code, "no_attempt");
+}
+
 TEST_F(StoreAttemptsTest, ASimulationIsNobodysAndNeedsNoPicture) {
   NewAttempt attempt = sample();
   attempt.instrument.kind = cases::InstrumentKind::access;

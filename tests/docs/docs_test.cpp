@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/procedure/steps.h"
 #include "casedb/import/allow_list.h"
 #include "web/routes.h"
 
@@ -25,6 +26,10 @@ TEST(Docs, CommandsAreTheTable) {
 
 TEST(Docs, MetricsAreTheRegistry) {
   EXPECT_EQ(file("docs/metrics.md"), seldinger::assessment::metrics_markdown());
+}
+
+TEST(Docs, StepsAreTheTables) {
+  EXPECT_EQ(file("docs/steps.md"), seldinger::assessment::steps_markdown());
 }
 
 TEST(Docs, RoutesAreTheRegistry) {

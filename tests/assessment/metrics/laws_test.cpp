@@ -199,6 +199,8 @@ TEST(EveryMetric, IsNullWithoutWhatItNeeds) {
     bare.recording.frames.clear();
     bare.structures.clear();
     bare.recording.forces.clear();
+    bare.recording.events.reset();
+    bare.setting.defer_is_right.reset();
     bare.setting.target.reset();
     bare.setting.plan.reset();
     bare.skin = cases::MeshIndex();

@@ -204,6 +204,16 @@ inline SampleAttempt sample_attempt(const SampleKind& kind, const Sampling& samp
       frame.near_plane = cases::NearPlane{t_s > 3.0, t_s<9.0, t_s> 1.0, true};
     sample.recording.frames.push_back(frame);
   }
+  using enum cases::EventKind;
+  const std::pair<double, cases::EventKind> said[] = {
+      {0.1, sign_in},     {0.15, proceed},  {0.2, note_plan}, {0.3, aspirate},
+      {0.4, anaesthetic}, {0.45, nick},     {1.6, pain_skin}, {8.0, breath_hold_request},
+      {9.2, breath_held}, {9.6, pain_bone}, {10.5, cough}};
+  for (const auto& [t_s, event] : said) {
+    if (!sample.recording.events) sample.recording.events.emplace();
+    sample.recording.events->push_back({now(t_s), event});
+  }
+  setting.defer_is_right = false;
   return sample;
 }
 

@@ -1,0 +1,295 @@
+#include "assessment/procedure/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "assessment/metrics/tables.h"
+#include "assessment/signals.h"
+#include "sim/base/check.h"
+#include "sim/case/c_arm.h"
+
+namespace seldinger::assessment {
+namespace {
+
+using cases::EventKind;
+using Moment = std::optional<double>;
+
+// Judgement, all of them: how near counts as there, and how long after as because of it.
+constexpr double kProbeOnSkinMm = 15.0;  // its middle from the skin: a curved face is pressed in by up to 10
+constexpr double kAtSkinMm = 5.0;
+constexpr double kAtEdgeMm = 5.0;  // thesis, step 10: a core needle stops at the target's edge
+constexpr double kAspirationSeconds = 15.0;
+constexpr double kBlindRunMm = 5.0;  // clinical.md, "Common"
+constexpr double kJiggleMostMm = 5.0, kJiggleSeconds = 2.0;
+constexpr double kReactSeconds = 1.0, kTroubleSeconds = 3.0, kTroubleMm = 2.0;
+constexpr double kAlongDeg = 10.0, kAcrossDeg = 30.0;  // clinical.md, case 6: views at least 30° apart
+
+template <EventKind kind>
+Moment event(const Signals& signals) {
+  for (const cases::Event& one : *signals.events)
+    if (one.kind == kind) return one.t_s;
+  return std::nullopt;
+}
+
+Moment earlier(Moment a, Moment b) {
+  return !a || (b && *b < *a) ? b : a;
+}
+
+Moment decided(const Signals& signals) {
+  return earlier(event<EventKind::proceed>(signals), event<EventKind::defer>(signals));
+}
+
+Moment anaesthetised_unaspirated(const Signals& signals) {
+  double aspirated_s = -1e300;
+  for (const cases::Event& one : *signals.events) {
+    if (one.kind == EventKind::aspirate) aspirated_s = one.t_s;
+    if (one.kind == EventKind::anaesthetic && one.t_s - aspirated_s > kAspirationSeconds) return one.t_s;
+  }
+  return std::nullopt;
+}
+
+template <typename Is>
+Moment first_pose(const Signals& signals, const Is& is) {
+  for (std::size_t i = 0; i < signals.poses.size(); ++i)
+    if (is(i)) return signals.poses[i].t_s;
+  return std::nullopt;
+}
+
+// Calls back with each live frame and the pose that held when it was made.
+template <typename Is>
+Moment first_frame(const Signals& signals, const Is& is) {
+  std::size_t pose = 0;
+  for (const cases::FrameTruth& frame : signals.frames) {
+    while (pose + 1 < signals.poses.size() && signals.poses[pose + 1].t_s <= frame.t_s) ++pose;
+    if (frame.live && is(frame, pose)) return frame.t_s;
+  }
+  return std::nullopt;
+}
+
+Moment probe_on_skin(const Signals& signals) {
+  const cases::MeshIndex& skin = *signals.setting.skin;
+  std::uint32_t hint = 0;
+  double asked_s = -1e300;
+  return first_pose(signals, [&](std::size_t i) {
+    if (signals.poses[i].t_s - asked_s < 0.1 - kTimeTolerance_s) return false;  // a hand is no faster
+    asked_s = signals.poses[i].t_s;
+    const cases::Closest near = skin.closest(signals.poses[i].probe_origin_lps_mm, hint);
+    hint = near.triangle;
+    return std::abs(near.distance_mm) <= kProbeOnSkinMm;
+  });
+}
+
+Moment needle_at_skin(const Signals& signals) {
+  return first_pose(signals, [&](std::size_t i) { return signals.passages[i].depth_mm >= -kAtSkinMm; });
+}
+
+Moment punctured(const Signals& signals) {
+  return count_punctures(signals).first_s;
+}
+
+// Two turns of the tip along the shaft, in tissue, by more than kJiggleMm and no more than a jiggle.
+Moment jiggled(const Signals& signals) {
+  double turned_mm = 0.0, turned_s = -1e300, far_mm = 0.0, far_s = 0.0;
+  int way = 0;  // which way it has been going since the last turn
+  for (std::size_t i = 0; i < signals.poses.size(); ++i) {
+    if (!signals.passages[i].in_body || (i > 0 && signals.gap(i - 1))) {
+      way = 0;
+      turned_s = -1e300;
+      continue;
+    }
+    const double now_mm = signals.inserted_mm(i), now_s = signals.poses[i].t_s;
+    if (way == 0) {
+      way = 1;
+      far_mm = turned_mm = now_mm;
+      far_s = now_s;
+    }
+    if ((now_mm - far_mm) * way >= 0.0) {
+      far_mm = now_mm;
+      far_s = now_s;
+    } else if ((far_mm - now_mm) * way >= kJiggleMm) {  // it has turned at far_mm
+      const double swing_mm = std::abs(far_mm - turned_mm);
+      if (far_s - turned_s <= kJiggleSeconds && swing_mm >= kJiggleMm && swing_mm <= kJiggleMostMm) return now_s;
+      turned_mm = far_mm;
+      turned_s = far_s;
+      far_mm = now_mm;
+      far_s = now_s;
+      way = -way;
+    }
+  }
+  return std::nullopt;
+}
+
+Moment at_target(const Signals& signals) {
+  const cases::Shape target = cases::shape_of(*signals.setting.target);
+  const double near_mm = signals.setting.instrument.kind == cases::InstrumentKind::core ? kAtEdgeMm : 0.0;
+  return first_pose(signals, [&](std::size_t i) {
+    return signals.passages[i].in_body &&
+           cases::signed_distance_mm(target, signals.poses[i].tip_lps_mm, near_mm + 1.0) <= near_mm;
+  });
+}
+
+Moment fired(const Signals& signals) {
+  return signals.endpoint ? Moment(signals.endpoint->t_s) : std::nullopt;
+}
+
+// How far the needle came deeper from kReactSeconds after an event of a mentor's on, for kTroubleSeconds.
+template <bool going_on>
+Moment in_trouble(const Signals& signals) {
+  for (const cases::Event& one : *signals.events) {
+    const cases::EventInfo* info = cases::find_event(one.kind);
+    if (info == nullptr || info->source != cases::EventSource::mentor) continue;
+    const double from_s = one.t_s + kReactSeconds, to_s = from_s + kTroubleSeconds;
+    double advance_mm = 0.0;
+    for (std::size_t i = 0; i < signals.poses.size(); ++i)
+      if (signals.poses[i].t_s > from_s && signals.poses[i].t_s <= to_s) advance_mm += signals.advance_mm[i];
+    if ((advance_mm > kTroubleMm) == going_on) return from_s;
+  }
+  return std::nullopt;
+}
+
+Moment target_seen(const Signals& signals) {
+  return first_frame(signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.target; });
+}
+Moment tip_seen(const Signals& signals) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
+    return frame.needle_tip && signals.passages[pose].in_body;
+  });
+}
+Moment both_seen(const Signals& signals) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
+    return frame.joint() && signals.passages[pose].in_body;
+  });
+}
+
+Moment blind_run(const Signals& signals) {
+  return first_blind_run_s(signals, kBlindRunMm);
+}
+
+Moment beyond_plane(const Signals& signals) {
+  return first_beyond_plane_s(signals, kBlindRunMm);
+}
+
+Moment fired_unseen(const Signals& signals) {
+  if (!signals.endpoint) return std::nullopt;
+  const cases::FrameTruth* last = nullptr;
+  for (const cases::FrameTruth& frame : signals.frames)
+    if (frame.t_s <= signals.endpoint->t_s) last = &frame;
+  return last != nullptr && last->live && last->needle_tip ? std::nullopt : Moment(signals.endpoint->t_s);
+}
+
+Moment seen_in_breath_hold(const Signals& signals) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t) {
+    bool held = false;
+    for (const cases::Event& one : *signals.events) {
+      if (one.t_s > frame.t_s) break;
+      if (one.kind == EventKind::breath_held) held = true;
+      if (one.kind == EventKind::breath_lost || one.kind == EventKind::breathe_again) held = false;
+    }
+    return held && frame.joint();
+  });
+}
+
+// The angle between the lines of beam and needle, 0 to 90°.
+double beam_angle_deg(const Signals& signals, const cases::BeamTruth& beam, std::size_t pose) {
+  const glm::dvec3 ray = cases::beam_direction(beam.lao_deg, beam.cranial_deg, signals.setting.position);
+  const double cosine = std::min(1.0, std::abs(glm::dot(ray, signals.poses[pose].needle_direction)));
+  return std::acos(cosine) * 180.0 / std::numbers::pi;
+}
+
+Moment target_under_beam(const Signals& signals) {
+  return first_frame(
+      signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.beam.has_value() && frame.target; });
+}
+Moment looked_along_needle(const Signals& signals) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
+    return frame.beam && frame.needle_tip && beam_angle_deg(signals, *frame.beam, pose) <= kAlongDeg;
+  });
+}
+Moment looked_across_needle(const Signals& signals) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
+    return frame.beam && frame.joint() && signals.passages[pose].in_body &&
+           beam_angle_deg(signals, *frame.beam, pose) >= kAcrossDeg;
+  });
+}
+Moment hand_in_beam(const Signals& signals) {
+  return first_frame(
+      signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.beam && frame.beam->hand_in_beam; });
+}
+
+constexpr std::uint32_t kSaid = kEvents, kSeen = kPictures;
+
+constexpr EvidenceInfo kEvidence[] = {
+    {Evidence::none, "never", 0, [](const Signals&) { return Moment(); }},
+    {Evidence::signed_in, "the sign-in was said", kSaid, &event<EventKind::sign_in>},
+    {Evidence::decided, "it was said to proceed or to defer", kSaid, &decided},
+    {Evidence::deferred, "it was said to defer", kSaid, &event<EventKind::defer>},
+    {Evidence::probe_checked, "the probe's orientation was checked", kSaid, &event<EventKind::probe_checked>},
+    {Evidence::plan_noted, "entry and depth were noted", kSaid, &event<EventKind::note_plan>},
+    {Evidence::anaesthetised, "local anaesthetic was given", kSaid, &event<EventKind::anaesthetic>},
+    {Evidence::anaesthetised_unaspirated, "anaesthetic was given with no aspiration in the 15 s before", kSaid,
+     &anaesthetised_unaspirated},
+    {Evidence::nicked, "the skin was nicked", kSaid, &event<EventKind::nick>},
+    {Evidence::breath_hold_asked, "a held breath was asked for", kSaid, &event<EventKind::breath_hold_request>},
+    {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
+    {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
+    {Evidence::bone_pain, "the needle met bone", kSaid, &event<EventKind::pain_bone>},
+    {Evidence::probe_on_skin, "the middle of the probe's face was within 15 mm of the skin", kSkin, &probe_on_skin},
+    {Evidence::needle_at_skin, "the tip was within 5 mm of the skin, or in it", kSkin, &needle_at_skin},
+    {Evidence::punctured, "the first puncture that skin_punctures counts", kSkin, &punctured},
+    {Evidence::jiggled, "in tissue the tip went to and fro along the shaft, by 1 to 5 mm and within 2 s", kSkin,
+     &jiggled},
+    {Evidence::at_target, "the tip was in the target; a core needle's: at most 5 mm from its edge", kTarget | kSkin,
+     &at_target},
+    {Evidence::fired, "the trigger fell", 0, &fired},
+    {Evidence::needle_out, "after the trigger the tip left the skin", kSkin,
+     [](const Signals& signals) { return signals.after.needle_out_s; }},
+    {Evidence::went_on_in_trouble,
+     "from 1 to 4 s after a cough, bleeding or drop of pressure the needle came over 2 mm deeper", kSaid | kSkin,
+     &in_trouble<true>},
+    {Evidence::stopped_in_trouble,
+     "from 1 to 4 s after a cough, bleeding or drop of pressure the needle came at most 2 mm deeper", kSaid | kSkin,
+     &in_trouble<false>},
+    {Evidence::target_seen, "a live picture showed the target", kSeen | kTarget, &target_seen},
+    {Evidence::tip_seen, "a live picture showed the tip in tissue", kSeen | kSkin, &tip_seen},
+    {Evidence::both_seen, "a live picture showed target and tip in tissue at once", kSeen | kTarget | kSkin,
+     &both_seen},
+    {Evidence::blind_run, "the tip advanced over 5 mm in tissue from one sight of it to the next",
+     kSeen | kSkin | kInPlane, &blind_run},
+    {Evidence::beyond_plane,
+     "the tip advanced over 5 mm in tissue while it was over 3 mm beyond the picture's plane",
+     kPicturePlane | kSkin | kOutOfPlane, &beyond_plane},
+    {Evidence::fired_unseen, "the picture before the trigger was not live or did not show the tip", kSeen,
+     &fired_unseen},
+    {Evidence::seen_in_breath_hold, "a live picture showed tip and target while the breath was held",
+     kSaid | kSeen | kTarget, &seen_in_breath_hold},
+    {Evidence::scanned_after, "with the needle out a live picture showed the target", kSeen | kTarget | kSkin,
+     [](const Signals& signals) { return signals.after.scanned_s; }},
+    {Evidence::target_under_beam, "a pulse showed the target", kSeen | kTarget | kXray, &target_under_beam},
+    {Evidence::looked_along_needle, "a pulse showed the tip from within 10° of the needle's line",
+     kSeen | kXray | kBeam, &looked_along_needle},
+    {Evidence::looked_across_needle,
+     "a pulse showed target and tip in tissue from at least 30° off the needle's line",
+     kSeen | kXray | kBeam | kTarget | kSkin, &looked_across_needle},
+    {Evidence::hand_in_beam, "a pulse met the hand", kSeen | kXray | kBeam, &hand_in_beam},
+};
+
+}  // namespace
+
+std::span<const EvidenceInfo> evidence() {
+  return kEvidence;
+}
+
+const EvidenceInfo& about(Evidence evidence) {
+  const EvidenceInfo& info = kEvidence[static_cast<std::size_t>(evidence)];
+  CHECK(info.evidence == evidence);
+  return info;
+}
+
+std::optional<double> first_s(Evidence evidence, const Signals& signals) {
+  const EvidenceInfo& info = about(evidence);
+  return (info.needs & unmet_needs(signals)) == 0 ? info.first_s(signals) : std::nullopt;
+}
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,70 @@
+// What an attempt's recording tells about what was done, as far as steps of a procedure ask: each a moment, or
+// never.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "assessment/metrics/needs.h"
+
+namespace seldinger::assessment {
+
+struct Signals;
+
+enum class Evidence : std::uint8_t {
+  none,  // never asked
+  // Said or asked for.
+  signed_in,
+  decided,  // to proceed or to defer
+  deferred,
+  probe_checked,
+  plan_noted,
+  anaesthetised,
+  anaesthetised_unaspirated,
+  nicked,
+  breath_hold_asked,
+  signed_out,
+  // Answered by the patient.
+  skin_pain,
+  bone_pain,
+  // Of the hands.
+  probe_on_skin,
+  needle_at_skin,
+  punctured,
+  jiggled,
+  at_target,
+  fired,
+  needle_out,
+  went_on_in_trouble,
+  stopped_in_trouble,
+  // Of the pictures.
+  target_seen,
+  tip_seen,
+  both_seen,
+  blind_run,
+  beyond_plane,
+  fired_unseen,
+  seen_in_breath_hold,
+  scanned_after,
+  // Of the beam.
+  target_under_beam,
+  looked_along_needle,
+  looked_across_needle,
+  hand_in_beam,
+};
+
+struct EvidenceInfo {
+  Evidence evidence;
+  const char* words;    // how it is told from the recording
+  std::uint32_t needs;  // Need, or-ed: without one nothing can be said
+  std::optional<double> (*first_s)(const Signals&);
+};
+
+std::span<const EvidenceInfo> evidence();
+
+// When it was seen first; never, or cannot be said: nothing.
+std::optional<double> first_s(Evidence evidence, const Signals& signals);
+const EvidenceInfo& about(Evidence evidence);
+
+}  // namespace seldinger::assessment

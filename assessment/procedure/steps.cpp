@@ -1,0 +1,165 @@
+#include "assessment/procedure/steps.h"
+
+#include "assessment/signals.h"
+#include "sim/base/check.h"
+
+namespace seldinger::assessment {
+namespace {
+
+using enum Evidence;
+
+constexpr const char* kAround = "clinical.md: steps around the puncture";
+constexpr const char* kTask(int step) {
+  constexpr const char* kSteps[] = {
+      "thesis, appendix A, step 1",        "thesis, appendix A, step 2",  "thesis, appendix A, step 3",
+      "thesis, appendix A, steps 4 and 5", "thesis, appendix A, step 5",  "thesis, appendix A, step 6",
+      "thesis, appendix A, step 7",        "thesis, appendix A, step 8",  "thesis, appendix A, step 9",
+      "thesis, appendix A, step 10",       "thesis, appendix A, step 11", "thesis, appendix A, step 12"};
+  return kSteps[step - 1];
+}
+constexpr const char* kOutOf = "clinical.md: out-of-plane with dynamic tip positioning";
+constexpr const char* kBullsEye = "clinical.md, case 6: bull's-eye, then depth view";
+
+constexpr StepInfo kSteps[] = {
+    {"sign_in", "Sign in: identity, consent, imaging, allergy, INR, platelets", kEvents, signed_in, punctured, none,
+     true, kAround},
+    {"decide", "Decide to proceed or to defer", kEvents, decided, punctured, none, true, kAround},
+    {"check_probe", "Choose the probe and check its orientation", kEvents | kUltrasound, probe_checked, punctured,
+     none, true, kAround},
+    {"place_probe", "Place the probe on the patient at the entry", kPicturePlane | kSkin, probe_on_skin, punctured,
+     none, true, kTask(1)},
+    {"find_target", "Find the target in the picture", kPicturePlane | kPictures | kTarget, target_seen, punctured,
+     none, true, kTask(2)},
+    {"find_target_under_beam", "Find the target under fluoroscopy", kXray | kPictures | kTarget, target_under_beam,
+     punctured, none, true, kBullsEye},
+    {"note_depth", "Note planned entry and depth, and the needle's markings", kEvents, plan_noted, punctured, none,
+     true, kTask(3)},
+    {"anaesthetise", "Give local anaesthetic, after aspiration", kEvents, anaesthetised, punctured,
+     anaesthetised_unaspirated, true, kAround},
+    {"nick", "Nick the skin", kEvents | kCoreNeedle, nicked, punctured, none, true, kAround},
+    {"hold_at_entry", "Hold the needle at the entry", kSkin, needle_at_skin, none, none, true, kTask(4)},
+    {"aim_along_beam", "Aim along the beam: bull's-eye view", kXray | kPictures | kBeam, looked_along_needle,
+     at_target, hand_in_beam, true, kBullsEye},
+    {"insert", "Insert the needle, through skin that is numb", kSkin, punctured, none, skin_pain, true, kTask(6)},
+    {"needle_in_plane", "Bring needle and picture together: see the tip in tissue",
+     kPicturePlane | kPictures | kSkin | kInPlane, tip_seen, fired, none, true, kTask(7)},
+    {"jiggle", "Jiggle the needle gently to find it in the picture", kUltrasound | kSkin, jiggled, fired, none,
+     false, kTask(8)},
+    {"see_both", "See needle and target in one picture", kPicturePlane | kPictures | kTarget | kSkin | kInPlane,
+     both_seen, fired, none, true, kTask(8)},
+    {"advance_seen", "Advance slowly towards the target, the tip in the picture",
+     kPicturePlane | kPictures | kTarget | kSkin | kInPlane, at_target, fired, blind_run, true, kTask(9)},
+    {"advance_to_plane", "Advance no further than the picture's plane: the probe goes first",
+     kPicturePlane | kTarget | kSkin | kOutOfPlane, at_target, fired, beyond_plane, true, kOutOf},
+    {"keep_off_bone", "Keep off bone", kEvents | kSkin, at_target, fired, bone_pain, true, kAround},
+    {"judge_depth", "Judge the depth from a second view", kXray | kPictures | kBeam | kTarget | kSkin,
+     looked_across_needle, fired, none, true, kBullsEye},
+    {"reach_target", "Reach the target; with a core needle, its edge", kTarget | kSkin, at_target, fired, none,
+     true, kTask(10)},
+    {"stop_in_trouble", "Stop when the patient coughs, bleeds or loses pressure", kEvents | kTrouble | kSkin,
+     stopped_in_trouble, none, went_on_in_trouble, true, kAround},
+    {"ask_breath_hold", "Ask the patient to hold the breath", kEvents, breath_hold_asked, fired, none, false,
+     kTask(11)},
+    {"check_in_breath_hold", "Check needle and target while the breath is held",
+     kEvents | kPicturePlane | kPictures | kTarget, seen_in_breath_hold, fired, none, false, kTask(12)},
+    {"sample", "Take the sample, or declare access, with the tip in the picture",
+     kPicturePlane | kPictures | kInPlane, fired, none, fired_unseen, true, kAround},
+    {"declare", "Declare that the place is reached", kXray, fired, none, none, true, kAround},
+    {"declare_out_of_plane", "Declare that the place is reached", kOutOfPlane, fired, none, none, true, kAround},
+    {"needle_out", "Take the needle out", kEvents | kCoreNeedle | kSkin, needle_out, none, none, true, kAround},
+    {"scan_after", "Scan once more with the needle out",
+     kEvents | kCoreNeedle | kPicturePlane | kPictures | kTarget | kSkin, scanned_after, none, none, true, kAround},
+    {"sign_out", "Sign out", kEvents, signed_out, none, none, true, kAround},
+};
+
+constexpr std::string_view kStates[] = {"done", "skipped", "violated", "not_asked"};
+
+StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unmet, bool stopped_by_defer) {
+  StepResult result;
+  result.id = step.id;
+  const std::uint32_t needs = step.needs | about(step.completes).needs;
+  for (const NeedInfo& need : assessment::needs())
+    if ((needs & unmet & need.need) != 0) {
+      result.reason = need.reason;
+      return result;
+    }
+  // Who defers does nothing of what follows.
+  if (stopped_by_defer && step.completes != signed_in && step.completes != decided &&
+      step.completes != signed_out) {
+    result.reason = "deferred";
+    return result;
+  }
+  const auto violated_s = first_s(step.violates, signals), done_s = first_s(step.completes, signals),
+             by_s = first_s(step.by, signals);
+  result.t_s = violated_s ? violated_s : done_s;
+  result.state = violated_s                             ? StepState::violated
+                 : done_s && !(by_s && *done_s > *by_s) ? StepState::done
+                                                        : StepState::skipped;
+  return result;
+}
+
+}  // namespace
+
+std::span<const StepInfo> procedure_steps() {
+  return kSteps;
+}
+
+const StepInfo* find_step(std::string_view id) {
+  for (const StepInfo& step : kSteps)
+    if (id == step.id) return &step;
+  return nullptr;
+}
+
+std::string_view name_of(StepState state) noexcept {
+  return kStates[static_cast<std::size_t>(state)];
+}
+
+std::optional<StepState> step_state_from(std::string_view name) noexcept {
+  for (std::size_t i = 0; i < std::size(kStates); ++i)
+    if (kStates[i] == name) return static_cast<StepState>(i);
+  return std::nullopt;
+}
+
+std::vector<StepResult> walk_steps(const Signals& signals) {
+  const std::uint32_t unmet = unmet_needs(signals);
+  const bool stopped_by_defer = first_s(deferred, signals) && !first_s(punctured, signals);
+  std::vector<StepResult> results;
+  for (const StepInfo& step : kSteps) results.push_back(walk(step, signals, unmet, stopped_by_defer));
+  return results;
+}
+
+StepCounts count_steps(std::span<const StepResult> results) {
+  StepCounts counts;
+  for (const StepResult& result : results) {
+    const StepInfo* step = find_step(result.id);
+    if (step == nullptr || !step->graded) continue;
+    counts.done += result.state == StepState::done ? 1 : 0;
+    counts.skipped += result.state == StepState::skipped ? 1 : 0;
+    counts.violated += result.state == StepState::violated ? 1 : 0;
+  }
+  return counts;
+}
+
+std::string steps_markdown() {
+  const auto words = [](Evidence of) { return of == none ? std::string("–") : std::string(about(of).words); };
+  std::string text =
+      "# Steps of a puncture\n\nMade from the tables in `assessment/procedure/` by `seldinger help --steps`; a "
+      "test "
+      "compares.\nA step is done when its evidence was there in time, skipped when it never was or came too late, "
+      "violated\nwhatever else was done, and not asked for where the guidance, the needle, the case or the "
+      "recording "
+      "lacks what\nit needs. Steps that are not graded count once tissue moves (clinical.md).\n\n"
+      "| id | step | asked for with | done when | before | violated when | graded | source |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  for (const StepInfo& step : kSteps) {
+    std::string needs;
+    for (const NeedInfo& need : assessment::needs())
+      if ((step.needs & need.need) != 0) needs += (needs.empty() ? "" : ", ") + std::string(need.words);
+    text += "| `" + std::string(step.id) + "` | " + step.words + " | " + (needs.empty() ? "–" : needs) + " | " +
+            words(step.completes) + " | " + words(step.by) + " | " + words(step.violates) + " | " +
+            (step.graded ? "yes" : "no") + " | " + step.source + " |\n";
+  }
+  return text;
+}
+
+}  // namespace seldinger::assessment

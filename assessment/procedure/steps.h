@@ -1,0 +1,59 @@
+// The steps of a puncture as its task analysis tells them (thesis, appendix A; clinical.md, "Steps around the
+// puncture"), as data: which evidence completes a step, by when, and which violates it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assessment/procedure/evidence.h"
+
+namespace seldinger::assessment {
+
+constexpr int kStepsVersion = 1;  // higher when a row below changes its meaning: stored results keep theirs
+
+struct StepInfo {
+  const char* id;
+  const char* words;    // as a checklist says it
+  std::uint32_t needs;  // Need, or-ed: of the manner and the case; without one the step is not asked for
+  Evidence completes;
+  Evidence by;        // done later than this it is skipped; none: any time will do
+  Evidence violates;  // none: it cannot be violated
+  bool graded;        // counts in steps_done and steps_violated
+  const char* source;
+};
+
+// In the order in which they are to be done.
+std::span<const StepInfo> procedure_steps();
+const StepInfo* find_step(std::string_view id);
+
+enum class StepState : std::uint8_t { done, skipped, violated, not_asked };
+
+struct StepResult {
+  std::string id;
+  int version = kStepsVersion;
+  StepState state = StepState::not_asked;
+  std::optional<double> t_s;  // when it was done (skipped: too late) or violated
+  std::string reason;         // of not_asked: a need's reason, `deferred` or `no_such_event`; else empty
+  bool operator==(const StepResult&) const = default;
+};
+
+std::string_view name_of(StepState state) noexcept;
+std::optional<StepState> step_state_from(std::string_view name) noexcept;
+
+// Every step, in order.
+std::vector<StepResult> walk_steps(const Signals& signals);
+
+// Of those that are graded and were asked for.
+struct StepCounts {
+  int done = 0, skipped = 0, violated = 0;
+  int asked() const noexcept { return done + skipped + violated; }
+};
+StepCounts count_steps(std::span<const StepResult> results);
+
+// docs/steps.md, from the tables.
+std::string steps_markdown();
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,334 @@
+// Tests of assessment/procedure: what of a recording completes, skips or violates a step.
+#include "assessment/procedure/steps.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <set>
+
+#include "assessment/metrics/registry.h"
+#include "sim/case/c_arm.h"
+#include "tests/assessment/metrics/sample_attempts.h"
+
+namespace seldinger::assessment {
+namespace {
+
+using cases::EventKind;
+
+constexpr SampleKind kUltrasoundCore{cases::Modality::ultrasound, cases::Approach::in_plane,
+                                     cases::InstrumentKind::core};
+constexpr SampleKind kUltrasoundAcross{cases::Modality::ultrasound, cases::Approach::out_of_plane,
+                                       cases::InstrumentKind::access};
+constexpr SampleKind kFluoroscopy{cases::Modality::xray, cases::Approach::in_plane, cases::InstrumentKind::access};
+
+// An attempt in which all is done as it is to be: scan, say what is to be said, straight in with the tip in the
+// picture, a jiggle, a held breath, the trigger at 8 s, out at 10 s, a last look, sign-out.
+SampleAttempt exemplary(const SampleKind& kind) {
+  SampleAttempt sample = sample_attempt(kind);
+  const glm::dvec3 way = glm::normalize(sample.setting.target->center_lps_mm);
+  const bool xray = kind.modality == cases::Modality::xray;
+  const bool across = !xray && kind.approach == cases::Approach::out_of_plane;
+  const double deep_mm = kind.instrument == cases::InstrumentKind::core ? 54.0 : 60.0;  // its edge is at 56
+  const std::vector<Knot> depth = {{1.0, -40.0}, {2.0, -2.0},    {3.0, 20.0},    {3.3, 17.0},
+                                   {3.6, 20.0},  {6.0, deep_mm}, {8.5, deep_mm}, {10.0, -20.0}};
+  sample.recording.poses.clear();
+  sample.recording.forces.clear();
+  sample.recording.frames.clear();
+  for (int i = 0; i <= 1200; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = i * 0.01;
+    pose.needle_direction = way;
+    pose.tip_lps_mm = way * reach(depth, pose.t_s);
+    // Out of plane the probe goes with the tip.
+    pose.probe_origin_lps_mm = across ? glm::dvec3(pose.tip_lps_mm.x, 0.0, 0.0) : glm::dvec3(30.0, 0.0, 0.0);
+    pose.probe_axial = {0, 1, 0};
+    pose.probe_lateral = across ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    sample.recording.poses.push_back(pose);
+  }
+  const glm::dvec3 end = way * reach(depth, 8.0);
+  sample.recording.endpoint = cases::Endpoint{8.0, end, way};
+  for (int i = 0; i < 12 * 15; ++i) {
+    cases::FrameTruth frame;
+    frame.t_s = i / 15.0;
+    frame.target = true;
+    frame.needle_tip = frame.t_s > (xray ? 1.5 : 1.9) && frame.t_s < 9.9;
+    if (xray) {
+      frame.beam = cases::BeamTruth{};
+      // Along the needle until 5 s, then 40° beside it.
+      const cases::BeamAngles along = cases::angles_of_beam(-way, cases::PatientPosition::supine);
+      frame.beam->lao_deg = along.lao_deg + (frame.t_s < 5.0 ? 0.0 : 40.0);
+      frame.beam->cranial_deg = along.cranial_deg;
+    } else if (kind.modality == cases::Modality::ultrasound) {
+      frame.near_plane = cases::NearPlane{};
+    }
+    sample.recording.frames.push_back(frame);
+  }
+  sample.recording.events = {{0.1, EventKind::sign_in},       {0.2, EventKind::proceed},
+                             {0.3, EventKind::probe_checked}, {0.4, EventKind::note_plan},
+                             {0.5, EventKind::aspirate},      {0.6, EventKind::anaesthetic},
+                             {0.7, EventKind::nick},          {6.1, EventKind::breath_hold_request},
+                             {7.3, EventKind::breath_held},   {11.9, EventKind::sign_out}};
+  return sample;
+}
+
+std::map<std::string, StepResult> walked(const SampleAttempt& sample) {
+  const auto signals = sample.signals();
+  EXPECT_TRUE(signals.has_value()) << (signals ? "" : signals.error().text);
+  std::map<std::string, StepResult> results;
+  if (signals)
+    for (const StepResult& result : walk_steps(*signals)) results[result.id] = result;
+  return results;
+}
+
+void say(SampleAttempt& sample, double t_s, EventKind kind) {
+  auto& events = *sample.recording.events;
+  events.insert(std::upper_bound(events.begin(), events.end(), t_s,
+                                 [](double t, const cases::Event& event) { return t < event.t_s; }),
+                {t_s, kind});
+}
+void leave_out(SampleAttempt& sample, EventKind kind) {
+  std::erase_if(*sample.recording.events, [&](const cases::Event& event) { return event.kind == kind; });
+}
+void move_event(SampleAttempt& sample, EventKind kind, double t_s) {
+  leave_out(sample, kind);
+  say(sample, t_s, kind);
+}
+
+TEST(Steps, HaveIdsOfTheirOwnAndEvidenceThatIsThere) {
+  std::set<std::string> ids;
+  for (const StepInfo& step : procedure_steps()) {
+    EXPECT_TRUE(ids.insert(step.id).second) << step.id;
+    EXPECT_EQ(find_step(step.id), &step);
+    EXPECT_NE(step.completes, Evidence::none) << step.id;
+  }
+  for (std::size_t i = 0; i < evidence().size(); ++i)
+    EXPECT_EQ(about(static_cast<Evidence>(i)).evidence, static_cast<Evidence>(i));
+}
+
+TEST(Steps, OfAnExemplaryAttemptAreAllDone) {
+  for (const SampleKind& kind : {kUltrasoundCore, kUltrasoundAcross, kFluoroscopy}) {
+    const SampleAttempt sample = exemplary(kind);
+    int done = 0;
+    for (const auto& [id, result] : walked(sample)) {
+      EXPECT_TRUE(result.state == StepState::done || result.state == StepState::not_asked)
+          << sample.name << ", " << id << ": " << name_of(result.state) << " at " << result.t_s.value_or(-1.0);
+      EXPECT_EQ(result.reason.empty(), result.state != StepState::not_asked) << id;
+      done += result.state == StepState::done ? 1 : 0;
+    }
+    EXPECT_GE(done, kind.modality == cases::Modality::xray ? 12 : 15) << sample.name;
+  }
+}
+
+// A fault, the step that it is of, and what becomes of the step. No other step changes.
+struct Fault {
+  const char* name;
+  const char* step;
+  StepState state;
+  std::function<void(SampleAttempt&)> make;
+  const SampleKind& kind = kUltrasoundCore;
+  std::set<std::string> besides = {};
+};
+
+void blind_from(SampleAttempt& sample, double from_s, double to_s) {
+  for (cases::FrameTruth& frame : sample.recording.frames)
+    if (frame.t_s > from_s && frame.t_s < to_s) frame.needle_tip = false;
+}
+
+const std::vector<Fault>& faults() {
+  using enum StepState;
+  static const std::vector<Fault> all = {
+      {"no sign-in", "sign_in", skipped, [](auto& s) { leave_out(s, EventKind::sign_in); }},
+      {"sign-in after the puncture", "sign_in", skipped, [](auto& s) { move_event(s, EventKind::sign_in, 5.0); }},
+      {"nothing decided", "decide", skipped, [](auto& s) { leave_out(s, EventKind::proceed); }},
+      {"the probe not looked at", "check_probe", skipped, [](auto& s) { leave_out(s, EventKind::probe_checked); }},
+      {"depth not noted", "note_depth", skipped, [](auto& s) { leave_out(s, EventKind::note_plan); }},
+      {"no aspiration", "anaesthetise", violated, [](auto& s) { leave_out(s, EventKind::aspirate); }},
+      {"aspiration after it", "anaesthetise", violated, [](auto& s) { move_event(s, EventKind::aspirate, 0.65); }},
+      {"no anaesthetic", "anaesthetise", skipped, [](auto& s) { leave_out(s, EventKind::anaesthetic); }},
+      {"no nick", "nick", skipped, [](auto& s) { leave_out(s, EventKind::nick); }},
+      {"skin not numb", "insert", violated, [](auto& s) { say(s, 2.1, EventKind::pain_skin); }},
+      {"bone", "keep_off_bone", violated, [](auto& s) { say(s, 4.0, EventKind::pain_bone); }},
+      {"a blind run", "advance_seen", violated, [](auto& s) { blind_from(s, 4.0, 5.5); }},
+      {"fired blind", "sample", violated, [](auto& s) { blind_from(s, 7.5, 8.2); }},
+      {"fired on a frozen picture", "sample", violated,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.live = frame.live && !(frame.t_s > 7.5 && frame.t_s < 8.2);
+       }},
+      {"no breath held",
+       "ask_breath_hold",
+       skipped,
+       [](auto& s) {
+         leave_out(s, EventKind::breath_hold_request);
+         leave_out(s, EventKind::breath_held);
+       },
+       kUltrasoundCore,
+       {"check_in_breath_hold"}},
+      {"breath lost before a look", "check_in_breath_hold", skipped,
+       [](auto& s) { say(s, 7.301, EventKind::breath_lost); }},
+      {"no jiggle", "jiggle", skipped,
+       [](auto& s) {
+         std::erase_if(s.recording.poses, [](const auto& pose) { return pose.t_s > 2.99 && pose.t_s < 3.61; });
+         for (auto& pose : s.recording.poses)
+           if (pose.t_s > 3.6) pose.t_s -= 0.6;
+         s.recording.endpoint->t_s -= 0.6;
+         for (auto& frame : s.recording.frames)
+           if (frame.t_s > 3.6) frame.t_s -= 0.6;
+       }},
+      {"the probe in the air", "place_probe", skipped,
+       [](auto& s) {
+         for (auto& pose : s.recording.poses) pose.probe_origin_lps_mm.y -= 30.0;
+       }},
+      {"the target found only after the puncture", "find_target", skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.target = frame.t_s > 4.0;
+       }},
+      {"the target never found",
+       "find_target",
+       skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.target = false;
+       },
+       kUltrasoundCore,
+       {"see_both", "check_in_breath_hold", "scan_after"}},
+      {"stopped short of the target",
+       "reach_target",
+       skipped,
+       [](auto& s) { s.setting.target->center_lps_mm *= 1.5; },
+       kUltrasoundCore,
+       {"advance_seen", "keep_off_bone"}},
+      {"on after a cough", "stop_in_trouble", violated, [](auto& s) { say(s, 3.6, EventKind::cough); }},
+      {"still after bleeding", "stop_in_trouble", done, [](auto& s) { say(s, 5.5, EventKind::bleeding); }},
+      {"no last look", "scan_after", skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.target = frame.target && frame.t_s < 9.0;
+       }},
+      {"left in",
+       "needle_out",
+       skipped,
+       [](auto& s) { std::erase_if(s.recording.poses, [](const auto& pose) { return pose.t_s > 8.2; }); },
+       kUltrasoundCore,
+       {"scan_after"}},
+      {"no sign-out", "sign_out", skipped, [](auto& s) { leave_out(s, EventKind::sign_out); }},
+      {"ahead of the plane", "advance_to_plane", violated,
+       [](auto& s) {
+         for (auto& pose : s.recording.poses) pose.probe_origin_lps_mm.x = 0.0;
+       },
+       kUltrasoundAcross},
+      {"the hand in the beam", "aim_along_beam", violated,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.beam->hand_in_beam = frame.t_s > 1.0 && frame.t_s < 1.2;
+       },
+       kFluoroscopy},
+      {"one view only", "judge_depth", skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.beam->lao_deg = s.recording.frames[0].beam->lao_deg;
+       },
+       kFluoroscopy},
+      {"never along the needle", "aim_along_beam", skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.beam->lao_deg = s.recording.frames.back().beam->lao_deg;
+       },
+       kFluoroscopy},
+  };
+  return all;
+}
+
+TEST(Steps, AFaultChangesItsStepAndNoOther) {
+  for (const Fault& fault : faults()) {
+    SampleAttempt sample = exemplary(fault.kind);
+    const auto before = walked(sample);
+    fault.make(sample);
+    const auto after = walked(sample);
+    EXPECT_EQ(after.at(fault.step).state, fault.state)
+        << fault.name << ": " << fault.step << " is " << name_of(after.at(fault.step).state);
+    for (const auto& [id, result] : after)
+      if (id != fault.step && !fault.besides.contains(id)) {
+        EXPECT_EQ(result.state, before.at(id).state) << fault.name << " changes " << id;
+      }
+  }
+}
+
+TEST(Steps, EachCanBeSkippedOrViolated) {
+  std::set<std::string> reached;
+  for (const Fault& fault : faults()) {
+    if (fault.state != StepState::done) reached.insert(fault.step);
+    reached.insert(fault.besides.begin(), fault.besides.end());
+  }
+  // What an attempt without an endpoint, or one that never comes near, lacks.
+  for (const SampleKind& kind : {kUltrasoundCore, kUltrasoundAcross, kFluoroscopy}) {
+    SampleAttempt still = exemplary(kind);
+    still.recording.endpoint.reset();
+    for (auto& pose : still.recording.poses) pose.tip_lps_mm.y -= 300.0;
+    for (auto& frame : still.recording.frames) frame.target = frame.needle_tip = false;
+    for (const auto& [id, result] : walked(still))
+      if (result.state == StepState::skipped) reached.insert(id);
+  }
+  for (const StepInfo& step : procedure_steps()) EXPECT_TRUE(reached.contains(step.id)) << step.id;
+}
+
+TEST(Steps, WhatWasNotListenedToIsNotSkipped) {
+  SampleAttempt sample = exemplary(kUltrasoundCore);
+  sample.recording.events.reset();
+  for (const auto& [id, result] : walked(sample)) {
+    EXPECT_TRUE(result.state == StepState::done || result.state == StepState::not_asked) << id;
+    if ((find_step(id)->needs & kEvents) != 0) {
+      EXPECT_EQ(result.reason, "events_not_recorded") << id;
+    }
+  }
+  const auto signals = sample.signals();
+  for (const MetricValue& metric : measure_all(*signals))
+    if (metric.id == "steps_done" || metric.id == "decision_right") {
+      EXPECT_EQ(metric.reason, "events_not_recorded");
+    }
+}
+
+TEST(Steps, WhoDefersIsAskedForNothingMore) {
+  SampleAttempt sample = exemplary(kUltrasoundCore);
+  sample.recording.events = {{0.1, EventKind::sign_in}, {0.2, EventKind::defer}, {0.3, EventKind::sign_out}};
+  sample.recording.endpoint.reset();
+  std::erase_if(sample.recording.poses, [](const auto& pose) { return pose.t_s > 1.0; });
+  for (const auto& [id, result] : walked(sample)) {
+    if (id == "sign_in" || id == "decide" || id == "sign_out")
+      EXPECT_EQ(result.state, StepState::done) << id;
+    else
+      EXPECT_EQ(result.state, StepState::not_asked) << id;
+  }
+  const auto value = [](const SampleAttempt& attempt) {
+    for (const MetricValue& metric : measure_all(*attempt.signals()))
+      if (metric.id == "decision_right") return metric;
+    return MetricValue{};
+  };
+  EXPECT_EQ(value(sample).value, 0.0) << "it was to go ahead";
+  sample.setting.defer_is_right = true;
+  EXPECT_EQ(value(sample).value, 1.0);
+  SampleAttempt punctured = exemplary(kUltrasoundCore);
+  punctured.setting.defer_is_right = true;
+  EXPECT_EQ(value(punctured).value, 0.0);
+  say(punctured, 0.15, EventKind::defer);
+  EXPECT_EQ(value(punctured).value, 0.0) << "deferred, and punctured all the same";
+  punctured.setting.defer_is_right = false;
+  EXPECT_EQ(value(punctured).value, 0.0);
+  leave_out(punctured, EventKind::defer);
+  EXPECT_EQ(value(punctured).value, 1.0);
+  punctured.setting.defer_is_right.reset();
+  EXPECT_EQ(value(punctured).reason, "no_right_decision");
+  sample.recording.events->clear();
+  EXPECT_EQ(value(sample).reason, "nothing_decided");
+}
+
+TEST(Steps, AreCountedByState) {
+  const std::vector<StepResult> results = {{"sign_in", 1, StepState::done, 1.0, ""},
+                                           {"decide", 1, StepState::skipped, {}, ""},
+                                           {"insert", 1, StepState::violated, 2.0, ""},
+                                           {"jiggle", 1, StepState::skipped, {}, ""},  // not graded
+                                           {"nick", 1, StepState::not_asked, {}, "not_a_core_needle"},
+                                           {"of_another_version", 1, StepState::done, 1.0, ""}};
+  const StepCounts counts = count_steps(results);
+  EXPECT_EQ(counts.done, 1);
+  EXPECT_EQ(counts.skipped, 1);
+  EXPECT_EQ(counts.violated, 1);
+}
+
+}  // namespace
+}  // namespace seldinger::assessment
