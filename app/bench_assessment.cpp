@@ -1,15 +1,20 @@
 // bench --stage assessment: what it takes to score ten minutes, with everything that could be in the way. Goal: 200
 // ms.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <thread>
 
 #include "app/attempt_loop.h"
+#include "app/attempt_ticks.h"
 #include "app/bench.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
+#include "assessment/recorder.h"
 #include "casedb/import/surface.h"
 #include "sim/base/rng.h"
+#include "sim/engine/step.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
@@ -70,6 +75,55 @@ cases::Recording ten_minutes(const cases::Recording& once, double rate_hz) {
   return recording;
 }
 
+// What the servo spends on handing a second's ticks over (goal: 1 % of their time), and the recorder's thread on
+// making a chunk of two.
+void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool quick,
+                    std::vector<BenchRow>& rows) {
+  constexpr std::size_t kTicks = 1000;
+  const auto row_of = [](const char* method, const char* setting, const std::string& size) {
+    return BenchRow{"assessment", method, setting, "cpu", "1 thread", size, 0, 0, 0, 0, "", "", ""};
+  };
+  AttemptTicks ticks(scene);
+  std::vector<assessment::RecordedTick> second;
+  for (std::size_t i = 0; i < kTicks; ++i) second.push_back(ticks.advance(once.inputs[i]));
+  BenchRow handed =
+      row_of("recorder", "ticks handed over", std::to_string(sizeof(assessment::RecordedTick)) + " bytes each");
+  handed.n = quick ? 5 : 21;
+  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
+                                [](const cases::RecordingChunk&) { return base::Result<void>{}; });
+  std::vector<double> times_ms;
+  for (int i = 0; i < handed.n; ++i) {
+    const auto begun = std::chrono::steady_clock::now();
+    for (const assessment::RecordedTick& tick : second) recorder.tick(tick);
+    times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the queue is emptied meanwhile
+  }
+  std::sort(times_ms.begin(), times_ms.end());
+  handed.ms_min = times_ms.front();
+  handed.ms_median = times_ms[times_ms.size() / 2];
+  handed.ms_max = times_ms.back();
+  handed.size = std::to_string(kTicks) + " ticks of " + handed.size;
+  handed.error = bench_number(100.0 * handed.ms_median / (1000.0 * engine::kTickSeconds * kTicks));
+  handed.error_unit = "% of the ticks' time";
+  handed.reference = recorder.fell_behind() ? "fell behind" : "goal 1";
+  rows.push_back(handed);
+
+  cases::Recording piece;
+  piece.step_version = engine::kStepVersion;
+  piece.dt_s = engine::kTickSeconds;
+  piece.events.emplace();
+  for (int half = 0; half < 2; ++half)
+    for (const assessment::RecordedTick& tick : second) {
+      piece.inputs.push_back(tick.inputs);
+      piece.hashes.push_back(tick.hash);
+      if (tick.pose) piece.poses.push_back(*tick.pose);
+    }
+  BenchRow made =
+      row_of("recorder", "a chunk of 2 s", std::to_string(cases::chunk_of(piece, 0).data.size()) + " bytes");
+  time_into(made, quick ? 3 : 11, [&] { static_cast<void>(cases::chunk_of(piece, 0)); });
+  rows.push_back(made);
+}
+
 }  // namespace
 
 base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
@@ -109,6 +163,7 @@ base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
     if (values == 0) return base::Error{"bench_failed", "the attempt cannot be scored"};
     rows.push_back(row);
   }
+  bench_recorder(scene, once, quick, rows);
   return {};
 }
 

@@ -128,7 +128,8 @@ constexpr Option kSimulateOptions[] = {
     {"--count", "K", "how many attempts; default 1"},
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
-    {"--event", "KIND@SECONDS", "a mentor's event at that time: cough, bleeding or pressure_drop; again for more"},
+    {"--event", "KIND@SECONDS",
+     "a mentor's event at that time: cough, bleeding or pressure_drop; may be given many times", true},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
     kJson};
 constexpr Option kScoreOptions[] = {kLibrary,

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -62,6 +63,37 @@ TEST_F(LiveTest, AttemptsInVirtualTimeHaveNoServoAndTheSameForcesAgain) {
   const std::string id = made["attempts"][0]["attempt_id"];
   EXPECT_TRUE(ask("attempt show " + id)["servo"].is_null());
   EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
+}
+
+// What a mentor lets happen is heard, kept, replayed, and asked after.
+TEST_F(LiveTest, AMentorsEventIsPartOfTheAttempt) {
+  for (const std::string how : {"", " --real-time"}) {
+    const Json made = ask("simulate --operator expert --seed 5 --event pressure_drop@4.5 --event cough@3 --case " +
+                          case_id_ + how);
+    const std::string id = made["attempts"][0]["attempt_id"];
+    const Json shown = ask("attempt show " + id);
+    std::vector<std::string> mentors;
+    for (const Json& event : shown["events"])
+      if (event["source"] == "mentor") {
+        mentors.push_back(event["kind"]);
+        EXPECT_NEAR(event["t_s"].get<double>(), mentors.size() == 1 ? 3.0 : 4.5, 0.025) << how;
+      }
+    EXPECT_EQ(mentors, (std::vector<std::string>{"cough", "pressure_drop"})) << how;
+    std::map<std::string, std::string> states;
+    for (const Json& step : shown["steps"]) states[step["id"]] = step["state"];
+    EXPECT_TRUE(states["stop_in_trouble"] == "done" || states["stop_in_trouble"] == "violated") << how;
+    EXPECT_EQ(states["judge_depth"], "not_asked") << "of fluoroscopy";
+    EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true) << how;
+    const Json scored = ask("score " + id);
+    EXPECT_EQ(scored["steps"], shown["steps"]) << how;
+  }
+  for (const char* wrong : {"cough", "cough@", "cough@-1", "sign_in@2", "sneeze@3", "cough@nan"})
+    EXPECT_EQ(run(kProgram + " simulate --operator expert --event " + wrong + " --case " + case_id_ +
+                      " --library " + library_,
+                  scratch_)
+                  .exit_code,
+              2)
+        << wrong;
 }
 
 // kill -9 in the middle: whoever lists the attempts next finds it, readable and marked.
