@@ -10,6 +10,7 @@
 #include "assessment/operators/scripted.h"
 #include "sim/base/hash.h"
 #include "sim/devices/virtual_device.h"
+#include "sim/engine/patient.h"
 #include "sim/engine/step.h"
 #include "sim/haptics/two_hands.h"
 #include "tests/fixtures/meshes.h"
@@ -22,6 +23,7 @@ namespace {
 cases::State under_probe(const cases::Case& scene, const assessment::PuncturePlan& plan) {
   assessment::ScriptedOperator person(*assessment::named_profile("novice"), plan, scene.instrument, 42);
   devices::VirtualDevice needle_arm, probe_arm;
+  engine::Patient patient(scene);
   cases::State state;
   std::uint64_t hash = 0;
   for (int tick = 0; tick < 40'000 && !person.done(); ++tick) {
@@ -31,8 +33,10 @@ cases::State under_probe(const cases::Case& scene, const assessment::PuncturePla
     cases::Inputs inputs = person.act(state, tick % 33 == 0 ? &frame : nullptr, 0.001);
     inputs.needle = needle_arm.advance(inputs.needle, 0.001);
     inputs.probe = probe_arm.advance(inputs.probe, 0.001);
+    if (tick == 500) inputs.event = cases::EventKind::breath_hold_request;
     engine::step(scene, inputs, 0.001, state);
-    hash = cases::state_hash(state, hash);
+    hash = base::hash_combine(cases::state_hash(state, hash),
+                              static_cast<std::uint64_t>(patient.advance(inputs, state)));
     std::printf("%016llx\n", static_cast<unsigned long long>(hash));
   }
   return state;
