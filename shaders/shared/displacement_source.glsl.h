@@ -49,16 +49,28 @@ struct Displacement {
   DisplacementSource source[kMostDisplacementSources];
 };
 
-// q − atan q for q ≥ 0, to 1e-9. Below 1/4 by its series: the difference would leave float no digits.
-SHARED real beyond_its_atan(real q) {
+// What displacement_points.comp is asked.
+struct DisplacementPoints {
+  int count;
+  int to_rest;  // 1: X of x, 0: x of X
+  int fixed_point_steps;
+  int newton_steps;
+};
+
+// Of q ≥ 0: x its arc tangent, to 1e-9, y q less that, to 1e-9 of itself: below 1/4 by its series, as the
+// difference would leave float no digits.
+SHARED real4 atan_and_rest(real q) {
+  real4 both = real4(0.0);
   if (q < 0.25) {
     real s = q * q;
-    return q * s *
-           (real(1.0 / 3.0) -
-            s * (real(1.0 / 5.0) -
-                 s * (real(1.0 / 7.0) -
-                      s * (real(1.0 / 9.0) -
-                           s * (real(1.0 / 11.0) - s * (real(1.0 / 13.0) - s * real(1.0 / 15.0)))))));
+    both.y =
+        q * s *
+        (real(1.0 / 3.0) -
+         s * (real(1.0 / 5.0) -
+              s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * (real(1.0 / 11.0) -
+                                                                 s * (real(1.0 / 13.0) - s * real(1.0 / 15.0)))))));
+    both.x = q - both.y;
+    return both;
   }
   // atan q = 2 atan(q / (1 + √(1 + q²))), three times, which leaves at most tan(π/16); by 1/q, so that nothing
   // overflows.
@@ -67,10 +79,12 @@ SHARED real beyond_its_atan(real q) {
   t = t / (real(1.0) + sqrt(real(1.0) + t * t));
   t = t / (real(1.0) + sqrt(real(1.0) + t * t));
   real s = t * t;
-  return q - real(8.0) * t *
-                 (real(1.0) - s * (real(1.0 / 3.0) -
-                                   s * (real(1.0 / 5.0) -
-                                        s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * real(1.0 / 11.0))))));
+  both.x = real(8.0) * t *
+           (real(1.0) -
+            s * (real(1.0 / 3.0) -
+                 s * (real(1.0 / 5.0) - s * (real(1.0 / 7.0) - s * (real(1.0 / 9.0) - s * real(1.0 / 11.0))))));
+  both.y = q - both.x;
+  return both;
 }
 
 // The logarithm of x in [1, 1e6], to 4e-6: of its 16th root by the series of 2 artanh.
@@ -103,10 +117,11 @@ SHARED DiskPotential disk_potential(real r, real z) {
   real l_2 = excess > 0.0 ? real(0.5) * (excess + root) : real(2.0) * z * z / (root - excess);
   real l = sqrt(l_2);
   real q = real(1.0) / l;
-  real k = beyond_its_atan(q);
-  real angle = q - k;
+  real4 angle_and_rest = atan_and_rest(q);
+  real angle = angle_and_rest.x;
+  real k = angle_and_rest.y;
   real share = real(1.0) / (real(1.0) + q * q);  // l² / (1 + l²) = 1 / (1 + q²)
-  real j = real(0.5) * (q < 0.5 ? q * q * q * share - k : angle - q * share);
+  real j = real(0.5) * (q < 0.25 ? q * q * q * share - k : angle - q * share);
   real inner = real(1.0) / (real(1.0) + l_2);
   real n = z * z + r * r * l_2 * l_2 * inner * inner;
   DiskPotential p;

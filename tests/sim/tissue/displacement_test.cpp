@@ -42,13 +42,10 @@ NeedleDrag along_z(double cut_mm, double tip_n, double tip_mm, double shaft_mm) 
 TEST(SharedFunctions, AreTheLibrarysToTheDigitsStated) {
   for (int i = -500; i <= 500; ++i) {
     const double q = std::exp(0.025 * i);
-    const double expected = q - std::atan(q);  // loses digits itself below 1e-3
-    if (q > 1e-2) {
-      EXPECT_NEAR(shaders::beyond_its_atan(q), expected, 1e-9 * expected + 1e-15 * q) << q;
-    }
-    if (q < 1e-2) {
-      EXPECT_NEAR(shaders::beyond_its_atan(q), q * q * q / 3.0, 1e-4 * q * q * q) << q;
-    }
+    EXPECT_NEAR(shaders::atan_and_rest(q).x, std::atan(q), 1e-9 * std::atan(q)) << q;
+    const double rest = q - std::atan(q);  // which loses digits itself below 1e-2
+    const double expected = q > 1e-2 ? rest : q * q * q * (1.0 / 3.0 - q * q / 5.0);
+    EXPECT_NEAR(shaders::atan_and_rest(q).y, expected, 1e-8 * expected) << q;
     if (q >= 1.0 && q <= 1e6) {
       EXPECT_NEAR(shaders::log_by_roots(q), std::log(q), 4e-6) << q;
     }
