@@ -22,9 +22,10 @@ struct Shifted {
 };
 glm::dvec3 middle_and_ring(const glm::dvec3& at, Shifted middle, Shifted each_of_ring, double ring) {
   glm::dvec3 sum = middle.weight * shifted(at, {0.0, 0.0}, middle.above);
-  for (int i = 0; i < 6; ++i)
-    sum += each_of_ring.weight *
-           shifted(at, ring * glm::dvec2(std::cos(i * kPi / 3.0), std::sin(i * kPi / 3.0)), each_of_ring.above);
+  constexpr double kSine = 0.8660254037844386;  // of 60°
+  for (const glm::dvec2& place :
+       {glm::dvec2(1.0, 0.0), {0.5, kSine}, {-0.5, kSine}, {-1.0, 0.0}, {-0.5, -kSine}, {0.5, -kSine}})
+    sum += each_of_ring.weight * shifted(at, ring * place, each_of_ring.above);
   return sum;
 }
 
