@@ -41,6 +41,10 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows);
 // Also of stage haptics: segment queries beside Embree, ticks of the proxies.
 void bench_touch(bool quick, std::vector<BenchRow>& rows);
 
+// Stage displacement: what moves tissue under a probe, by model against Hertz' full field, and ways back from where
+// tissue is to where it was, by their steps.
+void bench_displacement(bool quick, std::vector<BenchRow>& rows);
+
 // Stage library: lists, checks, backups and bundles of 5,000 small cases and 20,000 attempts (quick: a tenth).
 base::Result<void> bench_library(bool quick, std::vector<BenchRow>& rows);
 

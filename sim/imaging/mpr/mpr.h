@@ -11,6 +11,7 @@
 
 #include "sim/case/case.h"
 #include "sim/gpu/context.h"
+#include "sim/tissue/displacement.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::imaging {
@@ -49,6 +50,15 @@ using HuImage = std::vector<float>;
 
 HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted);
+
+// Of a patient who moves: a pixel shows what of volume and lesions was at rest where its tissue was. The needle is
+// where it is. Without sources the picture is the one above, by the same code.
+HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
+                      const tissue::Displacement& displacement);
+HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
+                const tissue::Displacement& displacement);
+// What pictures spend on a sample's way back: right to 0.01 mm rms (docs/decisions/0023).
+constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 3, .newton = 1};
 
 // Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May
 // outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.

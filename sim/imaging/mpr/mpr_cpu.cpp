@@ -52,21 +52,28 @@ Columns columns_between(double start, double step, double low, double high, int 
 
 class Painter {
  public:
-  Painter(const volume::Volume& volume, const MprView& view, const Inserted& inserted, HuImage& image)
+  Painter(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
+          const tissue::Displacement& displacement, HuImage& image)
       : volume_(volume),
         view_(view),
         inserted_(inserted),
-        plane_(plane_from_view(volume::voxel_from_lps(volume), view)),
+        displacement_(tissue::count_sources(displacement) > 0 ? &displacement : nullptr),
+        voxel_from_lps_(volume::voxel_from_lps(volume)),
+        plane_(plane_from_view(voxel_from_lps_, view)),
         needle_(inserted.needle && is_finite(*inserted.needle) ? &*inserted.needle : nullptr),
         image_(image) {}
 
   void paint_row(int row) const {
     float* pixels = image_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(view_.width_px);
-    paint_volume(row, pixels);
     const glm::dvec3 row_mm = shaders::mpr_row_start(plane_.position_first_mm, plane_.position_per_row_mm, row);
-    // Backwards, so that the first lesion that contains a point is the last to write.
-    for (auto lesion = inserted_.lesions.rbegin(); lesion != inserted_.lesions.rend(); ++lesion)
-      if (!lesion->in_volume()) paint_lesion(*lesion, row_mm, pixels);
+    if (displacement_ != nullptr) {
+      paint_displaced(row_mm, pixels);
+    } else {
+      paint_volume(row, pixels);
+      // Backwards, so that the first lesion that contains a point is the last to write.
+      for (auto lesion = inserted_.lesions.rbegin(); lesion != inserted_.lesions.rend(); ++lesion)
+        if (!lesion->in_volume()) paint_lesion(*lesion, row_mm, pixels);
+    }
     if (needle_ != nullptr) paint_needle(row_mm, pixels);
   }
 
@@ -100,6 +107,26 @@ class Painter {
       pixels[c] = clamped_hu(shaders::mpr_in_row(start, step, c));
     paint_unclamped(start, step, unclamped, pixels);
     for (int c = unclamped.end; c < inside.end; ++c) pixels[c] = clamped_hu(shaders::mpr_in_row(start, step, c));
+  }
+
+  // Each pixel by where its tissue was at rest: neighbours in a row are none there.
+  void paint_displaced(const glm::dvec3& row_mm, float* pixels) const {
+    for (int c = 0; c < view_.width_px; ++c) {
+      const glm::dvec3 p_mm = shaders::mpr_in_row(row_mm, plane_.position_per_column_mm, c);
+      const glm::dvec3 rest_lps_mm = tissue::rest_of(*displacement_, view_.center_lps_mm + p_mm, kPictureSteps);
+      pixels[c] = rest_hu(rest_lps_mm);
+    }
+  }
+
+  float rest_hu(const glm::dvec3& rest_lps_mm) const {
+    for (const cases::Lesion& lesion : inserted_.lesions)
+      if (!lesion.in_volume() && shaders::mpr_in_sphere(rest_lps_mm - lesion.center_lps_mm, lesion.radius_mm))
+        return static_cast<float>(lesion.hu);
+    const glm::dvec3 index(voxel_from_lps_ * glm::dvec4(rest_lps_mm, 1.0));
+    if (!shaders::mpr_inside(index, volume_.size_voxels)) return static_cast<float>(shaders::kMprOutsideHu);
+    if (view_.interpolation == Interpolation::linear) return clamped_hu(index);
+    const glm::ivec3 at = shaders::mpr_nearest(index, volume_.size_voxels);
+    return volume_.at(at.x, at.y, at.z);
   }
 
   float clamped_hu(const glm::dvec3& index) const {
@@ -178,6 +205,8 @@ class Painter {
   const volume::Volume& volume_;
   const MprView& view_;
   const Inserted& inserted_;
+  const tissue::Displacement* displacement_;  // null: nothing moves
+  glm::dmat4 voxel_from_lps_;
   Plane plane_;
   const NeedlePose* needle_;
   HuImage& image_;
@@ -186,9 +215,14 @@ class Painter {
 }  // namespace
 
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted) {
+  return mpr_cpu(volume, view, inserted, tissue::Displacement{});
+}
+
+HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
+                const tissue::Displacement& displacement) {
   check_view(view, inserted);
   HuImage image(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
-  const Painter painter(volume, view, inserted, image);
+  const Painter painter(volume, view, inserted, displacement, image);
   constexpr int kRowsAtOnce = 16;
   std::atomic<int> next_row{0};
   const auto work = [&] {

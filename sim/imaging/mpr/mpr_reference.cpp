@@ -68,6 +68,13 @@ NeedlePart part_at(const glm::dvec3& p_mm, const glm::dvec3& n, double slab_mm, 
 }  // namespace
 
 HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted) {
+  return mpr_reference(volume, view, inserted, tissue::Displacement{});
+}
+
+// The one thing it shares with the others is the displacement itself; the way back is walked further.
+HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
+                      const tissue::Displacement& displacement) {
+  constexpr tissue::InverseSteps kToTheEnd{.fixed_point = 6, .newton = 4};
   check_view(view, inserted);
   constexpr double kAirInLumenHu = -1000.0;
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
@@ -79,12 +86,13 @@ HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const I
       const glm::dvec3 p_lps_mm = view.center_lps_mm +
                                   view.u * (view.pixel_mm * (column - 0.5 * (view.width_px - 1))) +
                                   view.v * (view.pixel_mm * (row - 0.5 * (view.height_px - 1)));
-      const glm::dvec3 index(voxel_from_lps * glm::dvec4(p_lps_mm, 1.0));
+      const glm::dvec3 rest_lps_mm = tissue::rest_of(displacement, p_lps_mm, kToTheEnd);
+      const glm::dvec3 index(voxel_from_lps * glm::dvec4(rest_lps_mm, 1.0));
       double hu = view.interpolation == Interpolation::nearest
                       ? volume::sample_nearest(volume, index).value_or(volume::kAirHu)
                       : volume::sample_trilinear(volume, index).value_or(volume::kAirHu);
       for (const cases::Lesion& lesion : inserted.lesions)
-        if (!lesion.in_volume() && glm::distance(p_lps_mm, lesion.center_lps_mm) <= lesion.radius_mm) {
+        if (!lesion.in_volume() && glm::distance(rest_lps_mm, lesion.center_lps_mm) <= lesion.radius_mm) {
           hu = lesion.hu;
           break;
         }
