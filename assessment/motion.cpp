@@ -28,6 +28,7 @@ void second_order(std::vector<glm::dvec3>& x, double b0, double b1, double b2, d
 // What is between two poses, 100 times a second.
 struct Resampled {
   std::vector<glm::dvec3> tip, probe;
+  std::vector<glm::dvec3> rest;  // the tip's places at rest; empty: they are the tip's
   std::vector<double> depth_mm;
   std::vector<std::size_t> pose;  // the last one not later
 };
@@ -43,6 +44,9 @@ Resampled resampled(const Signals& signals, std::size_t first, std::size_t last)
   out.probe.reserve(steps + 2);
   out.depth_mm.reserve(steps + 2);
   out.pose.reserve(steps + 2);
+  const bool moves = std::any_of(poses.begin() + static_cast<std::ptrdiff_t>(first),
+                                 poses.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                                 [](const cases::PoseSample& pose) { return pose.rest_tip_lps_mm.has_value(); });
   std::size_t at = first;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double t_s = start_s + static_cast<double>(i) / kMotionRateHz;
@@ -52,6 +56,7 @@ Resampled resampled(const Signals& signals, std::size_t first, std::size_t last)
     const double share = span_s > 0.0 ? std::clamp((t_s - poses[at].t_s) / span_s, 0.0, 1.0) : 0.0;
     const auto between = [&](const auto& a, const auto& b) { return a + (b - a) * share; };
     out.tip.push_back(between(poses[at].tip_lps_mm, poses[next].tip_lps_mm));
+    if (moves) out.rest.push_back(between(poses[at].tip_at_rest_lps_mm(), poses[next].tip_at_rest_lps_mm()));
     out.probe.push_back(between(poses[at].probe_origin_lps_mm, poses[next].probe_origin_lps_mm));
     out.depth_mm.push_back(between(signals.passages[at].depth_mm, signals.passages[next].depth_mm));
     out.pose.push_back(at);
@@ -65,11 +70,14 @@ void add_steps(const Signals& signals, std::size_t first, std::size_t last, std:
   Resampled way = resampled(signals, first, last);
   way.tip = low_pass(way.tip, kMotionRateHz, kMotionCutoffHz);
   way.probe = low_pass(way.probe, kMotionRateHz, kMotionCutoffHz);
+  const bool moves = !way.rest.empty();
+  if (moves) way.rest = low_pass(way.rest, kMotionRateHz, kMotionCutoffHz);
   const double start_s = signals.poses[first].t_s, length_s = signals.poses[last].t_s - start_s;
   // What is left after the last whole sample, unfiltered: at most 10 ms.
   const double rest_s = length_s - static_cast<double>(way.tip.size() - 1) / kMotionRateHz;
   if (rest_s > 1e-9) {
     way.tip.push_back(signals.poses[last].tip_lps_mm);
+    if (moves) way.rest.push_back(signals.poses[last].tip_at_rest_lps_mm());
     way.probe.push_back(signals.poses[last].probe_origin_lps_mm);
     way.depth_mm.push_back(signals.passages[last].depth_mm);
     way.pose.push_back(last);
@@ -81,6 +89,8 @@ void add_steps(const Signals& signals, std::size_t first, std::size_t last, std:
     step.length_s = i + 2 == way.tip.size() && rest_s > 1e-9 ? rest_s : 1.0 / kMotionRateHz;
     step.from_lps_mm = way.tip[i];
     step.to_lps_mm = way.tip[i + 1];
+    step.rest_from_lps_mm = moves ? way.rest[i] : way.tip[i];
+    step.rest_to_lps_mm = moves ? way.rest[i + 1] : way.tip[i + 1];
     step.probe_from_lps_mm = way.probe[i];
     step.probe_to_lps_mm = way.probe[i + 1];
     step.needle_direction = signals.poses[way.pose[i]].needle_direction;
@@ -158,18 +168,19 @@ std::vector<TraceSegment> trace_of(const Signals& signals) {
   glm::dvec3 point(0.0);
   for (std::size_t i = 0; i < signals.steps.size(); ++i) {
     const Step& step = signals.steps[i];
-    if (step.first) point = step.from_lps_mm;
+    if (step.first) point = step.rest_from_lps_mm;
     const bool ends = i + 1 == signals.steps.size() || signals.steps[i + 1].first;
-    const double length_mm = glm::distance(point, step.to_lps_mm);
+    const double length_mm = glm::distance(point, step.rest_to_lps_mm);
     if (length_mm < kTraceMm && !(ends && length_mm > 0.0)) continue;
-    trace.push_back({point, step.to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false});
-    point = step.to_lps_mm;
+    trace.push_back({point, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false});
+    point = step.rest_to_lps_mm;
   }
   const cases::Instrument& needle = signals.setting.instrument;
   if (signals.endpoint && needle.kind == cases::InstrumentKind::core) {
     const cases::Endpoint& fired = *signals.endpoint;
-    trace.push_back({fired.tip_lps_mm, fired.tip_lps_mm + fired.direction * needle.throw_mm, fired.direction,
-                     signals.passages.back().in_body, true});
+    const glm::dvec3& from = fired.tip_at_rest_lps_mm();
+    trace.push_back(
+        {from, from + fired.direction * needle.throw_mm, fired.direction, signals.passages.back().in_body, true});
   }
   return trace;
 }

@@ -21,6 +21,7 @@ constexpr double kTraceMm = 0.25;
 struct Step {
   double t_s = 0.0, length_s = 0.0;  // when it begins, how long it lasts
   glm::dvec3 from_lps_mm{0.0}, to_lps_mm{0.0};
+  glm::dvec3 rest_from_lps_mm{0.0}, rest_to_lps_mm{0.0};  // of the tissue at the tip, in a patient at rest
   glm::dvec3 probe_from_lps_mm{0.0}, probe_to_lps_mm{0.0};
   glm::dvec3 needle_direction{0.0};
   double depth_from_mm = 0.0, depth_to_mm = 0.0;  // of the tip below the skin; negative outside
@@ -28,7 +29,8 @@ struct Step {
   bool first = false;                             // nothing is known of the time before
 };
 
-// A straight piece of the tip's way. It starts where the one before ended, unless there was a gap.
+// A straight piece of the tip's way through the patient at rest. It starts where the one before ended, unless there
+// was a gap.
 struct TraceSegment {
   glm::dvec3 from_lps_mm{0.0}, to_lps_mm{0.0};
   glm::dvec3 needle_direction{0.0};

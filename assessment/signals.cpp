@@ -45,9 +45,9 @@ base::Result<void> check(const AttemptSetting& setting) {
 
 // What is wrong with a pose; nothing when it is sound.
 const char* wrong_with(const cases::PoseSample& pose) {
-  if (!(std::isfinite(pose.t_s) && base::is_finite(pose.tip_lps_mm) && base::is_finite(pose.needle_direction) &&
-        base::is_finite(pose.probe_origin_lps_mm) && base::is_finite(pose.probe_axial) &&
-        base::is_finite(pose.probe_lateral)))
+  if (!(std::isfinite(pose.t_s) && base::is_finite(pose.tip_lps_mm) && base::is_finite(pose.tip_at_rest_lps_mm()) &&
+        base::is_finite(pose.needle_direction) && base::is_finite(pose.probe_origin_lps_mm) &&
+        base::is_finite(pose.probe_axial) && base::is_finite(pose.probe_lateral)))
     return " holds a number that is not finite";
   if (!near_unit(pose.needle_direction) || !near_unit(pose.probe_axial) || !near_unit(pose.probe_lateral))
     return " holds a direction that is not of unit length";
@@ -108,6 +108,7 @@ base::Result<void> take_poses(const cases::Recording& recording, Signals& signal
     cases::PoseSample last = signals.poses.back();
     last.t_s = recording.endpoint->t_s;
     last.tip_lps_mm = recording.endpoint->tip_lps_mm;
+    last.rest_tip_lps_mm = recording.endpoint->rest_tip_lps_mm;
     last.needle_direction = recording.endpoint->direction;
     if (last.t_s > signals.poses.back().t_s)
       signals.poses.push_back(last);
@@ -150,11 +151,11 @@ std::vector<cases::SkinPassage> passages_of(const cases::MeshIndex& skin,
   passages.reserve(poses.size());
   for (const cases::PoseSample& pose : poses) {
     if (passages.empty()) {
-      passages.push_back(cases::start_passage(skin, pose.tip_lps_mm, pose.needle_direction));
+      passages.push_back(cases::start_passage(skin, pose.tip_at_rest_lps_mm(), pose.needle_direction));
       continue;
     }
     cases::SkinPassage passage = passages.back();
-    cases::advance_passage(skin, pose.tip_lps_mm, passage);
+    cases::advance_passage(skin, pose.tip_at_rest_lps_mm(), passage);
     passages.push_back(passage);
   }
   return passages;
@@ -168,7 +169,7 @@ Aftermath aftermath_of(const Signals& signals, const cases::Recording& recording
   for (const cases::PoseSample& pose : recording.poses) {
     if (after.needle_out_s) break;
     if (pose.t_s <= signals.endpoint->t_s) continue;
-    cases::advance_passage(*signals.setting.skin, pose.tip_lps_mm, passage);
+    cases::advance_passage(*signals.setting.skin, pose.tip_at_rest_lps_mm(), passage);
     if (!passage.in_body) after.needle_out_s = pose.t_s;
   }
   for (const cases::FrameTruth& frame : recording.frames)

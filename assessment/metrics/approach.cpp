@@ -19,9 +19,9 @@ double distance_to_segment(const glm::dvec3& p, const glm::dvec3& a, const glm::
 
 Measured closest_approach(const Signals& signals) {
   const glm::dvec3& center = signals.setting.target->center_lps_mm;
-  double nearest_mm = glm::distance(center, signals.poses.front().tip_lps_mm);
+  double nearest_mm = glm::distance(center, signals.poses.front().tip_at_rest_lps_mm());
   for (std::size_t i = 0; i + 1 < signals.poses.size(); ++i) {
-    const glm::dvec3 &from = signals.poses[i].tip_lps_mm, &to = signals.poses[i + 1].tip_lps_mm;
+    const glm::dvec3 &from = signals.poses[i].tip_at_rest_lps_mm(), &to = signals.poses[i + 1].tip_at_rest_lps_mm();
     nearest_mm = std::min(nearest_mm, distance_to_segment(center, signals.gap(i) ? to : from, to));
   }
   return Measured::of(nearest_mm);

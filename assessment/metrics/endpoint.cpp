@@ -19,7 +19,7 @@ bool core(const Signals& signals) {
 // The sample notch after the throw: from start, along the needle, notch_mm long.
 glm::dvec3 notch_start(const Signals& signals) {
   const cases::Instrument& needle = signals.setting.instrument;
-  return signals.endpoint->tip_lps_mm +
+  return signals.endpoint->tip_at_rest_lps_mm() +
          signals.endpoint->direction * (needle.throw_mm - needle.dead_tip_mm - needle.notch_mm);
 }
 
@@ -35,7 +35,7 @@ double length_in(const cases::Lesion& target, const glm::dvec3& start, const glm
 
 // The point that counts, to the target's centre: the tip, or the middle of a core needle's notch (clinical.md).
 glm::dvec3 to_target(const Signals& signals) {
-  glm::dvec3 point = signals.endpoint->tip_lps_mm;
+  glm::dvec3 point = signals.endpoint->tip_at_rest_lps_mm();
   if (core(signals))
     point = notch_start(signals) + signals.endpoint->direction * (signals.setting.instrument.notch_mm / 2);
   return signals.setting.target->center_lps_mm - point;

@@ -89,7 +89,7 @@ class Excursions {
 Measured path_inefficiency(const Signals& signals) {
   const cases::SkinPassage& skin = signals.passages.back();
   if (!skin.in_body) return Measured::none("not_in_tissue_at_the_end");
-  const double straight_mm = glm::distance(skin.entry_lps_mm, signals.poses.back().tip_lps_mm);
+  const double straight_mm = glm::distance(skin.entry_lps_mm, signals.poses.back().tip_at_rest_lps_mm());
   if (!(straight_mm >= kMinStraightMm)) return Measured::none("under_5_mm_from_the_skin");
   double path_mm = 0.0;
   Excursions excursions;
@@ -142,8 +142,8 @@ Measured swept_area(const Signals& signals) {
     const cases::SkinPassage& skin = signals.passages[i];
     const bool goes_on = inside && skin.in_body && !signals.gap(i - 1) && skin.entry_lps_mm == sweep.entry();
     if (inside && !goes_on) sweep.close();
-    if (goes_on) sweep.move_to(signals.poses[i].tip_lps_mm);
-    if (skin.in_body && !goes_on) sweep.enter(skin.entry_lps_mm, signals.poses[i].tip_lps_mm);
+    if (goes_on) sweep.move_to(signals.poses[i].tip_at_rest_lps_mm());
+    if (skin.in_body && !goes_on) sweep.enter(skin.entry_lps_mm, signals.poses[i].tip_at_rest_lps_mm());
     inside = skin.in_body;
   }
   sweep.close();

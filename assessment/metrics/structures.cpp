@@ -180,7 +180,7 @@ Measured nogo_time(const Signals& signals) {
   double time_s = 0.0;
   for (std::size_t i = 0; i + 1 < signals.poses.size(); ++i) {
     if (signals.gap(i)) continue;
-    const glm::dvec3& tip = signals.poses[i].tip_lps_mm;
+    const glm::dvec3& tip = signals.poses[i].tip_at_rest_lps_mm();
     if (std::any_of(structures.begin(), structures.end(), [&](const Boxed& one) { return one.contains(tip); }))
       time_s += signals.interval_s(i);
   }
@@ -224,7 +224,7 @@ Measured must_cross_length(const Signals& signals) {
   const cases::SkinPassage& skin = signals.passages.back();
   if (!skin.in_body) return Measured::none("not_in_tissue_at_the_end");
   return Measured::of(length_inside_mm(chosen(signals, &of_rule<StructureRule::must_cross>), skin.entry_lps_mm,
-                                       signals.endpoint->tip_lps_mm));
+                                       signals.endpoint->tip_at_rest_lps_mm()));
 }
 
 Measured capsule_punctures(const Signals& signals) {
@@ -238,7 +238,7 @@ Measured posterior_wall(const Signals& signals) {
 }
 
 Measured back_wall_dist(const Signals& signals) {
-  const glm::dvec3& tip = signals.endpoint->tip_lps_mm;
+  const glm::dvec3& tip = signals.endpoint->tip_at_rest_lps_mm();
   const glm::dvec3 beyond = tip + signals.endpoint->direction * kNeedleEndMm;
   for (const Boxed& lumen : chosen(signals, &of_rule<StructureRule::target>)) {
     if (!lumen.contains(tip)) continue;

@@ -126,7 +126,7 @@ Moment at_target(const Signals& signals) {
   const double near_mm = signals.setting.instrument.kind == cases::InstrumentKind::core ? kAtEdgeMm : 0.0;
   return first_pose(signals, [&](std::size_t i) {
     return signals.passages[i].in_body &&
-           cases::signed_distance_mm(target, signals.poses[i].tip_lps_mm, near_mm + 1.0) <= near_mm;
+           cases::signed_distance_mm(target, signals.poses[i].tip_at_rest_lps_mm(), near_mm + 1.0) <= near_mm;
   });
 }
 

@@ -19,7 +19,8 @@ constexpr std::uint32_t kNotListened = 0xffff'ffff;
 
 struct Header {
   std::uint32_t magic = kMagic, format = kFormat;
-  std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0, fluoroscope = 0;
+  std::uint32_t step_version = 0, inputs = 0, poses = 0, frames = 0, has_endpoint = 0;
+  std::uint32_t used = 0;  // UsedBit, or-ed; before format 5: of the fluoroscope alone
   double dt_s = 0.0;
   double endpoint[7] = {};
   std::uint32_t forces = 0;             // from here on since format 4
@@ -28,8 +29,13 @@ struct Header {
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-constexpr std::size_t kPoseColumns = 16, kForceColumns = 4, kEventColumns = 2;
+enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2 };
+
+constexpr std::size_t kMaxPoseColumns = 19, kRestColumns = 3, kForceColumns = 4, kEventColumns = 2;
 constexpr std::size_t kMaxInputColumns = 37;
+std::size_t pose_columns(bool moves) {
+  return moves ? kMaxPoseColumns : 16;
+}
 std::size_t input_columns(bool fluoroscope) {
   return fluoroscope ? kMaxInputColumns : 20;
 }
@@ -181,6 +187,13 @@ bool uses_fluoroscope(const Recording& recording, const Piece& piece) {
   return false;
 }
 
+// Whether the patient moves in a chunk: then every tip has a place at rest of its own.
+bool moves(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.poses.first; i < piece.poses.end; ++i)
+    if (recording.poses[i].rest_tip_lps_mm) return true;
+  return piece.with_endpoint && recording.endpoint->rest_tip_lps_mm;
+}
+
 RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, const Piece& piece) {
   Header header;
   header.step_version = recording.step_version;
@@ -200,7 +213,8 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
     }
   }
   const bool fluoroscope = uses_fluoroscope(recording, piece);
-  header.fluoroscope = fluoroscope ? 1 : 0;
+  const bool moving = moves(recording, piece);
+  header.used = (fluoroscope ? kFluoroscope : 0U) | (moving ? kMoves : 0U);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
 
@@ -220,7 +234,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   }
   append_table(raw, rows, input_columns(fluoroscope));
 
-  rows.assign(header.poses * kPoseColumns, 0);
+  rows.assign(header.poses * pose_columns(moving), 0);
   at = rows.data();
   for (std::size_t i = piece.poses.first; i < piece.poses.end; ++i) {
     const PoseSample& pose = recording.poses[i];
@@ -230,8 +244,9 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
     put(at, pose.probe_origin_lps_mm);
     put(at, pose.probe_axial);
     put(at, pose.probe_lateral);
+    if (moving) put(at, pose.tip_at_rest_lps_mm());
   }
-  append_table(raw, rows, kPoseColumns);
+  append_table(raw, rows, pose_columns(moving));
 
   rows.assign(header.forces * kForceColumns, 0);
   at = rows.data();
@@ -263,6 +278,13 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
     *at++ = static_cast<std::uint8_t>((*recording.events)[i].kind);
   }
   append_table(raw, rows, kEventColumns);
+
+  if (moving && piece.with_endpoint) {
+    rows.assign(kRestColumns, 0);
+    at = rows.data();
+    put(at, recording.endpoint->tip_at_rest_lps_mm());
+    append_table(raw, rows, kRestColumns);
+  }
 
   RecordingChunk chunk;
   chunk.sequence = sequence;
@@ -324,7 +346,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (chunks[i].checksum != base::hash_bytes(chunks[i].data))
       return base::Error{"damaged", where + " does not have its checksum"};
     const auto raw =
-        base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kPoseColumns));
+        base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kMaxPoseColumns));
     Header header;
     if (!raw || raw->size() < kHeaderWithoutForces) return base::Error{"damaged", where + " cannot be read"};
     std::memcpy(static_cast<void*>(&header), raw->data(), kHeaderWithoutForces);
@@ -334,17 +356,21 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (header.magic != kMagic) return base::Error{"damaged", where + " cannot be read"};
     if (header.format < kFormatWithoutFluoroscope || header.format > kFormat)
       return base::Error{"recording_version", where + " has an unknown format"};
-    if (header.fluoroscope > (header.format == kFormatWithoutFluoroscope ? 0U : 1U))
+    if (header.used > (header.format == kFormatWithoutFluoroscope ? 0U
+                       : header.format <= kFormatWithoutEvents    ? std::uint32_t{kFluoroscope}
+                                                                  : kFluoroscope | kMoves))
       return base::Error{"damaged", where + " cannot be read"};
-    const bool fluoroscope = header.fluoroscope == 1;
+    const bool fluoroscope = (header.used & kFluoroscope) != 0, moving = (header.used & kMoves) != 0;
+    const std::uint32_t rests = moving && header.has_endpoint != 0 ? 1 : 0;
     if (header.format <= kFormatWithoutEvents) header.events = kNotListened;
     const bool listened = header.events != kNotListened;
     const std::uint32_t events = listened ? header.events : 0;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
         header.forces > kMaxRows || events > kMaxRows ||
-        raw->size() != header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * kPoseColumns +
-                                          header.forces * kForceColumns +
-                                          header.frames * frame_columns(fluoroscope) + events * kEventColumns))
+        raw->size() !=
+            header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * pose_columns(moving) +
+                               header.forces * kForceColumns + header.frames * frame_columns(fluoroscope) +
+                               events * kEventColumns + rests * kRestColumns))
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s ||
                   listened != recording.events.has_value()))
@@ -357,7 +383,8 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (header.has_endpoint != 0)
       recording.endpoint = Endpoint{header.endpoint[0],
                                     {header.endpoint[1], header.endpoint[2], header.endpoint[3]},
-                                    {header.endpoint[4], header.endpoint[5], header.endpoint[6]}};
+                                    {header.endpoint[4], header.endpoint[5], header.endpoint[6]},
+                                    {}};
     const std::byte* from = raw->data() + header_size;
     const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope));
     const std::uint64_t* at = inputs.data();
@@ -381,7 +408,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       in.exposure.hand_in_beam = (bits & kHandInBeam) != 0;
       get(at, in.fluoroscope, in.exposure);
     }
-    const auto poses = table_at(from, header.poses, kPoseColumns);
+    const auto poses = table_at(from, header.poses, pose_columns(moving));
     at = poses.data();
     for (std::uint32_t row = 0; row < header.poses; ++row) {
       PoseSample& pose = recording.poses.emplace_back();
@@ -391,6 +418,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       pose.probe_origin_lps_mm = get_point(at);
       pose.probe_axial = get_point(at);
       pose.probe_lateral = get_point(at);
+      if (moving) pose.rest_tip_lps_mm = get_point(at);
     }
     const auto forces = table_at(from, header.forces, kForceColumns);
     at = forces.data();
@@ -427,6 +455,9 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       if (kind > 0xffU || find_event(event.kind) == nullptr)
         return base::Error{"damaged", where + " holds an unknown event"};
     }
+    const auto rest = table_at(from, rests, kRestColumns);
+    at = rest.data();
+    if (rests > 0) recording.endpoint->rest_tip_lps_mm = get_point(at);
   }
   return recording;
 }

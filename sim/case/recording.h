@@ -23,6 +23,10 @@ struct PoseSample {
   glm::dvec3 probe_origin_lps_mm{0.0};
   glm::dvec3 probe_axial{0.0, 0.0, 1.0};
   glm::dvec3 probe_lateral{1.0, 0.0, 0.0};
+  // Where the tissue at the tip lies in a patient at rest, as the CT, lesions and structures do. Nothing: at the
+  // tip.
+  std::optional<glm::dvec3> rest_tip_lps_mm{};
+  const glm::dvec3& tip_at_rest_lps_mm() const noexcept { return rest_tip_lps_mm ? *rest_tip_lps_mm : tip_lps_mm; }
   bool operator==(const PoseSample&) const = default;
 };
 
@@ -69,6 +73,8 @@ struct Endpoint {
   double t_s = 0.0;
   glm::dvec3 tip_lps_mm{0.0};  // when the trigger fell, before any throw
   glm::dvec3 direction{0.0, 0.0, 1.0};
+  std::optional<glm::dvec3> rest_tip_lps_mm{};  // as a pose's
+  const glm::dvec3& tip_at_rest_lps_mm() const noexcept { return rest_tip_lps_mm ? *rest_tip_lps_mm : tip_lps_mm; }
   bool operator==(const Endpoint&) const = default;
 };
 
@@ -95,8 +101,8 @@ struct RecordingChunk {
 
 // Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Since
 // format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3
-// frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events. Formats
-// 1 to 4, without, are read too.
+// frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events and, of
+// a patient who moves, where tips are at rest. Formats 1 to 4, without, are read too.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 constexpr double kChunkSeconds = 2.0;

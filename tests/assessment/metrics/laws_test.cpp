@@ -70,6 +70,36 @@ TEST(EveryMetric, IsTheSameInAnotherFrameOfReference) {
   }
 }
 
+// What is met and reached lies in the tissue: a patient who breathes under the needle, which goes with him, changes
+// nothing of it; how the hand went is another thing.
+TEST(EveryMetric, OfTissueIsToldInThePatientAtRest) {
+  for (const SampleKind& kind : kSampleKinds) {
+    const auto here = sample_attempt(kind);
+    auto breathing = here;
+    const auto moved = [](const glm::dvec3& p, double t_s) {
+      return p + glm::dvec3(0.0, 2.0, 8.0) * std::sin(1.5 * t_s);
+    };
+    for (cases::PoseSample& pose : breathing.recording.poses) {
+      pose.rest_tip_lps_mm = pose.tip_lps_mm;
+      pose.tip_lps_mm = moved(pose.tip_lps_mm, pose.t_s);
+    }
+    cases::Endpoint& end = *breathing.recording.endpoint;
+    end.rest_tip_lps_mm = end.tip_lps_mm;
+    end.tip_lps_mm = moved(end.tip_lps_mm, end.t_s);
+    const Values still = measured(here), moving = measured(breathing);
+    std::set<std::string> of_the_hand;
+    int of_tissue = 0;
+    for (const MetricInfo& info : registry())
+      if (info.group == Group::target || info.group == Group::safety)
+        ++of_tissue;
+      else
+        of_the_hand.insert(info.id);
+    EXPECT_GT(of_tissue, 15);
+    expect_same(still, moving, 1e-12, here.name, of_the_hand);
+    EXPECT_GT(*moving.at("path_tip").value, *still.at("path_tip").value + 20.0) << here.name;
+  }
+}
+
 TEST(EveryMetric, OfAMirroredCaseIsTheSame) {
   World mirrored;
   mirrored.turn[0][0] = -1.0;

@@ -310,6 +310,23 @@ TEST(Recording, OfFormat4SaysNothingOfEvents) {
   expect_same(recording, *back);
 }
 
+TEST(Recording, OfAPatientWhoMovesComesBackBitForBit) {
+  for (const bool from_the_start : {true, false}) {
+    Recording recording = random_recording(6500, 18);
+    base::Rng rng(4);
+    for (PoseSample& pose : recording.poses)
+      if (from_the_start || pose.t_s > 3.0) pose.rest_tip_lps_mm = random_vector(rng);
+    recording.endpoint->rest_tip_lps_mm = random_vector(rng);
+    Recording expected = recording;
+    if (!from_the_start)  // within a chunk either all poses have a place of their own, or none
+      for (PoseSample& pose : expected.poses)
+        if (pose.t_s >= 2.0 && !pose.rest_tip_lps_mm) pose.rest_tip_lps_mm = pose.tip_lps_mm;
+    const auto back = recording_from_chunks(chunks_from_recording(recording));
+    ASSERT_TRUE(back.has_value()) << back.error().text;
+    expect_same(expected, *back);
+  }
+}
+
 TEST(Recording, AnUnknownEventIsDamage) {
   Recording recording = random_recording(1500, 18);
   ASSERT_GT(recording.events->size(), 1U);
