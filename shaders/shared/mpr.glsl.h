@@ -1,5 +1,5 @@
 // Formulas of MPR: where a pixel lies, what of needle and lesion it shows, and the volume's HU there. Compiled as
-// GLSL in float (mpr_slice.comp) and as C++ in double (sim/imaging/mpr/mpr_cpu.cpp).
+// GLSL in float (mpr_slice.comp, mpr_displaced.comp) and as C++ in double (sim/imaging/mpr/mpr_cpu.cpp).
 #ifndef SELDINGER_SHADERS_SHARED_MPR
 #define SELDINGER_SHADERS_SHARED_MPR
 
@@ -40,6 +40,16 @@ struct MprParameters {
   int padding;
   vec4 lesion_sphere_mm[kMprMaxLesions];  // xyz: centre from the view's centre; w: radius
   vec4 lesion_hu[kMprMaxLesions];         // x
+};
+
+// Beside it, of a patient who moves.
+struct MprDisplaced {
+  mat4 voxel_from_center;  // continuous voxel index of a place at rest, mm from the view's centre
+  vec4 center_lps_mm;      // xyz
+  int fixed_point_steps;
+  int newton_steps;
+  int padding_0;
+  int padding_1;
 };
 
 // The start of a row is computed first, then the column added to it: never accumulated, and every caller that

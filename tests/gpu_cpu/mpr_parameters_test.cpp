@@ -19,7 +19,7 @@ namespace {
 
 TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
   const auto files = embedded::mpr_shaders();
-  ASSERT_EQ(files.size(), 1U);
+  ASSERT_EQ(files.size(), 2U);
   const std::map<std::string, std::size_t> offsets = offsets_from_compiler(files[0]);
   using P = shaders::MprParameters;
   const std::map<std::string, std::size_t> ours{
@@ -47,6 +47,21 @@ TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
       {"lesion_hu", offsetof(P, lesion_hu)},
   };
   EXPECT_EQ(offsets, ours);  // and the shader reads no field that is not named here
+}
+
+TEST(MprParameters, OfAPatientWhoMovesHaveThemToo) {
+  const auto files = embedded::mpr_shaders();
+  ASSERT_EQ(files.size(), 2U);
+  using D = shaders::MprDisplaced;
+  const std::map<std::string, std::size_t> ours{{"voxel_from_center", offsetof(D, voxel_from_center)},
+                                                {"center_lps_mm", offsetof(D, center_lps_mm)},
+                                                {"fixed_point_steps", offsetof(D, fixed_point_steps)},
+                                                {"newton_steps", offsetof(D, newton_steps)}};
+  EXPECT_EQ(offsets_from_compiler(files[1], "displaced"), ours);
+  using P = shaders::MprParameters;
+  const auto parameters = offsets_from_compiler(files[1]);
+  ASSERT_EQ(parameters.count("lesion_hu"), 1U);
+  EXPECT_EQ(parameters.at("lesion_hu"), offsetof(P, lesion_hu));
 }
 
 }  // namespace

@@ -64,9 +64,12 @@ constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 3, .newton = 1};
 // outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.
 class MprGpu {
  public:
-  MprGpu(gpu::Context& context, const volume::Volume& volume);
+  // What a moving patient's pictures need besides is made only where the patient moves.
+  MprGpu(gpu::Context& context, const volume::Volume& volume, bool patient_moves = false);
   ~MprGpu();
   HuImage render(const MprView& view, const Inserted& inserted);
+  // As the CPU's. Without sources it is the picture above; with some the patient must move (CHECKed).
+  HuImage render(const MprView& view, const Inserted& inserted, const tissue::Displacement& displacement);
 
  private:
   struct Parts;

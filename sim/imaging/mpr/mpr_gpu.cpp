@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -19,6 +21,7 @@ std::span<const base::EmbeddedFile> mpr_shaders();
 namespace seldinger::imaging {
 namespace {
 
+using shaders::MprDisplaced;
 using shaders::MprParameters;
 static_assert(offsetof(MprParameters, index_first) == 0);
 static_assert(offsetof(MprParameters, position_first_mm) == 48);
@@ -29,9 +32,12 @@ static_assert(offsetof(MprParameters, size_z) == 180);
 static_assert(offsetof(MprParameters, lesion_sphere_mm) == 192);
 static_assert(offsetof(MprParameters, lesion_hu) == 448);
 static_assert(sizeof(MprParameters) == 704);
+static_assert(offsetof(MprDisplaced, fixed_point_steps) == 80);
+static_assert(sizeof(MprDisplaced) == 96);
 
 constexpr int kGroupPx = 16;  // local_size_x and _y of the shader
 constexpr int kTextureUnit = 0, kParametersBinding = 0, kPictureBinding = 1;
+constexpr int kDisplacedBinding = 1, kSourcesBinding = 2;  // of uniform blocks
 
 std::string_view shader(std::string_view name) {
   const auto files = embedded::mpr_shaders();
@@ -82,6 +88,33 @@ MprParameters parameters_from(const glm::dmat4& voxel_from_lps, glm::ivec3 size_
 
 }  // namespace
 
+namespace {
+
+// What pictures of a patient who moves need besides.
+struct Moving {
+  explicit Moving(gpu::Context& context)
+      : slice(context, shader("mpr_displaced.comp")),
+        displaced(context, gpu::BufferUse::uniform, sizeof(MprDisplaced)),
+        sources(context, gpu::BufferUse::uniform, sizeof(tissue::Displacement)) {}
+
+  void set(const glm::dmat4& voxel_from_lps, const MprView& view, const tissue::Displacement& displacement) {
+    MprDisplaced parameters{};
+    parameters.voxel_from_center = glm::mat4(voxel_from_lps * glm::translate(glm::dmat4(1.0), view.center_lps_mm));
+    parameters.center_lps_mm = vec4_from(view.center_lps_mm);
+    parameters.fixed_point_steps = kPictureSteps.fixed_point;
+    parameters.newton_steps = kPictureSteps.newton;
+    displaced.write(std::as_bytes(std::span(&parameters, 1)));
+    sources.write(std::as_bytes(std::span(&displacement, 1)));
+    displaced.bind(kDisplacedBinding);
+    sources.bind(kSourcesBinding);
+  }
+
+  gpu::Program slice;
+  gpu::Buffer displaced, sources;
+};
+
+}  // namespace
+
 struct MprGpu::Parts {
   Parts(gpu::Context& context, const volume::Volume& volume)
       : voxel_from_lps(volume::voxel_from_lps(volume)),
@@ -94,17 +127,26 @@ struct MprGpu::Parts {
   glm::dmat4 voxel_from_lps;
   glm::ivec3 size_voxels;
   gpu::Program slice;
+  std::optional<Moving> moving;
   gpu::Texture voxels;
   gpu::Buffer parameters;
   gpu::Buffer picture;  // as large as the largest picture so far
 };
 
-MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume)
-    : parts_(std::make_unique<Parts>(context, volume)) {}
+MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume, bool patient_moves)
+    : parts_(std::make_unique<Parts>(context, volume)) {
+  if (patient_moves) parts_->moving.emplace(context);
+}
 
 MprGpu::~MprGpu() = default;
 
 HuImage MprGpu::render(const MprView& view, const Inserted& inserted) {
+  return render(view, inserted, tissue::Displacement{});
+}
+
+HuImage MprGpu::render(const MprView& view, const Inserted& inserted, const tissue::Displacement& displacement) {
+  const bool moves = tissue::count_sources(displacement) > 0;
+  CHECK(!moves || parts_->moving);
   check_view(view, inserted);
   HuImage image(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
   const std::span<std::byte> bytes = std::as_writable_bytes(std::span(image));
@@ -114,7 +156,9 @@ HuImage MprGpu::render(const MprView& view, const Inserted& inserted) {
   parts_->parameters.bind(kParametersBinding);
   parts_->picture.bind(kPictureBinding);
   parts_->voxels.bind(kTextureUnit);
-  parts_->slice.dispatch((view.width_px + kGroupPx - 1) / kGroupPx, (view.height_px + kGroupPx - 1) / kGroupPx, 1);
+  if (moves) parts_->moving->set(parts_->voxel_from_lps, view, displacement);
+  (moves ? parts_->moving->slice : parts_->slice)
+      .dispatch((view.width_px + kGroupPx - 1) / kGroupPx, (view.height_px + kGroupPx - 1) / kGroupPx, 1);
   parts_->picture.read(bytes);
   return image;
 }
