@@ -168,7 +168,8 @@ constexpr Option kCalibrateOptions[] = {
     {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
     kJson};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b", "import, mpr, xray, ultrasound, haptics, step, library, assessment; default all"},
+    {"--stage", "a,b",
+     "import, mpr, xray, ultrasound, displacement, haptics, step, library, assessment; default all"},
     {"--quick", nullptr, "fewer repetitions"},
     {"--ct", "SOURCE", "what import reads, and a patient for xray and ultrasound; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},

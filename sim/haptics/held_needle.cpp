@@ -63,6 +63,7 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
     cases::advance_passage(scene_->skin_index, tip_lps_mm, state.skin);
   state.begun = true;
   const bool in_body = state.skin.in_body;
+  state.drag = {};
   if (!state.free && in_body) return {};
   state.free = true;
   if (!in_body && !in_track) {
@@ -106,6 +107,13 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
   glm::dvec3 shift_mm = tip_lps_mm - state.depth_mm / turned * pose.axis - state.entry_lps_mm;
   shift_mm -= glm::dot(shift_mm, state.direction) * state.direction;
   const double in_tissue_mm = inserted_mm(state.path.span(), state.depth_mm, state.track);
+  state.drag = {.entry_lps_mm = state.entry_lps_mm,
+                .direction = state.direction,
+                .radius_mm = 0.5 * gauge_.outer_mm,
+                .cut_mm = std::min(state.track.cut_mm, state.depth_mm),
+                .tip_n = force.along.tip_n,
+                .tip_mm = std::max(0.0, state.depth_mm - state.track.cut_mm),
+                .shaft_mm = law.dragged_mm(in_tissue_mm, state.track)};
   force.force_n = side_law.advance(shift_mm, in_tissue_mm, state.side) - force.along.axial_n * state.direction;
   return force;
 }

@@ -11,6 +11,7 @@
 #include "sim/haptics/needle_law.h"
 #include "sim/haptics/needle_path.h"
 #include "sim/haptics/needle_side.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::haptics {
 
@@ -22,12 +23,13 @@ struct HeldNeedleState {
   NeedlePath path;
   NeedleTrack track;
   NeedleSideTrack side;
-  double depth_mm = 0.0;   // of the tip along the line
-  double looked_mm = 0.0;  // how far along the line the path is known
-  int ticks_to_look = 0;   // while the line still moves
-  bool begun = false;      // `skin` says something
-  bool free = false;       // it has been outside
-  bool outside = true;     // of skin and track
+  double depth_mm = 0.0;    // of the tip along the line
+  double looked_mm = 0.0;   // how far along the line the path is known
+  int ticks_to_look = 0;    // while the line still moves
+  bool begun = false;       // `skin` says something
+  bool free = false;        // it has been outside
+  bool outside = true;      // of skin and track
+  tissue::NeedleDrag drag;  // what the last tick does to the tissue; nothing where it does nothing
 };
 
 struct HeldNeedleForce {

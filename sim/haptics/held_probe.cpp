@@ -31,6 +31,7 @@ ProbeForce HeldProbe::advance(const cases::ToolPose& pose, const ProbeLaw& law,
                               HeldProbeState& state) const noexcept {
   const cases::MeshIndex& skin = scene_->skin_index;
   const glm::dvec3 middle_lps_mm = pose.position_lps_mm - radius_mm_ * pose.axis;
+  state.press = {};
   // The gap shrinks by no more than the way.
   if (skin.empty() || length(middle_lps_mm - state.asked_lps_mm) < state.gap_mm) return {};
   const cases::Closest near = skin.closest_skin(middle_lps_mm, state.triangle);
@@ -52,7 +53,14 @@ ProbeForce HeldProbe::advance(const cases::ToolPose& pose, const ProbeLaw& law,
     }
     touch.bone_mm = state.bone_mm;
   }
-  return law.advance(touch, state.track);
+  const ProbeForce force = law.advance(touch, state.track);
+  if (touch.depth_mm > 0.0)
+    state.press = {.at_lps_mm = middle_lps_mm - (radius_mm_ - touch.depth_mm) * touch.outward,
+                   .inward = -touch.outward,
+                   .radius_mm = radius_mm_,
+                   .depth_mm = touch.depth_mm,
+                   .per_bone_mm = state.track.per_bone_mm};
+  return force;
 }
 
 }  // namespace seldinger::haptics

@@ -9,6 +9,7 @@
 #include "sim/case/inputs.h"
 #include "sim/haptics/bone_depth.h"
 #include "sim/haptics/probe_law.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::haptics {
 
@@ -20,6 +21,7 @@ struct HeldProbeState {
   double bone_mm = 0.0;          // below the skin, as last looked up
   std::uint32_t triangle = 0;    // nearest, the next query's hint
   int ticks_to_look = 0;         // for bone
+  tissue::SkinPress press;       // what the last tick does to the tissue; of no depth where it does nothing
 };
 
 class HeldProbe {

@@ -69,6 +69,11 @@ double NeedleLaw::shaft_stiffness_n_mm(double length_mm) const noexcept {
   return std::min(kShaftStiffnessNMm2 * length_mm, kShaftShare * settings_.stiffness_n_mm);
 }
 
+double NeedleLaw::dragged_mm(double length_mm, const NeedleTrack& track) const noexcept {
+  const double stiffness_n_mm = shaft_stiffness_n_mm(length_mm);
+  return stiffness_n_mm > 0.0 ? track.shaft_n / stiffness_n_mm : 0.0;
+}
+
 double NeedleLaw::tip_force_n(Path path, double depth_mm, const NeedleTrack& track) const noexcept {
   const double stretch_mm = depth_mm - track.cut_mm;
   if (!(stretch_mm > 0.0)) return 0.0;

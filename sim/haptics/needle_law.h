@@ -61,6 +61,9 @@ class NeedleLaw {
   // but for the layers that the track has entered (CHECKed to be there). Allocates nothing.
   NeedleForce advance(std::span<const NeedleLayer> path, double depth_mm, NeedleTrack& track) const noexcept;
 
+  // How far the shaft, inserted by length_mm, drags the tissue along now; < 0 on the way out.
+  double dragged_mm(double length_mm, const NeedleTrack& track) const noexcept;
+
  private:
   struct Tip;  // what the tissue at the tip does
 

@@ -58,7 +58,7 @@ HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const I
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
                 const tissue::Displacement& displacement);
 // What pictures spend on a sample's way back: right to 0.01 mm rms (docs/decisions/0023).
-constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 3, .newton = 1};
+constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 4, .newton = 1};
 
 // Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May
 // outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.

@@ -313,15 +313,19 @@ TEST(Contact, ComesBackFromWhereItWent) {
         }
         return glm::dvec2(std::sqrt(squares / kPlaces), most);
       };
-      const glm::dvec2 plain = round_trip({4, 0}), full = round_trip({});
+      const glm::dvec2 plain = round_trip({4, 0}), picture = round_trip({4, 1}), full = round_trip({});
       const std::string scene = std::to_string(static_cast<int>(depth_mm)) + (bone_mm > 0.0 ? "_bone" : "");
       RecordProperty("plain_rms_" + scene, std::to_string(plain.x));
       RecordProperty("plain_most_" + scene, std::to_string(plain.y));
+      RecordProperty("picture_rms_" + scene, std::to_string(picture.x));
+      RecordProperty("picture_most_" + scene, std::to_string(picture.y));
       RecordProperty("full_rms_" + scene, std::to_string(full.x));
       RecordProperty("full_most_" + scene, std::to_string(full.y));
       if (!(bone_mm > 0.0)) {
         EXPECT_LT(plain.x, 0.15) << scene;
       }
+      EXPECT_LT(picture.x, 0.15) << scene;
+      EXPECT_LT(picture.y, 0.5) << scene;
       EXPECT_LT(full.x, 0.02) << scene;
       EXPECT_LT(full.y, 0.5) << scene;
     }
