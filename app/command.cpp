@@ -138,6 +138,15 @@ constexpr Option kScoreOptions[] = {kLibrary,
                                     kJson};
 constexpr Option kRecomputeOptions[] = {
     kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+constexpr Option kExportOptions[] = {
+    kLibrary,
+    {"--out", "DIR", "the new folder"},
+    {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--key", "FILE",
+     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
+     "Keep it apart from what you pass on"},
+    kJson};
 constexpr Option kMeshOptions[] = {kLibrary, {"--out", "FILE.glb", "the file to write"}};
 constexpr Option kReplayOptions[] = {
     kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
@@ -264,6 +273,9 @@ constexpr Command kCommands[] = {
     {"recompute", "", 0, 0, kRecomputeOptions,
      "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
      &run_recompute},
+    {"export", "", 0, 0, kExportOptions,
+     "Writes attempts as CSV with a data dictionary into a new folder: no names, no dates (docs/export.md).",
+     &run_export},
     {"attempt list", "", 0, 0, kLibraryJson, "Lists the attempts, newest first.", &run_attempt_list},
     {"attempt show", "ATTEMPT", 1, 1, kLibraryJson, "Shows one attempt with its metrics.", &run_attempt_show},
     {"user add", "NAME", 1, 1, kUserAddOptions, "Adds an account; the password is read from standard input.",

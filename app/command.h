@@ -67,6 +67,7 @@ int run_sheet(const Arguments& arguments);
 int run_simulate(const Arguments& arguments);
 int run_score(const Arguments& arguments);
 int run_replay(const Arguments& arguments);
+int run_export(const Arguments& arguments);
 int run_recompute(const Arguments& arguments);
 int run_attempt_list(const Arguments& arguments);
 int run_attempt_show(const Arguments& arguments);

@@ -134,6 +134,16 @@ void insert_servo_record(Sqlite& database, const std::string& attempt_id, const 
       .run();
 }
 
+MetricValue read_metric(const Statement& from) {
+  MetricValue metric;
+  metric.id = from.text("metric_id");
+  metric.version = from.small_integer("version");
+  if (!from.is_null("value")) metric.value = from.real("value");
+  metric.unit = from.text("unit");
+  metric.reason = from.text("reason");
+  return metric;
+}
+
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id) {
   Statement row = question(library.database(), "servo_record");
   if (!row.bind("attempt_id", attempt_id).step()) return std::nullopt;

@@ -103,12 +103,7 @@ std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
       hand_over();
       attempt_id = metrics.text("attempt_id");
     }
-    MetricValue value;
-    value.id = metrics.text("metric_id");
-    value.version = metrics.small_integer("version");
-    if (!metrics.is_null("value")) value.value = metrics.real("value");
-    value.unit = metrics.text("unit");
-    value.reason = metrics.text("reason");
+    MetricValue value = read_metric(metrics);
     if (!of_one.empty() && of_one.back().value.id == value.id) of_one.pop_back();  // an older version
     of_one.push_back({metrics.integer("position"), std::move(value)});
   }
