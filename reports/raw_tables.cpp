@@ -275,15 +275,17 @@ const std::vector<Column<EventFact>>& event_columns() {
   using Fact = EventFact;
   static const std::string kinds = [] {
     std::string text;
-    for (const EventKindInfo& kind : event_kinds())
-      text += (text.empty() ? "" : "; ") + std::string(kind.kind) + ": " + kind.what;
+    for (const RecordedEventInfo& kind : recorded_event_kinds())
+      text += (text.empty() ? "" : "; ") + kind.kind + ": " + kind.about;
     return text;
   }();
   static const std::vector<Column<Fact>> columns = {
       attempt_name<Fact>(),
       {{"t_s", "number", "s", "", "since the attempt began"},
        [](CsvLine& line, const Fact& f) { line.number(f.event.t_s); }},
-      {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.kind); }},
+      {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient"},
+       [](CsvLine& line, const Fact& f) { line.text(f.event.info->source); }},
+      {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
   };
   return columns;
 }
@@ -362,7 +364,8 @@ const std::vector<TableInfo>& raw_tables() {
          "one row a metric of an attempt: every stored version, with the reason where there is no "
          "value",
          infos_of(metric_columns())},
-        {"events.csv", "one row an event of an attempt", infos_of(event_columns())},
+        {"events.csv", "one row an event of an attempt; of one recorded before events were kept only the buttons'",
+         infos_of(event_columns())},
         {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
          infos_of(pose_columns())},
         {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},

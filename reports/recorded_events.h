@@ -1,4 +1,4 @@
-// What happened in an attempt at one instant: what hands and buttons did.
+// What happened in an attempt at one instant: what hands and buttons did, and its events (sim/case/event.h).
 #pragma once
 
 #include <string>
@@ -8,17 +8,18 @@
 
 namespace seldinger::reports {
 
+struct RecordedEventInfo {
+  std::string kind;    // snake_case
+  std::string source;  // hand, trainee, mentor, patient
+  std::string words;   // for pages
+  std::string about;   // one sentence
+};
+const std::vector<RecordedEventInfo>& recorded_event_kinds();
+
 struct RecordedEvent {
   double t_s = 0.0;
-  std::string kind;  // snake_case; event_kinds() has them all
+  const RecordedEventInfo* info = nullptr;  // one of these
 };
-
-struct EventKindInfo {
-  const char* kind;
-  const char* what;
-};
-const std::vector<EventKindInfo>& event_kinds();
-
 std::vector<RecordedEvent> recorded_events(const cases::Recording& recording);  // by time
 
 }  // namespace seldinger::reports
