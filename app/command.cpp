@@ -149,7 +149,14 @@ constexpr Option kExportOptions[] = {
     kJson};
 constexpr Option kMeshOptions[] = {kLibrary, {"--out", "FILE.glb", "the file to write"}};
 constexpr Option kReplayOptions[] = {
-    kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
+    kLibrary,
+    {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"},
+    {"--out", "FILE.html|FILE.mp4|DIR",
+     "a sheet (pictures, way in the body, timeline, metrics), a film (needs ffmpeg), or a new folder of PNG "
+     "frames; "
+     "compared while it is drawn, nothing is written where it differs"},
+    {"--rate-hz", "R", "frames a second of the attempt, 1 to 60; default 10"},
+    kJson};
 constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
 constexpr Option kInsertOptions[] = {
     {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},

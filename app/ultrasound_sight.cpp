@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/png.h"
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/console.h"
 
@@ -135,22 +134,28 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
                                std::max(0.0, -level.transmission_db)};
 }
 
-std::vector<std::byte> UltrasoundSight::picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                                    std::uint64_t seed, std::uint64_t frame) const {
-  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+struct UltrasoundSight::Screen {
+  explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}) {}
+  imaging::ScanConverter converter;
   imaging::PolarPicture polar;
+};
+
+GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                     std::uint64_t seed, std::uint64_t frame) {
+  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  if (!screen_) screen_ = std::make_shared<Screen>(view);
+  const imaging::ScanConverter& converter = screen_->converter;
+  GreyPicture picture;
   imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
-                            polar);
-  imaging::add_receiver_noise(seed, frame, polar);
-  const imaging::ScanConverter converter(view, {});
-  std::vector<unsigned char> grey;
-  converter.grey(view, {}, polar, grey);
-  // Without the empty rows below a wide field.
-  const int rows =
+                            screen_->polar);
+  imaging::add_receiver_noise(seed, frame, screen_->polar);
+  converter.grey(view, {}, screen_->polar, picture.grey);
+  picture.width_px = converter.width_px();
+  picture.height_px =
       std::min(converter.height_px(),
                static_cast<int>(std::ceil((view.depth_mm - converter.top_mm()) / converter.pixel_mm())));
-  grey.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(converter.width_px()));
-  return png_from_grey(grey, converter.width_px(), rows);
+  picture.grey.resize(static_cast<std::size_t>(picture.height_px) * static_cast<std::size_t>(picture.width_px));
+  return picture;
 }
 
 }  // namespace seldinger::app
