@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <future>
 
 #include "app/body_planes.h"
 #include "app/case_build.h"
@@ -167,13 +168,21 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
   } else {
     casedb::NewFolder folder(out);
     std::size_t number = 0;
-    written.pictures = draw_frames(s, recording, screen, title, rate_hz, written.replay, [&](const Canvas& canvas) {
+    std::future<void> writing;  // packing one takes as long as drawing the next
+    const auto wait = [&] {
+      if (writing.valid()) writing.get();
+    };
+    written.pictures = draw_frames(s, recording, screen, title, rate_hz, written.replay, [&](Canvas canvas) {
       char name[32];
       std::snprintf(name, sizeof name, "frame_%06zu.png", ++number);
-      casedb::NewFile file(folder.unfinished() / name);
-      file.write(png_from_rgb(canvas.rgb(), canvas.width_px(), canvas.height_px()));
-      file.keep_unsynced();
+      wait();
+      writing = std::async(std::launch::async, [file = folder.unfinished() / name, drawn = std::move(canvas)] {
+        casedb::NewFile whole(file);
+        whole.write(png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px()));
+        whole.keep_unsynced();
+      });
     });
+    wait();
     if ((written.replay.same || !comparable) && !folder.keep())
       return base::Error{"exists", "there is already something of that name"};
   }

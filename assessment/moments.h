@@ -12,12 +12,12 @@ namespace seldinger::assessment {
 // In the order in which they are left out when there are too many: the last first.
 enum class MomentKind {
   fire,
+  end,              // of the recording, where the trigger did not fall
   puncture,         // the tip is 2 mm below the skin
   blind_run,        // the end of the longest advance that no picture showed
   withdrawal,       // before the needle is drawn back partly: where the tip was deepest
   full_withdrawal,  // before it leaves the skin
   target_seen,      // the first live picture of the target
-  end,              // of the recording, where the trigger did not fall
   between,          // nothing but a picture on the way
 };
 const char* words_for(MomentKind kind) noexcept;
