@@ -47,11 +47,13 @@ Box box_of(const cases::Case& scene, const assessment::Signals& signals) {
   return box;
 }
 
-// The mesh where the plane cuts it.
+// The skin where the plane cuts it; the caps at the volume's ends are none.
 std::vector<PlaneSegment> cut(const cases::Mesh& mesh, const BodyPlane& plane) {
   const glm::dvec3 normal = glm::cross(plane.u, plane.v);
   std::vector<PlaneSegment> segments;
-  for (const glm::uvec3& triangle : mesh.triangles) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.cut[t] != 0) continue;
+    const glm::uvec3& triangle = mesh.triangles[t];
     glm::dvec3 corner[3];
     double height_mm[3];
     for (int i = 0; i < 3; ++i) {

@@ -10,4 +10,7 @@ struct GreyPicture {
   int width_px = 0, height_px = 0;
 };
 
+// Without the black edges that all of them have; pictures of one size are cut alike, of another not at all.
+void cut_black_edges(std::vector<GreyPicture>& pictures);
+
 }  // namespace seldinger::app

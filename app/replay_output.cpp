@@ -87,9 +87,13 @@ std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const
   sheet.course = s.course;
   for (const BodyPlane& plane : s.planes) sheet.planes.push_back(row_of(s, plane));
   const std::vector<assessment::Moment> moments = assessment::telling_moments(s.signals);
+  std::vector<GreyPicture> pictures;
   const auto take = [&](const assessment::Moment& moment) {
-    reports::SheetMoment shown{
-        moment.t_s, assessment::words_for(moment.kind), png_of(screen.picture()), screen.live(), false, false};
+    reports::SheetMoment shown;
+    shown.t_s = moment.t_s;
+    shown.words = assessment::words_for(moment.kind, attempt.picture.modality);
+    shown.live = screen.live();
+    pictures.push_back(screen.picture());
     for (const cases::FrameTruth& frame : s.signals.frames) {
       if (frame.t_s > moment.t_s) break;
       shown.tip_seen = frame.needle_tip;
@@ -111,6 +115,8 @@ std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const
         for (; due(state); ++next) take(moments[next]);
       });
   for (; next < moments.size(); ++next) take(moments[next]);
+  cut_black_edges(pictures);
+  for (std::size_t i = 0; i < pictures.size(); ++i) sheet.moments[i].png = png_of(pictures[i]);
   if (replayed.same || !note.empty()) write_file(out, reports::replay_sheet(sheet));
   return sheet.moments.size();
 }

@@ -33,14 +33,15 @@ bool by_time(const Moment& a, const Moment& b) {
 
 }  // namespace
 
-const char* words_for(MomentKind kind) noexcept {
+const char* words_for(MomentKind kind, cases::Modality modality) noexcept {
   switch (kind) {
     case MomentKind::fire:
       return "Fired";
     case MomentKind::puncture:
       return "Through the skin";
     case MomentKind::blind_run:
-      return "End of the longest unseen advance";
+      return modality == cases::Modality::xray ? "End of the longest advance between exposures"
+                                               : "End of the longest unseen advance";
     case MomentKind::withdrawal:
       return "Before drawing back";
     case MomentKind::full_withdrawal:

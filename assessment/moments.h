@@ -20,7 +20,7 @@ enum class MomentKind {
   target_seen,      // the first live picture of the target
   between,          // nothing but a picture on the way
 };
-const char* words_for(MomentKind kind) noexcept;
+const char* words_for(MomentKind kind, cases::Modality modality) noexcept;
 
 struct Moment {
   double t_s = 0.0;

@@ -46,7 +46,7 @@ constexpr const char kStyle[] =
     ".planes .target{fill:none;stroke:#69f0ae;stroke-width:1.6}.planes .planned{stroke:#fff;stroke-width:1.4}"
     ".planes .seen-way{stroke:#4fc3f7;stroke-width:2}.planes .unseen-way{stroke:#ff8a50;stroke-width:2}"
     ".planes .outside{stroke:#9aa7b1;stroke-width:1}.planes .needle{stroke:#fff;stroke-width:1.1;opacity:.85}"
-    ".planes text{fill:#dfe6ea;font-size:12px}"
+    ".planes text{fill:#fff;font-size:12px;paint-order:stroke;stroke:#000;stroke-width:3px}"
     ".key::before{content:'';display:inline-block;width:1.4em;border-top:3px solid var(--seen);"
     "vertical-align:middle;margin-right:.35em}.key.no::before{border-top:3px dashed var(--unseen-way)}"
     ".key.target-key::before{border-top:.7em solid var(--target);opacity:.4}"
@@ -97,6 +97,12 @@ void add_strip(Html& html, const ReplaySheet& sheet) {
     html.raw("</span></p></li>\n");
   }
   html.raw("</ol></section>\n");
+}
+
+// Names of structures are often made of words and underscores.
+std::string spaced(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 // All segments as one path, in the plane's millimetres.
@@ -154,7 +160,7 @@ void add_plane(Html& html, const SheetPlane& plane, const Course& course) {
   add_segments(html, "skin", plane.skin, "skin");
   for (const SheetOutline& outline : plane.structures)
     add_segments(html, "structure " + (outline.rule == "target" ? "target-rule" : outline.rule), outline.segments,
-                 outline.name);
+                 spaced(outline.name));
   if (plane.target_mm) {
     html.raw("<circle vector-effect=\"non-scaling-stroke\" class=\"target\" cx=\"").text(mm(plane.target_mm->x));
     html.raw("\" cy=\"").text(mm(plane.target_mm->y)).raw("\" r=\"").text(mm(plane.target_radius_mm));
@@ -197,10 +203,12 @@ void add_planes(Html& html, const ReplaySheet& sheet) {
   html.raw(
       "The CT is cut through the target (circle); the way, and the needle as it ended (white), are projected "
       "onto it. Pale line: skin.");
+  if (sheet.attempt.row.picture.modality == cases::Modality::xray)
+    html.raw(" Between exposures nothing is seen; to advance there, in small steps, is correct practice.");
   if (planned) html.raw(" Cross: the planned entry.");
   if (!names.empty()) {
     html.raw(" Outlined: ");
-    for (std::size_t i = 0; i < names.size(); ++i) html.text(i == 0 ? "" : ", ").name(names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) html.text(i == 0 ? "" : ", ").name(spaced(names[i]));
     html.raw(".");
   }
   html.raw("</p></section>\n");

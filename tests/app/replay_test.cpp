@@ -73,6 +73,27 @@ TEST(Canvas, APictureKeepsItsShapeAndGreys) {
   EXPECT_EQ(canvas.picture({0, 0, 10, 10}, {}).width, 0);
 }
 
+TEST(GreyPictures, LoseOnlyTheEdgesThatAllHaveBlack) {
+  const auto lit = [](int width, int height, std::vector<std::pair<int, int>> places) {
+    GreyPicture picture{std::vector<unsigned char>(static_cast<std::size_t>(width * height)), width, height};
+    for (const auto& [x, y] : places) picture.grey[static_cast<std::size_t>(y * width + x)] = 9;
+    return picture;
+  };
+  std::vector<GreyPicture> pictures = {{}, lit(8, 6, {{2, 3}}), lit(8, 6, {{5, 1}}), lit(4, 4, {{1, 1}})};
+  cut_black_edges(pictures);
+  EXPECT_EQ(pictures[0].width_px, 0);
+  for (const int i : {1, 2}) {
+    EXPECT_EQ(pictures[static_cast<std::size_t>(i)].width_px, 4);
+    EXPECT_EQ(pictures[static_cast<std::size_t>(i)].height_px, 3);
+  }
+  EXPECT_EQ(pictures[1].grey[2 * 4 + 0], 9);
+  EXPECT_EQ(pictures[2].grey[0 * 4 + 3], 9);
+  EXPECT_EQ(pictures[3].width_px, 4);
+  std::vector<GreyPicture> black = {lit(3, 3, {})};
+  cut_black_edges(black);
+  EXPECT_EQ(black[0].width_px, 3);
+}
+
 assessment::Signals signals_in(const cases::Case& scene) {
   cases::Recording recording;
   for (int i = 0; i <= 200; ++i) {

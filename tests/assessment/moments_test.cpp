@@ -110,7 +110,7 @@ TEST(TellingMoments, OfAShortOneThereAreFewerAndItsEndIsThere) {
       {{0.0, -20.0}, {1.0, -19.0}}, 1.0, [](double) { return false; }, false));
   EXPECT_LT(moments.size(), kLeastMoments);
   EXPECT_EQ(times_of(moments, MomentKind::end), std::vector<double>{1.0});
-  for (const Moment& moment : moments) EXPECT_STRNE(words_for(moment.kind), "");
+  for (const Moment& moment : moments) EXPECT_STRNE(words_for(moment.kind, cases::Modality::xray), "");
 }
 
 // The counts of the metrics and the moments are of the same events.
