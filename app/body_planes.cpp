@@ -42,8 +42,8 @@ Box box_of(const cases::Case& scene, const assessment::Signals& signals) {
   }
   if (scene.planned_entry_lps_mm) box.take(*scene.planned_entry_lps_mm);
   for (std::size_t i = 0; i < signals.poses.size(); ++i)
-    if (signals.passages[i].depth_mm > -kBeforeSkinMm) box.take(signals.poses[i].tip_lps_mm);
-  if (box.low.x > box.high.x) box.take(signals.poses.back().tip_lps_mm);
+    if (signals.passages[i].depth_mm > -kBeforeSkinMm) box.take(signals.poses[i].tip_at_rest_lps_mm());
+  if (box.low.x > box.high.x) box.take(signals.poses.back().tip_at_rest_lps_mm());
   return box;
 }
 
@@ -130,7 +130,7 @@ std::vector<BodyPlane> body_planes(const cases::Case& scene, const assessment::S
   const Box box = box_of(scene, signals);
   const glm::dvec3 size_mm = box.high - box.low, middle = 0.5 * (box.low + box.high);
   const glm::dvec3 through =
-      scene.lesions.empty() ? signals.poses.back().tip_lps_mm : scene.lesions.front().center_lps_mm;
+      scene.lesions.empty() ? signals.poses.back().tip_at_rest_lps_mm() : scene.lesions.front().center_lps_mm;
   const double side_mm =
       std::clamp(std::max({size_mm.x, size_mm.y, size_mm.z}) + 2.0 * kMarginMm, kLeastSideMm, kMostSideMm);
   std::vector<BodyPlane> planes;

@@ -8,11 +8,11 @@
 namespace seldinger::app {
 namespace {
 
-// As the raw export writes them, without the attempt's name before them.
+// As the raw export writes them, between the attempt's name and what a patient who moves has.
 std::vector<const char*> columns() {
   std::vector<const char*> names;
-  for (const auto& column : reports::pose_columns()) names.push_back(column.name.c_str());
-  names.erase(names.begin());
+  for (std::size_t i = 1; i <= reports::kPoseFileColumns; ++i)
+    names.push_back(reports::pose_columns()[i].name.c_str());
   return names;
 }
 

@@ -168,8 +168,8 @@ Canvas ReplayFrame::draw(const cases::State& state, const GreyPicture& screen, b
       return p.x >= area.left && p.y >= area.top && p.x < area.left + area.width && p.y < area.top + area.height;
     };
     for (std::size_t i = 1; i <= now; ++i) {
-      const glm::dvec2 from = placed.px(signals_.poses[i - 1].tip_lps_mm),
-                       to = placed.px(signals_.poses[i].tip_lps_mm);
+      const glm::dvec2 from = placed.px(signals_.poses[i - 1].tip_at_rest_lps_mm()),
+                       to = placed.px(signals_.poses[i].tip_at_rest_lps_mm());
       if (!course_.points[i - 1].in_body || from == to || !inside(from) || !inside(to)) continue;
       canvas.line(from, to, 1.6, course_.points[i - 1].tip_seen ? kSeen : kUnseen);
     }

@@ -56,15 +56,15 @@ reports::SheetPlane row_of(const Scene& s, const BodyPlane& plane) {
   row.skin = rows_of(plane.skin);
   for (const PlaneOutline& outline : plane.structures)
     row.structures.push_back({outline.name, std::string(cases::name_of(outline.rule)), rows_of(outline.segments)});
-  for (const cases::PoseSample& pose : s.signals.poses) row.way.push_back(plane.at(pose.tip_lps_mm));
+  for (const cases::PoseSample& pose : s.signals.poses) row.way.push_back(plane.at(pose.tip_at_rest_lps_mm()));
   if (s.signals.setting.target) {
     row.target_mm = plane.at(s.signals.setting.target->center_lps_mm);
     row.target_radius_mm = s.signals.setting.target->radius_mm;
   }
   if (s.scene.planned_entry_lps_mm) row.planned_entry_mm = plane.at(*s.scene.planned_entry_lps_mm);
   const cases::PoseSample& last = s.signals.poses.back();
-  row.tip_mm = plane.at(last.tip_lps_mm);
-  row.hub_mm = plane.at(last.tip_lps_mm - last.needle_direction * s.scene.instrument.length_mm);
+  row.tip_mm = plane.at(last.tip_at_rest_lps_mm());
+  row.hub_mm = plane.at(last.tip_at_rest_lps_mm() - last.needle_direction * s.scene.instrument.length_mm);
   return row;
 }
 

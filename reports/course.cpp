@@ -1,7 +1,9 @@
 #include "reports/course.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "assessment/procedure/steps.h"
 #include "reports/recorded_events.h"
 
 namespace seldinger::reports {
@@ -57,6 +59,21 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
   band("Tip seen", [](const cases::FrameTruth& frame) { return frame.live && frame.needle_tip; });
   band("Target seen", [](const cases::FrameTruth& frame) { return frame.live && frame.target; });
   band("Both seen", [](const cases::FrameTruth& frame) { return frame.live && frame.joint(); });
+
+  // What was not listened to is no omission, and its step is not asked for.
+  Lane steps{"Steps", {}};
+  for (const assessment::StepResult& result : assessment::walk_steps(signals)) {
+    const assessment::StepInfo* info = assessment::find_step(result.id);
+    if (info == nullptr || result.state == assessment::StepState::not_asked) continue;
+    const bool done = result.state == assessment::StepState::done;
+    const std::string state(assessment::name_of(result.state));
+    const LaneMark mark{result.t_s.value_or(0.0), result.t_s.value_or(0.0), done ? "step" : state,
+                        std::string(info->words) + (done ? "" : " (" + state + ")")};
+    (result.t_s && *result.t_s <= course.t1_s ? steps.marks : steps.timeless).push_back(mark);
+  }
+  std::stable_sort(steps.marks.begin(), steps.marks.end(),
+                   [](const LaneMark& a, const LaneMark& b) { return a.t0_s < b.t0_s; });
+  if (!steps.marks.empty() || !steps.timeless.empty()) course.lanes.push_back(std::move(steps));
 
   Lane events{"Events", {}};
   for (const RecordedEvent& event : recorded_events(recording)) {

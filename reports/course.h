@@ -42,6 +42,7 @@ struct LaneMark {
 struct Lane {
   std::string name;
   std::vector<LaneMark> marks;
+  std::vector<LaneMark> timeless{};  // what did not happen: told, not drawn
 };
 
 struct Course {
@@ -50,7 +51,7 @@ struct Course {
   std::vector<TargetDepth> targets;
   std::vector<ForcePointInTime> forces;
   std::vector<Band> bands;
-  std::vector<Lane> lanes;  // those with marks
+  std::vector<Lane> lanes;  // those that have something to tell
   std::optional<double> fired_s;
 };
 

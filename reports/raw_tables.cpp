@@ -13,6 +13,9 @@ constexpr std::array kOperators = {"novice", "intermediate", "expert", kPerson};
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
+constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
+constexpr const char* kRestTip =
+    "where the tissue at the tip lies in a patient at rest, as CT, lesions and structures do, LPS";
 constexpr const char* kAttemptName = "key to attempts.csv";
 
 // A simulated operator's own name is text of a file that somebody wrote.
@@ -189,6 +192,18 @@ const std::vector<Column<PoseFact>>& pose_columns() {
        [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_lateral.z); }},
       {{"fire", "flag", "", "", "1: the endpoint, with the tip as it was before any throw"},
        [](CsvLine& line, const Fact& f) { line.flag(f.fire); }},
+      {{"rest_tip_x_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->x) : line.nothing();
+       }},
+      {{"rest_tip_y_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->y) : line.nothing();
+       }},
+      {{"rest_tip_z_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->z) : line.nothing();
+       }},
   };
   return columns;
 }
@@ -330,6 +345,7 @@ std::vector<PoseFact> pose_facts(const std::string& attempt, const cases::Record
     pose.t_s = recording.endpoint->t_s;
     pose.tip_lps_mm = recording.endpoint->tip_lps_mm;
     pose.needle_direction = recording.endpoint->direction;
+    pose.rest_tip_lps_mm = recording.endpoint->rest_tip_lps_mm;
     facts.push_back({&attempt, pose, true});
     fired = true;
   };

@@ -64,7 +64,9 @@ struct EventFact {
 
 const std::vector<Column<AttemptFacts>>& attempt_columns();  // without the metrics, which are attempt_metrics()
 const std::vector<Column<MetricFact>>& metric_columns();
-const std::vector<Column<PoseFact>>& pose_columns();  // after `attempt`: contracts.md's poses.csv
+// After `attempt`: contracts.md's poses.csv, kPoseFileColumns, and what a patient who moves has beside.
+constexpr std::size_t kPoseFileColumns = 17;
+const std::vector<Column<PoseFact>>& pose_columns();
 const std::vector<Column<ForceFact>>& force_columns();
 const std::vector<Column<FrameFact>>& frame_columns();
 const std::vector<Column<EventFact>>& event_columns();

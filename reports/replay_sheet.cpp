@@ -54,8 +54,10 @@ constexpr const char kStyle[] =
     "table{border-collapse:collapse;width:100%}.tables{display:grid;gap:1rem;align-items:start;"
     "grid-template-columns:repeat(auto-fit,minmax(290px,1fr))}caption{text-align:left;font-weight:600;"
     "padding:.2rem 0}th,td{text-align:left;font-weight:400;padding:.18rem .5rem .18rem 0;"
-    "border-bottom:1px solid var(--line);vertical-align:top}td{text-align:right;font-variant-numeric:tabular-nums}"
-    "ol.events{columns:18rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
+    "border-bottom:1px solid "
+    "var(--line);vertical-align:top}td{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}"
+    ".events{columns:18rem;column-gap:1.6rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
+    "td .soft{white-space:normal}"
     "@media print{body{background:#fff}.strip li,.planes figure,table{break-inside:avoid}}"
     "@media(max-width:30rem){.strip{grid-template-columns:1fr 1fr}.strip img,.strip .empty{height:150px}"
     "body{padding:.7rem}}";
@@ -232,6 +234,10 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
       html.raw(" s: ").text(mark.words).raw("</li>\n");
     }
     html.raw("</ol>\n");
+    if (lane.timeless.empty()) continue;
+    html.raw("<ul class=\"events\">\n");
+    for (const LaneMark& mark : lane.timeless) html.raw("<li>").text(mark.words).raw("</li>\n");
+    html.raw("</ul>\n");
   }
   html.raw("</section>\n");
 }
