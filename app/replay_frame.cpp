@@ -186,6 +186,15 @@ Canvas ReplayFrame::draw(const cases::State& state, const GreyPicture& screen, b
     }
   }
 
+  const auto seen = [&](const char* name) {
+    for (const reports::Band& band : course_.bands)
+      if (band.name == name)
+        return std::any_of(band.spans.begin(), band.spans.end(), [&](const reports::Span& span) {
+          return span.from_s <= state.t_s && state.t_s < span.to_s;
+        });
+    return false;
+  };
+  const bool tip_seen = seen("Tip seen"), target_seen = seen("Target seen");
   const reports::CoursePoint& point = course_.points[now];
   int top = 40;
   const auto read = [&](const char* name, const std::string& value, Colour colour) {
@@ -194,14 +203,12 @@ Canvas ReplayFrame::draw(const cases::State& state, const GreyPicture& screen, b
     top += 52;
   };
   read("time", text("%.1f s", state.t_s), kText);
-  read("depth along the needle", point.in_body ? text("%.1f mm", point.inserted_mm) : "outside",
-       point.in_body ? kText : kSoft);
-  bool target_seen = false;
-  for (const reports::Band& band : course_.bands)
-    if (band.name == "Target seen")
-      for (const reports::Span& span : band.spans)
-        target_seen = target_seen || (span.from_s <= state.t_s && state.t_s < span.to_s);
-  read("tip", point.tip_seen ? "seen" : "not seen", point.tip_seen ? kSeen : kUnseen);
+  if (state.t_s > course_.points.back().t_s)
+    read("depth along the needle", "fired", kTarget);  // after it nothing is measured
+  else
+    read("depth along the needle", point.in_body ? text("%.1f mm", point.inserted_mm) : "outside",
+         point.in_body ? kText : kSoft);
+  read("tip", tip_seen ? "seen" : "not seen", tip_seen ? kSeen : kUnseen);
   read("target", target_seen ? "seen" : "not seen", target_seen ? kSeen : kUnseen);
   if (!course_.forces.empty()) {
     const auto force = std::upper_bound(course_.forces.begin(), course_.forces.end(), state.t_s,
@@ -209,7 +216,6 @@ Canvas ReplayFrame::draw(const cases::State& state, const GreyPicture& screen, b
     const auto& felt = force == course_.forces.begin() ? course_.forces.front() : *(force - 1);
     read("force along the needle", text("%.2f N", felt.axial_n), kText);
   }
-  if (state.fire.fired) read("", "fired", kTarget);
   // What happened within the last two seconds.
   for (const reports::Lane& lane : course_.lanes)
     for (const reports::LaneMark& mark : lane.marks)

@@ -45,12 +45,12 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
   Course course;
   course.points = points_of(signals);
   course.t0_s = signals.poses.front().t_s;
-  course.t1_s = signals.poses.back().t_s;
+  course.t1_s = std::max(signals.poses.back().t_s, recording.poses.back().t_s);
   course.targets = targets_of(signals);
-  for (const cases::ForceSample& force : signals.forces)
+  for (const cases::ForceSample& force : recording.forces)
     course.forces.push_back({force.t_s, force.needle_axial_n, force.needle_lateral_n});
   if (signals.endpoint) course.fired_s = signals.endpoint->t_s;
-  const auto& frames = signals.frames;
+  const auto& frames = recording.frames;
   const auto band = [&](const char* name, auto holds) {
     course.bands.push_back({name, spans_where(frames, holds)});
   };
@@ -69,7 +69,7 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
     const std::string state(assessment::name_of(result.state));
     const LaneMark mark{result.t_s.value_or(0.0), result.t_s.value_or(0.0), done ? "step" : state,
                         std::string(info->words) + (done ? "" : " (" + state + ")")};
-    (result.t_s && *result.t_s <= course.t1_s ? steps.marks : steps.timeless).push_back(mark);
+    (result.t_s ? steps.marks : steps.timeless).push_back(mark);
   }
   std::stable_sort(steps.marks.begin(), steps.marks.end(),
                    [](const LaneMark& a, const LaneMark& b) { return a.t0_s < b.t0_s; });
@@ -78,8 +78,7 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
   Lane events{"Events", {}};
   for (const RecordedEvent& event : recorded_events(recording)) {
     const bool pedal = event.info->kind.rfind("pedal", 0) == 0;  // the band says it
-    if (!pedal && event.t_s <= course.t1_s)
-      events.marks.push_back({event.t_s, event.t_s, event.info->source, event.info->words});
+    if (!pedal) events.marks.push_back({event.t_s, event.t_s, event.info->source, event.info->words});
   }
   if (!events.marks.empty()) course.lanes.push_back(std::move(events));
   return course;

@@ -46,7 +46,7 @@ struct Lane {
 };
 
 struct Course {
-  double t0_s = 0.0, t1_s = 0.0;
+  double t0_s = 0.0, t1_s = 0.0;    // of the whole recording
   std::vector<CoursePoint> points;  // as signals: up to the endpoint
   std::vector<TargetDepth> targets;
   std::vector<ForcePointInTime> forces;

@@ -23,7 +23,7 @@ struct RawExport {
 };
 
 // `out` appears whole or not at all; attempts that are added meanwhile are not in it. One attempt's recording is in
-// memory at a time, beside a line of a hundred bytes for each attempt of the library. The same key gives the same
+// memory at a time, beside a few hundred bytes for each attempt of the library. The same key gives the same
 // names. Refused: `exists`, `no_case`, and a damaged recording as casedb::load_recording refuses it. Throws
 // base::Failure("disk").
 base::Result<RawExport> export_raw(casedb::Library& library, const std::filesystem::path& out,

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "assessment/procedure/steps.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::reports {
@@ -35,7 +38,8 @@ TEST(Course, DepthSightTargetAndEvents) {
   ASSERT_TRUE(signals);
   const Course course = course_of(*signals, recording);
 
-  EXPECT_EQ(course.t1_s, 5.5);
+  EXPECT_EQ(course.t1_s, 6.0) << "what comes after the endpoint belongs to it";
+  EXPECT_EQ(course.points.back().t_s, 5.5);
   EXPECT_EQ(course.fired_s, 5.5);
   ASSERT_FALSE(course.points.empty());
   EXPECT_FALSE(course.points.front().in_body);
@@ -46,7 +50,7 @@ TEST(Course, DepthSightTargetAndEvents) {
   EXPECT_NEAR(course.targets[0].center_mm, 50.0, 0.1);
   EXPECT_NEAR(course.targets[0].span.from_s, 1.0, 0.02);
   EXPECT_EQ(course.targets[0].span.to_s, 5.5);
-  EXPECT_EQ(course.forces.back().t_s, 5.5);
+  EXPECT_EQ(course.forces.back().t_s, 6.0);
 
   const auto band = [&](const std::string& name) {
     for (const Band& one : course.bands)
@@ -58,10 +62,27 @@ TEST(Course, DepthSightTargetAndEvents) {
   EXPECT_EQ(band("Tip seen")[0].from_s, 3.0);
   EXPECT_EQ(band("Tip seen")[0].to_s, 5.0);
   EXPECT_EQ(band("Picture live")[0].to_s, 5.0);
-  ASSERT_EQ(course.lanes.size(), 1U);
-  ASSERT_EQ(course.lanes[0].marks.size(), 2U) << "what came after the endpoint is not drawn";
-  EXPECT_EQ(course.lanes[0].marks[0].kind, "mentor");
-  EXPECT_EQ(course.lanes[0].marks[1].words, "fired");
+  ASSERT_EQ(course.lanes.size(), 2U);
+  const Lane &steps = course.lanes[0], &events = course.lanes[1];
+  ASSERT_EQ(events.marks.size(), 3U);
+  EXPECT_EQ(events.marks[0].kind, "mentor");
+  EXPECT_EQ(events.marks[1].words, "fired");
+  EXPECT_EQ(events.marks[2].t0_s, 5.8);
+  const auto told = [](const std::vector<LaneMark>& marks, const std::string& kind, const std::string& words) {
+    return std::any_of(marks.begin(), marks.end(), [&](const LaneMark& mark) {
+      return mark.kind == kind && mark.words.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(steps.marks, "step", assessment::find_step("sign_out")->words));
+  EXPECT_TRUE(told(steps.timeless, "skipped", assessment::find_step("sign_in")->words));
+  for (std::size_t i = 1; i < steps.marks.size(); ++i) EXPECT_LE(steps.marks[i - 1].t0_s, steps.marks[i].t0_s);
+
+  // What was not listened to is no omission.
+  recording.events.reset();
+  const auto unheard = assessment::make_signals(setting, recording);
+  ASSERT_TRUE(unheard);
+  for (const Lane& lane : course_of(*unheard, recording).lanes)
+    EXPECT_FALSE(told(lane.timeless, "skipped", assessment::find_step("sign_in")->words));
 }
 
 }  // namespace
