@@ -61,10 +61,10 @@ void Canvas::blend(int x, int y, double share, Colour colour) {
   if (x < 0 || y < 0 || x >= width_px_ || y >= height_px_ || share <= 0.0) return;
   unsigned char* pixel = &rgb_[std::size_t{3} * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px_) +
                                                  static_cast<std::size_t>(x))];
-  share = std::min(share, 1.0);
   const unsigned char wanted[3] = {colour.red, colour.green, colour.blue};
   for (int i = 0; i < 3; ++i)
-    pixel[i] = static_cast<unsigned char>(std::lround(pixel[i] + share * (wanted[i] - pixel[i])));
+    pixel[i] =
+        share >= 1.0 ? wanted[i] : static_cast<unsigned char>(pixel[i] + share * (wanted[i] - pixel[i]) + 0.5);
 }
 
 void Canvas::fill(const Rectangle& area, Colour colour) {
@@ -128,7 +128,7 @@ Rectangle Canvas::picture(const Rectangle& area, const GreyPicture& picture) {
       const int x1 = std::min(x0 + 1, picture.width_px - 1), y1 = std::min(y0 + 1, picture.height_px - 1);
       const double upper = grey(x0, y0) + (fx - x0) * (grey(x1, y0) - grey(x0, y0));
       const double lower = grey(x0, y1) + (fx - x0) * (grey(x1, y1) - grey(x0, y1));
-      const auto value = static_cast<unsigned char>(std::lround(upper + (fy - y0) * (lower - upper)));
+      const auto value = static_cast<unsigned char>(upper + (fy - y0) * (lower - upper) + 0.5);
       blend(at.left + x, at.top + y, 1.0, {value, value, value});
     }
   return at;
