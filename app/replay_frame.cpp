@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <sstream>
 
 namespace seldinger::app {
 namespace {
@@ -15,6 +16,7 @@ constexpr Colour kGround{20, 25, 30}, kPanel{30, 37, 43}, kText{229, 234, 238}, 
 
 constexpr Rectangle kScreen{8, 36, 800, 500};
 constexpr int kPlaneSide = 246, kPlaneLeft = 820, kReadLeft = 1080;
+constexpr std::size_t kReadLetters = 32;  // to the right edge
 constexpr int kStripLeft = 84, kStripRight = 1268, kDepthTop = 556, kDepthBottom = 630, kForceTop = 636,
               kForceBottom = 662, kBandTop = 668, kBandHeight = 9, kBandStep = 13;
 
@@ -22,6 +24,16 @@ std::string text(const char* format, double value) {
   char words[64];
   std::snprintf(words, sizeof words, format, value);
   return words;
+}
+
+std::vector<std::string> wrapped(const std::string& words, std::size_t letters) {
+  std::vector<std::string> lines{""};
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > letters) lines.emplace_back();
+    lines.back() += (lines.back().empty() ? "" : " ") + word;
+  }
+  return lines;
 }
 
 Colour colour_of(cases::StructureRule rule) {
@@ -91,11 +103,17 @@ void ReplayFrame::draw_plane(Canvas& canvas, const PlacedPlane& placed) const {
     canvas.circle(placed.px(signals_.setting.target->center_lps_mm), scale * signals_.setting.target->radius_mm,
                   1.2, kTarget);
   const int middle = placed.area.left + placed.area.width / 2, half = placed.area.top + placed.area.height / 2;
-  canvas.text(placed.area.left + 3, half, 1, plane.left, kText);
-  canvas.text(placed.area.left + placed.area.width - 9, half, 1, plane.right, kText);
-  canvas.text(middle, placed.area.top + 3, 1, plane.upper, kText);
-  canvas.text(middle, placed.area.top + placed.area.height - 10, 1, plane.lower, kText);
-  canvas.text(placed.area.left + 3, placed.area.top + 3, 1, plane.name, kText);
+  // With a shadow: bone is as white as they are.
+  const auto letters = [&](int x, int y, const std::string& words) {
+    for (const int dx : {-1, 0, 1})
+      for (const int dy : {-1, 0, 1}) canvas.text(x + dx, y + dy, 1, words, {0, 0, 0});
+    canvas.text(x, y, 1, words, kText);
+  };
+  letters(placed.area.left + 3, half, plane.left);
+  letters(placed.area.left + placed.area.width - 9, half, plane.right);
+  letters(middle, placed.area.top + 3, plane.upper);
+  letters(middle, placed.area.top + placed.area.height - 10, plane.lower);
+  letters(placed.area.left + 3, placed.area.top + 3, plane.name);
 }
 
 double ReplayFrame::x_of(double t_s) const {
@@ -220,8 +238,11 @@ Canvas ReplayFrame::draw(const cases::State& state, const GreyPicture& screen, b
   for (const reports::Lane& lane : course_.lanes)
     for (const reports::LaneMark& mark : lane.marks)
       if (mark.kind != "hand" && mark.t0_s <= state.t_s && state.t_s < std::max(mark.t0_s + 2.0, mark.t1_s)) {
-        canvas.text(kReadLeft, top, 1, mark.words, kAdvisory);
-        top += 14;
+        for (const std::string& line : wrapped(mark.words, kReadLetters)) {
+          canvas.text(kReadLeft, top, 1, line, kAdvisory);
+          top += 12;
+        }
+        top += 6;
       }
   canvas.line({x_of(state.t_s), kDepthTop - 4}, {x_of(state.t_s), kHeightPx - 2}, 1.4, kWhite);
   return canvas;
