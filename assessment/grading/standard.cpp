@@ -111,8 +111,9 @@ std::span<const std::string_view> scored_metrics() {
 }
 
 const MetricBand* ExpertSet::find(std::string_view metric, int version) const noexcept {
-  const auto found = std::find_if(bands.begin(), bands.end(),
-                                  [&](const MetricBand& one) { return one.id == metric && one.version == version; });
+  const auto found = std::find_if(bands.begin(), bands.end(), [&](const MetricBand& one) {
+    return one.id == metric && one.version == version;
+  });
   return found == bands.end() ? nullptr : &*found;
 }
 
