@@ -3,15 +3,16 @@
 
 #include <string>
 
-#include "casedb/store.h"
+#include "casedb/grading.h"
 
 namespace seldinger::reports {
 
-// An attempt and how its operator is called for this reader (whether a log-in name may be shown is not ours to
-// say).
+// An attempt, how its operator is called for this reader (whether a log-in name may be shown is not ours to say),
+// and what it is worth; a list needs no more of that than the grade.
 struct AttemptView {
   casedb::AttemptRow row;
   std::string operator_label;
+  casedb::AttemptGrade grade{};
 };
 
 std::string instrument_text(const cases::Instrument& instrument);       // short: "Access needle"
