@@ -35,6 +35,24 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
   return html.str();
 }
 
+std::string page_with_style(std::string_view title, std::string_view style, const Html& content) {
+  Html head, body;
+  head.raw(
+          "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>")
+      .text(title)
+      .raw(" · Seldinger</title>\n<style>\n");
+  body.raw(
+          "</style>\n</head>\n<body>\n<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n</header>\n"
+          "<main id=\"content\" tabindex=\"-1\">\n")
+      .add(content)
+      .raw("</main>\n<footer><p><strong>")
+      .text(kTrainingOnly)
+      .raw("</strong></p></footer>\n</body>\n</html>\n");
+  return head.str() + std::string(style) + body.str();
+}
+
 std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor) {
   Html content;
   content.raw("<div class=\"message\">\n<h1>")

@@ -70,9 +70,7 @@ std::string operator_label(const casedb::Account& reader, const casedb::AttemptR
   if (reader.role != casedb::Role::researcher) {
     if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
   }
-  // The end of a UUIDv7 is random; its beginning would tell when the account was made.
-  const std::string& id = *row.person_id;
-  return "Person " + id.substr(id.size() < 6 ? 0 : id.size() - 6);
+  return reports::person_text(*row.person_id);
 }
 
 }  // namespace seldinger::web

@@ -8,14 +8,10 @@
 #include "reports/attempts_page.h"
 #include "reports/case_page.h"
 #include "reports/login_page.h"
-#include "sim/base/embedded.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
 #include "web/case_json.h"
-
-namespace seldinger::embedded {
-std::span<const base::EmbeddedFile> frontend();
-}
+#include "web/style_sheet.h"
 
 namespace seldinger::web {
 namespace {
@@ -45,11 +41,7 @@ Response healthz(Site& site, const Call&) {
 }
 
 Response style(Site&, const Call&) {
-  for (const base::EmbeddedFile& file : embedded::frontend()) {
-    if (file.name == "style.css")
-      return {.content_type = "text/css; charset=utf-8", .body = std::string(file.content)};
-  }
-  return refusal(404, nullptr);
+  return {.content_type = "text/css; charset=utf-8", .body = std::string(style_sheet())};
 }
 
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
@@ -90,12 +89,23 @@ Candidate of_met(const CriterionResult& one, const Phrase& phrase, const MetricI
   return made;
 }
 
+// A difference of this size is worth a sentence; a band is taken for no narrower, so that experts who all do the
+// same do not make a trifle the largest shortfall. Judgement.
+double worth_saying(std::string_view unit, double edge) {
+  constexpr std::pair<std::string_view, double> kWorth[] = {
+      {"mm", 2.0}, {"s", 5.0},     {"share", 0.1}, {"%", 10.0},    {"deg", 5.0},
+      {"N", 1.0},  {"count", 1.0}, {"1", 1.0},     {"mm²", 100.0}, {"bool", 1.0}};
+  for (const auto& [known, worth] : kWorth)
+    if (known == unit) return worth;
+  return std::max(0.1 * std::fabs(edge), 1e-9);
+}
+
 // Against a band: how far on the wrong side, in widths of it; 0 inside or better.
 double beyond(double value, const MetricBand& band, Direction direction) {
   const double far = direction == Direction::lower_is_better ? value - band.high : band.low - value;
   if (!(far > 0.0)) return 0.0;
-  const double width = band.high - band.low;
-  return width > 0.0 ? far / width : std::numeric_limits<double>::max();
+  const double edge = direction == Direction::lower_is_better ? band.high : band.low;
+  return far / std::max(band.high - band.low, worth_saying(band.unit, edge));
 }
 
 Candidate of_band(double value, const MetricBand& band, const Phrase& phrase, const MetricInfo& info,

@@ -103,6 +103,21 @@ TEST(DebriefTest, MissedCriteriaComeBySeverity) {
                                       "80 %."}));
 }
 
+TEST(DebriefTest, TheLargestShortfallComesFirstAndATrifleIsNotLargeBecauseExpertsDoNotDiffer) {
+  const auto said = Attempt()
+                        .with("vis_target", 0.97)
+                        .with("probe_drift_advancing", 7.0)
+                        .with("blind_advance", 4.0)
+                        .debriefed({}, experts(SetKind::consultants, 8,
+                                               {band("vis_target", 1.0, 1.0), band("blind_advance", 0.0, 3.0),
+                                                band("probe_drift_advancing", 0.0, 0.7)}));
+  EXPECT_EQ(texts(said),
+            (std::vector<std::string>{
+                "Let the probe drift 7 mm while advancing; experts: 0–0.7 mm.",
+                "Advanced 4 mm with the tip out of the picture; experts: 0–3 mm.",
+                "Had the target in the picture for only 97 % of the time in tissue; experts: 100 %."}));
+}
+
 TEST(DebriefTest, NullIsSaidAndNeverPraised) {
   const PassRule rule =
       rule_of({"hit >= 1", "back_wall_dist >= 2", "skin_punctures <= 1"}, {"posterior_wall <= 0"});
