@@ -133,7 +133,7 @@ std::string compared_text(const casedb::ComparedMetric& metric, std::string_view
   if (unit == "bool")
     return number_text(metric.mean * static_cast<double>(metric.n), 0) + " of " + std::to_string(metric.n);
   std::string text = assessment::plain_value(metric.median, unit);
-  if (metric.n > 1) text += " (" + assessment::plain_range(metric.low, metric.high, unit) + ")";
+  if (metric.low != metric.high) text += " (" + assessment::plain_range(metric.low, metric.high, unit) + ")";
   return text;
 }
 

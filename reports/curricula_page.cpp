@@ -74,7 +74,7 @@ std::string proficiency_text(Proficiency reached) {
     case Proficiency::practising:
       return "Practising";
     case Proficiency::passed:
-      return "Passed once";
+      return "Passed, not yet proficient";
     case Proficiency::proficient:
       return "Proficient";
   }

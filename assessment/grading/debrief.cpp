@@ -18,6 +18,12 @@ constexpr std::string_view kKinds[] = {"not_gradable", "critical_error", "missed
 constexpr Group kBySeverity[] = {Group::safety, Group::target, Group::picture,  Group::dose,
                                  Group::path,   Group::time,   Group::recording};
 
+// Said where a rule asks for them, not of their own accord: variants of others, secondary by definition, or nothing
+// that a trainee could do otherwise next time.
+constexpr std::string_view kOnlyIfAsked[] = {
+    "vis_shaft", "vis_joint_2_mm", "vis_joint_5_mm",   "vis_joint_session", "closest_approach",
+    "path_tip",  "ldlj",           "force_peak_axial", "lateral_force_peak"};
+
 // Said without judging where there is neither rule nor band.
 constexpr std::string_view kFacts[] = {
     "hit", "tip_target_dist", "blind_advance", "advance_beyond_plane", "fluoroscopy_time", "time_total"};
@@ -38,8 +44,10 @@ bool tells_yes_or_no(std::string_view unit) {
   return unit == "bool";
 }
 
-std::string experts_clause(const ExpertSet& experts, const MetricBand* band) {
-  if (band == nullptr || tells_yes_or_no(band->unit)) return "";
+// "; experts: 0–3 mm". Not beside a sentence that says all there is: a yes or no, or none where there should be
+// none.
+std::string experts_clause(const ExpertSet& experts, const MetricBand* band, bool said_all = false) {
+  if (band == nullptr || tells_yes_or_no(band->unit) || said_all) return "";
   return "; " + std::string(name_in_sentences(experts)) + ": " + plain_range(band->low, band->high, band->unit);
 }
 
@@ -83,14 +91,16 @@ Candidate of_met(const CriterionResult& one, const Phrase& phrase, const MetricI
                  const ExpertSet& experts) {
   Candidate made{{SentenceKind::well, "", info.id}, phrase.topic, severity_of(info)};
   made.sentence.text = said_of(phrase, *one.value, one.unit, one.criterion.value, true) +
-                       experts_clause(experts, experts.find(info.id, one.criterion.version)) + ".";
+                       experts_clause(experts, experts.find(info.id, one.criterion.version),
+                                      *one.value == 0.0 && !phrase.zero.empty()) +
+                       ".";
   made.by_how_much = 2.0;  // before what no criterion asks for
   if (one.criterion.critical) made.by_how_much = 3.0;
   return made;
 }
 
-// A difference of this size is worth a sentence; a band is taken for no narrower, so that experts who all do the
-// same do not make a trifle the largest shortfall. Judgement.
+// A difference that is worth a sentence. A band is taken for no narrower, so that experts who all do the same do
+// not make a trifle the largest shortfall. Judgement.
 double worth_saying(std::string_view unit, double edge) {
   constexpr std::pair<std::string_view, double> kWorth[] = {
       {"mm", 2.0}, {"s", 5.0},     {"share", 0.1}, {"%", 10.0},    {"deg", 5.0},
@@ -108,15 +118,22 @@ double beyond(double value, const MetricBand& band, Direction direction) {
   return far / std::max(band.high - band.low, worth_saying(band.unit, edge));
 }
 
-Candidate of_band(double value, const MetricBand& band, const Phrase& phrase, const MetricInfo& info,
-                  const ExpertSet& experts) {
+// What is beside a band by less than this share of its width is neither a shortfall nor praised.
+constexpr double kTrifle = 0.25;
+
+std::optional<Candidate> of_band(double value, const MetricBand& band, const Phrase& phrase, const MetricInfo& info,
+                                 const ExpertSet& experts) {
   const double far = beyond(value, band, info.direction);
+  if (far > 0.0 && far < kTrifle) return std::nullopt;
   Candidate made{{far > 0.0 ? SentenceKind::shortfall : SentenceKind::well, "", info.id},
                  phrase.topic,
-                 far > 0.0 ? 0 : severity_of(info),
+                 // Time only limits: it is the last that is held against somebody.
+                 far > 0.0 ? (info.group == Group::time ? 1 : 0) : severity_of(info),
                  far > 0.0 ? far : 1.0};
   const double edge = info.direction == Direction::lower_is_better ? band.high : band.low;
-  made.sentence.text = said_of(phrase, value, band.unit, edge, far == 0.0) + experts_clause(experts, &band) + ".";
+  const bool said_all = far == 0.0 && value == 0.0 && !phrase.zero.empty();
+  made.sentence.text =
+      said_of(phrase, value, band.unit, edge, far == 0.0) + experts_clause(experts, &band, said_all) + ".";
   return made;
 }
 
@@ -136,10 +153,11 @@ std::vector<Candidate> candidates_of(const Grade& grade, const Gradable& attempt
     const MetricInfo* info = find_metric(band.id);
     const Phrase* phrase = find_phrase(band.id);
     const MetricValue* found = find_version(attempt.metrics, band.id, band.version);
+    if (std::find(std::begin(kOnlyIfAsked), std::end(kOnlyIfAsked), band.id) != std::end(kOnlyIfAsked)) continue;
     if (info == nullptr || phrase == nullptr || info->direction == Direction::none || found == nullptr ||
         !found->value || !std::isfinite(*found->value))
       continue;
-    all.push_back(of_band(*found->value, band, *phrase, *info, experts));
+    if (auto one = of_band(*found->value, band, *phrase, *info, experts)) all.push_back(std::move(*one));
   }
   for (const std::string_view id : kFacts) {
     const MetricInfo* info = find_metric(std::string(id));
@@ -176,6 +194,7 @@ std::string_view name_in_sentences(const ExpertSet& experts) noexcept {
 std::string limit_text(const Criterion& criterion, std::string_view unit) {
   constexpr std::string_view kWords[] = {"at most ", "at least ", "exactly "};  // as Comparison
   if (tells_yes_or_no(unit)) return criterion.value != 0.0 ? "yes" : "no";
+  if (criterion.value == 0.0 && criterion.comparison != Comparison::at_least) return "none";
   return std::string(kWords[static_cast<std::size_t>(criterion.comparison)]) + plain_value(criterion.value, unit);
 }
 

@@ -26,7 +26,7 @@ struct Sentence {
 // (named so in every sentence) or hold no band: then criteria alone speak.
 std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& experts);
 
-// "at most 5 mm", "at least 80 %", "exactly 1".
+// "at most 5 mm", "at least 80 %", "exactly 1", "none" (at most 0), "yes".
 std::string limit_text(const Criterion& criterion, std::string_view unit);
 
 // How a set is called in front of its band: "experts", "experts so far" (too few for a standard), "simulated

@@ -105,17 +105,38 @@ TEST(DebriefTest, MissedCriteriaComeBySeverity) {
 
 TEST(DebriefTest, TheLargestShortfallComesFirstAndATrifleIsNotLargeBecauseExpertsDoNotDiffer) {
   const auto said = Attempt()
-                        .with("vis_target", 0.97)
+                        .with("vis_target", 0.94)
                         .with("probe_drift_advancing", 7.0)
-                        .with("blind_advance", 4.0)
+                        .with("blind_advance", 6.0)
                         .debriefed({}, experts(SetKind::consultants, 8,
                                                {band("vis_target", 1.0, 1.0), band("blind_advance", 0.0, 3.0),
                                                 band("probe_drift_advancing", 0.0, 0.7)}));
   EXPECT_EQ(texts(said),
             (std::vector<std::string>{
                 "Let the probe drift 7 mm while advancing; experts: 0–0.7 mm.",
-                "Advanced 4 mm with the tip out of the picture; experts: 0–3 mm.",
-                "Had the target in the picture for only 97 % of the time in tissue; experts: 100 %."}));
+                "Advanced 6 mm with the tip out of the picture; experts: 0–3 mm.",
+                "Had the target in the picture for only 94 % of the time in tissue; experts: 100 %."}));
+}
+
+TEST(DebriefTest, TimeIsTheLastThatIsHeldAgainstSomebody) {
+  const auto said = Attempt()
+                        .with("time_total", 500.0)
+                        .with("blind_advance", 5.0)
+                        .debriefed({}, experts(SetKind::consultants, 8,
+                                               {band("time_total", 10.0, 20.0), band("blind_advance", 0.0, 3.0)}));
+  EXPECT_EQ(texts(said),
+            (std::vector<std::string>{"Advanced 5 mm with the tip out of the picture; experts: 0–3 mm.",
+                                      "Took 500 s; experts: 10–20 s."}));
+}
+
+TEST(DebriefTest, ATrifleBesideTheBandIsNeitherShortfallNorPraise) {
+  const ExpertSet set = experts(SetKind::consultants, 8, {band("blind_advance", 0.0, 3.0)});
+  EXPECT_EQ(Attempt().with("blind_advance", 3.7).debriefed({}, set)[0].kind, SentenceKind::fact);
+  EXPECT_EQ(Attempt().with("blind_advance", 4.1).debriefed({}, set)[0].kind, SentenceKind::shortfall);
+  const auto good = Attempt().with("blind_advance", 2.0).debriefed({}, set);
+  EXPECT_EQ(good[0].text, "Advanced only 2 mm with the tip out of the picture; experts: 0–3 mm.");
+  EXPECT_EQ(Attempt().with("blind_advance", 0.0).debriefed({}, set)[0].text,
+            "Never advanced with the tip out of the picture.");
 }
 
 TEST(DebriefTest, NullIsSaidAndNeverPraised) {
