@@ -85,13 +85,12 @@ auto task_of(const AttemptRow& row) {
 ComparedGroup& group_of(std::vector<ComparedGroup>& groups, const AttemptRow& row) {
   const bool person = by_a_person(row);
   const auto found = std::find_if(groups.begin(), groups.end(), [&](const ComparedGroup& one) {
-    return person ? one.person_id.has_value() && one.person_id == row.person_id.value_or("")
-                  : !one.person_id && one.operator_name == row.operator_name;
+    return person ? one.person_id == row.person_id : !one.person_id && one.operator_name == row.operator_name;
   });
   if (found != groups.end()) return *found;
   ComparedGroup& made = groups.emplace_back();
   if (person)
-    made.person_id = row.person_id.value_or("");
+    made.person_id = row.person_id;
   else
     made.operator_name = row.operator_name;
   return made;

@@ -36,7 +36,7 @@ assessment::ExpertSet set_of(Library& library, const AttemptRow& attempt, SetKin
 }  // namespace
 
 bool by_a_person(const AttemptHead& attempt) noexcept {
-  return attempt.operator_name == kPersonOperator;
+  return attempt.operator_name == kPersonOperator && attempt.person_id.has_value();
 }
 
 assessment::Grade grade_of(const AttemptRow& attempt, const CaseSetting& setting) {
@@ -75,9 +75,8 @@ AttemptGrade Grader::look_at(const AttemptRow& attempt) {
   made.grade = assessment::grade(setting.rule, gradable);
   made.provisional = !experts.consultants.standard();
   made.experts = experts.simulated.bands.empty() ? experts.consultants : experts.simulated;
-  made.score =
-      assessment::score(experts.consultants, made.grade, gradable,
-                        by_a_person(attempt) && attempt.person_id ? *attempt.person_id : std::string_view());
+  made.score = assessment::score(experts.consultants, made.grade, gradable,
+                                 by_a_person(attempt) ? std::string_view(*attempt.person_id) : std::string_view());
   made.debrief = assessment::debrief(made.grade, gradable, made.experts);
   return made;
 }

@@ -49,7 +49,9 @@ void add_count_row(Html& html, const Comparison& comparison, std::string_view la
 
 void add_criteria(Html& html, const Comparison& comparison) {
   html.raw(
-      "<div class=\"wide\"><table>\n<caption>Who passes, and by which criterion: how many met it, then the median "
+      "<div class=\"wide compare\" role=\"region\" tabindex=\"0\" aria-label=\"Criteria\"><table>\n<caption>Who "
+      "passes, "
+      "and by which criterion: how many met it, then the median "
       "with least and most</caption>\n");
   add_head(html, comparison, "Criterion");
   html.raw("<tbody>\n");
@@ -87,7 +89,8 @@ void add_criteria(Html& html, const Comparison& comparison) {
 
 void add_metrics(Html& html, const Comparison& comparison) {
   html.raw(
-      "<details open><summary>Every metric</summary>\n<div class=\"wide\"><table>\n<caption>Median, and least to "
+      "<details open><summary>Every metric</summary>\n<div class=\"wide compare\" role=\"region\" tabindex=\"0\" "
+      "aria-label=\"Metrics\"><table>\n<caption>Median, and least to "
       "most; of a yes and no how many</caption>\n");
   add_head(html, comparison, "Metric");
   html.raw("<tbody>\n");

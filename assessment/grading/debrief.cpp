@@ -15,8 +15,8 @@ constexpr std::string_view kKinds[] = {"not_gradable", "critical_error", "missed
                                        "shortfall",    "well",           "fact"};  // as SentenceKind
 
 // What hurts a patient comes before what costs time; the recording is nobody's merit.
-constexpr Group kBySeverity[] = {Group::safety, Group::target, Group::picture,  Group::dose,
-                                 Group::path,   Group::time,   Group::recording};
+constexpr Group kBySeverity[] = {Group::safety, Group::procedure, Group::target, Group::picture,
+                                 Group::dose,   Group::path,      Group::time,   Group::recording};
 
 // Said where a rule asks for them, not of their own accord: variants of others, secondary by definition, or nothing
 // that a trainee could do otherwise next time.

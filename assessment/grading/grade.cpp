@@ -93,9 +93,11 @@ Grade grade(const PassRule& rule, const Gradable& attempt) {
   if (rule.criteria.empty()) return made;
   for (const Criterion& criterion : rule.criteria) made.criteria.push_back(result_of(criterion, attempt.metrics));
   if (attempt.time_limit_s) {
-    const MetricInfo* time = find_metric("time_total");
-    made.criteria.push_back(
-        result_of({time->id, time->version, Comparison::at_most, *attempt.time_limit_s, false}, attempt.metrics));
+    // A limit names no version: the newest that is stored.
+    Criterion limit{"time_total", 1, Comparison::at_most, *attempt.time_limit_s, false};
+    for (const MetricValue& metric : attempt.metrics)
+      if (metric.id == limit.metric) limit.version = std::max(limit.version, metric.version);
+    made.criteria.push_back(result_of(limit, attempt.metrics));
     made.criteria.back().of_the_time_limit = true;
   }
   std::stable_sort(made.criteria.begin(), made.criteria.end(),

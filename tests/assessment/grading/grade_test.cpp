@@ -136,6 +136,8 @@ TEST(GradeTest, ATimeLimitIsACriterionOfItsOwn) {
     metrics.push_back({"time_total", find_metric("time_total")->version, time_s, "s", ""});
     EXPECT_EQ(grade(rule, {metrics, "", 60.0}).verdict, verdict) << time_s;
     EXPECT_EQ(grade(rule, {metrics, "", {}}).verdict, Verdict::passed);
+    metrics.push_back({"time_total", 99, 61.0, "s", ""});
+    EXPECT_EQ(grade(rule, {metrics, "", 60.0}).verdict, Verdict::failed) << "the newest definition that is stored";
   }
   std::vector<MetricValue> metrics = good_quality();
   metrics.push_back({"hit", 1, 1.0, "bool", ""});
