@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "casedb/comparison.h"
 #include "tests/casedb/graded_library.h"
 
 namespace seldinger::casedb {
@@ -152,6 +153,49 @@ TEST_F(GradingTest, APersonBeginsNoMoreAttemptsThanTheCaseAllows) {
   simulated.operator_name = "novice";
   EXPECT_TRUE(add_attempt(library_, simulated).has_value()) << "that is not what a person did";
   EXPECT_TRUE(add_attempt(library_, new_attempt(user("U", Role::trainee), 1.0, 20.0)).has_value());
+}
+
+TEST_F(GradingTest, SideBySideNeverMixesPeopleAndSimulatedOperators) {
+  rule({"hit >= 1", "time_total <= 30"});
+  const std::string person = user("T", Role::trainee);
+  for (const double time_s : {40.0, 20.0, 25.0}) attempt(person, 1.0, time_s);
+  for (const double time_s : {10.0, 90.0}) {
+    NewAttempt simulated = new_attempt(person, 0.0, time_s);  // in the person's name
+    simulated.operator_name = "novice";
+    static_cast<void>(add_attempt(library_, simulated).value());
+  }
+  attempt(std::nullopt, std::nullopt, 50.0);  // a simulated novice who never fired
+  NewAttempt cut_off = new_attempt(person, 1.0, 1.0);
+  cut_off.end = AttemptEnd::interrupted;
+  static_cast<void>(add_attempt(library_, cut_off).value());
+  NewAttempt other = new_attempt(person, 1.0, 1.0);
+  other.started_us = 1;
+  other.picture.modality = cases::Modality::xray;
+  static_cast<void>(add_attempt(library_, other).value());
+
+  const Comparison side = compare_attempts(library_, case_id_).value();
+  EXPECT_EQ(side.other_tasks, 1U);
+  ASSERT_EQ(side.criteria.size(), 2U);
+  EXPECT_EQ(side.criteria[0].criterion.metric, "hit");
+  ASSERT_EQ(side.groups.size(), 2U);
+  const ComparedGroup &people = side.groups[0], &simulated = side.groups[1];
+  EXPECT_EQ(people.person_id, person);
+  EXPECT_EQ(people.attempts.size(), 4U);
+  EXPECT_EQ(people.gradable, 3U) << "what was cut off is shown and not counted";
+  EXPECT_EQ(people.passed, 2U);
+  EXPECT_EQ(people.met, (std::vector<std::size_t>{3, 2}));
+  EXPECT_DOUBLE_EQ(people.of_criteria[1].median, 25.0);
+  EXPECT_DOUBLE_EQ(people.of_criteria[1].low, 20.0);
+  EXPECT_DOUBLE_EQ(people.of_criteria[1].high, 40.0);
+  EXPECT_FALSE(simulated.person_id.has_value());
+  EXPECT_EQ(simulated.operator_name, "novice");
+  EXPECT_EQ(simulated.attempts.size(), 3U);
+  EXPECT_EQ(simulated.passed, 0U);
+  EXPECT_EQ(simulated.of_criteria[0].n, 2U) << "null is no value";
+  EXPECT_DOUBLE_EQ(simulated.of_criteria[1].median, 50.0);
+  EXPECT_EQ(compare_attempts(library_, case_id_, {}, cases::Modality::ultrasound).error().code, "no_attempt");
+  EXPECT_EQ(compare_attempts(library_, case_id_, {}, cases::Modality::xray).value().groups.size(), 1U);
+  EXPECT_EQ(compare_attempts(library_, std::string(36, '0')).error().code, "no_case");
 }
 
 }  // namespace
