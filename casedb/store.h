@@ -162,7 +162,7 @@ std::size_t count_attempts(Library& library);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);    // newest first
 // Those on a case whose values may make a band: of people who were consultants when they began, or of the simulated
-// expert; newest first.
+// expert (of that the newest 200); newest first.
 std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string& case_id,
                                              assessment::SetKind kind);
 base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);  // `no_attempt`

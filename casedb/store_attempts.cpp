@@ -13,6 +13,9 @@
 namespace seldinger::casedb {
 namespace {
 
+// Of simulated experts as many as a hint needs: thousands are made in a minute, and each page would read them all.
+constexpr int kMostSimulated = 200;
+
 void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::string& attempt_id,
                     std::size_t recording_chunks, const std::optional<std::string>& picture_sha256) {
   Statement insert = question(database, "add_attempt");
@@ -274,9 +277,11 @@ std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string
   Sqlite& database = library.database();
   Statement attempts = question(database, "expert_attempts");
   Statement metrics = question(database, "metric_values_of_experts");
+  const bool consultants = kind == assessment::SetKind::consultants;
   for (Statement* part : {&attempts, &metrics})
     part->bind("case_id", case_id)
-        .bind("kind", kind == assessment::SetKind::consultants ? "consultants" : "simulated");
+        .bind("kind", consultants ? "consultants" : "simulated")
+        .bind("most", consultants ? -1 : kMostSimulated);
   const Snapshot one_state(database);
   return read_attempts(std::move(attempts), std::move(metrics));
 }
