@@ -5,6 +5,7 @@
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/file.h"
+#include "app/grade_text.h"
 #include "app/simulation.h"
 
 namespace seldinger::app {
@@ -58,15 +59,20 @@ int run_simulate(const Arguments& arguments) {
   if (!simulation) return refuse(simulation.error());
   simulation->set_scenario(std::move(scenario));
   std::vector<SimulatedAttempt> attempts;
+  casedb::Grader grader(*library);  // against the experts as they were before this run
   for (long long i = 0; i < count; ++i) {
     const auto this_seed = seed + static_cast<std::uint64_t>(i);
     auto attempt = arguments.has("--real-time") ? simulation->live_attempt(*profile, this_seed)
                                                 : simulation->attempt(*profile, this_seed, std::nullopt);
     if (!attempt) return refuse(attempt.error());
+    const auto stored = casedb::find_attempt(*library, attempt->attempt_id);
+    if (!stored) return refuse(stored.error());
+    attempt->grade = grader.look_at(*stored);
     attempts.push_back(std::move(*attempt));
     if (!arguments.has("--json")) {
       std::printf("attempt %s  %s  seed %llu\n", attempts.back().attempt_id.c_str(),
                   attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
+      std::fputs(text_of_grade(*attempts.back().grade).c_str(), stdout);
       print_metrics(attempts.back().metrics);
       std::fflush(stdout);  // it is stored: whoever reads along may know
     }

@@ -98,6 +98,12 @@ base::Result<void> check_head(Sqlite& database, const AttemptHead& head) {
     CHECK(person.bind("person_id", *head.person_id).step());
     if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person in the library"};
   }
+  if (head.person_id && head.operator_name == kPersonOperator) {
+    Statement begun = question(database, "attempts_begun");
+    CHECK(begun.bind("case_id", head.case_id).bind("person_id", *head.person_id).step());
+    if (!begun.is_null("attempt_limit") && begun.integer("begun") >= begun.integer("attempt_limit"))
+      return base::Error{"no_attempts_left", "as many attempts as the case allows have been made"};
+  }
   return {};
 }
 
