@@ -16,6 +16,8 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr int kDirections = 1500;
+// Room for a needle before it enters, this long and so far off the skin (design).
+constexpr double kNeedleOutsideMm = 75.0, kSkinStepMm = 3.0, kOffSkinMm = 3.0;
 constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
 // So many free ways are compared, evenly from the shortest to those longer by this (design): a longer way may be
 // seen better.
@@ -50,6 +52,15 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
       const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
       if (!hu || *hu > limits.bone_hu || *hu < limits.gas_hu) return false;
     }
+  return true;
+}
+
+// Whether a needle gets to its entry from outside without going through a fold of skin or along it.
+bool free_outside(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way) {
+  for (double out_mm = kSkinStepMm; out_mm <= kNeedleOutsideMm; out_mm += kSkinStepMm) {
+    const glm::dvec3 p = target + way.outward * (way.depth_mm + out_mm);
+    if (skin.closest(p).distance_mm < std::min(kOffSkinMm, 0.25 * out_mm)) return false;
+  }
   return true;
 }
 
@@ -142,7 +153,8 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
   }
   std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.depth_mm < b.depth_mm; });
   std::erase_if(ways, [&](const Way& way) {
-    return !free_path(volume, voxel_from_lps, target, way, limits) || !spares_structures(target, way, limits);
+    return !free_outside(skin, target, way) || !free_path(volume, voxel_from_lps, target, way, limits) ||
+           !spares_structures(target, way, limits);
   });
   if (limits.looks_from && !ways.empty()) {
     std::erase_if(ways, [longest_mm = kLongerWay * ways.front().depth_mm](const Way& way) {
