@@ -41,10 +41,10 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
       return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
     };
-  const auto plan =
-      assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
+  auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();
   if (plan->picture) scene->picture = *plan->picture;
+  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl};
   return Simulation(library, *row, *found, std::move(*scene), *plan);
 }
 
@@ -90,7 +90,9 @@ base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorPro
   static_cast<casedb::AttemptHead&>(attempt) = head(profile, seed, person_id);
   attempt.recording = run_attempt(scene_, plan_, profile, seed, scenario_);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
-  attempt.end = attempt.recording.endpoint ? casedb::AttemptEnd::fired : casedb::AttemptEnd::time_limit;
+  attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
+                : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
+                                                          : casedb::AttemptEnd::time_limit;
   auto scored = score(scene_, attempt.recording);
   if (!scored) return scored.error();
   attempt.metrics = std::move(scored->metrics);

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/png.h"
-#include "assessment/operators/probe_place.h"
+#include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/console.h"
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "assessment/operators/conduct.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
@@ -31,6 +32,7 @@ struct PuncturePlan {
   double tip_shows_from_mm = 0.0;
   // From this insertion on the way is inside the organ that carries the target, as the CT showed; 0: no organ.
   double organ_from_mm = 0.0;
+  Brief brief{};  // what the sign-in tells
 };
 
 // What a picture would show of a plan from where its probe touches the skin.
