@@ -107,17 +107,22 @@ std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::s
 // --- attempts ---------------------------------------------------------------------------------------------------
 using MetricValue = assessment::MetricValue;
 
+// Who made an attempt: a person, or a simulated operator, whose profile is told by its name. A simulated attempt
+// may belong to a person's account (the demo's); it is none of hers.
+constexpr const char* kPersonName = "person";
+
 // What is known of an attempt when it begins.
 struct AttemptHead {
   std::string case_id, lesion_id;
   std::optional<std::string> person_id;  // whose; none for a simulation of nobody
-  std::string operator_name;             // "novice", …, or "person"
+  std::string operator_name;             // "novice", …, or kPersonName
   std::uint64_t seed = 0;                // simulated operators
   std::string program_version;
   cases::Instrument instrument;
   cases::Picture picture;
   cases::Approach approach = cases::Approach::in_plane;
   std::int64_t started_us = 0;
+  bool synthetic() const noexcept { return operator_name != kPersonName; }
 };
 
 // Interrupted: the program that made it was gone before it could say.

@@ -8,6 +8,7 @@ namespace {
 using cases::EventKind;
 
 constexpr std::uint64_t kStream = 0x636f6e64ULL;  // apart from what the hands draw
+constexpr double kTroubleSeconds = 5.0;           // until it is over, longer than a step asks for
 constexpr double kBreathSeconds = 1.5;            // until the patient holds still
 
 }  // namespace
@@ -59,7 +60,14 @@ void Conduct::begin(Part part) {
   wait_s_ = steps_.empty() ? 0.0 : skills_.step_s;
 }
 
+void Conduct::hear(EventKind kind) {
+  const cases::EventInfo* info = cases::find_event(kind);
+  if (info == nullptr || info->source != cases::EventSource::mentor) return;
+  if (rng_.uniform() < skills_.stops_in_trouble_share) stopped_s_ = kTroubleSeconds;
+}
+
 EventKind Conduct::advance(double dt_s) {
+  stopped_s_ -= dt_s;
   if (wait_s_ > 0.0) wait_s_ -= dt_s;
   if (wait_s_ > 0.0 || next_ == steps_.size()) return EventKind::none;
   const EventKind step = steps_[next_++];

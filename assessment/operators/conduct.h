@@ -31,6 +31,10 @@ class Conduct {
   // The step that is done in this tick, or none.
   cases::EventKind advance(double dt_s);
   bool over() const noexcept { return next_ == steps_.size() && wait_s_ <= 0.0; }
+  // A mentor's event.
+  void hear(cases::EventKind kind);
+  // Whether hands keep still until the trouble is over.
+  bool stopped() const noexcept { return stopped_s_ > 0.0; }
   // Whether there is to be no puncture; known once the sign-in is over.
   bool deferred() const noexcept { return deferred_; }
 
@@ -40,7 +44,7 @@ class Conduct {
   base::Rng rng_;
   std::vector<cases::EventKind> steps_;
   std::size_t next_ = 0;
-  double wait_s_ = 0.0;
+  double wait_s_ = 0.0, stopped_s_ = 0.0;
   bool deferred_ = false, breath_asked_ = false;
 };
 

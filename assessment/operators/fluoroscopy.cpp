@@ -51,8 +51,10 @@ FluoroscopyOperator::FluoroscopyOperator(const OperatorProfile& profile, const P
       position_(position),
       rng_(seed),
       conduct_(profile, plan.brief, false, seed) {
-  if (instrument.kind == cases::InstrumentKind::core)
+  if (instrument.kind == cases::InstrumentKind::core) {
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
+    thrown_mm_ = instrument.throw_mm;
+  }
   // Drawn one by one: the order of arguments' evaluation is the compiler's.
   const auto error = [this](double sd) {
     glm::dvec3 v(0.0);
@@ -272,7 +274,7 @@ void FluoroscopyOperator::decide(const cases::State& state) {
       if (conduct_.over()) enter(Phase::fire);
       break;
     case Phase::leave:
-      if (inserted_mm_ <= -kOutsideMm) enter(Phase::finish);
+      if (inserted_mm_ <= -kOutsideMm - thrown_mm_) enter(Phase::finish);
       break;
     case Phase::finish:
       if (conduct_.over()) enter(Phase::done);
@@ -351,7 +353,7 @@ cases::Inputs FluoroscopyOperator::act(const cases::State& state, const PictureF
   cases::Inputs inputs;
   inputs.event = conduct_.advance(dt_s);
   decide(state);
-  move_hand(state, dt_s);
+  if (!conduct_.stopped() || phase_ == Phase::leave) move_hand(state, dt_s);
 
   inputs.needle.position_lps_mm =
       believed_tip() + hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);

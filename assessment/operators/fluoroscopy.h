@@ -34,6 +34,9 @@ class FluoroscopyOperator {
   // What the hands and the foot want in this tick. `fix` is what the picture that appeared in it shows, if one did.
   cases::Inputs act(const cases::State& state, const PictureFix* fix, double dt_s);
 
+  // What was said or happened in the last tick: who should stops when the patient is in trouble.
+  void hear(cases::EventKind kind) { conduct_.hear(kind); }
+
   bool done() const noexcept { return phase_ == Phase::done; }
 
  private:
@@ -81,6 +84,7 @@ class FluoroscopyOperator {
   cases::Fluoroscope machine_;
   cases::PatientPosition position_;
   double stop_short_mm_ = 0.0;  // core: the throw carries the notch the rest of the way
+  double thrown_mm_ = 0.0;      // core: so far ahead of the hand the tip is once it has fired
   base::Rng rng_;
   Conduct conduct_;
   Phase phase_ = Phase::sign_in;

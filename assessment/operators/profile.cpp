@@ -1,7 +1,6 @@
 #include "assessment/operators/profile.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
@@ -72,6 +71,8 @@ constexpr SkillField kFields[] = {
      &S::skip_step_share},
     {"misses_contraindication_share", "share", 0, 1, 0.6, 0.2, 0, true,
      "probability of proceeding where INR or platelets forbid it", &S::misses_contraindication_share},
+    {"stops_in_trouble_share", "share", 0, 1, 0.3, 0.7, 1, true,
+     "probability of stopping when the patient coughs, bleeds or loses pressure", &S::stops_in_trouble_share},
 };
 static_assert(sizeof(Skills) == std::size(kFields) * sizeof(double), "every skill has its row");
 
@@ -136,19 +137,6 @@ OperatorProfile at_attempt(const OperatorProfile& profile, std::uint64_t number)
     now.*field.value = towards + (profile.*field.value - towards) * left;
   }
   return now;
-}
-
-std::string skill_table_markdown() {
-  std::string text =
-      "| field | unit | range | novice | intermediate | expert | what |\n|---|---|---|---|---|---|---|\n";
-  for (const SkillField& field : kFields) {
-    char line[400];
-    std::snprintf(line, sizeof line, "| `%s` | %s | %g–%g | %g | %g | %g | %s%s |\n", field.name, field.unit,
-                  field.min, field.max, field.novice, field.intermediate, field.expert, field.about,
-                  field.personal ? "" : " (the same in all people)");
-    text += line;
-  }
-  return text;
 }
 
 }  // namespace seldinger::assessment

@@ -23,7 +23,7 @@ struct Skills {
       depth_turn_deg, skip_depth_view_share, hand_in_beam_share, beam_while_moving_share,
       beam_while_advancing_share;
   // Around the puncture.
-  double step_s, skip_step_share, misses_contraindication_share;
+  double step_s, skip_step_share, misses_contraindication_share, stops_in_trouble_share;
 };
 
 struct SkillField {
@@ -69,7 +69,7 @@ OperatorProfile at_attempt(const OperatorProfile& profile, std::uint64_t number)
 // `bad_operator`.
 base::Result<OperatorProfile> profile_from_json(const std::string& text);
 
-// docs/operators.md's table.
-std::string skill_table_markdown();
+// docs/operators.md.
+std::string operators_markdown();
 
 }  // namespace seldinger::assessment

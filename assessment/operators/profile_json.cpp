@@ -8,6 +8,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLongestName = 64;
+constexpr const char* kTaken = "person";  // what attempts of people are stored under
 
 struct Reader {
   base::Error error{"bad_operator", "", {}};
@@ -39,10 +40,10 @@ base::Result<OperatorProfile> profile_from_json(const std::string& text) {
   for (const auto& [key, value] : json.items()) {
     if (key == "like") continue;
     if (key == "name") {
-      if (value.is_string() && value.get<std::string>().size() <= kLongestName)
+      if (value.is_string() && value.get<std::string>().size() <= kLongestName && value != kTaken && value != "")
         profile.name = value.get<std::string>();
       else
-        reader.error.findings.push_back({"bad_field", "name is not a short text"});
+        reader.error.findings.push_back({"bad_field", "name is not a short text, or a person's"});
       continue;
     }
     const SkillField* found = nullptr;

@@ -24,6 +24,7 @@ constexpr double kCreepMm = 2.0;                              // … then on by 
 constexpr double kBeforeOrganMm = 3.0, kWithinOrganMm = 4.0;  // the aim is checked before, and corrected within
 constexpr double kPlaneThereMm = 0.5;
 constexpr double kPlaneStepMm = 3.0;  // dynamic tip positioning: the plane goes ahead, the tip follows into it
+constexpr double kJiggleMm = 1.5, kJiggleHz = 2.0, kJiggleSeconds = 1.0;
 constexpr double kLeaveMmS = 60.0;
 
 }  // namespace
@@ -35,8 +36,10 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
       across_(plan.approach == cases::Approach::out_of_plane),
       rng_(seed),
       conduct_(profile, plan.brief, true, seed) {
-  if (instrument.kind == cases::InstrumentKind::core)
+  if (instrument.kind == cases::InstrumentKind::core) {
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
+    thrown_mm_ = instrument.throw_mm;
+  }
   // Drawn one by one: the order of arguments' evaluation is the compiler's.
   const auto error = [this](double sd) {
     glm::dvec3 v(0.0);
@@ -80,6 +83,13 @@ bool ScriptedOperator::tip_seen() const noexcept {
 
 double ScriptedOperator::goal_mm() const noexcept {
   return glm::dot(believed_target_ - entry_, direction_) - stop_short_mm_;
+}
+
+// A needle whose tip is searched for is moved a little to and fro, never beyond where it was.
+double ScriptedOperator::jiggle_mm() const noexcept {
+  const double since_s = t_s_ - lost_since_s_;
+  if (!lost_ || going_blind_ || phase_ != Phase::advance || since_s > kJiggleSeconds) return 0.0;
+  return -0.5 * kJiggleMm * (1.0 - base::exact_cos(2.0 * std::numbers::pi * kJiggleHz * since_s));
 }
 
 // How far the needle's line passes beside the target, as a look at both tells; seen together, the target is known
@@ -169,13 +179,15 @@ void ScriptedOperator::decide(const cases::State& state) {
       enter(Phase::advance);
       break;
     case Phase::hold_breath:
-      if (conduct_.over()) enter(Phase::fire);
+      // Not before the tip is seen again, where it went while the breath was held.
+      if (conduct_.over() && (!lost_ || going_blind_ || t_s_ - lost_since_s_ > kPatienceSeconds))
+        enter(Phase::fire);
       break;
     case Phase::fire:
       if (since_s >= kTriggerHoldSeconds) enter(Phase::leave);
       break;
     case Phase::leave:
-      if (inserted_mm_ <= -kOutsideMm) enter(Phase::finish);
+      if (inserted_mm_ <= -kOutsideMm - thrown_mm_) enter(Phase::finish);
       break;
     case Phase::finish:
       if (conduct_.over()) enter(Phase::done);
@@ -193,7 +205,7 @@ void ScriptedOperator::put_plane_at(double inserted_mm) {
 
 // Whether a tip that should be in the picture is not, and what is done about it.
 void ScriptedOperator::judge_sight() {
-  const bool expected = phase_ == Phase::look || phase_ == Phase::check ||
+  const bool expected = phase_ == Phase::look || phase_ == Phase::check || phase_ == Phase::hold_breath ||
                         (phase_ == Phase::advance && (across_ ? inserted_mm_ >= plane_at_mm_
                                                               : inserted_mm_ > plan_.tip_shows_from_mm + kLostMm));
   const bool lost = expected && !tip_seen();
@@ -274,10 +286,11 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   inputs.event = conduct_.advance(dt_s);
   decide(state);
   judge_sight();
-  move(dt_s);
+  if (!conduct_.stopped() || phase_ == Phase::leave) move(dt_s);
 
   inputs.needle.position_lps_mm =
-      hands_tip() + hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
+      hands_tip() + direction_ * jiggle_mm() +
+      hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
   inputs.needle.axis = direction_;
   inputs.needle.side = base::perpendiculars(direction_).u;
   inputs.fire = phase_ == Phase::fire;

@@ -27,6 +27,9 @@ class ScriptedOperator {
   // What the hands want in this tick. `frame` is the picture that appeared in it, if one did.
   cases::Inputs act(const cases::State& state, const cases::FrameTruth* frame, double dt_s);
 
+  // What was said or happened in the last tick: who should stops when the patient is in trouble.
+  void hear(cases::EventKind kind) { conduct_.hear(kind); }
+
   bool done() const noexcept { return phase_ == Phase::done; }
 
  private:
@@ -60,12 +63,14 @@ class ScriptedOperator {
   void move(double dt_s);
   void hold_probe(cases::ToolPose& probe, double dt_s);
   double goal_mm() const noexcept;
+  double jiggle_mm() const noexcept;
   bool chance(double share) { return rng_.uniform() < share; }
 
   OperatorProfile profile_;
   PuncturePlan plan_;
   bool across_ = false;         // out of plane
   double stop_short_mm_ = 0.0;  // core: the throw carries the notch the rest of the way
+  double thrown_mm_ = 0.0;      // core: so far ahead of the hand the tip is once it has fired
   base::Rng rng_;
   Conduct conduct_;
   Phase phase_ = Phase::sign_in;
