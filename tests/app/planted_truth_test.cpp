@@ -186,6 +186,19 @@ TEST(PlantedTruth, TwoGroupsOfOneProfileAreNotToldApart) {
   }
 }
 
+TEST(PlantedTruth, AnExpertDefersWithoutAPuncture) {
+  assessment::PuncturePlan plan = ball().plan;
+  plan.brief = {2.4, 38.0};
+  const auto recording = run_attempt(ball().scene, plan, *assessment::named_profile("expert"), 1);
+  EXPECT_FALSE(recording.endpoint.has_value());
+  std::vector<cases::EventKind> said;
+  for (const cases::Event& event : *recording.events) said.push_back(event.kind);
+  EXPECT_EQ(said, (std::vector{cases::EventKind::sign_in, cases::EventKind::defer, cases::EventKind::sign_out}));
+  for (const cases::PoseSample& pose : recording.poses)
+    ASSERT_GT(ball().scene.skin_index.closest(pose.tip_lps_mm).distance_mm, 5.0);
+  EXPECT_LT(static_cast<double>(recording.inputs.size()) * recording.dt_s, 10.0);
+}
+
 // The first attempts of learners are a novice's, late ones an expert's.
 TEST(PlantedTruth, LearnersBecomeExperts) {
   const assessment::OperatorProfile learner = *assessment::named_profile("learner");
