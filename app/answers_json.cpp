@@ -80,6 +80,9 @@ Json attempts_json(const std::vector<SimulatedAttempt>& attempts) {
   for (const SimulatedAttempt& attempt : attempts) {
     list.push_back({{"attempt_id", attempt.attempt_id},
                     {"operator", attempt.operator_name},
+                    {"synthetic", true},
+                    {"person", maybe(attempt.person)},
+                    {"attempt_number", attempt.number + 1},
                     {"seed", attempt.seed},
                     {"metrics", metrics_json(attempt.metrics)}});
     if (attempt.grade) casedb::add_grade(*attempt.grade, list.back());
@@ -94,6 +97,7 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"lesion_id", attempt.lesion_id},
           {"person_id", maybe(attempt.person_id)},
           {"operator", attempt.operator_name},
+          {"synthetic", attempt.synthetic()},
           {"seed", attempt.seed},
           {"instrument", attempt.instrument.kind == cases::InstrumentKind::core ? "core" : "access"},
           {"modality", casedb::name_of(attempt.picture.modality)},
@@ -198,6 +202,7 @@ std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
     open.push_back({{"attempt_id", attempt.attempt_id},
                     {"case_id", attempt.case_id},
                     {"operator", attempt.operator_name},
+                    {"synthetic", attempt.synthetic()},
                     {"started_us", attempt.started_us},
                     {"stored_s", cases::kChunkSeconds * attempt.chunks}});
   for (std::size_t i = 0; i < attempts.size(); ++i) {

@@ -51,7 +51,8 @@ class Attempt {
   }
   const cases::State& state() const noexcept { return ticks_.state(); }
 
-  void tick(cases::Inputs hands) {
+  // What was said in it.
+  cases::EventKind tick(cases::Inputs hands) {
     scenario_.add_to(hands, state().t_s);
     const assessment::RecordedTick tick = ticks_.advance(hands);
     recording_.inputs.push_back(tick.inputs);
@@ -60,6 +61,7 @@ class Attempt {
     if (tick.force) recording_.forces.push_back(*tick.force);
     if (tick.endpoint) recording_.endpoint = tick.endpoint;
     assessment::add_events(state().t_s, tick, *recording_.events);
+    return hands.event;
   }
   void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
   cases::Recording take() { return std::move(recording_); }
@@ -82,7 +84,7 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
   bool new_frame = false;
   long long frames = 0;
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
-    attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds));
+    person.hear(attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds)));
     const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
     new_frame = due >= frames;
     if (!new_frame) continue;
@@ -106,7 +108,7 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
     cases::Inputs hands = person.act(state, new_frame ? &exposed.fix : nullptr, engine::kTickSeconds);
     hands.exposure = exposed.report;
-    attempt.tick(hands);
+    person.hear(attempt.tick(hands));
     new_frame = state.fluoroscopy.frame_due;
     if (new_frame) {
       exposed = room.expose(state);

@@ -7,6 +7,7 @@
 #include "app/live_attempt.h"
 #include "app/servo_answer.h"
 #include "app/simulation.h"
+#include "reports/attempt_words.h"
 #include "reports/grade_words.h"
 #include "reports/metric_words.h"
 
@@ -21,6 +22,10 @@ std::string value_of(const casedb::AttemptRow& attempt, const char* id, const ch
       return text;
     }
   return "–";
+}
+
+std::string who(const casedb::AttemptRow& attempt) {
+  return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : attempt.operator_name;
 }
 
 void print_course(const Course& course) {
@@ -57,11 +62,10 @@ int run_attempt_list(const Arguments& arguments) {
   if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const casedb::AttemptRow& attempt = attempts[i];
-    std::printf("%s  %s  %-12s seed %-6llu %-12s hit %s  %6s mm from the centre  %6s s\n",
-                attempt.attempt_id.c_str(), reports::utc_text(attempt.started_us).c_str(),
-                attempt.operator_name.c_str(), static_cast<unsigned long long>(attempt.seed),
-                reports::verdict_word(grades[i].verdict).c_str(), value_of(attempt, "hit", "%.0f").c_str(),
-                value_of(attempt, "tip_target_dist", "%.1f").c_str(),
+    std::printf("%s  %s  %-22s seed %-6llu %-12s hit %s  %6s mm from the centre  %6s s\n",
+                attempt.attempt_id.c_str(), reports::utc_text(attempt.started_us).c_str(), who(attempt).c_str(),
+                static_cast<unsigned long long>(attempt.seed), reports::verdict_word(grades[i].verdict).c_str(),
+                value_of(attempt, "hit", "%.0f").c_str(), value_of(attempt, "tip_target_dist", "%.1f").c_str(),
                 value_of(attempt, "time_total", "%.1f").c_str());
   }
   return kDone;
@@ -84,7 +88,7 @@ int run_attempt_show(const Arguments& arguments) {
   std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\nguidance %s\noperator %s, seed %llu\n",
               attempt->attempt_id.c_str(), reports::utc_text(attempt->started_us).c_str(), attempt->case_id.c_str(),
               attempt->case_title.c_str(), attempt->lesion_id.c_str(),
-              casedb::name_of(attempt->picture.modality).c_str(), attempt->operator_name.c_str(),
+              casedb::name_of(attempt->picture.modality).c_str(), who(*attempt).c_str(),
               static_cast<unsigned long long>(attempt->seed));
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
   std::fputs(text_of_grade(grade).c_str(), stdout);

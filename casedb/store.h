@@ -115,13 +115,14 @@ inline constexpr std::string_view kPersonOperator = "person";
 struct AttemptHead {
   std::string case_id, lesion_id;
   std::optional<std::string> person_id;  // whose; none for a simulation of nobody
-  std::string operator_name;             // "novice", …, or "person"
+  std::string operator_name;             // "novice", …, or kPersonOperator
   std::uint64_t seed = 0;                // simulated operators
   std::string program_version;
   cases::Instrument instrument;
   cases::Picture picture;
   cases::Approach approach = cases::Approach::in_plane;
   std::int64_t started_us = 0;
+  bool synthetic() const noexcept { return operator_name != kPersonOperator; }
 };
 
 // Interrupted: the program that made it was gone before it could say.

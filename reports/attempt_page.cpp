@@ -191,7 +191,10 @@ void add_details(Html& html, const AttemptView& attempt) {
       "<section aria-labelledby=\"details\">\n<h2 id=\"details\">How it was made</h2>\n<dl class=\"details\">\n");
   add_detail(html, "Case", row.case_title);
   add_detail(html, "Operator", attempt.operator_label);
-  if (!row.person_id.has_value()) add_detail(html, "Seed", std::to_string(row.seed));
+  if (row.synthetic()) {
+    add_detail(html, "Seed", std::to_string(row.seed));
+    add_detail(html, "Synthetic", "Made by a simulated operator: tests the software, says nothing about people");
+  }
   add_detail(html, "Instrument", instrument_text(row.instrument) + ", " + instrument_size_text(row.instrument));
   if (row.picture.modality != cases::Modality::xray) add_detail(html, "Approach", approach_text(row.approach));
   add_detail(html, "Target", lesion_text(row.lesion));

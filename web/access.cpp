@@ -66,7 +66,8 @@ bool may_see_experts(casedb::Role role) noexcept {
 
 std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
                            const AccountOf& account_of) {
-  if (!row.person_id.has_value()) return reports::simulated_operator_text(row.operator_name);
+  if (row.synthetic()) return reports::simulated_operator_text(row.operator_name);
+  if (!row.person_id.has_value()) return "Unknown person";
   if (reader.role != casedb::Role::researcher) {
     if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
   }

@@ -25,7 +25,7 @@ std::string metrics_json(const casedb::AttemptRow& row) {
                                   : metric.reason.empty() ? nlohmann::ordered_json()
                                                           : nlohmann::ordered_json(metric.reason)}});
   }
-  return dumped({{"attempt_id", row.attempt_id}, {"metrics", metrics}});
+  return dumped({{"attempt_id", row.attempt_id}, {"synthetic", row.synthetic()}, {"metrics", metrics}});
 }
 
 std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade,

@@ -246,6 +246,10 @@ TEST(AccessNames, APersonWhoseAccountIsGoneHasAPseudonym) {
   const auto nobody = [](const std::string&) { return std::nullopt; };
   EXPECT_EQ(operator_label(mentor, attempt_row(kOwnAttempt, "0190-abcdef123456"), nobody), "Person 123456");
   EXPECT_EQ(operator_label(mentor, attempt_row(kOwnAttempt, "x"), nobody), "Person x");
+  // An account's attempt that a simulated operator made is none of a person's.
+  casedb::AttemptRow simulated = attempt_row(kOwnAttempt, "x");
+  simulated.operator_name = "expert";
+  EXPECT_EQ(operator_label(mentor, simulated, nobody), "Simulated expert");
 }
 
 TEST(Routes, OtherMethodsAndOtherPathsAreRefused) {
@@ -302,11 +306,12 @@ TEST(Routes, PictureHealthAndMetricsAnswerInTheirTypes) {
   EXPECT_EQ(picture.body.size(), fake.questions.picture.size());
   const Response metrics = browser.get("/attempts/" + kOwnAttempt + "/metrics.json");
   EXPECT_EQ(metrics.content_type, "application/json");
-  EXPECT_EQ(metrics.body,
-            R"({"attempt_id":")" + kOwnAttempt +
-                R"(","metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
-                R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
-                "\n");
+  EXPECT_EQ(
+      metrics.body,
+      R"({"attempt_id":")" + kOwnAttempt +
+          R"(","synthetic":false,"metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
+          R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
+          "\n");
   EXPECT_EQ(browser.get("/healthz").body, "{\"status\":\"ok\",\"version\":\"9.8.7\"}\n");
   EXPECT_EQ(browser.get("/style.css").content_type, "text/css; charset=utf-8");
 }
