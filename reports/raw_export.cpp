@@ -150,6 +150,7 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
     if (wanted) casedb::without_paths([&, name = name] { return fs::create_directory(at / name); });
   Table attempts(at / "attempts.csv", attempts_header());
   Table metrics(at / "metrics.csv", header_of(metric_columns()));
+  Table steps(at / "steps.csv", header_of(step_columns()));
   std::optional<Table> events;
   if (choice.events) events.emplace(at / "events.csv", header_of(event_columns()));
   const bool recorded = choice.poses || choice.forces || choice.frames || choice.events;
@@ -173,6 +174,8 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       metrics.add(line_of(metric_columns(), MetricFact{&place.attempt, &metric}));
       ++sum.metrics;
     }
+    for (const assessment::StepResult& step : casedb::list_steps(library, row->attempt_id))
+      steps.add(line_of(step_columns(), StepFact{&place.attempt, &step}));
     if (recorded) {
       const auto recording = casedb::load_recording(library, row->attempt_id);
       if (!recording) return recording.error();
@@ -183,10 +186,11 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   }
   attempts.close();
   metrics.close();
+  steps.close();
   if (events) events->close();
   write_whole(at / "data_dictionary.csv", data_dictionary());
   write_whole(at / "README.txt", raw_readme());
-  sum.files += choice.events ? 5 : 4;
+  sum.files += choice.events ? 6 : 5;
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();
   return sum;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "assessment/metrics/registry.h"
+#include "assessment/procedure/steps.h"
 
 namespace seldinger::reports {
 namespace {
@@ -150,6 +151,30 @@ const std::vector<Column<MetricFact>>& metric_columns() {
       {{"unit", "text", "", "", "of value"}, [](CsvLine& line, const Fact& f) { line.text(f.metric->unit); }},
       {{"reason", "text", "", "there is a value", "why there is none; never read it as 0"},
        [](CsvLine& line, const Fact& f) { line.text(f.metric->reason); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<StepFact>>& step_columns() {
+  using Fact = StepFact;
+  static const std::string steps = [] {
+    std::string text = "in the order in which they are to be done:";
+    for (const assessment::StepInfo& step : assessment::procedure_steps())
+      text += std::string(&step == assessment::procedure_steps().data() ? " " : "; ") + step.id + ": " + step.words;
+    return text;
+  }();
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"step", "text", "", "", steps}, [](CsvLine& line, const Fact& f) { line.text(f.step->id); }},
+      {{"version", "integer", "", "", "of the steps' meaning; the newest that is stored"},
+       [](CsvLine& line, const Fact& f) { line.whole(std::int64_t{f.step->version}); }},
+      {{"state", "text", "", "", "done, skipped, violated, or not_asked (it says nothing here)"},
+       [](CsvLine& line, const Fact& f) { line.text(assessment::name_of(f.step->state)); }},
+      {{"t_s", "number", "s", "it was not done, or not asked",
+        "when it was done (skipped: too late) or violated, since the attempt began"},
+       [](CsvLine& line, const Fact& f) { line.number(f.step->t_s); }},
+      {{"reason", "text", "", "it was asked", "why it was not"},
+       [](CsvLine& line, const Fact& f) { line.text(f.step->reason); }},
   };
   return columns;
 }
@@ -382,6 +407,8 @@ const std::vector<TableInfo>& raw_tables() {
          infos_of(metric_columns())},
         {"events.csv", "one row an event of an attempt; of one recorded before events were kept only the buttons'",
          infos_of(event_columns())},
+        {"steps.csv", "one row a step of an attempt's procedure; none of attempts from before it was kept",
+         infos_of(step_columns())},
         {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
          infos_of(pose_columns())},
         {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},

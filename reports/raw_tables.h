@@ -44,6 +44,10 @@ struct MetricFact {
   const std::string* attempt = nullptr;
   const casedb::MetricValue* metric = nullptr;
 };
+struct StepFact {
+  const std::string* attempt = nullptr;
+  const assessment::StepResult* step = nullptr;
+};
 struct PoseFact {
   const std::string* attempt = nullptr;
   cases::PoseSample pose;
@@ -64,6 +68,7 @@ struct EventFact {
 
 const std::vector<Column<AttemptFacts>>& attempt_columns();  // without the metrics, which are attempt_metrics()
 const std::vector<Column<MetricFact>>& metric_columns();
+const std::vector<Column<StepFact>>& step_columns();
 // After `attempt`: contracts.md's poses.csv, kPoseFileColumns, and what a patient who moves has beside.
 constexpr std::size_t kPoseFileColumns = 17;
 const std::vector<Column<PoseFact>>& pose_columns();

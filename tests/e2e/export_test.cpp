@@ -121,6 +121,16 @@ TEST(RawExport, EveryNumberIsTheStoredOneBitForBit) {
       }
     }
   }
+  const auto steps = csv_table(whole_file(made().at("all/steps.csv")));
+  std::map<std::string, int> states, of_attempt;
+  for (std::size_t i = 0; i < steps.rows.size(); ++i) {
+    ++states[steps.cell(i, "state")];
+    ++of_attempt[steps.cell(i, "attempt")];
+    EXPECT_EQ(steps.cell(i, "state") == "not_asked", !steps.cell(i, "reason").empty());
+    if (!steps.cell(i, "t_s").empty()) number(steps.cell(i, "t_s"));
+  }
+  EXPECT_EQ(of_attempt.size(), made().attempts.size());
+  for (const char* state : {"done", "skipped", "not_asked"}) EXPECT_GT(states[state], 0) << state;
   EXPECT_GT(values, 100);
   EXPECT_GT(reasons, 50);
 }
@@ -172,7 +182,8 @@ TEST(RawExport, APersonsAttemptsAreOrderedAndWithoutDates) {
   EXPECT_EQ(nobody, 2);
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(made().at("tables"))) files.insert(entry.path().filename());
-  EXPECT_EQ(files, (std::set<std::string>{"attempts.csv", "metrics.csv", "data_dictionary.csv", "README.txt"}));
+  EXPECT_EQ(files, (std::set<std::string>{"attempts.csv", "metrics.csv", "steps.csv", "data_dictionary.csv",
+                                          "README.txt"}));
 }
 
 TEST(RawExport, NamesAreOfOneExportUnlessThereIsAKey) {

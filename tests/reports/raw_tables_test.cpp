@@ -61,6 +61,7 @@ TEST(RawTables, DictionaryAndHeadersSayTheSame) {
   }
   const std::map<std::string, std::string> headers = {{"attempts.csv", attempts_header()},
                                                       {"metrics.csv", header_of(metric_columns())},
+                                                      {"steps.csv", header_of(step_columns())},
                                                       {"events.csv", header_of(event_columns())},
                                                       {"poses/ATTEMPT.csv", header_of(pose_columns())},
                                                       {"forces/ATTEMPT.csv", header_of(force_columns())},
