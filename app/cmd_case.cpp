@@ -25,9 +25,9 @@ int run_case_list(const Arguments& arguments) {
     return kDone;
   }
   if (cases.empty()) std::puts("There is no case yet; `seldinger import` makes one.");
-  for (const auto& [row, lesions, structures, decisions] : cases)
-    std::printf("%s  %-9s v%d  %zu lesion%s  %s\n", row.case_id.c_str(), row.state.c_str(), row.version,
-                lesions.size(), lesions.size() == 1 ? " " : "s", row.title.c_str());
+  for (const casedb::CaseParts& one : cases)
+    std::printf("%s  %-9s v%d  %zu lesion%s  %s\n", one.row.case_id.c_str(), one.row.state.c_str(), one.row.version,
+                one.lesions.size(), one.lesions.size() == 1 ? " " : "s", one.row.title.c_str());
   return kDone;
 }
 

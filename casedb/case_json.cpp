@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "assessment/grading/rule_json.h"
+#include "casedb/grading.h"
 #include "casedb/structure_json.h"
 
 namespace seldinger::casedb {
@@ -26,6 +27,7 @@ CaseParts load_parts(Library& library, CaseRow row) {
   parts.lesions = list_lesions(library, row.case_id);
   parts.structures = list_structures(library, row.case_id);
   parts.decisions = list_decisions(library, row.case_id);
+  parts.provisional = !has_standard(library, row);
   parts.row = std::move(row);
   return parts;
 }
@@ -112,6 +114,7 @@ void add_authoring(const CaseParts& parts, Json& json) {
   json["time_limit_s"] = maybe(row.time_limit_s);
   json["attempt_limit"] = maybe(row.attempt_limit);
   json["rule"] = json_of_rule_of(row.rule);
+  json["provisional"] = parts.provisional;
   json["structures"] = structures;
 }
 

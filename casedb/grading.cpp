@@ -25,15 +25,30 @@ auto task_of(const AttemptRow& row) {
   return std::tuple(row.case_id, row.lesion_id, row.picture.modality, row.approach, row.instrument.kind);
 }
 
+assessment::ExpertAttempt expert_attempt(const AttemptRow& row) {
+  return {row.attempt_id, row.person_id.value_or(""), row.started_us, every_version(row)};
+}
+
 assessment::ExpertSet set_of(Library& library, const AttemptRow& attempt, SetKind kind) {
   std::vector<assessment::ExpertAttempt> experts;
-  for (AttemptRow& row : list_expert_attempts(library, attempt.case_id, kind))
-    if (task_of(row) == task_of(attempt) && cut_off_of(row).empty())
-      experts.push_back({row.attempt_id, row.person_id.value_or(""), row.started_us, every_version(row)});
+  for (const AttemptRow& row : list_expert_attempts(library, attempt.case_id, kind))
+    if (task_of(row) == task_of(attempt) && cut_off_of(row).empty()) experts.push_back(expert_attempt(row));
   return assessment::expert_set(kind, std::move(experts));
 }
 
 }  // namespace
+
+bool has_standard(Library& library, const CaseRow& row) {
+  if (row.rule.criteria.empty()) return false;
+  std::map<std::string, std::vector<assessment::ExpertAttempt>> of_lesion;
+  for (const AttemptRow& one : list_expert_attempts(library, row.case_id, SetKind::consultants))
+    if (one.picture.modality == row.modality && one.approach == row.approach &&
+        one.instrument.kind == row.instrument.kind && cut_off_of(one).empty())
+      of_lesion[one.lesion_id].push_back(expert_attempt(one));
+  for (auto& [lesion_id, attempts] : of_lesion)
+    if (assessment::expert_set(SetKind::consultants, std::move(attempts)).standard()) return true;
+  return false;
+}
 
 bool by_a_person(const AttemptHead& attempt) noexcept {
   return attempt.operator_name == kPersonOperator && attempt.person_id.has_value();

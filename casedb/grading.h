@@ -14,6 +14,9 @@ namespace seldinger::casedb {
 // By the rule of the case that the attempt was made on.
 assessment::Grade grade_of(const AttemptRow& attempt, const CaseSetting& setting);
 
+// Whether consultants have set the standard for a case as it is set: at one of its targets, with its own guidance.
+bool has_standard(Library& library, const CaseRow& row);
+
 // Whether a person made it; what was simulated in a person's name is simulated.
 bool by_a_person(const AttemptHead& attempt) noexcept;
 

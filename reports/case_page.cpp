@@ -98,7 +98,10 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   for (const assessment::Criterion& one : row.rule.criteria)
     add_fact(html, metric_label(one.metric), bound_text(one));
   // clinical.md, "Passing": eight consultants with three attempts each; until then nobody's standard.
-  add_fact(html, "Standing", row.rule.criteria.empty() ? "" : "provisional: no consultants have set the standard");
+  add_fact(html, "Standing",
+           row.rule.criteria.empty() ? ""
+           : parts.provisional       ? "provisional: too few consultants have set the standard"
+                                     : "consultants have set the standard");
   end_table(html);
 
   add_table(html, "Decisions");

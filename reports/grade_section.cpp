@@ -50,7 +50,9 @@ void add_criterion(Html& html, const CriterionResult& one, const assessment::Exp
     html.raw("— <span class=\"why\">").text(assessment::plain_code(one.reason)).raw("</span>");
   html.raw("</td><td class=\"number\" data-label=\"To pass\">").text(needed_text(one));
   if (!experts.bands.empty()) {
-    html.raw("</td><td class=\"number\" data-label=\"Experts\">");
+    html.raw("</td><td class=\"number\" data-label=\"")
+        .text(experts.kind == assessment::SetKind::simulated ? "Simulated expert" : "Experts")
+        .raw("\">");
     const std::string band = band_text(experts, one.criterion.metric, one.criterion.version);
     html.text(band.empty() ? "–" : band);
   }

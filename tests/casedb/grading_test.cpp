@@ -72,12 +72,21 @@ TEST_F(GradingTest, EightConsultantsOfThreeAttemptsSetTheStandard) {
   EXPECT_EQ(looked_at(one).score.reason, "no_expert_set");
   consultants(7, 3);
   EXPECT_TRUE(looked_at(one).provisional);
+  EXPECT_FALSE(has_standard(library_, find_case(library_, case_id_).value()));
   EXPECT_EQ(looked_at(one).experts.person_ids.size(), 7U);
   const std::string person = user("Consultant 8", Role::mentor);
   ASSERT_TRUE(set_level(library_, "Consultant 8", Level::consultant).has_value());
   for (int k = 0; k < 3; ++k) attempt(person, 1.0, 17.0);
   const AttemptGrade grade = looked_at(one);
   EXPECT_FALSE(grade.provisional);
+  CaseRow row = find_case(library_, case_id_).value();
+  row.approach = find_attempt(library_, one).value().approach;  // as the sample attempts are made
+  row.modality = find_attempt(library_, one).value().picture.modality;
+  row.instrument.kind = find_attempt(library_, one).value().instrument.kind;
+  EXPECT_TRUE(has_standard(library_, row));
+  row.approach =
+      row.approach == cases::Approach::in_plane ? cases::Approach::out_of_plane : cases::Approach::in_plane;
+  EXPECT_FALSE(has_standard(library_, row));
   const assessment::MetricBand* time = grade.experts.find("time_total", 1);
   ASSERT_NE(time, nullptr);
   EXPECT_DOUBLE_EQ(time->mean, 13.5);  // 10 … 17 s

@@ -97,6 +97,8 @@ TEST(GradeOnPage, NamesWhoseBandItIs) {
   html = attempt_page(kTrainee, view, nullptr);
   EXPECT_THAT(html, HasSubstr("<span class=\"band\">simulated expert 1–2</span>"));
   EXPECT_THAT(html, HasSubstr("Simulated expert, not a standard"));
+  EXPECT_THAT(html, HasSubstr("data-label=\"Simulated expert\""));
+  EXPECT_THAT(html, Not(HasSubstr("\"Experts\"")));
   EXPECT_THAT(html, Not(HasSubstr("consultants, 24")));
 }
 

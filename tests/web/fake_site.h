@@ -79,7 +79,7 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)
-      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}};
+      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}, true};
     return base::Error{"no_case", "there is no such case"};
   }
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow&) override {
