@@ -58,14 +58,15 @@ TEST_F(SimulateTest, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
     const Json& criteria = shown.at("rule");
     ASSERT_GE(criteria.size(), 6U);
     for (const bool expert : {true, false}) {
-      const Json ran = ask("simulate --count 10 --no-pictures --seed 1 --operator " +
-                           std::string(expert ? "expert" : "novice") + " --case " + id);
+      const Json ran =
+          ask("simulate --count " + std::to_string(expert ? 10 : 5) + " --no-pictures --seed 1 --operator " +
+              std::string(expert ? "expert" : "novice") + " --case " + id);
       int passed = 0;
       for (const Json& attempt : ran.at("attempts")) passed += passes(attempt, criteria) ? 1 : 0;
       if (expert)
         EXPECT_GE(passed, 8) << one.at("title");
       else
-        EXPECT_LE(passed, 3) << one.at("title");
+        EXPECT_LE(passed, 1) << one.at("title");
     }
   }
 }
@@ -102,13 +103,13 @@ TEST_F(SimulateTest, PeopleAreDifferentAndTheSameAgain) {
 }
 
 TEST_F(SimulateTest, ALearnerGetsBetter) {
-  const Json ran = ask("simulate --count 24 --seed 1 --no-pictures --operator learner --case " + first_case());
+  const Json ran = ask("simulate --count 16 --seed 1 --no-pictures --operator learner --case " + first_case());
   const Json& attempts = ran.at("attempts");
-  ASSERT_EQ(attempts.size(), 24U);
+  ASSERT_EQ(attempts.size(), 16U);
   double first = 0.0, last = 0.0;
-  for (int i = 0; i < 6; ++i) {
-    first += *fixtures::metric(attempts[static_cast<std::size_t>(i)], "blind_advance") / 6.0;
-    last += *fixtures::metric(attempts[static_cast<std::size_t>(18 + i)], "blind_advance") / 6.0;
+  for (int i = 0; i < 4; ++i) {
+    first += *fixtures::metric(attempts[static_cast<std::size_t>(i)], "blind_advance") / 4.0;
+    last += *fixtures::metric(attempts[static_cast<std::size_t>(12 + i)], "blind_advance") / 4.0;
   }
   EXPECT_LT(last, 0.6 * first);
 }
@@ -120,8 +121,8 @@ TEST_F(SimulateTest, SaysEverywhereThatItIsSynthetic) {
   EXPECT_EQ(ask("attempt show " + id).at("synthetic"), true);
   const Json list = ask("attempt list");
   for (const Json& attempt : list.at("attempts")) EXPECT_EQ(attempt.at("synthetic"), true);
-  for (const std::string& words : {"attempt list", "attempt show " + id}) {
-    const auto text = run(kProgram + " " + std::string(words) + " --library " + library_, scratch_);
+  for (const std::string& words : {std::string("attempt list"), "attempt show " + id}) {
+    const auto text = run(kProgram + " " + words + " --library " + library_, scratch_);
     EXPECT_NE(text.out.find("Simulated expert"), std::string::npos) << text.out;
   }
   // Nobody simulated passes for a person.

@@ -1,7 +1,8 @@
 // What an X-ray picture shows (contracts.md): inside the collimated field, contrast ≥ 3 σ. Expected values along
 // one ray per question: no picture is made, and no seed matters.
 //
-// Contrast is the relative difference of the signal with and without the object on the ray through it; σ is the
+// Contrast is the relative difference of the signal with and without the object on the ray through it, of a drawn
+// target to what lies about it in its place; σ is the
 // relative quantum noise of a patch of the panel: for the needle as wide as its shadow and as long as the shadow of
 // its last kTipElementMm, for the lesion as large as its shadow, but at most kLargestPatchMm2. That limit is
 // chosen: the eye does not add up ever larger patches, and anatomy hides more than quanta do, so that a few per
