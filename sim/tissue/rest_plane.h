@@ -1,5 +1,6 @@
 // The way back for all of a picture: asked for at the nodes of a grid in its plane, between them in straight lines.
-// At 2 mm that is right to 0.02 mm rms and costs a thirtieth of asking for each of 256 × 256 samples (bench --stage displacement).
+// At 2 mm that is right to 0.02 mm rms and costs a thirtieth of asking for each of 256 × 256 samples (bench --stage
+// displacement).
 #pragma once
 
 #include <glm/vec2.hpp>
