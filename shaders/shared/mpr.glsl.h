@@ -46,10 +46,14 @@ struct MprParameters {
 struct MprDisplaced {
   mat4 voxel_from_center;  // continuous voxel index of a place at rest, mm from the view's centre
   vec4 center_lps_mm;      // xyz
-  int fixed_point_steps;
+  int fixed_point_steps;   // both 0: by the grid
   int newton_steps;
+  int columns;  // of the grid's cells, ≥ 1
+  int rows;
+  float nodes_per_pixel;  // 0: the grid's first node for all, which then is 0
   int padding_0;
   int padding_1;
+  int padding_2;
 };
 
 // The start of a row is computed first, then the column added to it: never accumulated, and every caller that

@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "sim/tissue/displacement.h"
@@ -28,6 +29,11 @@ class RestPlane {
 
   // X of the place a·u + b·v from the first; beyond the rectangle as on its border's straight lines. NaN for NaN.
   glm::dvec3 rest_of(double a_mm, double b_mm) const noexcept;
+
+  // For a shader that does the same: X − x at the nodes, (columns() + 1) · (rows() + 1), row by row.
+  int columns() const noexcept { return columns_; }
+  int rows() const noexcept { return rows_; }
+  std::span<const glm::dvec3> moved_mm() const noexcept { return moved_mm_; }
 
  private:
   PlanePart part_;

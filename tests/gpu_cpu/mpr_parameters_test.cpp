@@ -56,7 +56,10 @@ TEST(MprParameters, OfAPatientWhoMovesHaveThemToo) {
   const std::map<std::string, std::size_t> ours{{"voxel_from_center", offsetof(D, voxel_from_center)},
                                                 {"center_lps_mm", offsetof(D, center_lps_mm)},
                                                 {"fixed_point_steps", offsetof(D, fixed_point_steps)},
-                                                {"newton_steps", offsetof(D, newton_steps)}};
+                                                {"newton_steps", offsetof(D, newton_steps)},
+                                                {"columns", offsetof(D, columns)},
+                                                {"rows", offsetof(D, rows)},
+                                                {"nodes_per_pixel", offsetof(D, nodes_per_pixel)}};
   EXPECT_EQ(offsets_from_compiler(files[1], "displaced"), ours);
   using P = shaders::MprParameters;
   const auto parameters = offsets_from_compiler(files[1]);

@@ -10,7 +10,6 @@
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/plane.h"
 #include "sim/imaging/mpr/segment_clip.h"
-#include "sim/tissue/rest_plane.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -63,10 +62,7 @@ class Painter {
         plane_(plane_from_view(voxel_from_lps_, view)),
         needle_(inserted.needle && is_finite(*inserted.needle) ? &*inserted.needle : nullptr),
         image_(image) {
-    if (tissue::count_sources(displacement) > 0)
-      at_rest_.emplace(displacement,
-                       tissue::PlanePart{view.center_lps_mm + plane_.position_first_mm, view.u, view.v,
-                                         view.pixel_mm * glm::dvec2(view.width_px - 1, view.height_px - 1)});
+    if (tissue::count_sources(displacement) > 0) at_rest_.emplace(rest_plane_of(view, displacement));
   }
 
   void paint_row(int row) const {
