@@ -8,20 +8,7 @@
 layout(std140, binding = 1) uniform Displaced { MprDisplaced displaced; };
 layout(std140, binding = 2) uniform Sources { Displacement displacement; };
 
-layout(std430, binding = 2) readonly buffer Grid { vec4 moved_mm[]; };  // X − x at its nodes
-
 #include "shared/displacement.glsl.h"
-
-// As sim/tissue/rest_plane.cpp.
-vec3 moved_at(int column, int row) {
-  vec2 at = vec2(column, row) * displaced.nodes_per_pixel;
-  ivec2 cell = clamp(ivec2(at), ivec2(0), ivec2(displaced.columns, displaced.rows) - 1);
-  vec2 along = at - vec2(cell);
-  int low = cell.y * (displaced.columns + 1) + cell.x;
-  int high = low + displaced.columns + 1;
-  return mix(mix(moved_mm[low].xyz, moved_mm[low + 1].xyz, along.x),
-             mix(moved_mm[high].xyz, moved_mm[high + 1].xyz, along.x), along.y);
-}
 
 void main() {
   int column = int(gl_GlobalInvocationID.x);
@@ -30,7 +17,7 @@ void main() {
       mpr_in_row(mpr_row_start(parameters.position_first_mm.xyz, parameters.position_per_row_mm.xyz, row),
                  parameters.position_per_column_mm.xyz, column);
   vec3 rest_mm = rest_of(displaced.center_lps_mm.xyz + position_mm, displaced.fixed_point_steps, displaced.newton_steps) -
-                 displaced.center_lps_mm.xyz + moved_at(column, row);
+                 displaced.center_lps_mm.xyz;
   vec3 index = vec3(displaced.voxel_from_center * vec4(rest_mm, 1.0));
   store(column, row, with_needle(with_lesions(hu_at(index), rest_mm), position_mm));
 }

@@ -46,11 +46,11 @@ struct MprParameters {
 struct MprDisplaced {
   mat4 voxel_from_center;  // continuous voxel index of a place at rest, mm from the view's centre
   vec4 center_lps_mm;      // xyz
-  int fixed_point_steps;   // both 0: by the grid
+  int fixed_point_steps;   // of each pixel's way back
   int newton_steps;
-  int columns;  // of the grid's cells, ≥ 1
+  int columns;  // of a grid's cells
   int rows;
-  float nodes_per_pixel;  // 0: the grid's first node for all, which then is 0
+  float nodes_per_pixel;
   int padding_0;
   int padding_1;
   int padding_2;

@@ -96,36 +96,34 @@ namespace {
 struct Moving {
   Moving(gpu::Context& context, WayBack asked)
       : way_back(asked),
-        slice(context, shader("mpr_displaced.comp")),
+        slice(context, shader(asked == WayBack::grid ? "mpr_displaced_grid.comp" : "mpr_displaced.comp")),
         displaced(context, gpu::BufferUse::uniform, sizeof(MprDisplaced)),
         sources(context, gpu::BufferUse::uniform, sizeof(tissue::Displacement)),
-        grid(context, gpu::BufferUse::storage, 4 * sizeof(glm::vec4)) {}
+        grid(context, gpu::BufferUse::storage, sizeof(glm::vec4)) {}
 
   void set(const glm::dmat4& voxel_from_lps, const MprView& view, const tissue::Displacement& displacement) {
     MprDisplaced parameters{};
     parameters.voxel_from_center = glm::mat4(voxel_from_lps * glm::translate(glm::dmat4(1.0), view.center_lps_mm));
     parameters.center_lps_mm = vec4_from(view.center_lps_mm);
-    std::vector<glm::vec4> moved_mm(4, glm::vec4(0.0F));
-    parameters.columns = parameters.rows = 1;
     if (way_back == WayBack::grid) {
       const tissue::RestPlane plane = rest_plane_of(view, displacement);
       parameters.columns = plane.columns();
       parameters.rows = plane.rows();
       parameters.nodes_per_pixel = static_cast<float>(view.pixel_mm / tissue::kRestSpacingMm);
-      moved_mm.clear();
+      std::vector<glm::vec4> moved_mm;
       for (const glm::dvec3& moved : plane.moved_mm()) moved_mm.push_back(vec4_from(moved));
+      const auto bytes = std::as_bytes(std::span(moved_mm));
+      if (grid.size() < bytes.size()) grid.resize(bytes.size());
+      grid.write(bytes);
+      grid.bind(kGridBinding);
     } else {
       parameters.fixed_point_steps = kPixelSteps.fixed_point;
       parameters.newton_steps = kPixelSteps.newton;
+      sources.write(std::as_bytes(std::span(&displacement, 1)));
+      sources.bind(kSourcesBinding);
     }
-    const auto bytes = std::as_bytes(std::span(moved_mm));
-    if (grid.size() < bytes.size()) grid.resize(bytes.size());
-    grid.write(bytes);
     displaced.write(std::as_bytes(std::span(&parameters, 1)));
-    sources.write(std::as_bytes(std::span(&displacement, 1)));
     displaced.bind(kDisplacedBinding);
-    sources.bind(kSourcesBinding);
-    grid.bind(kGridBinding);
   }
 
   WayBack way_back;
