@@ -2,6 +2,7 @@
 
 #include "app/course_json.h"
 #include "app/servo_record_json.h"
+#include "casedb/grading_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -76,11 +77,16 @@ Json metrics_json(const std::vector<assessment::MetricValue>& metrics) {
 
 Json attempts_json(const std::vector<SimulatedAttempt>& attempts) {
   Json list = Json::array();
-  for (const SimulatedAttempt& attempt : attempts)
+  for (const SimulatedAttempt& attempt : attempts) {
     list.push_back({{"attempt_id", attempt.attempt_id},
                     {"operator", attempt.operator_name},
+                    {"synthetic", true},
+                    {"person", maybe(attempt.person)},
+                    {"attempt_number", attempt.number + 1},
                     {"seed", attempt.seed},
                     {"metrics", metrics_json(attempt.metrics)}});
+    if (attempt.grade) casedb::add_grade(*attempt.grade, list.back());
+  }
   return list;
 }
 
@@ -91,6 +97,7 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"lesion_id", attempt.lesion_id},
           {"person_id", maybe(attempt.person_id)},
           {"operator", attempt.operator_name},
+          {"synthetic", attempt.synthetic()},
           {"seed", attempt.seed},
           {"instrument", attempt.instrument.kind == cases::InstrumentKind::core ? "core" : "access"},
           {"modality", casedb::name_of(attempt.picture.modality)},
@@ -144,17 +151,24 @@ std::string json_of_lesion(const std::string& lesion_id) {
   return text({{"lesion_id", lesion_id}});
 }
 
-std::string json_of_score(const Scored& scored) {
-  return text({{"metrics", metrics_json(scored.metrics)}, {"steps", json_of_steps(scored.steps)}});
+std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade) {
+  Json json = {{"metrics", metrics_json(scored.metrics)}, {"steps", json_of_steps(scored.steps)}};
+  if (grade != nullptr) {
+    casedb::add_grade(*grade, json);
+    json["experts"] = casedb::json_of_experts(grade->experts);
+  }
+  return text(json);
 }
 
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts) {
   return text({{"attempts", attempts_json(attempts)}});
 }
 
-std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo,
-                            const Course& course) {
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const casedb::AttemptGrade& grade,
+                            const std::optional<cases::ServoRecord>& servo, const Course& course) {
   Json json = attempt_json(attempt);
+  casedb::add_grade(grade, json);
+  json["experts"] = casedb::json_of_experts(grade.experts);
   json["servo"] = servo ? json_of_servo_record(*servo) : Json(nullptr);
   json["steps"] = json_of_steps(course.steps);
   json["events"] = json_of_events(course.events);
@@ -181,15 +195,20 @@ std::string json_of_recompute(const Recomputed& recomputed) {
 }
 
 std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
+                             const std::vector<assessment::Grade>& grades,
                              const std::vector<casedb::OpenAttempt>& running) {
   Json list = Json::array(), open = Json::array();
   for (const casedb::OpenAttempt& attempt : running)
     open.push_back({{"attempt_id", attempt.attempt_id},
                     {"case_id", attempt.case_id},
                     {"operator", attempt.operator_name},
+                    {"synthetic", attempt.synthetic()},
                     {"started_us", attempt.started_us},
                     {"stored_s", cases::kChunkSeconds * attempt.chunks}});
-  for (const casedb::AttemptRow& attempt : attempts) list.push_back(attempt_json(attempt));
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    list.push_back(attempt_json(attempts[i]));
+    list.back()["verdict"] = assessment::name_of(grades.at(i).verdict);
+  }
   return text({{"attempts", list}, {"running", open}});
 }
 
@@ -206,6 +225,7 @@ std::string json_of_users(const std::vector<casedb::Account>& accounts) {
     list.push_back({{"name", account.login_name},
                     {"person_id", account.person_id},
                     {"role", casedb::name_of(account.role)},
+                    {"level", account.level ? Json(casedb::name_of(*account.level)) : Json(nullptr)},
                     {"enabled", account.enabled}});
   return text({{"users", list}});
 }

@@ -8,6 +8,7 @@
 #include "app/scene_picture.h"
 #include "assessment/metrics/metric.h"
 #include "casedb/case_json.h"
+#include "casedb/grading.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {
@@ -22,6 +23,9 @@ struct SimulatedAttempt {
   std::string attempt_id, operator_name;
   std::uint64_t seed = 0;
   std::vector<assessment::MetricValue> metrics;
+  std::optional<casedb::AttemptGrade> grade{};
+  std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
+  std::uint64_t number = 0;               // of the attempt, from 0
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.
@@ -54,17 +58,20 @@ std::string json_of_case(const casedb::CaseParts& parts);
 std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
-std::string json_of_score(const Scored& scored);  // metrics and steps
+// Metrics and steps; of a stored attempt its grade, else null.
+std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade);
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
 // An attempt whose recording cannot be read has no course.
 struct Course {
   std::vector<assessment::StepResult> steps;
   std::optional<std::vector<cases::Event>> events{};
 };
-std::string json_of_attempt(const casedb::AttemptRow& attempt, const std::optional<cases::ServoRecord>& servo,
-                            const Course& course);
+std::string json_of_attempt(const casedb::AttemptRow& attempt, const casedb::AttemptGrade& grade,
+                            const std::optional<cases::ServoRecord>& servo, const Course& course);
 std::string json_of_recompute(const Recomputed& recomputed);
+// `grades`: of the attempts, in their order.
 std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
+                             const std::vector<assessment::Grade>& grades,
                              const std::vector<casedb::OpenAttempt>& running);
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
                            const std::string& reason);

@@ -51,7 +51,8 @@ class Attempt {
   }
   const cases::State& state() const noexcept { return ticks_.state(); }
 
-  void tick(cases::Inputs hands) {
+  // What was said in it.
+  cases::EventKind tick(cases::Inputs hands) {
     scenario_.add_to(hands, state().t_s);
     const assessment::RecordedTick tick = ticks_.advance(hands);
     recording_.inputs.push_back(tick.inputs);
@@ -60,6 +61,7 @@ class Attempt {
     if (tick.force) recording_.forces.push_back(*tick.force);
     if (tick.endpoint) recording_.endpoint = tick.endpoint;
     assessment::add_events(state().t_s, tick, *recording_.events);
+    return hands.event;
   }
   void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
   cases::Recording take() { return std::move(recording_); }
@@ -82,7 +84,7 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
   bool new_frame = false;
   long long frames = 0;
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
-    attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds));
+    person.hear(attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds)));
     const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
     new_frame = due >= frames;
     if (!new_frame) continue;
@@ -106,7 +108,7 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
     cases::Inputs hands = person.act(state, new_frame ? &exposed.fix : nullptr, engine::kTickSeconds);
     hands.exposure = exposed.report;
-    attempt.tick(hands);
+    person.hear(attempt.tick(hands));
     new_frame = state.fluoroscopy.frame_due;
     if (new_frame) {
       exposed = room.expose(state);
@@ -147,8 +149,6 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
   return run_probe_attempt(scene, plan, profile, seed, scenario, sight_of(scene));
 }
 
-namespace {
-
 base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording) {
   assessment::AttemptSetting setting;
   setting.skin = &scene.skin_index;
@@ -167,8 +167,6 @@ base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cas
   return assessment::make_signals(setting, recording);
 }
 
-}  // namespace
-
 base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording) {
   const auto signals = signals_of(scene, recording);
   if (!signals) return signals.error();
@@ -182,7 +180,19 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
   return assessment::measure_all(*signals);
 }
 
+GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
+                              const imaging::NeedlePose& needle) {
+  const imaging::MprView view = view_of(scene, pose);
+  return {imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}), kWindowCenterHu,
+                                kWindowWidthHu),
+          view.width_px, view.height_px};
+}
+
 namespace {
+
+std::vector<std::byte> png_of(const GreyPicture& picture) {
+  return png_from_grey(picture.grey, picture.width_px, picture.height_px);
+}
 
 // The last image before the trigger: the inputs, stepped through again until its pulse.
 std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
@@ -193,7 +203,7 @@ std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const 
     if (state.fluoroscopy.frame_due) exposed = state;
   }
   if (!exposed.fluoroscopy.frame_due) return {};
-  return FluoroscopyRoom(scene).picture_png(exposed, recording.hashes.back());
+  return png_of(FluoroscopyRoom(scene).picture(exposed, recording.hashes.back()));
 }
 
 }  // namespace
@@ -209,15 +219,13 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
       recording.endpoint ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
                          : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
   if (scene.picture.modality == cases::Modality::ultrasound)
-    return UltrasoundSight(scene).picture_png(probe_of(pose), needle, recording.hashes.back(),
-                                              recording.frames.size());
-  const imaging::MprView view = view_of(scene, pose);
-  const auto grey = imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}),
-                                          kWindowCenterHu, kWindowWidthHu);
-  return png_from_grey(grey, view.width_px, view.height_px);
+    return png_of(
+        UltrasoundSight(scene).picture(probe_of(pose), needle, recording.hashes.back(), recording.frames.size()));
+  return png_of(slice_under_probe(scene, pose, needle));
 }
 
-Replay replay(const cases::Case& scene, const cases::Recording& recording) {
+Replay replay(const cases::Case& scene, const cases::Recording& recording, const TickSeen& seen) {
+  const bool comparable = recording.step_version == engine::kStepVersion;
   cases::State state;
   std::uint64_t hash = 0;
   std::size_t pose = 0;
@@ -243,8 +251,10 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording) {
     }
     for (std::size_t e = told; recording.events && e < events.size(); ++e)
       same = same && e < recording.events->size() && (*recording.events)[e] == events[e];
-    if (!same) return {false, state.tick};
+    if (!same && comparable) return {false, state.tick};
+    if (seen) seen(state);
   }
+  if (!comparable) return {false, 0};
   const bool endpoint_same =
       state.fire.fired == recording.endpoint.has_value() &&
       (!recording.endpoint ||

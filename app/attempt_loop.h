@@ -6,14 +6,17 @@
 #include <functional>
 #include <span>
 
+#include "app/grey_picture.h"
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
+#include "assessment/signals.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
 #include "sim/case/state.h"
+#include "sim/imaging/mpr/mpr.h"
 
 namespace seldinger::app {
 
@@ -27,6 +30,8 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
 // What the picture under the probe shows of a state, of slice or ultrasound (CHECKed); the scene must outlive it.
 std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene);
 
+// What metrics measure of a recording made in this scene, which must outlive it.
+base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording);
 // What a recording made in this scene says: its metrics, and what became of each step.
 struct Scored {
   std::vector<assessment::MetricValue> metrics;
@@ -41,12 +46,18 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
 // last image. Empty where there is none.
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
 
+// A slice of the CT as the screen shows it under a probe.
+GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
+                              const imaging::NeedlePose& needle);
+
 // Replays the inputs by this step version: states, poses and, where the scene has tissue and the recording them,
-// forces.
+// forces. `seen` is called after each tick, up to the first that differs. What another step version recorded is
+// walked through and compared with nothing: not the same.
+using TickSeen = std::function<void(const cases::State&)>;
 struct Replay {
   bool same = false;
   std::uint64_t first_difference_tick = 0;
 };
-Replay replay(const cases::Case& scene, const cases::Recording& recording);
+Replay replay(const cases::Case& scene, const cases::Recording& recording, const TickSeen& seen = {});
 
 }  // namespace seldinger::app

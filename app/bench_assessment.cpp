@@ -138,6 +138,20 @@ base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
   scene.lesions.push_back(site->lesion);
   scene.structures = structures_of(phantom, *site);
   scene.volume = std::move(phantom.volume);
+  {
+    const std::string form = std::to_string(assessment::registry().size()) + " metrics, under slices";
+    BenchRow row{"assessment", "simulate", "an expert's attempt, " + form, "cpu", "1 thread", "", 0, 0, 0, 0, "",
+                 "",           ""};
+    std::uint64_t seed = 0;
+    double simulated_s = 0.0;
+    time_into(row, quick ? 3 : 11, [&] {
+      const auto recording = run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
+      if (score(scene, recording)) simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
+    });
+    if (!(simulated_s > 0.0)) return base::Error{"bench_failed", "the attempt cannot be scored"};
+    row.size = bench_number(60e3 / row.ms_median) + " attempts a minute";
+    rows.push_back(row);
+  }
   const cases::Recording once = run_attempt(scene, site->plan, *assessment::named_profile("novice"), 1);
   for (const double rate_hz : {100.0, 1000.0}) {
     const cases::Recording recording = ten_minutes(once, rate_hz);

@@ -3,9 +3,12 @@
 
 #include "app/answers_json.h"
 #include "app/command.h"
+#include "app/grade_text.h"
 #include "app/live_attempt.h"
 #include "app/servo_answer.h"
 #include "app/simulation.h"
+#include "reports/attempt_words.h"
+#include "reports/grade_words.h"
 #include "reports/metric_words.h"
 
 namespace seldinger::app {
@@ -19,6 +22,10 @@ std::string value_of(const casedb::AttemptRow& attempt, const char* id, const ch
       return text;
     }
   return "–";
+}
+
+std::string who(const casedb::AttemptRow& attempt) {
+  return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : attempt.operator_name;
 }
 
 void print_course(const Course& course) {
@@ -45,17 +52,22 @@ int run_attempt_list(const Arguments& arguments) {
     std::fprintf(stderr, "%zu attempt%s that a program left behind when it died %s kept as interrupted\n",
                  left_behind.size(), left_behind.size() == 1 ? "" : "s", left_behind.size() == 1 ? "is" : "are");
   const auto attempts = casedb::list_attempts(*library);
+  casedb::Grader grader(*library);
+  std::vector<assessment::Grade> grades;
+  for (const casedb::AttemptRow& attempt : attempts) grades.push_back(grader.grade(attempt));
   if (arguments.has("--json")) {
-    std::fputs(json_of_attempts(attempts, casedb::list_open_attempts(*library)).c_str(), stdout);
+    std::fputs(json_of_attempts(attempts, grades, casedb::list_open_attempts(*library)).c_str(), stdout);
     return kDone;
   }
   if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
-  for (const casedb::AttemptRow& attempt : attempts)
-    std::printf("%s  %s  %-12s seed %-6llu hit %s  %6s mm from the centre  %6s s\n", attempt.attempt_id.c_str(),
-                reports::utc_text(attempt.started_us).c_str(), attempt.operator_name.c_str(),
-                static_cast<unsigned long long>(attempt.seed), value_of(attempt, "hit", "%.0f").c_str(),
-                value_of(attempt, "tip_target_dist", "%.1f").c_str(),
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    const casedb::AttemptRow& attempt = attempts[i];
+    std::printf("%s  %s  %-22s seed %-6llu %-12s hit %s  %6s mm from the centre  %6s s\n",
+                attempt.attempt_id.c_str(), reports::utc_text(attempt.started_us).c_str(), who(attempt).c_str(),
+                static_cast<unsigned long long>(attempt.seed), reports::verdict_word(grades[i].verdict).c_str(),
+                value_of(attempt, "hit", "%.0f").c_str(), value_of(attempt, "tip_target_dist", "%.1f").c_str(),
                 value_of(attempt, "time_total", "%.1f").c_str());
+  }
   return kDone;
 }
 
@@ -67,17 +79,19 @@ int run_attempt_show(const Arguments& arguments) {
   Course course{casedb::list_steps(*library, attempt->attempt_id)};
   if (auto recording = casedb::load_recording(*library, attempt->attempt_id))
     course.events = std::move(recording->events);
+  const casedb::AttemptGrade grade = casedb::Grader(*library).look_at(*attempt);
   if (arguments.has("--json")) {
-    std::fputs(json_of_attempt(*attempt, casedb::find_servo_record(*library, attempt->attempt_id), course).c_str(),
-               stdout);
+    const auto servo = casedb::find_servo_record(*library, attempt->attempt_id);
+    std::fputs(json_of_attempt(*attempt, grade, servo, course).c_str(), stdout);
     return kDone;
   }
   std::printf("attempt  %s\nwhen     %s\ncase     %s  %s\nlesion   %s\nguidance %s\noperator %s, seed %llu\n",
               attempt->attempt_id.c_str(), reports::utc_text(attempt->started_us).c_str(), attempt->case_id.c_str(),
               attempt->case_title.c_str(), attempt->lesion_id.c_str(),
-              casedb::name_of(attempt->picture.modality).c_str(), attempt->operator_name.c_str(),
+              casedb::name_of(attempt->picture.modality).c_str(), who(*attempt).c_str(),
               static_cast<unsigned long long>(attempt->seed));
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
+  std::fputs(text_of_grade(grade).c_str(), stdout);
   print_metrics(attempt->metrics);
   print_course(course);
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))

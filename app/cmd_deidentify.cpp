@@ -1,47 +1,16 @@
 // deidentify.
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
 
 #include "app/command.h"
 #include "app/deidentify_json.h"
-#include "app/file.h"
+#include "app/key_file.h"
 #include "casedb/export/deidentify.h"
-#include "sim/base/hex.h"
 
 namespace seldinger::app {
-namespace {
-
-// 64 hexadecimal digits; made when there is no such file.
-base::Result<casedb::HashKey> key_from(const std::string& path) {
-  casedb::HashKey key{};
-  if (path.empty() || !std::filesystem::exists(path)) {
-    casedb::fill_random(key);
-    if (!path.empty()) {
-      write_file(path, base::hex_from_bytes(key) + "\n");
-      ::chmod(path.c_str(), S_IRUSR | S_IWUSR);
-    }
-    return key;
-  }
-  const auto text = read_text(path, 4096);
-  if (!text) return text.error();
-  const auto digit = [](char c) { return std::string_view("0123456789abcdef").find(c); };
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    const bool there = text->size() >= 2 * key.size();
-    const std::size_t high = there ? digit((*text)[2 * i]) : std::string::npos;
-    const std::size_t low = there ? digit((*text)[2 * i + 1]) : std::string::npos;
-    if (high == std::string::npos || low == std::string::npos)
-      return base::Error{"bad_key", "the key file does not hold 64 hexadecimal digits"};
-    key[i] = static_cast<std::byte>(high << 4 | low);
-  }
-  return key;
-}
-
-}  // namespace
-
 int run_deidentify(const Arguments& arguments) {
-  auto key = key_from(arguments.text("--key"));
+  auto key = key_from_file(arguments.text("--key"));
   if (!key) return refuse(key.error());
   if (::isatty(STDERR_FILENO) != 0) std::fputs("taking out what identifies …\n", stderr);
   const auto done = casedb::deidentify(arguments.positional(0), arguments.positional(1), *key);

@@ -4,6 +4,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
 #include "casedb/import/allow_list.h"
 #include "web/routes.h"
@@ -17,6 +18,10 @@ int run_help(const Arguments& arguments) {
   }
   if (arguments.has("--steps")) {
     std::fputs(assessment::steps_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--operators")) {
+    std::fputs(assessment::operators_markdown().c_str(), stdout);
     return kDone;
   }
   if (arguments.has("--commands")) {

@@ -5,6 +5,7 @@
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/command.h"
+#include "app/replay_output.h"
 #include "sim/engine/step.h"
 
 namespace seldinger::app {
@@ -16,26 +17,48 @@ struct Verdict {
   std::string reason;
 };
 
-base::Result<Verdict> verify(casedb::Library& library, const casedb::AttemptRow& attempt) {
+Verdict verdict_of(const casedb::AttemptRow& attempt, const Replay& replayed) {
   if (attempt.step_version != engine::kStepVersion)
-    return Verdict{std::nullopt, std::nullopt, "recorded by another step version"};
+    return {std::nullopt, std::nullopt, "recorded by another step version"};
+  if (replayed.same) return {true, std::nullopt, ""};
+  return {false, replayed.first_difference_tick, "the replayed state differs"};
+}
+
+base::Result<Verdict> verify(casedb::Library& library, const casedb::AttemptRow& attempt) {
+  if (attempt.step_version != engine::kStepVersion) return verdict_of(attempt, {});
   const auto recording = casedb::load_recording(library, attempt.attempt_id);
   if (!recording) return Verdict{false, std::nullopt, recording.error().text};
   const auto scene = build_case_of(library, attempt, recording->forces.empty() ? Needs::metrics : Needs::touch);
   if (!scene) return Verdict{false, std::nullopt, scene.error().text};
-  const Replay replayed = replay(*scene, *recording);
-  if (replayed.same) return Verdict{true, std::nullopt, ""};
-  return Verdict{false, replayed.first_difference_tick, "the replayed state differs"};
+  return verdict_of(attempt, replay(*scene, *recording));
+}
+
+base::Result<Verdict> draw(casedb::Library& library, const casedb::AttemptRow& attempt, const Arguments& arguments,
+                           double rate_hz) {
+  const auto recording = casedb::load_recording(library, attempt.attempt_id);
+  if (!recording) return recording.error();
+  const std::string out = arguments.text("--out");
+  const auto written = write_replay(library, attempt, *recording, out, rate_hz);
+  if (!written) return written.error();
+  Verdict verdict = verdict_of(attempt, written->replay);
+  if (verdict.verified.value_or(true))
+    std::fprintf(stderr, "%zu pictures of %.1f s in %.1f s: %s\n", written->pictures, attempt.duration_s,
+                 written->seconds, out.c_str());
+  return verdict;
 }
 
 }  // namespace
 
 int run_replay(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  const std::string folder = arguments.required("--library");
+  const double rate_hz = arguments.number("--rate-hz", kDefaultReplayHz);
+  if (!(rate_hz >= 1.0 && rate_hz <= kMostReplayHz)) throw UsageError("--rate-hz is 1 to 60");
+  auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());
-  const auto verdict = verify(*library, *attempt);
+  const auto verdict =
+      arguments.has("--out") ? draw(*library, *attempt, arguments, rate_hz) : verify(*library, *attempt);
   if (!verdict) return refuse(verdict.error());
   if (arguments.has("--json"))
     std::fputs(json_of_replay(verdict->verified, verdict->first_difference_tick, verdict->reason).c_str(), stdout);

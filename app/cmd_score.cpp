@@ -8,6 +8,7 @@
 #include "app/command.h"
 #include "app/file.h"
 #include "app/frame_truth.h"
+#include "app/grade_text.h"
 #include "app/poses_csv.h"
 #include "app/scene.h"
 #include "app/simulation.h"
@@ -113,16 +114,25 @@ base::Result<Scored> score_poses(const std::string& poses, const std::string& sc
   return score(built, *recording);
 }
 
-base::Result<Scored> score_attempt(const std::string& attempt_id, const std::string& folder) {
+// What it is worth as measured now; `grade` is set with it.
+base::Result<Scored> score_attempt(const std::string& attempt_id, const std::string& folder,
+                                   std::optional<casedb::AttemptGrade>& grade) {
   auto library = casedb::Library::open(folder);
   if (!library) return library.error();
-  const auto attempt = casedb::find_attempt(*library, attempt_id);
+  auto attempt = casedb::find_attempt(*library, attempt_id);
   if (!attempt) return attempt.error();
   const auto recording = casedb::load_recording(*library, attempt_id);
   if (!recording) return recording.error();
   const auto scene = build_case_of(*library, *attempt, Needs::metrics);
   if (!scene) return scene.error();
-  return score(*scene, *recording);
+  auto scored = score(*scene, *recording);
+  if (!scored) return scored;
+  // Stored versions that are measured no more stay, for a rule that names one.
+  std::vector<assessment::MetricValue>& older = attempt->older_metrics;
+  older.insert(older.begin(), attempt->metrics.begin(), attempt->metrics.end());
+  attempt->metrics = scored->metrics;
+  grade = casedb::Grader(*library).look_at(*attempt);
+  return scored;
 }
 
 }  // namespace
@@ -131,15 +141,18 @@ int run_score(const Arguments& arguments) {
   const bool stored = arguments.positionals() == 1;
   if (stored == arguments.has("--poses")) throw UsageError("give either ATTEMPT or --poses with --scene");
   std::vector<std::string> notes;
-  const auto scored = stored ? score_attempt(arguments.positional(0), arguments.required("--library"))
+  std::optional<casedb::AttemptGrade> grade;
+  const auto scored = stored ? score_attempt(arguments.positional(0), arguments.required("--library"), grade)
                              : score_poses(arguments.text("--poses"), arguments.required("--scene"),
                                            arguments.text("--library"), notes);
   if (!scored) return refuse(scored.error());
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  if (arguments.has("--json"))
-    std::fputs(json_of_score(*scored).c_str(), stdout);
-  else
+  if (arguments.has("--json")) {
+    std::fputs(json_of_score(*scored, grade ? &*grade : nullptr).c_str(), stdout);
+  } else {
+    if (grade) std::fputs(text_of_grade(*grade).c_str(), stdout);
     print_metrics(scored->metrics);
+  }
   return kDone;
 }
 

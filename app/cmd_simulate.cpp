@@ -1,10 +1,12 @@
 // simulate.
 #include <algorithm>
 #include <cstdio>
+#include <thread>
 
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/file.h"
+#include "app/grade_text.h"
 #include "app/simulation.h"
 
 namespace seldinger::app {
@@ -12,7 +14,8 @@ namespace {
 
 base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
   if (const auto profile = assessment::named_profile(name)) return *profile;
-  if (!name.ends_with(".json")) throw UsageError("--operator is novice, intermediate, expert or a .json file");
+  if (!name.ends_with(".json"))
+    throw UsageError("--operator is novice, intermediate, expert, learner or a .json file");
   const auto text = read_text(name, 1U << 20U);
   if (!text) return text.error();
   return assessment::profile_from_json(*text);
@@ -34,6 +37,9 @@ int run_simulate(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
+  std::optional<std::size_t> people;
+  if (arguments.has("--people")) people = static_cast<std::size_t>(arguments.whole("--people", 1, 1, 1'000));
+  const auto jobs = arguments.whole("--jobs", std::clamp(std::thread::hardware_concurrency(), 1U, 16U), 1, 256);
   std::optional<cases::InstrumentKind> kind;
   if (arguments.has("--instrument")) {
     const std::string name = arguments.text("--instrument");
@@ -58,17 +64,29 @@ int run_simulate(const Arguments& arguments) {
   if (!simulation) return refuse(simulation.error());
   simulation->set_scenario(std::move(scenario));
   std::vector<SimulatedAttempt> attempts;
-  for (long long i = 0; i < count; ++i) {
-    const auto this_seed = seed + static_cast<std::uint64_t>(i);
-    auto attempt = arguments.has("--real-time") ? simulation->live_attempt(*profile, this_seed)
-                                                : simulation->attempt(*profile, this_seed, std::nullopt);
-    if (!attempt) return refuse(attempt.error());
-    attempts.push_back(std::move(*attempt));
-    if (!arguments.has("--json")) {
-      std::printf("attempt %s  %s  seed %llu\n", attempts.back().attempt_id.c_str(),
-                  attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
-      print_metrics(attempts.back().metrics);
-      std::fflush(stdout);  // it is stored: whoever reads along may know
+  casedb::Grader grader(*library);  // against the experts as they were before this run
+  const auto stored = [&](SimulatedAttempt attempt) {
+    if (const auto row = casedb::find_attempt(*library, attempt.attempt_id)) attempt.grade = grader.look_at(*row);
+    attempts.push_back(std::move(attempt));
+    if (arguments.has("--json")) return;
+    std::printf("attempt %s  simulated %s  seed %llu\n", attempts.back().attempt_id.c_str(),
+                attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
+    if (attempts.back().grade) std::fputs(text_of_grade(*attempts.back().grade).c_str(), stdout);
+    print_metrics(attempts.back().metrics);
+    std::fflush(stdout);  // it is stored: whoever reads along may know
+  };
+  const auto trials = simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
+  if (!arguments.has("--real-time")) {
+    const auto done =
+        simulation->attempts(trials, static_cast<std::size_t>(jobs), !arguments.has("--no-pictures"), stored);
+    if (!done) return refuse(done.error());
+  } else {
+    for (const SimulatedTrial& trial : trials) {
+      auto attempt = simulation->live_attempt(trial.profile, trial.seed);
+      if (!attempt) return refuse(attempt.error());
+      attempt->person = trial.person;
+      attempt->number = trial.number;
+      stored(std::move(*attempt));
     }
   }
   if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);

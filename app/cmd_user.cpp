@@ -1,4 +1,4 @@
-// user add, list, passwd, disable.
+// user add, list, passwd, level, disable.
 #include <termios.h>
 #include <unistd.h>
 
@@ -33,12 +33,20 @@ std::string read_password() {
   return line;
 }
 
+std::optional<casedb::Level> level_of(const Arguments& arguments) {
+  if (!arguments.has("--level")) return std::nullopt;
+  const auto level = casedb::level_from(arguments.text("--level"));
+  if (!level) throw UsageError("--level is student, trainee or consultant");
+  return level;
+}
+
 }  // namespace
 
 int run_user_add(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   const auto role = casedb::role_from(arguments.required("--role"));
   if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
+  const auto level = level_of(arguments);
   std::string password = read_password();
   if (const auto fit = casedb::check_new_user(arguments.positional(0), password); !fit) return refuse(fit.error());
   auto library = casedb::Library::open_or_create(folder);
@@ -46,6 +54,9 @@ int run_user_add(const Arguments& arguments) {
   const auto person = casedb::add_user(*library, arguments.positional(0), *role, password);
   casedb::wipe(password);
   if (!person) return refuse(person.error());
+  if (level)
+    if (const auto done = casedb::set_level(*library, arguments.positional(0), *level); !done)
+      return refuse(done.error());
   std::printf("added, role %s\n", casedb::name_of(*role).c_str());
   return kDone;
 }
@@ -59,8 +70,8 @@ int run_user_list(const Arguments& arguments) {
     return kDone;
   }
   for (const casedb::Account& account : accounts)
-    std::printf("%-24s %-10s %s\n", account.login_name.c_str(), casedb::name_of(account.role).c_str(),
-                account.enabled ? "" : "disabled");
+    std::printf("%-24s %-10s %-10s %s\n", account.login_name.c_str(), casedb::name_of(account.role).c_str(),
+                account.level ? casedb::name_of(*account.level).c_str() : "–", account.enabled ? "" : "disabled");
   return kDone;
 }
 
@@ -71,6 +82,15 @@ int run_user_passwd(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto done = casedb::set_password(*library, arguments.positional(0), password);
   casedb::wipe(password);
+  return done ? kDone : refuse(done.error());
+}
+
+int run_user_level(const Arguments& arguments) {
+  const auto level = level_of(arguments);
+  if (!level) throw UsageError("--level is needed");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto done = casedb::set_level(*library, arguments.positional(0), *level);
   return done ? kDone : refuse(done.error());
 }
 

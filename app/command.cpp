@@ -13,6 +13,7 @@ constexpr Option kJson{"--json", nullptr, "one JSON document on standard output,
 constexpr Option kHelpOptions[] = {
     {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
     {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
+    {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
     {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
     {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"}};
@@ -123,9 +124,14 @@ constexpr Option kSimulateOptions[] = {
     kLibrary,
     {"--case", "ID", "the case"},
     {"--lesion", "ID", "the target; default the case's first lesion"},
-    {"--operator", "novice|intermediate|expert|FILE.json", "who"},
+    {"--operator", "novice|intermediate|expert|learner|FILE.json",
+     "who (docs/operators.md); a learner is better with each attempt"},
     {"--seed", "N", "attempt i uses seed N + i"},
-    {"--count", "K", "how many attempts; default 1"},
+    {"--count", "K", "how many attempts, of each person; default 1"},
+    {"--people", "P",
+     "of P different people with that profile: the same for the same seed; default the profile itself"},
+    {"--jobs", "N", "threads; default one for each core. The results are the same"},
+    {"--no-pictures", nullptr, "store no picture of the moment of firing"},
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
     {"--event", "KIND@SECONDS",
@@ -138,10 +144,47 @@ constexpr Option kScoreOptions[] = {kLibrary,
                                     kJson};
 constexpr Option kRecomputeOptions[] = {
     kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+constexpr Option kExportOptions[] = {
+    kLibrary,
+    {"--out", "DIR", "the new folder"},
+    {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--key", "FILE",
+     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
+     "Keep it apart from what you pass on"},
+    kJson};
 constexpr Option kMeshOptions[] = {kLibrary, {"--out", "FILE.glb", "the file to write"}};
 constexpr Option kReplayOptions[] = {
-    kLibrary, {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"}, kJson};
-constexpr Option kUserAddOptions[] = {kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}};
+    kLibrary,
+    {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"},
+    {"--out", "FILE.html|FILE.mp4|DIR",
+     "a sheet (pictures, way in the body, timeline, metrics), a film (needs ffmpeg), or a new folder of PNG "
+     "frames; "
+     "compared while it is drawn, nothing is written where it differs"},
+    {"--rate-hz", "R", "frames a second of the attempt, 1 to 60; default 10"},
+    kJson};
+constexpr Option kLevelOption{"--level", "student|trainee|consultant",
+                              "who somebody is from now on: attempts of consultants set the standard"};
+constexpr Option kUserAddOptions[] = {
+    kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}, kLevelOption};
+constexpr Option kUserLevelOptions[] = {kLibrary, kLevelOption};
+constexpr Option kCompareOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "of attempts at this target; default that of the newest attempt"},
+    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default that of the newest attempt"},
+    {"--out", "FILE.html", "a page of its own, in place of the text"},
+    kJson};
+constexpr Option kCurriculumAddOptions[] = {kLibrary, kByOption, kJson};
+constexpr Option kCurriculumByOptions[] = {kLibrary, kByOption};
+constexpr Option kCurriculumItemOptions[] = {
+    kLibrary,
+    {"--case", "ID", "a published case; the item is it in whatever version is published"},
+    {"--attempt-limit", "N", "so many a trainee; default the case's own limit"},
+    {"--after", "N[:passed|:proficient]", "opens when item N is reached; default passed", true},
+    kByOption,
+    kJson};
+constexpr Option kCurriculumShowOptions[] = {kLibrary, {"--user", "NAME", "how far this person is"}, kJson};
 constexpr Option kInsertOptions[] = {
     {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
     {"--speed-mm-s", "V", "the needle's speed"},
@@ -264,12 +307,31 @@ constexpr Command kCommands[] = {
     {"recompute", "", 0, 0, kRecomputeOptions,
      "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
      &run_recompute},
+    {"export", "", 0, 0, kExportOptions,
+     "Writes attempts as CSV with a data dictionary into a new folder: no names, no dates (docs/export.md).",
+     &run_export},
     {"attempt list", "", 0, 0, kLibraryJson, "Lists the attempts, newest first.", &run_attempt_list},
     {"attempt show", "ATTEMPT", 1, 1, kLibraryJson, "Shows one attempt with its metrics.", &run_attempt_show},
+    {"attempt compare", "", 0, 0, kCompareOptions,
+     "Puts the attempts on a case side by side, a group for each person and each simulated operator.",
+     &run_attempt_compare},
+    {"curriculum add", "TITLE", 1, 1, kCurriculumAddOptions, "Makes a curriculum, as a draft; by a mentor.",
+     &run_curriculum_add},
+    {"curriculum item", "CURRICULUM", 1, 1, kCurriculumItemOptions, "Adds a case at a draft's end; by a mentor.",
+     &run_curriculum_item},
+    {"curriculum publish", "CURRICULUM", 1, 1, kCurriculumByOptions,
+     "Publishes a curriculum, by a director; it never changes again.", &run_curriculum_publish},
+    {"curriculum list", "", 0, 0, kLibraryJson, "Lists the curricula, oldest first.", &run_curriculum_list},
+    {"curriculum show", "CURRICULUM", 1, 1, kCurriculumShowOptions,
+     "Shows a curriculum's items; with --user what was reached and which is due.", &run_curriculum_show},
+    {"curriculum remove", "CURRICULUM", 1, 1, kCurriculumByOptions,
+     "Takes a draft away, by a mentor; retires a published one, by a director.", &run_curriculum_remove},
     {"user add", "NAME", 1, 1, kUserAddOptions, "Adds an account; the password is read from standard input.",
      &run_user_add},
     {"user list", "", 0, 0, kLibraryJson, "Lists the accounts.", &run_user_list},
     {"user passwd", "NAME", 1, 1, kLibraryOnly, "Sets a password, read from standard input.", &run_user_passwd},
+    {"user level", "NAME", 1, 1, kUserLevelOptions,
+     "Sets who somebody is from now on; earlier attempts count as before.", &run_user_level},
     {"user disable", "NAME", 1, 1, kLibraryOnly, "Closes an account; its attempts stay.", &run_user_disable},
     {"haptics insert", "", 0, 0, kInsertOptions,
      "Drives a needle into one tissue and writes its force against depth.", &run_haptics_insert},

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "app/frame_truth.h"
-#include "app/png.h"
 #include "sim/base/check.h"
 #include "sim/case/c_arm.h"
 #include "sim/imaging/xray/c_arm.h"
@@ -122,7 +121,7 @@ FluoroscopyRoom::Exposed FluoroscopyRoom::expose(const cases::State& state) {
   return exposed;
 }
 
-std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state, std::uint64_t seed) {
+GreyPicture FluoroscopyRoom::picture(const cases::State& state, std::uint64_t seed) {
   const cases::Case& scene = parts_->scene;
   const cases::FluoroscopyState& machine = state.fluoroscopy;
   imaging::PictureSettings settings;
@@ -132,7 +131,7 @@ std::vector<std::byte> FluoroscopyRoom::picture_png(const cases::State& state, s
       parts_->geometry(machine, scene.fluoroscope.picture_px), machine.arm_moving, inserted_of(scene, state.needle),
       parts_->beams.at(machine.last_technique.kv), parts_->beams.detector(),
       cases::field_side_mm(scene.fluoroscope, machine.magnification), pulse_of(machine), settings);
-  return png_from_grey(picture.grey, picture.width_px, picture.height_px);
+  return {picture.grey, picture.width_px, picture.height_px};
 }
 
 }  // namespace seldinger::app

@@ -3,10 +3,10 @@
 // input, so that a replay needs no imaging.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <vector>
 
+#include "app/grey_picture.h"
 #include "assessment/operators/fluoroscopy.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
@@ -29,8 +29,8 @@ class FluoroscopyRoom {
   // that is displayed, if any is.
   Exposed expose(const cases::State& state);
 
-  // The picture that the pulse of `state` gave, as PNG. `seed` is the noise's: another attempt's is another's.
-  std::vector<std::byte> picture_png(const cases::State& state, std::uint64_t seed);
+  // The picture that the pulse of `state` gave. `seed` is the noise's: another attempt's is another's.
+  GreyPicture picture(const cases::State& state, std::uint64_t seed);
 
  private:
   struct Parts;

@@ -1,4 +1,4 @@
-// Grey pictures as PNG: the door of libpng.
+// Pictures as PNG: the door of libpng.
 #pragma once
 
 #include <cstddef>
@@ -9,5 +9,7 @@ namespace seldinger::app {
 
 // 8-bit grey, row-major, width · height.
 std::vector<std::byte> png_from_grey(std::span<const unsigned char> grey, int width_px, int height_px);
+// 8 bits each of red, green and blue.
+std::vector<std::byte> png_from_rgb(std::span<const unsigned char> rgb, int width_px, int height_px);
 
 }  // namespace seldinger::app

@@ -1,34 +1,25 @@
 #include "app/poses_csv.h"
 
-#include <array>
+#include <vector>
 
 #include "app/csv.h"
+#include "reports/raw_tables.h"
 
 namespace seldinger::app {
 namespace {
 
-constexpr std::array<const char*, 17> kColumns = {"t_s",
-                                                  "needle_tip_x_mm",
-                                                  "needle_tip_y_mm",
-                                                  "needle_tip_z_mm",
-                                                  "needle_dir_x",
-                                                  "needle_dir_y",
-                                                  "needle_dir_z",
-                                                  "probe_origin_x_mm",
-                                                  "probe_origin_y_mm",
-                                                  "probe_origin_z_mm",
-                                                  "probe_axial_x",
-                                                  "probe_axial_y",
-                                                  "probe_axial_z",
-                                                  "probe_lateral_x",
-                                                  "probe_lateral_y",
-                                                  "probe_lateral_z",
-                                                  "fire"};
+// As the raw export writes them, between the attempt's name and what a patient who moves has.
+std::vector<const char*> columns() {
+  std::vector<const char*> names;
+  for (std::size_t i = 1; i <= reports::kPoseFileColumns; ++i)
+    names.push_back(reports::pose_columns()[i].name.c_str());
+  return names;
+}
 
 }  // namespace
 
 base::Result<cases::Recording> recording_from_csv(const std::string& text) {
-  const auto rows = rows_in_csv(text, kColumns);
+  const auto rows = rows_in_csv(text, columns());
   if (!rows) return rows.error();
   cases::Recording recording;
   for (std::size_t i = 0; i < rows->size(); ++i) {

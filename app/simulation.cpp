@@ -7,9 +7,11 @@
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/live_attempt.h"
+#include "app/ordered_work.h"
 #include "app/ultrasound_sight.h"
 #include "app/version.h"
 #include "assessment/operators/scripted.h"
+#include "sim/base/hash.h"
 #include "sim/engine/step.h"
 
 namespace seldinger::app {
@@ -41,10 +43,10 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
       return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
     };
-  const auto plan =
-      assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
+  auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();
   if (plan->picture) scene->picture = *plan->picture;
+  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl};
   return Simulation(library, *row, *found, std::move(*scene), *plan);
 }
 
@@ -77,6 +79,7 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
       [&](const cases::State& state, const cases::FrameTruth* frame) {
         cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
         scenario.add_to(inputs, state.t_s);
+        person.hear(inputs.event);
         return inputs;
       },
       [&] { return person.done(); });
@@ -84,21 +87,66 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
   return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
 }
 
-base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
-                                                   const std::optional<std::string>& person_id) {
+base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                                  const std::optional<std::string>& person_id, bool picture) const {
   casedb::NewAttempt attempt;
   static_cast<casedb::AttemptHead&>(attempt) = head(profile, seed, person_id);
   attempt.recording = run_attempt(scene_, plan_, profile, seed, scenario_);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
-  attempt.end = attempt.recording.endpoint ? casedb::AttemptEnd::fired : casedb::AttemptEnd::time_limit;
+  attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
+                : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
+                                                          : casedb::AttemptEnd::time_limit;
   auto scored = score(scene_, attempt.recording);
   if (!scored) return scored.error();
   attempt.metrics = std::move(scored->metrics);
   attempt.steps = std::move(scored->steps);
-  attempt.picture_png = picture_at_endpoint(scene_, attempt.recording);
-  const auto attempt_id = casedb::add_attempt(*library_, attempt);
+  if (picture) attempt.picture_png = picture_at_endpoint(scene_, attempt.recording);
+  return attempt;
+}
+
+base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                                   const std::optional<std::string>& person_id) {
+  const auto made = make(profile, seed, person_id, true);
+  if (!made) return made.error();
+  const auto attempt_id = casedb::add_attempt(*library_, *made);
   if (!attempt_id) return attempt_id.error();
-  return SimulatedAttempt{*attempt_id, profile.name, seed, attempt.metrics};
+  return SimulatedAttempt{*attempt_id, profile.name, seed, made->metrics};
+}
+
+base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                                        const std::function<void(SimulatedAttempt)>& stored) {
+  using Made = base::Result<casedb::NewAttempt>;
+  base::Result<void> done;
+  in_order<Made>(
+      trials.size(), jobs,
+      [&](std::size_t i) { return make(trials[i].profile, trials[i].seed, std::nullopt, pictures); },
+      [&](std::size_t i, Made made) {
+        const auto attempt_id = made ? casedb::add_attempt(*library_, *made) : made.error();
+        if (!attempt_id) {
+          done = attempt_id.error();
+          return false;
+        }
+        stored({*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics, trials[i].person,
+                trials[i].number});
+        return true;
+      });
+  return done;
+}
+
+std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                             std::size_t count, std::optional<std::size_t> people) {
+  std::vector<SimulatedTrial> trials;
+  for (std::size_t p = 0; p < people.value_or(1); ++p) {
+    assessment::OperatorProfile person = profile;
+    if (people) {
+      person = assessment::person_of(profile, base::hash_combine(seed, p));
+      person.name.append("-").append(std::to_string(p + 1));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      trials.push_back({assessment::at_attempt(person, i), seed + trials.size(),
+                        people ? std::optional<std::uint64_t>(p + 1) : std::nullopt, i});
+  }
+  return trials;
 }
 
 void print_metrics(const std::vector<assessment::MetricValue>& metrics) {

@@ -1,8 +1,10 @@
 // Attempts of simulated operators at a stored case: run, score, picture, store.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/answers_json.h"
 #include "assessment/operators/plan.h"
@@ -11,6 +13,19 @@
 #include "sim/case/case.h"
 
 namespace seldinger::app {
+
+// One of the attempts to be made: by whom, as he is then.
+struct SimulatedTrial {
+  assessment::OperatorProfile profile;
+  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> person;  // number among people drawn about a profile, from 1
+  std::uint64_t number = 0;             // of the attempt, from 0
+};
+
+// `count` attempts of each of `people`, or of the profile itself; attempt i has seed + i, person p is drawn by seed
+// and p alone, so that the same seed is the same people at every case.
+std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                             std::size_t count, std::optional<std::size_t> people);
 
 class Simulation {
  public:
@@ -29,11 +44,19 @@ class Simulation {
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                          const std::optional<std::string>& person_id);
 
+  // Many, on so many threads; stored in their order, so that the result is that of one thread. `stored` is told of
+  // each. Without pictures none of the moment of firing is made.
+  base::Result<void> attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                              const std::function<void(SimulatedAttempt)>& stored);
+
   // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
   // was kept is stored with it. Refused: `not_in_real_time` under xray.
   base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed);
 
  private:
+  // Changes nothing, so that threads may make many at once.
+  base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                        const std::optional<std::string>& person_id, bool picture) const;
   casedb::AttemptHead head(const assessment::OperatorProfile& profile, std::uint64_t seed,
                            const std::optional<std::string>& person_id) const;
   Simulation(casedb::Library& library, casedb::CaseRow row, casedb::LesionRow lesion, cases::Case scene,

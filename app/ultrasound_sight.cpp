@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/png.h"
+#include "assessment/operators/probe_over.h"
 #include "sim/base/check.h"
 #include "sim/imaging/ultrasound/console.h"
 
@@ -18,7 +18,7 @@ constexpr double kScreenHz = 60.0;
 // does not give way yet; the picture begins so much deeper.
 constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
 constexpr double kBesideFaceMm = 3.0;  // room for the needle
-constexpr double kWayStepMm = 4.0;
+constexpr double kWayStepMm = 4.0, kNearSkinMm = 12.0, kNearSkinStepMm = 1.0;
 
 const imaging::Probe& probe_of(const cases::Picture& picture) {
   const imaging::Probe* probe = imaging::probe_named(picture.probe);
@@ -116,41 +116,63 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
       ultrasound_picture(glm::dot(target.center_lps_mm - touching.position_lps_mm, touching.axis));
   const imaging::Probe& probe = probe_of(picture);
   const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
-  if (beside_mm < half_face_mm(probe) + kBesideFaceMm) return std::nullopt;
-  cases::ToolPose held = touching;
-  held.position_lps_mm += press_mm(probe) * touching.axis;
-  const auto with_tip_at = [&](double inserted_mm) {
-    const glm::dvec3 tip_lps_mm = plan.entry_lps_mm + inserted_mm * plan.direction;
-    return see(picture, held, {needle_at(tip_lps_mm, plan.direction), {target}}).visible;
+  if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)
+    return std::nullopt;
+  assessment::PuncturePlan held = plan;
+  held.probe.position_lps_mm += press_mm(probe) * held.probe.axis;
+  held.probe_first.position_lps_mm += press_mm(probe) * held.probe_first.axis;
+  const auto needle = [&](double inserted_mm) {
+    return needle_at(plan.entry_lps_mm + inserted_mm * plan.direction, plan.direction);
   };
-  const imaging::Visible seen = with_tip_at(plan.depth_mm);
+  const imaging::UltrasoundView view = view_of(picture, held.probe);
+  const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);
+  const imaging::Visible seen =
+      imaging::ultrasound_visible(tissue_, view, {needle(plan.depth_mm), {target}}, depths).visible;
   if (!seen.joint) return std::nullopt;
+  const auto tip_shows = [&](double inserted_mm) {
+    const imaging::Inserted inserted{needle(inserted_mm), {}};
+    if (plan.approach == cases::Approach::out_of_plane)
+      return see(picture, assessment::probe_over(held, inserted_mm), inserted).visible.needle_tip;
+    return imaging::needle_level(tissue_, view, inserted, depths, 0.0).stands_out();
+  };
   double shows_from_mm = plan.depth_mm;
-  while (shows_from_mm > kWayStepMm && with_tip_at(shows_from_mm - kWayStepMm).needle_tip)
-    shows_from_mm -= kWayStepMm;
-  const imaging::UltrasoundView view = view_of(picture, held);
-  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}},
-                                                           element_depths(scene_.skin_index, view, kContactStride));
-  return assessment::ProbeView{held, picture, shows_from_mm, seen.needle_length_mm,
-                               std::max(0.0, -level.transmission_db)};
+  for (double asked_mm = shows_from_mm; asked_mm > 0.0 && shows_from_mm == asked_mm;) {
+    asked_mm = std::max(0.0, asked_mm - (asked_mm > kNearSkinMm ? kWayStepMm : kNearSkinStepMm));
+    if (tip_shows(asked_mm)) shows_from_mm = asked_mm;
+  }
+  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}}, depths);
+  assessment::ProbeView seen_from;
+  seen_from.probe = held.probe;
+  seen_from.probe_first = held.probe_first;
+  seen_from.picture = picture;
+  seen_from.tip_shows_from_mm = shows_from_mm;
+  seen_from.needle_mm = seen.needle_length_mm;
+  seen_from.shadow_db = std::max(0.0, -level.transmission_db);
+  return seen_from;
 }
 
-std::vector<std::byte> UltrasoundSight::picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                                    std::uint64_t seed, std::uint64_t frame) const {
-  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+struct UltrasoundSight::Screen {
+  explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}) {}
+  imaging::ScanConverter converter;
   imaging::PolarPicture polar;
+};
+
+GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                     std::uint64_t seed, std::uint64_t frame) {
+  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  if (!screen_) screen_ = std::make_shared<Screen>(view);
+  const imaging::ScanConverter& converter = screen_->converter;
+  GreyPicture picture;
   imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
-                            polar);
-  imaging::add_receiver_noise(seed, frame, polar);
-  const imaging::ScanConverter converter(view, {});
-  std::vector<unsigned char> grey;
-  converter.grey(view, {}, polar, grey);
-  // Without the empty rows below a wide field.
-  const int rows =
+                            screen_->polar);
+  imaging::add_receiver_noise(seed, frame, screen_->polar);
+  converter.grey(view, {}, screen_->polar, picture.grey);
+  picture.width_px = converter.width_px();
+  picture.height_px =
       std::min(converter.height_px(),
                static_cast<int>(std::ceil((view.depth_mm - converter.top_mm()) / converter.pixel_mm())));
-  grey.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(converter.width_px()));
-  return png_from_grey(grey, converter.width_px(), rows);
+  picture.grey.resize(static_cast<std::size_t>(picture.height_px) * static_cast<std::size_t>(picture.width_px));
+  return picture;
 }
 
 }  // namespace seldinger::app

@@ -2,11 +2,12 @@
 // one place where attempts meet ultrasound imaging.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "app/grey_picture.h"
 #include "assessment/operators/plan.h"
 #include "sim/case/case.h"
 #include "sim/case/mesh_index.h"
@@ -37,11 +38,12 @@ class UltrasoundSight {
 
   // In the scene's picture, with its lesions.
   imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle) const;
-  // As the screen shows it, PNG. `seed` and `frame` are the receiver's noise.
-  std::vector<std::byte> picture_png(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                     std::uint64_t seed, std::uint64_t frame) const;
+  // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
+  GreyPicture picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
+                      std::uint64_t frame);
 
  private:
+  struct Screen;  // what pictures need beside the tissue, made with the first
   imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ToolPose& probe) const;
   imaging::UltrasoundVisible see(const cases::Picture& picture, const cases::ToolPose& probe,
                                  const imaging::Inserted& inserted) const;
@@ -49,6 +51,7 @@ class UltrasoundSight {
 
   const cases::Case& scene_;
   imaging::TissueVolume tissue_;
+  std::shared_ptr<Screen> screen_;
 };
 
 }  // namespace seldinger::app

@@ -98,6 +98,12 @@ base::Result<void> check_head(Sqlite& database, const AttemptHead& head) {
     CHECK(person.bind("person_id", *head.person_id).step());
     if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person in the library"};
   }
+  if (head.person_id && head.operator_name == kPersonOperator) {
+    Statement begun = question(database, "attempts_begun");
+    CHECK(begun.bind("case_id", head.case_id).bind("person_id", *head.person_id).step());
+    if (!begun.is_null("attempt_limit") && begun.integer("begun") >= begun.integer("attempt_limit"))
+      return base::Error{"no_attempts_left", "as many attempts as the case allows have been made"};
+  }
   return {};
 }
 
@@ -132,6 +138,16 @@ void insert_servo_record(Sqlite& database, const std::string& attempt_id, const 
       .bind("latency", std::span(latency))
       .bind("compute", std::span(compute))
       .run();
+}
+
+MetricValue read_metric(const Statement& from) {
+  MetricValue metric;
+  metric.id = from.text("metric_id");
+  metric.version = from.small_integer("version");
+  if (!from.is_null("value")) metric.value = from.real("value");
+  metric.unit = from.text("unit");
+  metric.reason = from.text("reason");
+  return metric;
 }
 
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id) {

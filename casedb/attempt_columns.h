@@ -20,6 +20,8 @@ std::vector<cases::RecordingChunk> read_chunks(Statement rows, const std::string
 
 void insert_servo_record(Sqlite& database, const std::string& attempt_id, const cases::ServoRecord& record);
 
+MetricValue read_metric(const Statement& from);
+
 AttemptEnd end_from(const std::string& name);  // CHECKs that there is one of that name
 
 }  // namespace seldinger::casedb

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/grading/standard.h"
 #include "assessment/metrics/metric.h"
 #include "assessment/procedure/steps.h"
 #include "casedb/case_setting.h"
@@ -107,17 +108,21 @@ std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::s
 // --- attempts ---------------------------------------------------------------------------------------------------
 using MetricValue = assessment::MetricValue;
 
+// The operator_name of what a person did; all others are simulated, also in a person's name.
+inline constexpr std::string_view kPersonOperator = "person";
+
 // What is known of an attempt when it begins.
 struct AttemptHead {
   std::string case_id, lesion_id;
   std::optional<std::string> person_id;  // whose; none for a simulation of nobody
-  std::string operator_name;             // "novice", …, or "person"
+  std::string operator_name;             // "novice", …, or kPersonOperator
   std::uint64_t seed = 0;                // simulated operators
   std::string program_version;
   cases::Instrument instrument;
   cases::Picture picture;
   cases::Approach approach = cases::Approach::in_plane;
   std::int64_t started_us = 0;
+  bool synthetic() const noexcept { return operator_name != kPersonOperator; }
 };
 
 // Interrupted: the program that made it was gone before it could say.
@@ -143,18 +148,25 @@ struct AttemptRow : AttemptHead {
   cases::Lesion lesion;
   double duration_s = 0.0;
   std::uint32_t step_version = 0;
-  std::optional<AttemptEnd> end{};   // none: stored before schema 5
-  std::vector<MetricValue> metrics;  // newest version of each
+  std::optional<AttemptEnd> end{};           // none: stored before schema 5
+  std::vector<MetricValue> metrics;          // newest version of each
+  std::vector<MetricValue> older_metrics{};  // what was stored by older versions
 };
 
-// `no_case`, `no_lesion`, `no_person`. Durable when it returns.
+// `no_case`, `no_lesion`, `no_person`, `no_attempts_left` (a person has begun as many as the case allows). Durable
+// when it returns.
 base::Result<std::string> add_attempt(Library& library, const NewAttempt& attempt);
 // Newest first; `count` of them from the one at `first`, which is 0 for the newest.
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first = 0,
                                       std::size_t count = std::numeric_limits<std::size_t>::max());
 std::size_t count_attempts(Library& library);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
-base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);    // `no_attempt`
+std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);    // newest first
+// Those on a case whose values may make a band: of people who were consultants when they began, or of the simulated
+// expert (of that the newest 200); newest first.
+std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string& case_id,
+                                             assessment::SetKind kind);
+base::Result<AttemptRow> find_attempt(Library& library, const std::string& attempt_id);  // `no_attempt`
 base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);
 // Its steps, newest version of each, in order; none: stored before schema 8, and not recomputed since.
 std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id);
@@ -181,11 +193,17 @@ std::vector<OpenAttempt> list_open_attempts(Library& library);  // oldest first;
 base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome);
 
 // --- people -----------------------------------------------------------------------------------------------------
+// Who somebody is beside a role: what consultants do sets the standard (assessment/grading/standard.h).
+enum class Level { student, trainee, consultant };
+std::string name_of(Level level);
+std::optional<Level> level_from(const std::string& name);
+
 struct Account {
   std::string person_id, login_name;
   Role role = Role::trainee;
   bool enabled = true;
-  std::string password_mark{};  // another one after each change of the password; says nothing about it
+  std::string password_mark{};   // another one after each change of the password; says nothing about it
+  std::optional<Level> level{};  // in list_users: what is known last
 };
 
 // What add_user would refuse in any library: `bad_name`, `weak_password`.
@@ -199,6 +217,8 @@ std::vector<Account> list_users(Library& library);  // oldest first; those who h
 base::Result<void> set_password(Library& library, const std::string& name,
                                 const std::string& password);  // `no_user`, `weak_password`
 base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled);  // `no_user`
+// From now on; what was before stays, and with it what earlier attempts count as. `no_user`.
+base::Result<void> set_level(Library& library, const std::string& name, Level level);
 // The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);
 

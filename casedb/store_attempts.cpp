@@ -13,6 +13,9 @@
 namespace seldinger::casedb {
 namespace {
 
+// Of simulated experts as many as a hint needs: thousands are made in a minute, and each page would read them all.
+constexpr int kMostSimulated = 200;
+
 void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::string& attempt_id,
                     std::size_t recording_chunks, const std::optional<std::string>& picture_sha256) {
   Statement insert = question(database, "add_attempt");
@@ -88,28 +91,30 @@ std::vector<AttemptRow> read_attempts(Statement attempts, Statement metrics) {
     MetricValue value;
   };
   std::vector<Positioned> of_one;
+  std::vector<MetricValue> older;
   std::string attempt_id;
   const auto hand_over = [&] {
     std::sort(of_one.begin(), of_one.end(), [](const Positioned& a, const Positioned& b) {
       return a.position != b.position ? a.position < b.position : a.value.id < b.value.id;
     });
     // An attempt added between the two questions is not in `place`.
-    if (const auto at = place.find(attempt_id); at != place.end())
+    if (const auto at = place.find(attempt_id); at != place.end()) {
       for (Positioned& metric : of_one) rows[at->second].metrics.push_back(std::move(metric.value));
+      rows[at->second].older_metrics = std::move(older);
+    }
     of_one.clear();
+    older.clear();
   };
   while (metrics.step()) {
     if (metrics.view("attempt_id") != attempt_id) {
       hand_over();
       attempt_id = metrics.text("attempt_id");
     }
-    MetricValue value;
-    value.id = metrics.text("metric_id");
-    value.version = metrics.small_integer("version");
-    if (!metrics.is_null("value")) value.value = metrics.real("value");
-    value.unit = metrics.text("unit");
-    value.reason = metrics.text("reason");
-    if (!of_one.empty() && of_one.back().value.id == value.id) of_one.pop_back();  // an older version
+    MetricValue value = read_metric(metrics);
+    if (!of_one.empty() && of_one.back().value.id == value.id) {  // an older version
+      older.push_back(std::move(of_one.back().value));
+      of_one.pop_back();
+    }
     of_one.push_back({metrics.integer("position"), std::move(value)});
   }
   hand_over();
@@ -250,6 +255,29 @@ std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& pe
   Statement metrics = question(database, "metric_values_of_person");
   attempts.bind("person_id", person_id);
   metrics.bind("person_id", person_id);
+  return read_attempts(std::move(attempts), std::move(metrics));
+}
+
+std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id) {
+  Sqlite& database = library.database();
+  Statement attempts = question(database, "attempts_on_case"),
+            metrics = question(database, "metric_values_on_case");
+  for (Statement* part : {&attempts, &metrics}) part->bind("case_id", case_id);
+  const Snapshot one_state(database);
+  return read_attempts(std::move(attempts), std::move(metrics));
+}
+
+std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string& case_id,
+                                             assessment::SetKind kind) {
+  Sqlite& database = library.database();
+  Statement attempts = question(database, "expert_attempts");
+  Statement metrics = question(database, "metric_values_of_experts");
+  const bool consultants = kind == assessment::SetKind::consultants;
+  for (Statement* part : {&attempts, &metrics})
+    part->bind("case_id", case_id)
+        .bind("kind", consultants ? "consultants" : "simulated")
+        .bind("most", consultants ? -1 : kMostSimulated);
+  const Snapshot one_state(database);
   return read_attempts(std::move(attempts), std::move(metrics));
 }
 

@@ -38,6 +38,9 @@ std::optional<Identity> find_identity(Library& library, const std::string& name)
   return Identity{identity.text("person_id"), identity.text("name")};
 }
 
+constexpr std::pair<Level, const char*> kLevels[] = {
+    {Level::student, "student"}, {Level::trainee, "trainee"}, {Level::consultant, "consultant"}};
+
 std::string mark_of(const std::string& password_hash) {
   return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
 }
@@ -112,6 +115,18 @@ std::optional<Role> role_from(const std::string& name) {
   return std::nullopt;
 }
 
+std::string name_of(Level level) {
+  for (const auto& [candidate, name] : kLevels)
+    if (candidate == level) return name;
+  CHECK(false);
+}
+
+std::optional<Level> level_from(const std::string& name) {
+  for (const auto& [level, candidate] : kLevels)
+    if (candidate == name) return level;
+  return std::nullopt;
+}
+
 base::Result<void> check_new_user(const std::string& name, const std::string& password) {
   if (!is_login_name(name))
     return base::Error{"bad_name", "a user name has 1 to 64 printable characters and no space at its ends"};
@@ -151,7 +166,7 @@ std::vector<Account> list_users(Library& library) {
   for (Statement all = question(library.database(), "accounts"); all.step();)
     if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
       users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
-                       mark_of(all.text("password_hash"))});
+                       mark_of(all.text("password_hash")), level_from(all.text("level"))});
   return users;
 }
 
@@ -175,13 +190,26 @@ base::Result<void> set_enabled(Library& library, const std::string& name, bool e
   return {};
 }
 
+base::Result<void> set_level(Library& library, const std::string& name, Level level) {
+  const auto identity = find_identity(library, name);
+  if (!identity) return kNoUser;
+  Transaction transaction(library.database());
+  question(library.database(), "add_level")
+      .bind("person_id", identity->person_id)
+      .bind("since_us", now_us())
+      .bind("level", name_of(level))
+      .run();
+  transaction.commit();
+  return {};
+}
+
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password) {
   Account account;
   std::string hash = unmatchable_hash();
   if (const auto identity = find_identity(library, name)) {
     Statement stored = question(library.database(), "account");
     if (stored.bind("person_id", identity->person_id).step()) {
-      account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}};
+      account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}, {}};
       hash = stored.text("password_hash");
     }
   }

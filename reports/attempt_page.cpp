@@ -6,6 +6,8 @@
 
 #include "assessment/metrics/registry.h"
 #include "reports/beam_table.h"
+#include "reports/grade_section.h"
+#include "reports/grade_words.h"
 #include "reports/metric_words.h"
 #include "reports/time_chart.h"
 
@@ -66,7 +68,17 @@ void add_definitions(Html& html, const casedb::AttemptRow& row) {
 // As many rows of a group are read at a glance; the others are folded away.
 constexpr std::size_t kLeadingRows = 4;
 
-void add_table(Html& html, const std::string& caption, std::span<const casedb::MetricValue* const> metrics) {
+// What experts do, under the value it belongs to.
+void add_band(Html& html, const casedb::MetricValue& metric, const assessment::ExpertSet& experts) {
+  const std::string band = band_text(experts, metric.id, metric.version);
+  if (band.empty()) return;
+  html.raw(" <span class=\"band\">")
+      .text((experts.kind == assessment::SetKind::simulated ? "simulated expert " : "experts ") + band)
+      .raw("</span>");
+}
+
+void add_table(Html& html, const std::string& caption, std::span<const casedb::MetricValue* const> metrics,
+               const assessment::ExpertSet& experts) {
   html.raw("<table>\n<caption>")
       .text(caption)
       .raw(
@@ -81,12 +93,14 @@ void add_table(Html& html, const std::string& caption, std::span<const casedb::M
         .text(std::to_string(metric->version))
         .raw("</span></th><td class=\"number\">");
     add_value(html, *metric);
+    add_band(html, *metric, experts);
     html.raw("</td></tr>\n");
   }
   html.raw("</tbody>\n</table>\n");
 }
 
-void add_group(Html& html, const std::string& group, const casedb::AttemptRow& row) {
+void add_group(Html& html, const std::string& group, const AttemptView& view) {
+  const casedb::AttemptRow& row = view.row;
   std::vector<const casedb::MetricValue*> metrics;
   for (const casedb::MetricValue& metric : row.metrics)
     if (metric_group(metric.id) == group && shown(metric, row)) metrics.push_back(&metric);
@@ -94,12 +108,12 @@ void add_group(Html& html, const std::string& group, const casedb::AttemptRow& r
   // One row alone is not worth a fold.
   const std::size_t leading = metrics.size() > kLeadingRows + 1 ? kLeadingRows : metrics.size();
   const std::span all(metrics);
-  add_table(html, group, all.first(leading));
+  add_table(html, group, all.first(leading), view.grade.experts);
   if (leading == metrics.size()) return;
   html.raw("<details><summary>")
       .text(group + ": " + std::to_string(metrics.size() - leading) + " more")
       .raw("</summary>\n");
-  add_table(html, group + ", more", all.subspan(leading));
+  add_table(html, group + ", more", all.subspan(leading), view.grade.experts);
   html.raw("</details>\n");
 }
 
@@ -114,10 +128,11 @@ void add_absent(Html& html, const casedb::AttemptRow& row) {
   html.raw("</dl>\n</details>\n");
 }
 
-void add_metrics(Html& html, const casedb::AttemptRow& row) {
+void add_metrics(Html& html, const AttemptView& view) {
+  const casedb::AttemptRow& row = view.row;
   html.raw("<section class=\"metrics\" aria-labelledby=\"metrics\">\n<h2 id=\"metrics\">Metrics</h2>\n");
   if (row.metrics.empty()) html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
-  for (const std::string& group : metric_groups()) add_group(html, group, row);
+  for (const std::string& group : metric_groups()) add_group(html, group, view);
   add_absent(html, row);
   add_definitions(html, row);
   html.raw("</section>\n");
@@ -176,7 +191,10 @@ void add_details(Html& html, const AttemptView& attempt) {
       "<section aria-labelledby=\"details\">\n<h2 id=\"details\">How it was made</h2>\n<dl class=\"details\">\n");
   add_detail(html, "Case", row.case_title);
   add_detail(html, "Operator", attempt.operator_label);
-  if (!row.person_id.has_value()) add_detail(html, "Seed", std::to_string(row.seed));
+  if (row.synthetic()) {
+    add_detail(html, "Seed", std::to_string(row.seed));
+    add_detail(html, "Synthetic", "Made by a simulated operator: tests the software, says nothing about people");
+  }
   add_detail(html, "Instrument", instrument_text(row.instrument) + ", " + instrument_size_text(row.instrument));
   if (row.picture.modality != cases::Modality::xray) add_detail(html, "Approach", approach_text(row.approach));
   add_detail(html, "Target", lesion_text(row.lesion));
@@ -205,9 +223,10 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
       .raw("\">")
       .text(utc_text(row.started_us))
       .raw("</time></p>\n");
+  html.add(grade_section(attempt.grade));
   add_outcome(html, row);
   html.raw("<div class=\"columns\">\n");
-  add_metrics(html, row);
+  add_metrics(html, attempt);
   add_picture(html, row, recording);
   html.raw("</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
   const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);

@@ -37,6 +37,11 @@ std::string approach_text(cases::Approach approach) {
   return approach == cases::Approach::in_plane ? "In plane" : "Out of plane";
 }
 
+std::string person_text(const std::string& person_id) {
+  // The end of a UUIDv7 is random; its beginning would tell when the account was made.
+  return "Person " + person_id.substr(person_id.size() < 6 ? 0 : person_id.size() - 6);
+}
+
 std::string simulated_operator_text(const std::string& operator_name) {
   return operator_name.empty() ? "Simulated operator" : "Simulated " + operator_name;
 }

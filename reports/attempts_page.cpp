@@ -1,5 +1,6 @@
 #include "reports/attempts_page.h"
 
+#include "reports/grade_words.h"
 #include "reports/metric_words.h"
 
 namespace seldinger::reports {
@@ -25,6 +26,25 @@ void add_metric_cell(Html& html, const casedb::AttemptRow& row, std::string_view
   html.raw("</td>");
 }
 
+void add_grade_cell(Html& html, const assessment::Grade& grade) {
+  html.raw("<td class=\"short\" data-label=\"Result\">");
+  switch (grade.verdict) {
+    case assessment::Verdict::passed:
+      html.raw("<span class=\"yes\">");
+      break;
+    case assessment::Verdict::failed:
+      html.raw("<span class=\"no\">");
+      break;
+    case assessment::Verdict::not_gradable:
+    case assessment::Verdict::no_rule:
+      html.raw("<span class=\"note\">");
+      break;
+  }
+  html.text(verdict_word(grade.verdict)).raw("</span>");
+  if (grade.critical_errors() > 0) html.raw(" <span class=\"why\">critical error</span>");
+  html.raw("</td>");
+}
+
 void add_row(Html& html, const AttemptView& view) {
   const casedb::AttemptRow& row = view.row;
   html.raw("<tr><th scope=\"row\"><a href=\"/attempts/")
@@ -40,6 +60,7 @@ void add_row(Html& html, const AttemptView& view) {
       .raw("</td><td class=\"short\" data-label=\"Instrument\">")
       .text(instrument_text(row.instrument))
       .raw("</td>");
+  add_grade_cell(html, view.grade.grade);
   for (const std::string_view id : {"hit", "tip_target_dist", "time_total"}) add_metric_cell(html, row, id);
   html.raw("</tr>\n");
 }
@@ -84,7 +105,8 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
       .text(std::to_string(part.total));
   html.raw(
       ". Times are in UTC.</caption>\n<thead><tr><th scope=\"col\">When</th><th scope=\"col\">Case</th>"
-      "<th scope=\"col\">Operator</th><th scope=\"col\">Instrument</th><th scope=\"col\" class=\"number\">Hit</th>"
+      "<th scope=\"col\">Operator</th><th scope=\"col\">Instrument</th><th scope=\"col\">Result</th><th "
+      "scope=\"col\" class=\"number\">Hit</th>"
       "<th scope=\"col\" class=\"number\">Tip to centre</th>"
       "<th scope=\"col\" class=\"number\">Time</th></tr></thead>\n<tbody>\n");
   for (const AttemptView& view : attempts) add_row(html, view);

@@ -15,6 +15,7 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
           "<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n");
   if (!visitor.name.empty()) {
     html.raw("<nav aria-label=\"Main\"><a href=\"/attempts\">Attempts</a>");
+    if (visitor.role != "admin") html.raw(" <a href=\"/curricula\">Curriculum</a>");
     if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
     html.raw("</nav>\n<div class=\"who\"><span>")
         .name(visitor.name)
@@ -32,6 +33,24 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
       .text(kTrainingOnly)
       .raw("</strong></p></footer>\n</body>\n</html>\n");
   return html.str();
+}
+
+std::string page_with_style(std::string_view title, std::string_view style, const Html& content) {
+  Html head, body;
+  head.raw(
+          "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>")
+      .text(title)
+      .raw(" · Seldinger</title>\n<style>\n");
+  body.raw(
+          "</style>\n</head>\n<body>\n<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n</header>\n"
+          "<main id=\"content\" tabindex=\"-1\">\n")
+      .add(content)
+      .raw("</main>\n<footer><p><strong>")
+      .text(kTrainingOnly)
+      .raw("</strong></p></footer>\n</body>\n</html>\n");
+  return head.str() + std::string(style) + body.str();
 }
 
 std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor) {

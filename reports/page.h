@@ -20,6 +20,9 @@ struct Visitor {
 // A whole document; `content` is what stands inside <main>.
 std::string page(std::string_view title, const Visitor& visitor, const Html& content);
 
+// A document of its own, outside the dashboard: `style` is a whole style sheet, trusted and put in as it is.
+std::string page_with_style(std::string_view title, std::string_view style, const Html& content);
+
 // A page that says one thing: an error, or that there is nothing to see.
 std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor);
 

@@ -1,31 +1,11 @@
 #include "reports/picture_sheet.h"
 
-#include <algorithm>
-
+#include "reports/base64.h"
 #include "reports/html.h"
 #include "reports/page.h"
 #include "sim/base/check.h"
 
 namespace seldinger::reports {
-namespace {
-
-// RFC 4648, with padding: how a page carries a picture in itself.
-std::string base64(const std::vector<std::byte>& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (k < count ? std::to_integer<unsigned>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[bits >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
-
-}  // namespace
-
 std::string picture_sheet(const std::string& title, const std::vector<std::string>& columns,
                           const std::vector<SheetRow>& rows) {
   Html html;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "reports/metric_words.h"
+#include "reports/timeline.h"
 #include "sim/base/check.h"
 
 namespace seldinger::reports {
@@ -15,16 +16,6 @@ constexpr double kWidth = 720.0, kHeight = 266.0;
 constexpr double kLeft = 56.0, kRight = 12.0, kTop = 14.0, kPlotBottom = 186.0, kStripTop = 200.0,
                  kStripBottom = 214.0;
 constexpr std::size_t kChartPoints = 300, kTableRows = 11;
-
-// A step of 1, 2 or 5 times a power of ten that cuts `range` into at most `most` pieces.
-double tick_step(double range, int most) {
-  const double rough = range / most;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10.0 * power;
-}
 
 struct Axes {
   double t0_s, t1_s, top_mm;
@@ -66,25 +57,6 @@ void add_ticks(Html& html, const Axes& axes) {
 bool within(std::span<const Span> spans, double t_s) {
   return std::any_of(spans.begin(), spans.end(),
                      [&](const Span& span) { return span.from_s <= t_s && t_s <= span.to_s; });
-}
-
-// Where `holds` says so of a frame; a frame lasts until the next one, the last as long as the one before it.
-template <typename Predicate>
-std::vector<Span> spans_where(std::span<const cases::FrameTruth> frames, Predicate holds) {
-  std::vector<Span> spans;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!holds(frames[i])) continue;
-    const double from_s = frames[i].t_s;
-    const double last_s = i > 0 ? from_s - frames[i - 1].t_s : 0.0;
-    const double to_s = i + 1 < frames.size() ? frames[i + 1].t_s : from_s + last_s;
-    if (!std::isfinite(from_s) || !std::isfinite(to_s) || to_s < from_s) continue;
-    if (!spans.empty() && spans.back().to_s == from_s) {
-      spans.back().to_s = to_s;
-    } else {
-      spans.push_back({from_s, to_s});
-    }
-  }
-  return spans;
 }
 
 // A frozen or held picture shows nothing: between looks nobody can say whether the tip would have been seen.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "reports/frame_spans.h"
 #include "reports/html.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
@@ -20,9 +21,6 @@ struct DistancePoint {
 std::vector<DistancePoint> distance_over_time(std::span<const cases::PoseSample> poses, const cases::Lesion& lesion,
                                               std::size_t max_points);
 
-struct Span {
-  double from_s = 0.0, to_s = 0.0;
-};
 // When a live picture showed the tip.
 std::vector<Span> tip_visible_spans(std::span<const cases::FrameTruth> frames);
 

@@ -45,15 +45,33 @@ bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept {
   return false;
 }
 
+bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum) noexcept {
+  switch (role) {
+    case casedb::Role::mentor:
+    case casedb::Role::director:
+      return true;
+    case casedb::Role::researcher:
+      return curriculum.state != "draft";
+    case casedb::Role::trainee:
+      return curriculum.state == "published";
+    case casedb::Role::admin:
+      return false;
+  }
+  return false;
+}
+
+bool may_see_experts(casedb::Role role) noexcept {
+  return attempt_scope(role) == AttemptScope::all;
+}
+
 std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
                            const AccountOf& account_of) {
-  if (!row.person_id.has_value()) return reports::simulated_operator_text(row.operator_name);
+  if (row.synthetic()) return reports::simulated_operator_text(row.operator_name);
+  if (!row.person_id.has_value()) return "Unknown person";
   if (reader.role != casedb::Role::researcher) {
     if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
   }
-  // The end of a UUIDv7 is random; its beginning would tell when the account was made.
-  const std::string& id = *row.person_id;
-  return "Person " + id.substr(id.size() < 6 ? 0 : id.size() - 6);
+  return reports::person_text(*row.person_id);
 }
 
 }  // namespace seldinger::web

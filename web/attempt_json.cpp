@@ -3,6 +3,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "casedb/grading_json.h"
+
 namespace seldinger::web {
 namespace {
 std::string dumped(const nlohmann::ordered_json& json) {
@@ -23,7 +25,16 @@ std::string metrics_json(const casedb::AttemptRow& row) {
                                   : metric.reason.empty() ? nlohmann::ordered_json()
                                                           : nlohmann::ordered_json(metric.reason)}});
   }
-  return dumped({{"attempt_id", row.attempt_id}, {"metrics", metrics}});
+  return dumped({{"attempt_id", row.attempt_id}, {"synthetic", row.synthetic()}, {"metrics", metrics}});
+}
+
+std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade,
+                       bool with_expert_attempts) {
+  nlohmann::ordered_json json = {{"attempt_id", row.attempt_id}};
+  casedb::add_grade(grade, json);
+  json["experts"] = casedb::json_of_experts(grade.experts);
+  if (!with_expert_attempts && json["experts"].is_object()) json["experts"].erase("attempts");
+  return dumped(json);
 }
 
 std::string health_json(const std::string& program_version) {

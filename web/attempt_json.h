@@ -1,13 +1,14 @@
-// An attempt's metrics as JSON, in the form of the command line's `score`.
+// An attempt's metrics and grade as JSON, in the form of the command line's `score`.
 #pragma once
 
 #include <string>
 
-#include "casedb/store.h"
+#include "casedb/grading.h"
 
 namespace seldinger::web {
 
 std::string metrics_json(const casedb::AttemptRow& row);
+std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade, bool with_expert_attempts);
 std::string health_json(const std::string& program_version);
 
 }  // namespace seldinger::web

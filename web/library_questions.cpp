@@ -63,9 +63,33 @@ class LibraryQuestions final : public Questions {
     return casedb::find_attempt(pages_.library, attempt_id);
   }
 
+  casedb::AttemptGrade look_at(const casedb::AttemptRow& row) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::Grader(pages_.library).look_at(row);
+  }
+
+  std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) override {
+    const std::lock_guard lock(pages_.mutex);
+    casedb::Grader grader(pages_.library);
+    std::vector<assessment::Grade> grades;
+    for (const casedb::AttemptRow& row : rows) grades.push_back(grader.grade(row));
+    return grades;
+  }
+
   std::vector<casedb::CaseRow> list_cases() override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::list_case_heads(pages_.library);
+  }
+
+  std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    std::vector<reports::CurriculumView> views;
+    for (casedb::Curriculum& one : casedb::list_curricula(pages_.library)) {
+      auto items =
+          person_id ? casedb::states_of(pages_.library, one, *person_id) : casedb::states_of(pages_.library, one);
+      views.push_back({std::move(one), std::move(items), person_id.has_value()});
+    }
+    return views;
   }
 
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {

@@ -8,7 +8,9 @@
 
 #include "casedb/case_checks.h"
 #include "casedb/case_json.h"
+#include "casedb/grading.h"
 #include "casedb/store.h"
+#include "reports/curricula_page.h"
 
 namespace seldinger::web {
 
@@ -24,8 +26,12 @@ class Questions {
   virtual std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) = 0;  // newest first
   virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;       // newest first
   virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;         // `no_attempt`
-  virtual std::vector<casedb::CaseRow> list_cases() = 0;                                       // oldest first
-  virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;           // `no_case`
+  virtual casedb::AttemptGrade look_at(const casedb::AttemptRow& row) = 0;
+  virtual std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) = 0;  // in order
+  virtual std::vector<casedb::CaseRow> list_cases() = 0;                              // oldest first
+  virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;  // `no_case`
+  // With a person's states, or nobody's; oldest first.
+  virtual std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;

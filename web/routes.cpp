@@ -8,14 +8,10 @@
 #include "reports/attempts_page.h"
 #include "reports/case_page.h"
 #include "reports/login_page.h"
-#include "sim/base/embedded.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
 #include "web/case_json.h"
-
-namespace seldinger::embedded {
-std::span<const base::EmbeddedFile> frontend();
-}
+#include "web/style_sheet.h"
 
 namespace seldinger::web {
 namespace {
@@ -45,11 +41,7 @@ Response healthz(Site& site, const Call&) {
 }
 
 Response style(Site&, const Call&) {
-  for (const base::EmbeddedFile& file : embedded::frontend()) {
-    if (file.name == "style.css")
-      return {.content_type = "text/css; charset=utf-8", .body = std::string(file.content)};
-  }
-  return refusal(404, nullptr);
+  return {.content_type = "text/css; charset=utf-8", .body = std::string(style_sheet())};
 }
 
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {
@@ -145,12 +137,15 @@ Response list_attempts(Site& site, const Call& call) {
     const auto found = accounts.find(person_id);
     return found == accounts.end() ? std::nullopt : std::optional(found->second);
   };
+  if (own_only)
+    rows = {rows.begin() + std::min(first, rows.size()),
+            rows.begin() + std::min(first + kRowsOfAPage, rows.size())};
+  // The question was right already; this holds it to the table.
+  std::erase_if(rows, [&](const casedb::AttemptRow& row) { return !may_see_attempt(account, row); });
   std::vector<reports::AttemptView> views;
-  const std::size_t begin = own_only ? first : 0, end = std::min(rows.size(), begin + kRowsOfAPage);
-  for (std::size_t i = begin; i < end; ++i) {
-    if (!may_see_attempt(account, rows[i])) continue;  // the question was right already; this holds it to the table
-    views.push_back({rows[i], operator_label(account, rows[i], account_of)});
-  }
+  for (casedb::AttemptRow& row : rows) views.push_back({row, operator_label(account, row, account_of)});
+  const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
   const reports::ListPart part{page, pages, total, own_only};
   return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
 }
@@ -167,7 +162,8 @@ Response show_attempt(Site& site, const Call& call) {
   if (!row.has_value()) return refusal(404, call.reader);
   const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
   const auto recording = site.questions.load_recording(row->attempt_id);
-  const reports::AttemptView view{*row, operator_label(call.reader->account, *row, account_of)};
+  const reports::AttemptView view{*row, operator_label(call.reader->account, *row, account_of),
+                                  site.questions.look_at(*row)};
   return html_response(200, reports::attempt_page(call.reader->visitor(), view,
                                                   recording.has_value() ? &recording.value() : nullptr));
 }
@@ -196,6 +192,13 @@ Response show_metrics(Site& site, const Call& call) {
   const auto row = visible_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
   return {.content_type = "application/json", .body = metrics_json(*row)};
+}
+
+Response show_grade(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json",
+          .body = grade_json(*row, site.questions.look_at(*row), may_see_experts(call.reader->account.role))};
 }
 
 // --- cases
@@ -237,6 +240,16 @@ Response show_checks(Site& site, const Call& call) {
   return {.content_type = "application/json", .body = checks_json(parts->row.case_id, *check)};
 }
 
+Response list_curricula(Site& site, const Call& call) {
+  const casedb::Account& account = call.reader->account;
+  const bool own = account.role == casedb::Role::trainee;
+  auto views = site.questions.list_curricula(own ? std::optional(account.person_id) : std::nullopt);
+  std::erase_if(views, [&](const auto& one) { return !may_see_curriculum(account.role, one.curriculum); });
+  return html_response(200, reports::curricula_page(call.reader->visitor(), views));
+}
+
+constexpr std::string_view kCurricula =
+    "trainee: published, own states; mentor, director: all; researcher: no drafts";
 constexpr std::string_view kCases = "mentor: all; director: no drafts; researcher, admin: published and retired";
 constexpr std::string_view kOwn = "trainee: own";
 constexpr std::string_view kOwnOrNone = "trainee: own; director, admin: none, the page says so";
@@ -249,12 +262,16 @@ constexpr Route kRoutes[] = {
     {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in},
     {"POST", "/logout", kEveryRole, true, "", "ends the session: token", log_out},
     {"GET", "/attempts", kEveryRole, true, kOwnOrNone, "the list, newest first; ?page=N", list_attempts},
-    {"GET", "/attempts/{attempt_id}", kAttemptReaders, true, kOwn, "one attempt: metrics, picture, course",
-     show_attempt},
+    {"GET", "/attempts/{attempt_id}", kAttemptReaders, true, kOwn,
+     "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
     {"GET", "/attempts/{attempt_id}/picture.png", kAttemptReaders, false, kOwn,
      "the picture at the moment of firing", show_picture},
     {"GET", "/attempts/{attempt_id}/metrics.json", kAttemptReaders, false, kOwn,
      "its metrics as `score` prints them", show_metrics},
+    {"GET", "/attempts/{attempt_id}/grade.json", kAttemptReaders, false, kOwn,
+     "its grade, score and sentences as `score` prints them", show_grade},
+    {"GET", "/curricula", kCurriculumReaders, true, kCurricula, "items, gates, and how far the trainee is",
+     list_curricula},
     {"GET", "/cases", kCaseReaders, true, kCases, "the list, oldest first", list_cases},
     {"GET", "/cases/{case_id}", kCaseReaders, true, kCases,
      "one case: state, version, who reviewed it, needle, patient, structures, rule", show_case},

@@ -25,6 +25,9 @@ inline constexpr Roles kAttemptReaders =
 inline constexpr Roles kCaseReaders = bit_of(casedb::Role::mentor) | bit_of(casedb::Role::researcher) |
                                       bit_of(casedb::Role::director) | bit_of(casedb::Role::admin);
 
+inline constexpr Roles kCurriculumReaders = bit_of(casedb::Role::trainee) | bit_of(casedb::Role::mentor) |
+                                            bit_of(casedb::Role::researcher) | bit_of(casedb::Role::director);
+
 struct Call {
   const Request& request;
   const Reader* reader = nullptr;             // null: not logged in

@@ -17,14 +17,15 @@ constexpr double kProbePlayMm = 1.0;   // a probe that breathes with the skin ha
 constexpr double kMinPlaneSine = 0.5;  // the probe's axes are perpendicular, or nothing can be said
 
 struct Seen {
-  double advance_mm = 0.0, visible_mm = 0.0, longest_blind_mm = 0.0;
+  double advance_mm = 0.0, visible_mm = 0.0;
+  BlindRun longest_blind;
   std::optional<double> blind_s;  // when a blind run was first longer than was asked for
 };
 
 // What a picture showed counts for the step of the way that began with it.
 Seen seen_advance(const Signals& signals, double blind_run_mm = 0.0) {
   Seen seen;
-  double blind_mm = 0.0;
+  BlindRun blind;
   bool visible = false;
   std::size_t next_frame = 0;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
@@ -34,15 +35,17 @@ Seen seen_advance(const Signals& signals, double blind_run_mm = 0.0) {
       visible = signals.frames[next_frame].live && signals.frames[next_frame].needle_tip;
       shown = shown || visible;
     }
-    if (shown || signals.gap(i - 1)) blind_mm = 0.0;  // what happened in a gap is not known
+    if (shown || signals.gap(i - 1)) blind.length_mm = 0.0;  // what happened in a gap is not known
     const double advance_mm = signals.advance_mm[i];
     seen.advance_mm += advance_mm;
     if (visible) {
       seen.visible_mm += advance_mm;
-    } else {
-      blind_mm += advance_mm;
-      seen.longest_blind_mm = std::max(seen.longest_blind_mm, blind_mm);
-      if (!seen.blind_s && blind_mm > blind_run_mm) seen.blind_s = signals.poses[i].t_s;
+    } else if (advance_mm > 0.0) {
+      if (blind.length_mm == 0.0) blind.from_s = signals.poses[i - 1].t_s;
+      blind.length_mm += advance_mm;
+      blind.to_s = signals.poses[i].t_s;
+      if (blind.length_mm > seen.longest_blind.length_mm) seen.longest_blind = blind;
+      if (!seen.blind_s && blind.length_mm > blind_run_mm) seen.blind_s = signals.poses[i].t_s;
     }
   }
   return seen;
@@ -60,7 +63,7 @@ Measured blind_advance(const Signals& signals) {
 }
 
 Measured blind_advance_max(const Signals& signals) {
-  return Measured::of(seen_advance(signals).longest_blind_mm);
+  return Measured::of(seen_advance(signals).longest_blind.length_mm);
 }
 
 // Unit normal of the picture's plane; nothing where the probe's axes span none.
@@ -201,6 +204,11 @@ std::optional<double> first_blind_run_s(const Signals& signals, double longer_th
 
 std::optional<double> first_beyond_plane_s(const Signals& signals, double more_than_mm) {
   return beyond_plane(signals, more_than_mm).first_s;
+}
+
+std::optional<BlindRun> longest_blind_run(const Signals& signals) {
+  const BlindRun run = seen_advance(signals).longest_blind;
+  return run.length_mm > 0.0 ? std::optional(run) : std::nullopt;
 }
 
 std::span<const MetricInfo> advance_metrics() {

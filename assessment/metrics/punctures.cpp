@@ -49,7 +49,8 @@ PunctureCounts count_punctures(const Signals& signals) {
   bool armed = signals.passages.front().depth_mm <= kPunctureDepthMm;  // what starts inside is no puncture
   bool deep = false, fallen = false;
   double deep_since_s = 0.0, highest_mm = 0.0, lowest_mm = 0.0;
-  std::size_t entered = 0;  // the pose with which the tip last came into the body
+  double highest_s = signals.poses.front().t_s;  // when highest_mm was reached, before any fall from it
+  std::size_t entered = 0;                       // the pose with which the tip last came into the body
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     const cases::SkinPassage& skin = signals.passages[i];
     const double t_s = signals.poses[i].t_s;
@@ -61,6 +62,7 @@ PunctureCounts count_punctures(const Signals& signals) {
         counts.first_pose = entered;
       }
       armed = false;
+      counts.punctures_s.push_back(deep_since_s);
     }
     if (skin.in_body && (i == 0 || !signals.passages[i - 1].in_body)) entered = i;
     if (skin.depth_mm > kPunctureDepthMm) {
@@ -71,6 +73,7 @@ PunctureCounts count_punctures(const Signals& signals) {
     }
     if (skin.depth_mm < kRearmDepthMm && !armed) {
       ++counts.full_withdrawals;
+      counts.full_withdrawals_s.push_back(highest_s);
       armed = true;
     }
     if (!skin.in_body) {
@@ -79,6 +82,7 @@ PunctureCounts count_punctures(const Signals& signals) {
       continue;
     }
     const double inserted_mm = glm::dot(skin.tip_lps_mm - skin.entry_lps_mm, signals.poses[i].needle_direction);
+    if (!fallen && inserted_mm >= highest_mm) highest_s = t_s;
     highest_mm = std::max(highest_mm, inserted_mm);
     const double hysteresis_mm = std::clamp(kPartialShare * highest_mm, kPartialMinMm, kPartialMaxMm);
     if (!fallen) {
@@ -89,8 +93,10 @@ PunctureCounts count_punctures(const Signals& signals) {
     lowest_mm = std::min(lowest_mm, inserted_mm);
     if (inserted_mm - lowest_mm >= hysteresis_mm) {
       ++counts.partial_withdrawals;
+      counts.partial_withdrawals_s.push_back(highest_s);
       fallen = false;
       highest_mm = inserted_mm;
+      highest_s = t_s;
     }
   }
   return counts;

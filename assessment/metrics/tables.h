@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "assessment/metrics/metric.h"
 
@@ -30,9 +31,16 @@ struct PunctureCounts {
   // Of the first puncture that counted: when it was 2 mm deep, and the first pose of it in the body.
   std::optional<double> first_s;
   std::size_t first_pose = 0;
+  // When each was 2 mm deep; and for each withdrawal, when the tip was deepest before it.
+  std::vector<double> punctures_s, full_withdrawals_s, partial_withdrawals_s;
 };
 PunctureCounts count_punctures(const Signals& signals);
 
+// What blind_advance_max measures, and when; nothing where no advance was unseen.
+struct BlindRun {
+  double from_s = 0.0, to_s = 0.0, length_mm = 0.0;
+};
+std::optional<BlindRun> longest_blind_run(const Signals& signals);
 // When a blind run, as blind_advance_max counts it, was first longer; when advance_beyond_plane was first more.
 std::optional<double> first_blind_run_s(const Signals& signals, double longer_than_mm);
 std::optional<double> first_beyond_plane_s(const Signals& signals, double more_than_mm);

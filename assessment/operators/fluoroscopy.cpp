@@ -45,9 +45,16 @@ int rate_index(double rate_hz) {
 FluoroscopyOperator::FluoroscopyOperator(const OperatorProfile& profile, const PuncturePlan& plan,
                                          const cases::Instrument& instrument, const cases::Fluoroscope& fluoroscope,
                                          cases::PatientPosition position, std::uint64_t seed)
-    : profile_(profile), plan_(plan), machine_(fluoroscope), position_(position), rng_(seed) {
-  if (instrument.kind == cases::InstrumentKind::core)
+    : profile_(profile),
+      plan_(plan),
+      machine_(fluoroscope),
+      position_(position),
+      rng_(seed),
+      conduct_(profile, plan.brief, false, seed) {
+  if (instrument.kind == cases::InstrumentKind::core) {
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
+    thrown_mm_ = instrument.throw_mm;
+  }
   // Drawn one by one: the order of arguments' evaluation is the compiler's.
   const auto error = [this](double sd) {
     glm::dvec3 v(0.0);
@@ -71,11 +78,16 @@ FluoroscopyOperator::FluoroscopyOperator(const OperatorProfile& profile, const P
   hand_ = UnsteadyHand(rng_);
   direction_ = plan.direction;
   inserted_mm_ = -kStartMm;
+  enter(Phase::sign_in);
 }
 
 void FluoroscopyOperator::enter(Phase phase) {
   phase_ = phase;
   phase_since_s_ = t_s_;
+  if (phase == Phase::sign_in) conduct_.begin(Conduct::Part::sign_in);
+  if (phase == Phase::prepare) conduct_.begin(Conduct::Part::prepare);
+  if (phase == Phase::hold_breath) conduct_.begin(Conduct::Part::hold_breath);
+  if (phase == Phase::finish) conduct_.begin(Conduct::Part::finish);
   if (phase == Phase::turn || phase == Phase::align) beam_with_motion_ = chance(profile_.beam_while_moving_share);
   if (phase == Phase::advance) beam_with_motion_ = chance(profile_.beam_while_advancing_share);
 }
@@ -194,7 +206,7 @@ void FluoroscopyOperator::judge(const cases::State& state) {
       else if (depth_view_)
         turn_to_depth_view(state.fluoroscopy.arm);
       else
-        enter(Phase::fire);
+        enter(Phase::hold_breath);
       break;
     case Stage::depth:
       judge_depth(frame);
@@ -216,7 +228,8 @@ void FluoroscopyOperator::judge_on_skin(const cases::BeamFrame& frame) {
 
 void FluoroscopyOperator::judge_aim(const cases::BeamFrame& frame) {
   const glm::dvec3 off_mm = beside(frame, fix_.target_mm - fix_.tip_mm);
-  if (glm::length(off_mm) > 1.5 * profile_.accept_miss_mm && redirections_ < profile_.max_redirections)
+  if (glm::length(off_mm) > 1.5 * profile_.accept_miss_mm &&
+      redirections_ < static_cast<int>(std::lround(profile_.max_redirections)))
     redirect(off_mm);
   else
     steer(off_mm);
@@ -226,18 +239,20 @@ void FluoroscopyOperator::judge_depth(const cases::BeamFrame& frame) {
   const auto here = cases::shadow_of(frame, believed_tip());
   const auto ahead = cases::shadow_of(frame, believed_tip() + direction_);
   if (!here || !ahead) {
-    enter(Phase::fire);
+    enter(Phase::hold_breath);
     return;
   }
   // How the shadow of the tip goes for each mm of advance, and how much of that the target is away.
   const glm::dvec2 along = ahead->detector_mm - here->detector_mm, offset_mm = fix_.target_mm - fix_.tip_mm;
   const double along2 = std::max(glm::dot(along, along), 0.01);
   const double left_mm = glm::dot(offset_mm, along) / along2;
-  const double goal_mm = inserted_mm_ + left_mm - stop_short_mm_;
+  // The hand knows how far it went between looks, so that all of them tell of the same depth.
+  goals_mm_ += inserted_mm_ + left_mm - stop_short_mm_;
+  const double goal_mm = goals_mm_ / ++goals_;
   if (std::abs(goal_mm - inserted_mm_) <= profile_.exposure_step_mm) ++last_looks_;
   steer(beside(frame, offset_mm - along * left_mm));
   if (std::abs(goal_mm - inserted_mm_) <= profile_.accept_miss_mm / 2.0 || last_looks_ >= kMaxLastLooks) {
-    enter(Phase::fire);
+    enter(Phase::hold_breath);
   } else if (goal_mm < inserted_mm_) {
     withdraw_to_mm_ = std::max(5.0, goal_mm);
     enter(Phase::withdraw);
@@ -249,10 +264,25 @@ void FluoroscopyOperator::judge_depth(const cases::BeamFrame& frame) {
 void FluoroscopyOperator::decide(const cases::State& state) {
   const cases::CArm& arm = state.fluoroscopy.arm;
   switch (phase_) {
+    case Phase::sign_in:
+      if (conduct_.over()) enter(conduct_.deferred() ? Phase::finish : Phase::align);
+      break;
+    case Phase::prepare:
+      if (conduct_.over()) enter(Phase::approach);
+      break;
+    case Phase::hold_breath:
+      if (conduct_.over()) enter(Phase::fire);
+      break;
+    case Phase::leave:
+      if (inserted_mm_ <= -kOutsideMm - thrown_mm_) enter(Phase::finish);
+      break;
+    case Phase::finish:
+      if (conduct_.over()) enter(Phase::done);
+      break;
     case Phase::align:
       if (t_s_ < 0.1 || !arm_in_place(arm)) break;  // the first ticks tell nothing yet
       aim_along_beam(cases::beam_frame(machine_, arm, position_));
-      enter(Phase::approach);
+      enter(Phase::prepare);
       break;
     case Phase::approach:
       if (state.needle.skin.depth_mm <= -kTouchMm && inserted_mm_ < kStartMm) break;
@@ -285,7 +315,7 @@ void FluoroscopyOperator::decide(const cases::State& state) {
       if (arm_in_place(arm)) begin_look();
       break;
     case Phase::fire:
-      if (t_s_ - phase_since_s_ >= kTriggerHoldSeconds) enter(Phase::done);
+      if (t_s_ - phase_since_s_ >= kTriggerHoldSeconds) enter(Phase::leave);
       break;
     case Phase::done:
       break;
@@ -299,6 +329,7 @@ void FluoroscopyOperator::move_hand(const cases::State& state, double dt_s) {
       inserted_mm_ += (state.needle.skin.depth_mm > -15.0 ? 0.3 : 1.0) * profile_.approach_mm_s * dt_s;
       break;
     case Phase::lift:
+    case Phase::leave:
       inserted_mm_ -= profile_.approach_mm_s * dt_s;
       break;
     case Phase::advance:
@@ -319,10 +350,11 @@ cases::Inputs FluoroscopyOperator::act(const cases::State& state, const PictureF
     fix_seen_ = true;
     fix_ = *fix;
   }
-  decide(state);
-  move_hand(state, dt_s);
-
   cases::Inputs inputs;
+  inputs.event = conduct_.advance(dt_s);
+  decide(state);
+  if (!conduct_.stopped() || phase_ == Phase::leave) move_hand(state, dt_s);
+
   inputs.needle.position_lps_mm =
       believed_tip() + hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
   inputs.needle.axis = direction_;

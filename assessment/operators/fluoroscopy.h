@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "assessment/operators/conduct.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
 #include "assessment/operators/wander.h"
@@ -33,10 +34,28 @@ class FluoroscopyOperator {
   // What the hands and the foot want in this tick. `fix` is what the picture that appeared in it shows, if one did.
   cases::Inputs act(const cases::State& state, const PictureFix* fix, double dt_s);
 
+  // What was said or happened in the last tick: who should stops when the patient is in trouble.
+  void hear(cases::EventKind kind) { conduct_.hear(kind); }
+
   bool done() const noexcept { return phase_ == Phase::done; }
 
  private:
-  enum class Phase { align, approach, look, lift, advance, withdraw, turn, fire, done };
+  enum class Phase {
+    sign_in,
+    align,
+    prepare,
+    approach,
+    look,
+    lift,
+    advance,
+    withdraw,
+    turn,
+    hold_breath,
+    fire,
+    leave,
+    finish,
+    done
+  };
   enum class Stage { skin, bulls_eye, depth };  // what a look is for
 
   void enter(Phase phase);
@@ -65,8 +84,10 @@ class FluoroscopyOperator {
   cases::Fluoroscope machine_;
   cases::PatientPosition position_;
   double stop_short_mm_ = 0.0;  // core: the throw carries the notch the rest of the way
+  double thrown_mm_ = 0.0;      // core: so far ahead of the hand the tip is once it has fired
   base::Rng rng_;
-  Phase phase_ = Phase::align;
+  Conduct conduct_;
+  Phase phase_ = Phase::sign_in;
   Stage stage_ = Stage::skin;
   double t_s_ = 0.0, phase_since_s_ = 0.0;
   cases::CArm wanted_arm_;
@@ -76,6 +97,8 @@ class FluoroscopyOperator {
   glm::dvec3 shift_mm_{0.0};  // what the entry is moved by when the needle is lifted
   double told_mm2_ = 0.0;     // what looks have told of this way's direction: sum of squared depths
   int looks_ = 0, redirections_ = 0, last_looks_ = 0;
+  double goals_mm_ = 0.0;  // what looks under the depth view have told of the depth: their sum …
+  int goals_ = 0;          // … and their number
   bool depth_view_ = true, away_ = false, beam_with_motion_ = false, wide_open_ = false;
   bool fix_seen_ = false;
   PictureFix fix_;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
-#include <limits>
 #include <numbers>
 #include <vector>
 
+#include "assessment/operators/probe_place.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
 #include "sim/case/c_arm.h"
@@ -15,19 +15,14 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr int kDirections = 600;
+constexpr int kDirections = 1500;
+// Room for a needle before it enters, this long and so far off the skin (design).
+constexpr double kNeedleOutsideMm = 75.0, kSkinStepMm = 3.0, kOffSkinMm = 3.0;
 constexpr double kMaxTableward = 0.3;  // the table is behind a supine patient (LPS +y), before a prone one
-constexpr double kProbeMinMm = 20.0;   // between probe's middle and entry: room for a hand
-constexpr double kProbeMaxDepthMm = 120.0;
-// What a plan under ultrasound is worth, in mm of needle seen at the target: so much for a mm of way over which the
-// tip shows, less so much for a dB of shadow on the target and for a mm from skin to target, needle's and probe's
-// (design).
-constexpr double kWayWorth = 0.5, kShadowPrice = 4.0, kDepthPrice = 0.3;
-constexpr int kWaysJudged = 32;  // so many free ways, from the shortest, are compared
-
-double tableward(const glm::dvec3& outward, cases::PatientPosition position) {
-  return -glm::dot(outward, cases::upwards(position));
-}
+// So many free ways are compared, evenly from the shortest to those longer by this (design): a longer way may be
+// seen better.
+constexpr std::size_t kWaysJudged = 32;
+constexpr double kLongerWay = 1.4;
 
 struct Way {
   glm::dvec3 outward;
@@ -60,6 +55,15 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
   return true;
 }
 
+// Whether a needle gets to its entry from outside without going through a fold of skin or along it.
+bool free_outside(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way) {
+  for (double out_mm = kSkinStepMm; out_mm <= kNeedleOutsideMm; out_mm += kSkinStepMm) {
+    const glm::dvec3 p = target + way.outward * (way.depth_mm + out_mm);
+    if (skin.closest(p).distance_mm < std::min(kOffSkinMm, 0.25 * out_mm)) return false;
+  }
+  return true;
+}
+
 // Whether the way keeps off what must not be met and leads through what must be crossed.
 bool spares_structures(const glm::dvec3& target, const Way& way, const PathLimits& limits) {
   const glm::dvec3 entry = target + way.outward * way.depth_mm;
@@ -85,61 +89,22 @@ bool spares_structures(const glm::dvec3& target, const Way& way, const PathLimit
   return true;
 }
 
-// Where a probe sees entry and target in its plane: on skin, some way beside the entry. How good it is there;
-// nothing when there is no such place.
-std::optional<double> place_probe(const cases::MeshIndex& skin, const Way& way, const PathLimits& limits,
-                                  PuncturePlan& plan) {
-  const auto [u, v] = base::perpendiculars(way.outward);
-  std::vector<double> tilts_deg = {50.0, 40.0, 60.0, 30.0};
-  std::vector<double> rockings = {0.0};
-  if (limits.looks_from) {
-    tilts_deg.insert(tilts_deg.end(), {70.0, 80.0});  // shallow needles send more back
-    rockings = {0.0, 0.5, 1.0};
-  }
-  double best = -std::numeric_limits<double>::infinity();
-  ProbeView chosen;
-  for (const double tilt_deg : tilts_deg)
-    for (int k = 0; k < 12; ++k) {
-      const double azimuth = k * std::numbers::pi / 6.0, tilt = tilt_deg * std::numbers::pi / 180.0;
-      const glm::dvec3 side = u * base::exact_cos(azimuth) + v * base::exact_sin(azimuth);
-      const glm::dvec3 outward = way.outward * base::exact_cos(tilt) + side * base::exact_sin(tilt);
-      if (tableward(outward, limits.position) > kMaxTableward) continue;
-      const auto hit = skin.first_hit(plan.target_lps_mm, outward, kProbeMaxDepthMm);
-      if (!hit || hit->cut || hit->distance_mm < 5.0) continue;
-      const glm::dvec3 origin = plan.target_lps_mm + outward * hit->distance_mm;
-      const double apart_mm = glm::length(origin - plan.entry_lps_mm);
-      if (apart_mm < kProbeMinMm || apart_mm > 70.0) continue;
-      plan.probe.position_lps_mm = origin;
-      // Rocked in its plane, from looking straight at the target to standing upright on the skin, where all of its
-      // face touches.
-      const glm::dvec3 plane_normal = glm::normalize(glm::cross(outward, way.outward));
-      const glm::dvec3 inward = -skin.normal(hit->triangle),
-                       upright = inward - plane_normal * glm::dot(inward, plane_normal);
-      for (const double rocked : rockings) {
-        plan.probe.axis = glm::normalize((1.0 - rocked) * -outward + rocked * upright);
-        const glm::dvec3 in_plane = -way.outward - plan.probe.axis * glm::dot(-way.outward, plan.probe.axis);
-        plan.probe.side = glm::normalize(in_plane);
-        double score = 1.0 / (hit->distance_mm + std::abs(apart_mm - 45.0));
-        std::optional<ProbeView> view;
-        if (limits.looks_from) {
-          view = limits.looks_from(plan);
-          if (!view) continue;
-          score = view->needle_mm + kWayWorth * (plan.depth_mm - view->tip_shows_from_mm) -
-                  kShadowPrice * view->shadow_db - kDepthPrice * (plan.depth_mm + hit->distance_mm);
-        }
-        if (score <= best) continue;
-        best = score;
-        chosen = view.value_or(ProbeView{plan.probe, {}, 0.0, 0.0, 0.0});
-      }
-    }
-  if (std::isinf(best)) return std::nullopt;
-  plan.probe = chosen.probe;
-  plan.tip_shows_from_mm = chosen.tip_shows_from_mm;
-  if (limits.looks_from) plan.picture = chosen.picture;
-  return best;
+// From where on the way is inside the organ that carries the target, without leaving it again before.
+double organ_from_mm(const glm::dvec3& entry, const glm::dvec3& target,
+                     std::span<const cases::Structure> structures) {
+  double from = 0.0;
+  for (const cases::Structure& structure : structures)
+    if (structure.rule == cases::StructureRule::organ)
+      for (const cases::Stretch& part : cases::stretches_inside(structure.shape, entry, target))
+        from = std::max(from, part.from);
+  return from * glm::distance(entry, target);
 }
 
 }  // namespace
+
+bool towards_table(const glm::dvec3& outward, cases::PatientPosition position) noexcept {
+  return -glm::dot(outward, cases::upwards(position)) > kMaxTableward;
+}
 
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position) {
   PathLimits limits;
@@ -156,6 +121,7 @@ PathLimits path_limits(const cases::Case& scene) {
   PathLimits limits = path_limits(scene.picture.modality, scene.position);
   limits.max_depth_mm = std::min(limits.max_depth_mm, scene.instrument.length_mm);
   limits.structures = scene.structures;
+  limits.approach = scene.approach;
   for (const cases::Structure& structure : scene.structures)
     if (structure.rule == cases::StructureRule::target) limits.open.push_back(structure.shape);
   if (!scene.lesions.empty() && scene.lesions.front().in_volume())
@@ -177,7 +143,7 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
   std::vector<Way> ways;
   for (int i = 0; i < kDirections; ++i) {
     const glm::dvec3 outward = spread_direction(i);
-    if (tableward(outward, limits.position) > kMaxTableward) continue;
+    if (towards_table(outward, limits.position)) continue;
     const cases::BeamAngles along = cases::angles_of_beam(outward, limits.position);
     if (std::abs(along.lao_deg) > limits.max_lao_deg || std::abs(along.cranial_deg) > limits.max_cranial_deg)
       continue;
@@ -186,24 +152,34 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
     ways.push_back({outward, hit->distance_mm});
   }
   std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) { return a.depth_mm < b.depth_mm; });
+  std::erase_if(ways, [&](const Way& way) {
+    return !free_outside(skin, target, way) || !free_path(volume, voxel_from_lps, target, way, limits) ||
+           !spares_structures(target, way, limits);
+  });
+  if (limits.looks_from && !ways.empty()) {
+    std::erase_if(ways, [longest_mm = kLongerWay * ways.front().depth_mm](const Way& way) {
+      return way.depth_mm > longest_mm;
+    });
+    if (ways.size() > kWaysJudged) {
+      for (std::size_t i = 0; i < kWaysJudged; ++i) ways[i] = ways[i * ways.size() / kWaysJudged];
+      ways.resize(kWaysJudged);
+    }
+  }
   std::optional<PuncturePlan> best;
   double best_score = 0.0;
-  int judged = 0;
   for (const Way& way : ways) {
-    if (judged == kWaysJudged) break;
     PuncturePlan plan;
     plan.target_lps_mm = target;
     plan.entry_lps_mm = target + way.outward * way.depth_mm;
     plan.direction = -way.outward;
     plan.depth_mm = way.depth_mm;
-    if (!free_path(volume, voxel_from_lps, target, way, limits)) continue;
-    if (!spares_structures(target, way, limits)) continue;
     constexpr double kAsideMm = 150.0;
     plan.probe = {plan.entry_lps_mm + way.outward * kAsideMm, plan.direction, base::perpendiculars(way.outward).u};
+    plan.probe_first = plan.probe;
+    plan.organ_from_mm = organ_from_mm(plan.entry_lps_mm, target, limits.structures);
     if (!limits.needs_probe) return plan;
-    const auto score = place_probe(skin, way, limits, plan);
+    const auto score = place_probe(skin, limits, plan);
     if (score && !limits.looks_from) return plan;
-    judged += limits.looks_from ? 1 : 0;
     if (!score || (best && *score <= best_score)) continue;
     best = plan;
     best_score = *score;

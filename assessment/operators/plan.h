@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "assessment/operators/conduct.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
@@ -21,15 +22,22 @@ struct PuncturePlan {
   glm::dvec3 entry_lps_mm{0.0};
   glm::dvec3 direction{0.0};  // unit, entry → target
   double depth_mm = 0.0;      // entry to target
-  cases::ToolPose probe;      // in-plane: the picture's plane holds entry and target; without one, laid aside
+  // In plane, the picture's plane holds entry and target; out of plane, it holds the target and the way crosses it.
+  // Without a picture under a probe, laid aside.
+  cases::Approach approach = cases::Approach::in_plane;
+  cases::ToolPose probe;
+  cases::ToolPose probe_first;  // out of plane: over the first of the way, from where it slides to `probe`
   std::optional<cases::Picture> picture{};  // to be set at that probe, where `looks_from` chose it
   // From this insertion on the picture shows a tip that keeps to the plan; before, it is beside the picture.
   double tip_shows_from_mm = 0.0;
+  // From this insertion on the way is inside the organ that carries the target, as the CT showed; 0: no organ.
+  double organ_from_mm = 0.0;
+  Brief brief{};  // what the sign-in tells
 };
 
 // What a picture would show of a plan from where its probe touches the skin.
 struct ProbeView {
-  cases::ToolPose probe;  // as it is held there: pressed in
+  cases::ToolPose probe, probe_first;  // as it is held there: pressed in
   cases::Picture picture;
   double tip_shows_from_mm = 0.0;  // as PuncturePlan's
   double needle_mm = 0.0;          // of the shaft that is seen when the tip is at the target
@@ -43,7 +51,8 @@ struct PathLimits {
   double gas_hu = -300.0;     // the skin's threshold
   double skin_free_mm = 4.0;  // the first millimetres mix skin and air
   cases::PatientPosition position = cases::PatientPosition::supine;
-  bool needs_probe = true;  // entry and target must be seen in one plane from a place on the skin
+  bool needs_probe = true;                               // target and way must be seen from a place on the skin …
+  cases::Approach approach = cases::Approach::in_plane;  // … so
   // Told by whoever makes pictures; nothing: the target is not seen from there, or the probe is in the way. Left
   // empty, every place on the skin will do.
   std::function<std::optional<ProbeView>(const PuncturePlan&)> looks_from{};
@@ -62,6 +71,10 @@ struct PathLimits {
 // Limits of a path for a bull's-eye view: arm and detector stay clear of table and patient.
 constexpr double kBullsEyeLaoDeg = 55.0, kBullsEyeCranialDeg = 35.0;
 
+// Whether what points so out of the body comes from where the patient lies (LPS +y when supine): no hand gets
+// there.
+bool towards_table(const glm::dvec3& outward, cases::PatientPosition position) noexcept;
+
 // The limits of a case: under xray, those of a bull's-eye view.
 PathLimits path_limits(cases::Modality modality, cases::PatientPosition position);
 // As that, of a case with its structures and its needle: no way is longer than it. The case outlives the limits.
@@ -69,7 +82,7 @@ PathLimits path_limits(const cases::Case& scene);
 
 // The shortest straight path to the target that starts on skin (not a cut cap, not the side on the table), is free
 // of bone and gas and of structures as the limits say, and can be seen. Where `looks_from` judges, the probe stands
-// where most of the way and of the needle shows. The same for the same scene. Refused: `no_path`.
+// where the tip shows from the skin on, or as soon as possible. The same for the same scene. Refused: `no_path`.
 base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cases::MeshIndex& skin,
                                          const glm::dvec3& target_lps_mm, const PathLimits& limits = {});
 

@@ -1,51 +1,75 @@
-// How well a simulated trainee does. Software test data: what they show says nothing about validity (clinical.md).
+// How well a simulated trainee does, how he differs from others like him, and how he learns. Software test data:
+// what they show says nothing about validity (clinical.md). What is written here is the planted truth that metrics
+// are tested against.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "sim/base/result.h"
 
 namespace seldinger::assessment {
 
-// Values of the named profiles are judgement, chosen so that novice, intermediate and expert differ in the way the
-// literature says they do (assessment.md §1.3): unseen advance, probe drift, redirections, distance to the target.
-struct OperatorProfile {
-  std::string name;
-  double reaction_delay_s = 0.25;  // from a picture to acting on it
-  double tremor_mm = 0.1;          // amplitude, 8–12 Hz (physiological tremor)
-  double sway_mm = 0.5;            // slow wander of the needle hand
-  double probe_drift_mm = 0.5;     // slow wander of the probe out of plane
-  double target_error_mm = 1.0;    // 1 σ per axis of where the target is believed to be
-  double aim_error_deg = 1.0;      // 1 σ of the first aim
-  double advance_mm_s = 12.0;
-  double approach_mm_s = 40.0;
-  double scan_s = 2.0;                 // time to find the plane
-  double accept_miss_mm = 2.0;         // a larger seen miss beside the target is corrected …
-  int max_redirections = 3;            // … this many times
-  double redirect_depth_share = 0.4;   // withdrawn to this share of the depth before a new aim
-  double full_withdrawal_share = 0.0;  // probability that a redirection leaves the skin
-  double blind_advance_share = 0.0;    // probability of going on when the tip is not in the picture
-
+// Each is a row of skill_fields(), which tells unit, range, values and what it means.
+struct Skills {
+  // With needle and picture.
+  double reaction_delay_s, tremor_mm, sway_mm, probe_drift_mm, target_error_mm, aim_error_deg, advance_mm_s,
+      approach_mm_s, scan_s, accept_miss_mm, look_error_share, max_redirections, redirect_depth_share,
+      full_withdrawal_share, leaves_organ_share, checks_aim_share, blind_advance_share, realign_s, follow_error_mm;
   // Guided by fluoroscopy.
-  double fix_error_mm = 0.6;                // 1 σ per axis, on the detector, of a place read off a picture
-  double depth_error_mm = 4.0;              // 1 σ of the depth expected before a depth view
-  double arm_error_deg = 1.0;               // 1 σ of each angle of the bull's-eye view
-  double exposure_step_mm = 8.0;            // advance between exposures
-  double look_s = 0.3;                      // pedal down for one look
-  double pulse_rate_hz = 3.0;               // 3, 7.5 or 15, or the nearest
-  double collimator_open = 0.45;            // of the field's half width and height
-  double depth_turn_deg = 50.0;             // from the bull's-eye view to the depth view
-  double skip_depth_view_share = 0.0;       // probability of going without a depth view
-  double hand_in_beam_share = 0.0;          // probability of holding on to the needle during a look
-  double beam_while_moving_share = 0.0;     // probability of turning the arm with the pedal down
-  double beam_while_advancing_share = 0.0;  // probability of advancing with the pedal down
+  double fix_error_mm, depth_error_mm, arm_error_deg, exposure_step_mm, look_s, pulse_rate_hz, collimator_open,
+      depth_turn_deg, skip_depth_view_share, hand_in_beam_share, beam_while_moving_share,
+      beam_while_advancing_share;
+  // Around the puncture.
+  double step_s, skip_step_share, misses_contraindication_share, stops_in_trouble_share;
 };
 
-// novice, intermediate, expert; nothing otherwise.
+struct SkillField {
+  const char* name;  // of the JSON's field
+  const char* unit;
+  double min, max;
+  double novice, intermediate, expert;
+  bool personal;  // people differ in it
+  const char* about;
+  double Skills::*value;
+};
+std::span<const SkillField> skill_fields() noexcept;
+
+// How a person's skills go from his own towards `towards` with the attempts behind him: what is left of the gap
+// after n of them is exp(−rate·n) (Heathcote, Brown and Mewhort, Psychon. Bull. Rev. 7, 2000, 185), or (1 +
+// n)^−rate (Newell and Rosenbloom, 1981).
+enum class LearningLaw { exponential, power };
+struct Learning {
+  LearningLaw law = LearningLaw::exponential;
+  double rate = 0.0;  // 0: nothing is learned
+  double before = 0;  // attempts before the first
+  Skills towards{};
+};
+
+struct OperatorProfile : Skills {
+  std::string name;
+  Learning learning{};
+  double person_spread = 0.2;  // 1 σ of a person's skills about these, as a share of each
+};
+
+// novice, intermediate, expert; learner: a novice who becomes an expert. Nothing otherwise.
 std::optional<OperatorProfile> named_profile(const std::string& name);
 
-// From a JSON object with any of the fields above (the rest as the expert's). Refused: `bad_operator`.
+// One of the people with such a profile: each personal skill times exp(spread · z), kept in its range; what he
+// learns towards is his own too. The same seed, the same person.
+OperatorProfile person_of(const OperatorProfile& profile, std::uint64_t person_seed);
+
+// As it is in the attempt with this number, from 0.
+OperatorProfile at_attempt(const OperatorProfile& profile, std::uint64_t number);
+
+// From a JSON object with any of skill_fields() (the rest as the expert's, or as `like` names), name,
+// person_spread, and of a learner learning_rate, learning_law, attempts_before, learns_towards. Refused:
+// `bad_operator`.
 base::Result<OperatorProfile> profile_from_json(const std::string& text);
+
+// docs/operators.md.
+std::string operators_markdown();
 
 }  // namespace seldinger::assessment

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "assessment/operators/probe_over.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
 
@@ -13,20 +14,32 @@ namespace {
 
 constexpr double kStartMm = 60.0;  // the needle waits this far outside the entry
 constexpr double kDriftLowHz = 0.03, kDriftHighHz = 0.15;
-constexpr double kSweepMm = 15.0;         // the probe's first search, out of plane
-constexpr double kRealignSeconds = 0.6;   // time constant of bringing the tip back into the picture
-constexpr double kLearnedShare = 0.4;     // of the error about the target left after one look at a miss
-constexpr double kOutsideMm = 8.0;        // a full withdrawal ends this far outside
-constexpr double kLostMm = 5.0;           // a tip is missed from so far on after it should have appeared
-constexpr double kPatienceSeconds = 4.0;  // of searching; then the needle goes on, unseen
+constexpr double kSweepMm = 15.0;    // the probe's first search, out of plane
+constexpr double kBackTimes = 10.0;  // so much slower than to the tip the probe comes back to the planned plane
+constexpr double kOutsideMm = 8.0;   // a full withdrawal ends this far outside
+constexpr double kLostMm = 1.0;      // a tip is missed from so far on after it should have appeared
+constexpr double kPatienceSeconds = 2.5;                      // of searching before something else is tried
+constexpr double kRetreatMm = 5.0;                            // first back, where it was seen, …
+constexpr double kCreepMm = 2.0;                              // … then on by so much, and searched again
+constexpr double kBeforeOrganMm = 3.0, kWithinOrganMm = 4.0;  // the aim is checked before, and corrected within
+constexpr double kPlaneThereMm = 0.5;
+constexpr double kPlaneStepMm = 3.0;  // dynamic tip positioning: the plane goes ahead, the tip follows into it
+constexpr double kJiggleMm = 1.5, kJiggleHz = 2.0, kJiggleSeconds = 1.0;
+constexpr double kLeaveMmS = 60.0;
 
 }  // namespace
 
 ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const PuncturePlan& plan,
                                    const cases::Instrument& instrument, std::uint64_t seed)
-    : profile_(profile), plan_(plan), rng_(seed) {
-  if (instrument.kind == cases::InstrumentKind::core)
+    : profile_(profile),
+      plan_(plan),
+      across_(plan.approach == cases::Approach::out_of_plane),
+      rng_(seed),
+      conduct_(profile, plan.brief, true, seed) {
+  if (instrument.kind == cases::InstrumentKind::core) {
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
+    thrown_mm_ = instrument.throw_mm;
+  }
   // Drawn one by one: the order of arguments' evaluation is the compiler's.
   const auto error = [this](double sd) {
     glm::dvec3 v(0.0);
@@ -41,7 +54,18 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   drift_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   tilt_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   inserted_mm_ = -kStartMm;
+  plane_at_mm_ = plane_now_mm_ = plan.tip_shows_from_mm + kPlaneStepMm;
   aim();
+  enter(Phase::sign_in);
+}
+
+void ScriptedOperator::enter(Phase phase) {
+  phase_ = phase;
+  phase_since_s_ = t_s_;
+  if (phase == Phase::sign_in) conduct_.begin(Conduct::Part::sign_in);
+  if (phase == Phase::prepare) conduct_.begin(Conduct::Part::prepare);
+  if (phase == Phase::hold_breath) conduct_.begin(Conduct::Part::hold_breath);
+  if (phase == Phase::finish) conduct_.begin(Conduct::Part::finish);
 }
 
 // Towards where the target is believed to be; each new aim is better than the last.
@@ -54,118 +78,223 @@ void ScriptedOperator::aim() {
 }
 
 bool ScriptedOperator::tip_seen() const noexcept {
-  return !seen_.empty() && seen_.front().needle_tip;
+  return picture() != nullptr && picture()->live && picture()->needle_tip;
 }
 
 double ScriptedOperator::goal_mm() const noexcept {
   return glm::dot(believed_target_ - entry_, direction_) - stop_short_mm_;
 }
 
+// A needle whose tip is searched for is moved a little to and fro, never beyond where it was.
+double ScriptedOperator::jiggle_mm() const noexcept {
+  const double since_s = t_s_ - lost_since_s_;
+  if (!lost_ || going_blind_ || phase_ != Phase::advance || since_s > kJiggleSeconds) return 0.0;
+  return -0.5 * kJiggleMm * (1.0 - base::exact_cos(2.0 * std::numbers::pi * kJiggleHz * since_s));
+}
+
+// How far the needle's line passes beside the target, as a look at both tells; seen together, the target is known
+// better. Nothing is known where the picture does not show the tip: 0.
+double ScriptedOperator::seen_miss_mm(const cases::State& state) {
+  if (!tip_seen()) return 0.0;
+  if (picture()->target)
+    believed_target_ = plan_.target_lps_mm + (believed_target_ - plan_.target_lps_mm) * profile_.look_error_share;
+  return glm::length(glm::cross(believed_target_ - state.needle.tip_lps_mm, state.needle.direction));
+}
+
+// Back, within the organ once it is entered, and again with a better aim.
+void ScriptedOperator::redirect() {
+  ++redirections_;
+  const bool full = chance(profile_.full_withdrawal_share), out = chance(profile_.leaves_organ_share);
+  withdraw_to_mm_ = inserted_mm_ * profile_.redirect_depth_share;
+  const double within_mm = plan_.organ_from_mm + kWithinOrganMm;
+  if (!out && plan_.organ_from_mm > 0.0 && inserted_mm_ > within_mm)
+    withdraw_to_mm_ = std::max(withdraw_to_mm_, within_mm);
+  if (full) withdraw_to_mm_ = -kOutsideMm;
+  enter(Phase::withdraw);
+}
+
 void ScriptedOperator::decide(const cases::State& state) {
   const double since_s = t_s_ - phase_since_s_;
-  const auto enter = [this](Phase phase) {
-    phase_ = phase;
-    phase_since_s_ = t_s_;
-  };
+  const bool looked = since_s >= 3.0 * profile_.reaction_delay_s;
+  const bool may_redirect = redirections_ < static_cast<int>(std::lround(profile_.max_redirections));
   switch (phase_) {
+    case Phase::sign_in:
+      if (conduct_.over()) enter(conduct_.deferred() ? Phase::finish : Phase::scan);
+      break;
     case Phase::scan:
-      if (since_s >= scan_s_) enter(Phase::approach);
+      if (since_s >= scan_s_) enter(Phase::prepare);
+      break;
+    case Phase::prepare:
+      if (conduct_.over()) enter(Phase::approach);
       break;
     case Phase::approach:
       if (inserted_mm_ >= 0.0) enter(Phase::advance);
       break;
     case Phase::advance:
-      if (inserted_mm_ >= goal_mm()) enter(Phase::look);
-      break;
-    case Phase::look: {
-      if (since_s < 3.0 * profile_.reaction_delay_s) break;
-      if (!tip_seen() && !going_blind_) break;  // searched for before the trigger
-      // Only a tip in the picture can be seen to have missed.
-      const glm::dvec3 miss = believed_target_ - state.needle.tip_lps_mm;
-      const double beside_mm = glm::length(glm::cross(miss, state.needle.direction));
-      if (tip_seen() && beside_mm > profile_.accept_miss_mm && redirections_ < profile_.max_redirections) {
-        ++redirections_;
-        believed_target_ = plan_.target_lps_mm + (believed_target_ - plan_.target_lps_mm) * kLearnedShare;
-        const bool full = rng_.uniform() < profile_.full_withdrawal_share;
-        withdraw_to_mm_ = full ? -kOutsideMm : inserted_mm_ * profile_.redirect_depth_share;
-        enter(Phase::withdraw);
+      if (lost_ && !going_blind_ && t_s_ - lost_since_s_ > kPatienceSeconds && creep_to_mm_ <= inserted_mm_) {
+        lost_since_s_ = t_s_;
+        if (!retreated_ && inserted_mm_ > plan_.tip_shows_from_mm + kLostMm + kRetreatMm) {
+          retreated_ = true;
+          withdraw_to_mm_ = inserted_mm_ - kRetreatMm;
+          enter(Phase::retreat);
+        } else {
+          creep_to_mm_ = inserted_mm_ + kCreepMm;
+        }
         break;
       }
-      enter(Phase::fire);
+      if (!checked_ && inserted_mm_ >= plan_.organ_from_mm - kBeforeOrganMm) {
+        checked_ = true;
+        if (plan_.organ_from_mm > 2.0 * kBeforeOrganMm && chance(profile_.checks_aim_share)) {
+          enter(Phase::check);
+          break;
+        }
+      }
+      if (inserted_mm_ >= goal_mm()) enter(Phase::look);
       break;
-    }
+    case Phase::check:
+      if (!looked) break;
+      if (seen_miss_mm(state) > profile_.accept_miss_mm && may_redirect)
+        redirect();
+      else
+        enter(Phase::advance);
+      break;
+    case Phase::look:
+      if (!looked) break;
+      // Searched for before the trigger.
+      if (!tip_seen() && !going_blind_ && t_s_ - lost_since_s_ <= kPatienceSeconds) break;
+      if (seen_miss_mm(state) > profile_.accept_miss_mm && may_redirect)
+        redirect();
+      else
+        enter(Phase::hold_breath);
+      break;
     case Phase::withdraw:
       if (inserted_mm_ > withdraw_to_mm_) break;
       aim();
+      put_plane_at(std::max(inserted_mm_, 0.0) + kPlaneStepMm);
       enter(withdraw_to_mm_ < 0.0 ? Phase::approach : Phase::advance);
       break;
+    case Phase::retreat:
+      if (inserted_mm_ > withdraw_to_mm_) break;
+      put_plane_at(inserted_mm_ + kPlaneStepMm);
+      enter(Phase::advance);
+      break;
+    case Phase::hold_breath:
+      // Not before the tip is seen again, where it went while the breath was held.
+      if (conduct_.over() && (!lost_ || going_blind_ || t_s_ - lost_since_s_ > kPatienceSeconds))
+        enter(Phase::fire);
+      break;
     case Phase::fire:
-      if (since_s >= kTriggerHoldSeconds) enter(Phase::done);
+      if (since_s >= kTriggerHoldSeconds) enter(Phase::leave);
+      break;
+    case Phase::leave:
+      if (inserted_mm_ <= -kOutsideMm - thrown_mm_) enter(Phase::finish);
+      break;
+    case Phase::finish:
+      if (conduct_.over()) enter(Phase::done);
       break;
     case Phase::done:
       break;
   }
 }
 
-void ScriptedOperator::move(const cases::State& state, double dt_s) {
-  const bool lost = !tip_seen() && (phase_ == Phase::look ||
-                                    (phase_ == Phase::advance && inserted_mm_ > plan_.tip_shows_from_mm + kLostMm));
-  if (!lost) {
-    decided_blind_ = going_blind_ = false;
-  } else if (!decided_blind_) {
-    decided_blind_ = true;
-    going_blind_ = rng_.uniform() < profile_.blind_advance_share;
+// Where the hand means to put the plane, and how far beside that it comes to stand.
+void ScriptedOperator::put_plane_at(double inserted_mm) {
+  plane_at_mm_ = inserted_mm;
+  plane_error_mm_ = rng_.normal() * profile_.follow_error_mm;
+}
+
+// Whether a tip that should be in the picture is not, and what is done about it.
+void ScriptedOperator::judge_sight() {
+  const bool expected = phase_ == Phase::look || phase_ == Phase::check || phase_ == Phase::hold_breath ||
+                        (phase_ == Phase::advance && (across_ ? inserted_mm_ >= plane_at_mm_
+                                                              : inserted_mm_ > plan_.tip_shows_from_mm + kLostMm));
+  const bool lost = expected && !tip_seen();
+  if (lost && !lost_) {
+    going_blind_ = chance(profile_.blind_advance_share);
     lost_since_s_ = t_s_;
-  } else if (t_s_ - lost_since_s_ > kPatienceSeconds) {
-    going_blind_ = true;
   }
+  if (!lost) going_blind_ = false;
+  if (tip_seen()) {
+    retreated_ = false;
+    creep_to_mm_ = -1.0;
+  }
+  lost_ = lost;
+}
+
+void ScriptedOperator::move(double dt_s) {
   switch (phase_) {
     case Phase::approach:
       inserted_mm_ = std::min(0.0, inserted_mm_ + profile_.approach_mm_s * dt_s);
       break;
     case Phase::advance:
-      if (!lost || going_blind_) inserted_mm_ = std::min(goal_mm(), inserted_mm_ + profile_.advance_mm_s * dt_s);
+      // Out of plane the tip follows into a plane that stands ahead of it; then that goes on.
+      if (across_ && tip_seen() && inserted_mm_ >= plane_at_mm_) put_plane_at(inserted_mm_ + kPlaneStepMm);
+      if (lost_ ? going_blind_ || inserted_mm_ < creep_to_mm_
+                : !across_ || std::abs(plane_at_mm_ - plane_now_mm_) < kPlaneThereMm)
+        inserted_mm_ = std::min(goal_mm(), inserted_mm_ + profile_.advance_mm_s * dt_s);
       break;
     case Phase::withdraw:
+    case Phase::retreat:
       inserted_mm_ -= 2.0 * profile_.advance_mm_s * dt_s;
+      break;
+    case Phase::leave:
+      inserted_mm_ -= kLeaveMmS * dt_s;
       break;
     default:
       break;
   }
-  // Who stops because the tip is gone fans the probe to it, and back to the target when the tip is found.
-  const bool searching = lost && !going_blind_;
-  const glm::dvec3 normal = glm::cross(plan_.probe.side, plan_.probe.axis);
-  const double tip_off_mm = glm::dot(state.needle.tip_lps_mm - plan_.target_lps_mm, normal);
-  alignment_ += ((searching ? 0.0 : 1.0) - alignment_) * (dt_s / (kRealignSeconds * (searching ? 1.0 : 10.0)));
-  follow_mm_ +=
-      ((searching ? tip_off_mm : 0.0) - follow_mm_) * (dt_s / (kRealignSeconds * (searching ? 1.0 : 10.0)));
+}
+
+// Who stops because the tip is gone brings the probe over the needle, as its shaft outside and its marks tell, and
+// back to the target when the tip is found.
+void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
+  const bool searching = lost_ && !going_blind_;
+  const double share = std::min(1.0, dt_s / profile_.realign_s), back = share / kBackTimes;
+  alignment_ += ((searching ? 0.0 : 1.0) - alignment_) * (searching ? share : back);
+  probe = plan_.probe;
+  if (across_) {
+    PuncturePlan as_held = plan_;
+    as_held.entry_lps_mm = entry_;
+    as_held.direction = direction_;
+    // The plane waits ahead of a tip that advances, and goes back to one that is not found.
+    const double wanted_mm = phase_ == Phase::advance && !searching ? plane_at_mm_ : std::max(inserted_mm_, 0.0);
+    const bool before =
+        phase_ == Phase::sign_in || phase_ == Phase::scan || phase_ == Phase::prepare || phase_ == Phase::approach;
+    plane_now_mm_ += ((before ? plane_at_mm_ : wanted_mm) - plane_now_mm_) * share;
+    if (searching) plane_error_mm_ -= plane_error_mm_ * share;
+    probe = probe_over(as_held, plane_now_mm_);
+    probe.position_lps_mm += plane_normal(probe) * plane_error_mm_;
+  } else {
+    const double tip_off_mm = glm::dot(hands_tip() - plan_.target_lps_mm, plane_normal(plan_.probe));
+    follow_mm_ += ((searching ? tip_off_mm : 0.0) - follow_mm_) * (searching ? share : back);
+  }
+  const glm::dvec3 normal = plane_normal(probe);
+  const double sweep = phase_ == Phase::scan
+                           ? kSweepMm * (1.0 - (t_s_ - phase_since_s_) / scan_s_) * base::exact_sin(2.5 * t_s_)
+                           : 0.0;
+  probe.position_lps_mm += normal * (sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_);
+  // A drifting hand also tilts: about 1° for each millimetre.
+  const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;
+  probe.axis = glm::normalize(probe.axis + normal * tilt_rad);
 }
 
 cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::FrameTruth* frame, double dt_s) {
   t_s_ += dt_s;
   if (frame != nullptr) seen_.push_back(*frame);
   while (seen_.size() > 1 && seen_[1].t_s <= t_s_ - profile_.reaction_delay_s) seen_.pop_front();
-  decide(state);
-  move(state, dt_s);
-
   cases::Inputs inputs;
+  inputs.event = conduct_.advance(dt_s);
+  decide(state);
+  judge_sight();
+  if (!conduct_.stopped() || phase_ == Phase::leave) move(dt_s);
+
   inputs.needle.position_lps_mm =
-      entry_ + direction_ * inserted_mm_ +
+      hands_tip() + direction_ * jiggle_mm() +
       hand_.offset_mm(t_s_, direction_, profile_.tremor_mm, profile_.sway_mm, inserted_mm_ > 0.0);
   inputs.needle.axis = direction_;
   inputs.needle.side = base::perpendiculars(direction_).u;
   inputs.fire = phase_ == Phase::fire;
-
-  const glm::dvec3 normal = glm::cross(plan_.probe.side, plan_.probe.axis);
-  const double sweep = phase_ == Phase::scan
-                           ? kSweepMm * (1.0 - (t_s_ - phase_since_s_) / scan_s_) * base::exact_sin(2.5 * t_s_)
-                           : 0.0;
-  const double off_mm = sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_;
-  inputs.probe.position_lps_mm = plan_.probe.position_lps_mm + normal * off_mm;
-  // A drifting hand also tilts: about 1° for each millimetre.
-  const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;
-  inputs.probe.axis = glm::normalize(plan_.probe.axis + normal * tilt_rad);
-  inputs.probe.side = plan_.probe.side;
+  hold_probe(inputs.probe, dt_s);
   return inputs;
 }
 

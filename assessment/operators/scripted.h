@@ -1,10 +1,13 @@
-// A simulated trainee: sees snapshots and pictures, late, and says where the hands want to be. Deterministic: the
-// same plan, profile and seed act the same on every machine.
+// A simulated trainee who punctures under a probe: sees snapshots and pictures, late, and says where the hands want
+// to be and what is said. It sees what a person would: what pictures show, the needle outside the skin and its
+// marks; of the tip no more than whether the picture shows it, and where while it does. Deterministic: the same
+// plan, profile and seed act the same on every machine.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 
+#include "assessment/operators/conduct.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
 #include "assessment/operators/wander.h"
@@ -24,31 +27,66 @@ class ScriptedOperator {
   // What the hands want in this tick. `frame` is the picture that appeared in it, if one did.
   cases::Inputs act(const cases::State& state, const cases::FrameTruth* frame, double dt_s);
 
+  // What was said or happened in the last tick: who should stops when the patient is in trouble.
+  void hear(cases::EventKind kind) { conduct_.hear(kind); }
+
   bool done() const noexcept { return phase_ == Phase::done; }
 
  private:
-  enum class Phase { scan, approach, advance, look, withdraw, fire, done };
+  enum class Phase {
+    sign_in,
+    scan,
+    prepare,
+    approach,
+    advance,
+    check,  // of the aim, before the organ is entered
+    look,   // at the target, before the trigger
+    withdraw,
+    retreat,  // a little, to find a tip that is not seen
+    hold_breath,
+    fire,
+    leave,
+    finish,
+    done
+  };
 
+  void enter(Phase phase);
   void aim();
+  const cases::FrameTruth* picture() const noexcept { return seen_.empty() ? nullptr : &seen_.front(); }
   bool tip_seen() const noexcept;
+  glm::dvec3 hands_tip() const { return entry_ + direction_ * inserted_mm_; }
+  double seen_miss_mm(const cases::State& state);
+  void redirect();
   void decide(const cases::State& state);
-  void move(const cases::State& state, double dt_s);
+  void put_plane_at(double inserted_mm);
+  void judge_sight();
+  void move(double dt_s);
+  void hold_probe(cases::ToolPose& probe, double dt_s);
   double goal_mm() const noexcept;
+  double jiggle_mm() const noexcept;
+  bool chance(double share) { return rng_.uniform() < share; }
 
   OperatorProfile profile_;
   PuncturePlan plan_;
+  bool across_ = false;         // out of plane
   double stop_short_mm_ = 0.0;  // core: the throw carries the notch the rest of the way
+  double thrown_mm_ = 0.0;      // core: so far ahead of the hand the tip is once it has fired
   base::Rng rng_;
-  Phase phase_ = Phase::scan;
+  Conduct conduct_;
+  Phase phase_ = Phase::sign_in;
   double t_s_ = 0.0, phase_since_s_ = 0.0, scan_s_ = 0.0;
   glm::dvec3 believed_target_{0.0}, entry_{0.0}, direction_{0.0};
   double inserted_mm_ = 0.0;  // the hand's: from the entry along the direction, negative outside
   double withdraw_to_mm_ = 0.0;
   int redirections_ = 0;
-  bool going_blind_ = false, decided_blind_ = false;
-  double lost_since_s_ = 0.0;
-  double alignment_ = 1.0;  // share of the probe's drift not yet corrected
-  double follow_mm_ = 0.0;  // the probe's way out of the planned plane, after the tip
+  bool checked_ = false;
+  // A tip that should be seen and is not.
+  bool lost_ = false, going_blind_ = false, retreated_ = false;
+  double lost_since_s_ = 0.0, creep_to_mm_ = -1.0;
+  // In plane: the probe's way out of the planned plane after the tip, and the share of its drift not yet corrected.
+  double follow_mm_ = 0.0, alignment_ = 1.0;
+  // Out of plane: the insertion that the plane was put on, where it is by now, and by how much it misses.
+  double plane_at_mm_ = 0.0, plane_now_mm_ = 0.0, plane_error_mm_ = 0.0;
   UnsteadyHand hand_;
   Wander drift_, tilt_;
   std::deque<cases::FrameTruth> seen_;  // pictures younger than the reaction delay, and the one acted upon

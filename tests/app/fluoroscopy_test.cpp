@@ -74,7 +74,7 @@ TEST(FluoroscopyRoom, SaysTheSameWhateverItSaidBefore) {
   cases::FluoroscopeInputs tilted;
   tilted.magnification = 2;
   static_cast<void>(used.expose(pulse(ball(), kAway, kAcross, tilted)));
-  static_cast<void>(used.picture_png(pulse(ball(), {0, 0, 0}, kAcross), 1));
+  static_cast<void>(used.picture(pulse(ball(), {0, 0, 0}, kAcross), 1));
   const auto state = pulse(ball(), {5, -40, 3}, kAcross);
   const auto a = used.expose(state), b = FluoroscopyRoom(ball()).expose(state);
   EXPECT_EQ(a.report, b.report);

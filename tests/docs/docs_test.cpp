@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "assessment/metrics/registry.h"
+#include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
 #include "casedb/import/allow_list.h"
 #include "web/routes.h"
@@ -30,6 +31,10 @@ TEST(Docs, MetricsAreTheRegistry) {
 
 TEST(Docs, StepsAreTheTables) {
   EXPECT_EQ(file("docs/steps.md"), seldinger::assessment::steps_markdown());
+}
+
+TEST(Docs, OperatorsAreTheTable) {
+  EXPECT_EQ(file("docs/operators.md"), seldinger::assessment::operators_markdown());
 }
 
 TEST(Docs, RoutesAreTheRegistry) {

@@ -47,6 +47,7 @@ std::string filled(std::string_view pattern, const std::string& attempt_id) {
 
 // What GET answers to somebody of this role; -1 for a path the table does not know.
 int expected_status(std::string_view pattern, Role role, Whose whose) {
+  if (pattern == "/curricula") return role == Role::admin ? 404 : 200;
   if (pattern == "/cases") return role == Role::trainee ? 404 : 200;
   if (pattern.substr(0, 7) == "/cases/") return 404;  // these ids are attempts'
   if (pattern == "/healthz" || pattern == "/style.css") return 200;
@@ -76,7 +77,7 @@ TEST(AccessMatrix, EveryRoleOnEveryRouteAnswersAsTheTableSays) {
       }
     }
   }
-  EXPECT_EQ(checks, 5 * 12 * 4 * 2);
+  EXPECT_EQ(checks, 5 * 14 * 4 * 2);
 }
 
 TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
@@ -107,7 +108,7 @@ TEST(AccessMatrix, AForbiddenAttemptIsByteForByteAMissingOne) {
     FakeSite fake;
     FakeBrowser browser(*fake.site);
     browser.log_in_as(role);
-    for (const char* end : {"", "/picture.png", "/metrics.json"}) {
+    for (const char* end : {"", "/picture.png", "/metrics.json", "/grade.json"}) {
       const Response forbidden = browser.get("/attempts/" + kOthersAttempt + end);
       const Response missing = browser.get("/attempts/" + kMissingAttempt + end);
       EXPECT_EQ(bytes_of(forbidden, true), bytes_of(missing, true));
@@ -129,6 +130,36 @@ TEST(AccessMatrix, ListsHoldExactlyWhatMayBeOpened) {
     if (role == Role::director || role == Role::admin) {
       EXPECT_THAT(list, HasSubstr("does not see individual attempts"));
     }
+  }
+}
+
+TEST(AccessMatrix, CurriculaAreSeenAsTheTableSays) {
+  const std::map<Role, std::set<std::string>> sees = {{Role::trainee, {"published"}},
+                                                      {Role::mentor, {"draft", "published", "retired"}},
+                                                      {Role::researcher, {"published", "retired"}},
+                                                      {Role::director, {"draft", "published", "retired"}},
+                                                      {Role::admin, {}}};
+  for (const Role role : kRoles) {
+    FakeSite fake;
+    FakeBrowser browser(*fake.site);
+    browser.log_in_as(role);
+    const std::string body = browser.get("/curricula").body;
+    for (const std::string state : {"draft", "published", "retired"})
+      EXPECT_EQ(body.find("A " + state + " curriculum") != body.npos, sees.at(role).contains(state))
+          << casedb::name_of(role) << " " << state;
+    const auto asked_for = role == Role::trainee ? std::optional<std::string>("person-of-trainee") : std::nullopt;
+    EXPECT_EQ(fake.questions.curricula_asked_for, asked_for) << "nobody sees how far another is";
+  }
+}
+
+TEST(AccessMatrix, WhichAttemptsSetAStandardIsSeenByWhoSeesThem) {
+  for (const Role role : {Role::trainee, Role::mentor, Role::researcher}) {
+    FakeSite fake;
+    FakeBrowser browser(*fake.site);
+    browser.log_in_as(role);
+    const std::string body = browser.get("/attempts/" + kOwnAttempt + "/grade.json").body;
+    EXPECT_THAT(body, HasSubstr("\"set_id\":\"C-1\""));
+    EXPECT_EQ(body.find(kMissingAttempt) == body.npos, role == Role::trainee) << casedb::name_of(role);
   }
 }
 
@@ -215,6 +246,10 @@ TEST(AccessNames, APersonWhoseAccountIsGoneHasAPseudonym) {
   const auto nobody = [](const std::string&) { return std::nullopt; };
   EXPECT_EQ(operator_label(mentor, attempt_row(kOwnAttempt, "0190-abcdef123456"), nobody), "Person 123456");
   EXPECT_EQ(operator_label(mentor, attempt_row(kOwnAttempt, "x"), nobody), "Person x");
+  // An account's attempt that a simulated operator made is none of a person's.
+  casedb::AttemptRow simulated = attempt_row(kOwnAttempt, "x");
+  simulated.operator_name = "expert";
+  EXPECT_EQ(operator_label(mentor, simulated, nobody), "Simulated expert");
 }
 
 TEST(Routes, OtherMethodsAndOtherPathsAreRefused) {
@@ -271,11 +306,12 @@ TEST(Routes, PictureHealthAndMetricsAnswerInTheirTypes) {
   EXPECT_EQ(picture.body.size(), fake.questions.picture.size());
   const Response metrics = browser.get("/attempts/" + kOwnAttempt + "/metrics.json");
   EXPECT_EQ(metrics.content_type, "application/json");
-  EXPECT_EQ(metrics.body,
-            R"({"attempt_id":")" + kOwnAttempt +
-                R"(","metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
-                R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
-                "\n");
+  EXPECT_EQ(
+      metrics.body,
+      R"({"attempt_id":")" + kOwnAttempt +
+          R"(","synthetic":false,"metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
+          R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
+          "\n");
   EXPECT_EQ(browser.get("/healthz").body, "{\"status\":\"ok\",\"version\":\"9.8.7\"}\n");
   EXPECT_EQ(browser.get("/style.css").content_type, "text/css; charset=utf-8");
 }

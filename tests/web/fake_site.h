@@ -66,6 +66,16 @@ class FakeQuestions final : public Questions {
     }
     return base::Error{"no_attempt", "there is no such attempt"};
   }
+  casedb::AttemptGrade look_at(const casedb::AttemptRow&) override { return grade; }
+  std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) override {
+    return std::vector<assessment::Grade>(rows.size(), grade.grade);
+  }
+  std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) override {
+    curricula_asked_for = person_id;
+    std::vector<reports::CurriculumView> views = curricula;
+    for (reports::CurriculumView& view : views) view.own = person_id.has_value();
+    return views;
+  }
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)
@@ -85,6 +95,9 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::string> passwords;  // by log-in name
   std::vector<casedb::AttemptRow> attempts;      // newest first
   std::vector<casedb::CaseRow> cases;            // oldest first
+  casedb::AttemptGrade grade;                    // of every attempt
+  std::vector<reports::CurriculumView> curricula;
+  std::optional<std::string> curricula_asked_for;
   std::vector<std::byte> picture;
   std::function<void()> fault;  // thrown from questions about attempts and accounts
   std::function<void()> during_log_in;
@@ -138,6 +151,13 @@ inline void fill(FakeQuestions& questions) {
   questions.accounts.push_back({"person-of-other-zzz999", "Other Trainee", Role::trainee, true});
   questions.cases = {case_row(kDraftCase, "draft"), case_row(kReviewCase, "review"),
                      case_row(kPublishedCase, "published"), case_row(kRetiredCase, "retired")};
+  for (const char* state : {"draft", "published", "retired"}) {
+    reports::CurriculumView& view = questions.curricula.emplace_back();
+    view.curriculum.title = "A " + std::string(state) + " curriculum";
+    view.curriculum.state = state;
+  }
+  questions.grade.experts.attempt_ids = {kMissingAttempt};
+  questions.grade.experts.id = "C-1";
   questions.attempts = {attempt_row(kOwnAttempt, "person-of-trainee"),
                         attempt_row(kOthersAttempt, "person-of-other-zzz999"),
                         attempt_row(kNobodysAttempt, std::nullopt)};

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <thread>
 
+#include "casedb/authoring.h"
+#include "casedb/versions.h"
 #include "fake_site.h"
 #include "raw_client.h"
 
@@ -72,6 +74,55 @@ struct RealSite {
   std::unique_ptr<Questions> questions;
   Site site{*questions, world.surroundings};
 };
+
+TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  ASSERT_TRUE(casedb::add_user(library, "Dan", casedb::Role::director, kPassword).has_value());
+  const std::string tom = casedb::add_user(library, "Tom", casedb::Role::trainee, kPassword).value();
+  const auto [case_id, lesion_id] = add_small_case(library);
+  casedb::CaseSetting setting = casedb::find_case(library, case_id).value();
+  setting.rule.criteria = {*assessment::criterion_from("hit >= 1"),
+                           *assessment::criterion_from("skin_punctures <= 1")};
+  ASSERT_TRUE(casedb::set_setting(library, case_id, setting).has_value());
+  ASSERT_TRUE(casedb::confirm_no_burned_in_text(library, case_id, std::nullopt).has_value());
+  ASSERT_TRUE(casedb::publish_case(library, case_id, "Mia", true).has_value());
+  const std::string curriculum = casedb::add_curriculum(library, "First year", "Mia").value();
+  ASSERT_TRUE(casedb::add_curriculum_item(library, curriculum, case_id, 5, {}, "Mia").has_value());
+  ASSERT_TRUE(casedb::publish_curriculum(library, curriculum, "Dan").has_value());
+  casedb::NewAttempt attempt;
+  attempt.case_id = case_id;
+  attempt.lesion_id = lesion_id;
+  attempt.operator_name = "person";
+  attempt.person_id = tom;
+  attempt.started_us = 1700000000000000;
+  attempt.recording.inputs.resize(3);
+  attempt.recording.hashes.resize(3);
+  attempt.metrics = {{"gap_share", 2, 0.0, "share", ""},
+                     {"sample_rate_p5", 1, 1000.0, "Hz", ""},
+                     {"tracking_jumps", 1, 0.0, "count", ""},
+                     {"hit", 1, 1.0, "bool", ""},
+                     {"skin_punctures", 1, 3.0, "count", ""}};
+  const std::string attempt_id = casedb::add_attempt(library, attempt).value();
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  ASSERT_EQ(browser.log_in("Tom", "correct+horse%20battery").status, 303);
+  EXPECT_THAT(browser.get("/attempts").body, HasSubstr("<span class=\"no\">Not passed</span>"));
+  const std::string page = browser.get("/attempts/" + attempt_id).body;
+  EXPECT_THAT(page, HasSubstr("Punctured the skin 3 times; to pass: at most 1."));
+  EXPECT_THAT(page, HasSubstr("Not passed: 1 of 2 criteria not met"));
+  EXPECT_THAT(page, HasSubstr("provisional"));
+  EXPECT_THAT(browser.get("/attempts/" + attempt_id + "/grade.json").body, HasSubstr("\"verdict\":\"failed\""));
+  const std::string curricula = browser.get("/curricula").body;
+  EXPECT_THAT(curricula, HasSubstr("First year"));
+  EXPECT_THAT(curricula, HasSubstr("Practising</span> <span class=\"mark due\">due</span>"));
+  EXPECT_THAT(curricula, HasSubstr(">4<")) << "attempts left";
+  browser.cookies.clear();
+  ASSERT_EQ(browser.log_in("Dan", "correct+horse%20battery").status, 303);
+  const std::string directors = browser.get("/curricula").body;
+  EXPECT_THAT(directors, HasSubstr("First year"));
+  EXPECT_THAT(directors, Not(HasSubstr("Practising"))) << "a director sees no person's state";
+}
 
 TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
   casedb::Library library = fresh_library();

@@ -41,6 +41,7 @@ struct NeedleLevel {
   double off_plane_mm = 0.0;
   double echo_db = 0.0;        // as it arrives; liver's speckle at the face is 0
   double background_db = 0.0;  // likewise, not below the receiver's noise
+  bool stands_out() const noexcept { return in_field && echo_db >= background_db + kNeedleAboveDb; }
 };
 // At a point of the shaft `behind_tip_mm`, ≥ 0; 0: the tip, which shows as the bevel or as the shaft's end.
 NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,

@@ -1,0 +1,57 @@
+// attempt compare.
+#include <cstdio>
+
+#include "app/command.h"
+#include "app/compare_json.h"
+#include "app/file.h"
+#include "reports/compare_page.h"
+#include "reports/grade_words.h"
+#include "web/style_sheet.h"
+
+namespace seldinger::app {
+namespace {
+
+void print_comparison(const casedb::Comparison& comparison) {
+  std::printf("%s, %s\n%s\n", comparison.row.title.c_str(), casedb::name_of(comparison.manner.modality).c_str(),
+              reports::experts_text(comparison.experts).c_str());
+  for (const casedb::ComparedGroup& group : comparison.groups) {
+    std::printf("\n%s: passed %zu of %zu, with a critical error %zu\n", reports::group_label(group).c_str(),
+                group.passed, group.gradable, group.with_critical_errors);
+    for (std::size_t i = 0; i < comparison.criteria.size(); ++i) {
+      const assessment::CriterionResult& one = comparison.criteria[i];
+      std::printf("  %-34s%s met %zu of %zu, %s\n", assessment::text_of(one.criterion).c_str(),
+                  one.criterion.critical ? " critical" : "", group.met[i], group.gradable,
+                  reports::compared_text(group.of_criteria[i], one.unit).c_str());
+    }
+    for (const casedb::ComparedAttempt& attempt : group.attempts) {
+      std::printf("  %s  %s\n", attempt.row.attempt_id.c_str(), reports::verdict_text(attempt.grade.grade).c_str());
+      for (const assessment::Sentence& sentence : attempt.grade.debrief)
+        std::printf("    %s\n", sentence.text.c_str());
+    }
+  }
+}
+
+}  // namespace
+
+int run_attempt_compare(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
+  std::optional<cases::Modality> modality;
+  if (arguments.has("--modality")) {
+    modality = casedb::modality_from(arguments.text("--modality"));
+    if (!modality) throw UsageError("--modality is " + casedb::modality_names());
+  }
+  const std::filesystem::path out = arguments.text("--out");
+  if (arguments.has("--out") && out.extension() != ".html") throw UsageError("--out must end in .html");
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  const auto comparison = casedb::compare_attempts(*library, case_id, arguments.text("--lesion"), modality);
+  if (!comparison) return refuse(comparison.error());
+  if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, web::style_sheet()));
+  if (arguments.has("--json"))
+    std::fputs(json_of_comparison(*comparison).c_str(), stdout);
+  else if (!arguments.has("--out"))
+    print_comparison(*comparison);
+  return kDone;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,6 @@
+-- Attempts on a case whose values may make a band of this kind, newest first: at most :most, all with -1.
+SELECT attempt_summary.* FROM attempt_summary
+JOIN expert_attempt ON expert_attempt.attempt_id = attempt_summary.attempt_id
+WHERE expert_attempt.case_id = :case_id AND expert_attempt.kind = :kind
+ORDER BY started_us DESC, attempt_summary.attempt_id DESC
+LIMIT :most

@@ -1,0 +1,3 @@
+-- Takes a draft away, with its items.
+DELETE FROM curriculum
+WHERE curriculum_id = :curriculum_id

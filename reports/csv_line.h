@@ -1,0 +1,33 @@
+// One line of CSV after RFC 4180, as R, pandas and spreadsheets read it: UTF-8, '.' decimals, LF, nothing for a
+// missing value.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace seldinger::reports {
+
+class CsvLine {
+ public:
+  // Quoted where it must be. A spreadsheet takes what begins with = + - @ tab, CR or NUL for a formula: such text
+  // gets an apostrophe before it (OWASP ASVS 5.0, 1.2.10). Numbers stay bare.
+  CsvLine& text(std::string_view text);
+  CsvLine& number(double value);  // the shortest digits that read back as the same bits; nothing when not finite
+  CsvLine& number(const std::optional<double>& value) { return value ? number(*value) : nothing(); }
+  CsvLine& whole(std::int64_t value);
+  CsvLine& whole(std::uint64_t value);
+  CsvLine& flag(bool value) { return whole(std::int64_t{value ? 1 : 0}); }
+  CsvLine& nothing();
+
+  // The line with its end; the next one begins.
+  std::string take();
+
+ private:
+  CsvLine& cell(std::string_view text);
+  std::string line_;
+  bool first_ = true;
+};
+
+}  // namespace seldinger::reports

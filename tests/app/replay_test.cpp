@@ -1,0 +1,235 @@
+// What a replay draws: canvas, planes of the body, and the screen as it was held.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/attempt_loop.h"
+#include "app/body_planes.h"
+#include "app/canvas.h"
+#include "app/guidance_screen.h"
+#include "sim/engine/step.h"
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::app {
+namespace {
+
+cases::Case ball(cases::Modality modality) {
+  volume::AnalyticVolume analytic;
+  analytic.size_voxels = {88, 88, 88};
+  analytic.spacing_mm = {2.5, 2.5, 2.5};
+  analytic.origin_mm = {-108.75, -108.75, -108.75};
+  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 100.0}, 40.0, ""});
+  cases::Case scene;
+  scene.volume = volume::rasterize(analytic);
+  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 6);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  scene.lesions.push_back({{0.0, -60.0, 0.0}, 6.0, 500.0});
+  scene.structures.push_back({"duct", {}, cases::StructureRule::critical, cases::Sphere{{0.0, -62.0, 0.0}, 15.0}});
+  scene.structures.push_back({"elsewhere", {}, cases::StructureRule::major, cases::Sphere{{80.0, 0.0, 50.0}, 5.0}});
+  scene.picture.modality = modality;
+  return scene;
+}
+
+std::array<int, 3> pixel(const Canvas& canvas, int x, int y) {
+  const auto at = static_cast<std::size_t>(3 * (y * canvas.width_px() + x));
+  return {canvas.rgb()[at], canvas.rgb()[at + 1], canvas.rgb()[at + 2]};
+}
+
+TEST(Canvas, DrawsWithinItsEdges) {
+  Canvas canvas(40, 30, {1, 2, 3});
+  canvas.fill({-5, -5, 10, 10}, {255, 0, 0});
+  EXPECT_EQ(pixel(canvas, 4, 4), (std::array<int, 3>{255, 0, 0}));
+  EXPECT_EQ(pixel(canvas, 5, 5), (std::array<int, 3>{1, 2, 3}));
+  canvas.line({-1e6, 20.0}, {1e6, 20.0}, 1.0, {0, 255, 0});
+  EXPECT_EQ(pixel(canvas, 0, 20), (std::array<int, 3>{0, 255, 0}));
+  EXPECT_EQ(pixel(canvas, 39, 20), (std::array<int, 3>{0, 255, 0}));
+  EXPECT_EQ(pixel(canvas, 20, 23), (std::array<int, 3>{1, 2, 3}));
+  canvas.line({std::nan(""), 0.0}, {1.0, 1.0}, 1.0, {9, 9, 9});
+  canvas.circle({0.0, 0.0}, 100.0, 2.0, {9, 9, 9});
+  canvas.text(-3, 26, 2, "m\xC3\xA9", {255, 255, 255});
+}
+
+TEST(Canvas, ASteepLineIsAsWideAsAFlatOne) {
+  Canvas canvas(100, 100, {});
+  canvas.line({50.0, 0.0}, {50.0, 99.0}, 3.0, {200, 200, 200});
+  Canvas flat(100, 100, {});
+  flat.line({0.0, 50.0}, {99.0, 50.0}, 3.0, {200, 200, 200});
+  for (int i = 40; i < 60; ++i) EXPECT_EQ(pixel(canvas, i, 50), pixel(flat, 50, i)) << i;
+  EXPECT_EQ(pixel(canvas, 51, 50)[0], 200);
+  EXPECT_EQ(pixel(canvas, 53, 50)[0], 0);
+}
+
+TEST(Canvas, APictureKeepsItsShapeAndGreys) {
+  GreyPicture grey{std::vector<unsigned char>(20 * 10, 77), 20, 10};
+  Canvas canvas(100, 100, {});
+  const Rectangle at = canvas.picture({0, 0, 100, 100}, grey);
+  EXPECT_EQ(at.width, 100);
+  EXPECT_EQ(at.height, 50);
+  EXPECT_EQ(at.top, 25);
+  EXPECT_EQ(pixel(canvas, 50, 30), (std::array<int, 3>{77, 77, 77}));
+  EXPECT_EQ(pixel(canvas, 50, 20), (std::array<int, 3>{0, 0, 0}));
+  EXPECT_EQ(canvas.picture({0, 0, 10, 10}, {}).width, 0);
+}
+
+TEST(GreyPictures, LoseOnlyTheEdgesThatAllHaveBlack) {
+  const auto lit = [](int width, int height, std::vector<std::pair<int, int>> places) {
+    GreyPicture picture{std::vector<unsigned char>(static_cast<std::size_t>(width * height)), width, height};
+    for (const auto& [x, y] : places) picture.grey[static_cast<std::size_t>(y * width + x)] = 9;
+    return picture;
+  };
+  std::vector<GreyPicture> pictures = {{}, lit(8, 6, {{2, 3}}), lit(8, 6, {{5, 1}}), lit(4, 4, {{1, 1}})};
+  cut_black_edges(pictures);
+  EXPECT_EQ(pictures[0].width_px, 0);
+  for (const int i : {1, 2}) {
+    EXPECT_EQ(pictures[static_cast<std::size_t>(i)].width_px, 4);
+    EXPECT_EQ(pictures[static_cast<std::size_t>(i)].height_px, 3);
+  }
+  EXPECT_EQ(pictures[1].grey[2 * 4 + 0], 9);
+  EXPECT_EQ(pictures[2].grey[0 * 4 + 3], 9);
+  EXPECT_EQ(pictures[3].width_px, 4);
+  std::vector<GreyPicture> black = {lit(3, 3, {})};
+  cut_black_edges(black);
+  EXPECT_EQ(black[0].width_px, 3);
+}
+
+assessment::Signals signals_in(const cases::Case& scene) {
+  cases::Recording recording;
+  for (int i = 0; i <= 200; ++i) {
+    cases::PoseSample pose;
+    pose.t_s = 0.01 * i;
+    pose.tip_lps_mm = {0.0, -120.0 + 0.3 * i, 0.0};
+    pose.needle_direction = {0.0, 1.0, 0.0};
+    recording.poses.push_back(pose);
+  }
+  auto signals = signals_of(scene, recording);
+  EXPECT_TRUE(signals);
+  return std::move(*signals);
+}
+
+TEST(BodyPlanes, CutSkinAndStructuresThroughTheTarget) {
+  const cases::Case scene = ball(cases::Modality::mpr);
+  const auto signals = signals_in(scene);
+  const auto planes = body_planes(scene, signals);
+  ASSERT_EQ(planes.size(), 3U);
+  for (const BodyPlane& plane : planes) {
+    const glm::dvec3 target = scene.lesions[0].center_lps_mm;
+    EXPECT_NEAR(glm::dot(plane.corner_lps_mm - target, glm::cross(plane.u, plane.v)), 0.0, 1e-9) << plane.name;
+    EXPECT_EQ(plane.side_mm, planes[0].side_mm);
+    // The grey of the target's middle is the lesion's, beside it the ball's.
+    const auto grey = [&](const glm::dvec3& at) {
+      const glm::dvec2 px = plane.at(at) * (plane.ct.width_px / plane.side_mm);
+      return plane.ct
+          .grey[static_cast<std::size_t>(static_cast<int>(px.y) * plane.ct.width_px + static_cast<int>(px.x))];
+    };
+    EXPECT_EQ(grey(target), 255) << plane.name;
+    EXPECT_EQ(grey(target + 9.0 * plane.u), 128) << plane.name;
+    // Every end of the skin's cut lies on the sphere, which the mesh does to 0.1 mm.
+    for (const PlaneSegment& segment : plane.skin)
+      for (const glm::dvec2& end : {segment.from_mm, segment.to_mm})
+        EXPECT_NEAR(glm::length(plane.corner_lps_mm + end.x * plane.u + end.y * plane.v), 100.0, 0.1);
+    // The duct's outline: all of it about its radius there, all around.
+    ASSERT_EQ(plane.structures.size(), 1U) << plane.name;
+    EXPECT_EQ(plane.structures[0].name, "duct");
+    const double away_mm = std::abs(glm::dot(target - glm::dvec3(0.0, -62.0, 0.0), glm::cross(plane.u, plane.v)));
+    const double radius_mm = std::sqrt(225.0 - away_mm * away_mm), pixel_mm = plane.side_mm / 160.0;
+    double way_mm = 0.0;
+    for (const PlaneSegment& segment : plane.structures[0].segments) {
+      EXPECT_NEAR(glm::length(segment.from_mm - plane.at({0.0, -62.0, 0.0})), radius_mm, 1.5 * pixel_mm);
+      way_mm += glm::length(segment.to_mm - segment.from_mm);
+    }
+    EXPECT_NEAR(way_mm, 8.0 * radius_mm, 8.0 * pixel_mm) << "a circle of pixels is as long as its square";
+  }
+  EXPECT_FALSE(planes[0].skin.empty());
+}
+
+// A fluoroscope without a pulse shows nothing, after its pulse that picture is held.
+TEST(GuidanceScreen, HoldsTheLastImage) {
+  const cases::Case scene = ball(cases::Modality::xray);
+  GuidanceScreen screen(scene, 1);
+  cases::State state;
+  cases::Inputs inputs;
+  inputs.needle.position_lps_mm = {0.0, -110.0, 0.0};
+  const auto run = [&](int ticks, bool pedal) {
+    inputs.fluoroscope.pedal = pedal;
+    for (int i = 0; i < ticks; ++i) {
+      engine::step(scene, inputs, engine::kTickSeconds, state);
+      screen.tick(state);
+    }
+  };
+  run(10, false);
+  EXPECT_EQ(screen.picture().width_px, 0);
+  EXPECT_FALSE(screen.live());
+  run(1, true);
+  EXPECT_TRUE(screen.live());
+  const GreyPicture shown = screen.picture();
+  EXPECT_EQ(shown.width_px, scene.fluoroscope.picture_px);
+  inputs.needle.position_lps_mm = {0.0, -60.0, 0.0};
+  run(500, false);
+  EXPECT_FALSE(screen.live());
+  EXPECT_EQ(screen.picture().grey, shown.grey);
+  run(1, true);
+  EXPECT_NE(screen.picture().grey, shown.grey);
+}
+
+TEST(GuidanceScreen, AFrozenPictureStays) {
+  const cases::Case scene = ball(cases::Modality::mpr);
+  GuidanceScreen screen(scene, 1);
+  cases::State state;
+  cases::Inputs inputs;
+  inputs.probe.position_lps_mm = {0.0, -100.0, 0.0};
+  inputs.probe.axis = {0.0, 1.0, 0.0};
+  const auto run = [&](bool freeze) {
+    inputs.freeze = freeze;
+    for (int i = 0; i < 100; ++i) {
+      engine::step(scene, inputs, engine::kTickSeconds, state);
+      screen.tick(state);
+    }
+  };
+  run(false);
+  EXPECT_TRUE(screen.live());
+  const GreyPicture before = screen.picture();
+  ASSERT_GT(before.width_px, 0);
+  inputs.probe.position_lps_mm.x = 30.0;
+  run(true);
+  EXPECT_FALSE(screen.live());
+  EXPECT_EQ(screen.picture().grey, before.grey);
+  run(false);
+  EXPECT_NE(screen.picture().grey, before.grey);
+}
+
+TEST(Replay, IsSeenUpToTheFirstDifferenceAndThroughWhatCannotBeCompared) {
+  const cases::Case scene = ball(cases::Modality::xray);
+  cases::Recording recording;
+  recording.step_version = engine::kStepVersion;
+  recording.dt_s = engine::kTickSeconds;
+  cases::State state;
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 50; ++i) {
+    cases::Inputs inputs;
+    inputs.needle.position_lps_mm = {0.1 * i, -110.0, 0.0};
+    engine::step(scene, inputs, recording.dt_s, state);
+    hash = cases::state_hash(state, hash);
+    recording.inputs.push_back(inputs);
+    recording.hashes.push_back(static_cast<std::uint32_t>(hash));
+    if (i % 10 == 0)
+      recording.poses.push_back({state.t_s, state.needle.tip_lps_mm, state.needle.direction,
+                                 state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral});
+  }
+  std::uint64_t last = 0;
+  const auto seen = [&](const cases::State& now) { last = now.tick; };
+  EXPECT_TRUE(replay(scene, recording, seen).same);
+  EXPECT_EQ(last, 50U);
+  recording.hashes[29] ^= 1U;
+  const Replay other = replay(scene, recording, seen);
+  EXPECT_FALSE(other.same);
+  EXPECT_EQ(other.first_difference_tick, 30U);
+  EXPECT_EQ(last, 29U);
+  recording.step_version = engine::kStepVersion + 1;
+  EXPECT_FALSE(replay(scene, recording, seen).same);
+  EXPECT_EQ(last, 50U);
+}
+
+}  // namespace
+}  // namespace seldinger::app

@@ -1,0 +1,48 @@
+// A library with a case, people, and attempts that have little more than a hit and a time.
+#pragma once
+
+#include "assessment/grading/rule.h"
+#include "casedb/authoring.h"
+#include "casedb/uuid.h"
+#include "tests/casedb/library_samples.h"
+
+namespace seldinger::casedb {
+
+class GradedLibrary : public testing::Test {
+ protected:
+  Library library_ = open_library(fresh_folder() / "library");
+  std::string case_id_ = add_case(library_, sample_case());
+  std::string lesion_id_ = add_lesion(library_, case_id_, sample_lesion()).value();
+
+  void rule(std::initializer_list<const char*> criteria, std::optional<double> time_limit_s = {},
+            std::optional<int> attempt_limit = {}) {
+    CaseSetting setting = find_case(library_, case_id_).value();
+    setting.rule.criteria.clear();
+    for (const char* text : criteria) setting.rule.criteria.push_back(assessment::criterion_from(text).value());
+    setting.time_limit_s = time_limit_s;
+    setting.attempt_limit = attempt_limit;
+    ASSERT_TRUE(set_setting(library_, case_id_, setting).has_value());
+  }
+  std::string user(const std::string& name, Role role) {
+    return add_user(library_, name, role, "a long password").value();
+  }
+  NewAttempt new_attempt(const std::optional<std::string>& person_id, std::optional<double> hit, double time_s) {
+    NewAttempt made = sample_attempt(case_id_, lesion_id_);
+    made.recording = sample_recording(20);
+    made.picture_png.clear();
+    made.person_id = person_id;
+    made.operator_name = person_id ? "person" : "novice";
+    made.started_us = now_us();
+    made.metrics = {{"gap_share", 2, 0.0, "share", ""},
+                    {"sample_rate_p5", 1, 1000.0, "Hz", ""},
+                    {"tracking_jumps", 1, 0.0, "count", ""},
+                    {"hit", 1, hit, "bool", hit ? "" : "no_endpoint"},
+                    {"time_total", 1, time_s, "s", ""}};
+    return made;
+  }
+  std::string attempt(const std::optional<std::string>& person_id, std::optional<double> hit, double time_s) {
+    return add_attempt(library_, new_attempt(person_id, hit, time_s)).value();
+  }
+};
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,138 @@
+// Simulated trainees through the program: graded cases, people, learners, threads, and that all of it says what it
+// is.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/process.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+
+bool passes(const Json& attempt, const Json& criteria) {
+  for (const Json& criterion : criteria) {
+    const auto value = fixtures::metric(attempt, criterion.at("metric"));
+    const double wanted = criterion.at("value");
+    const std::string comparison = criterion.at("comparison");
+    if (!value || !(comparison == "<="   ? *value <= wanted
+                    : comparison == ">=" ? *value >= wanted
+                                         : *value == wanted))
+      return false;
+  }
+  return true;
+}
+
+// The graded cases of the built-in torso: 1 and 5 by ultrasound, 6 by fluoroscopy.
+class SimulateTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = fixtures::fresh_folder("simulate");
+    library_ = (scratch_ / "library").string();
+    const Json made = ask("demo --cases");
+    cases_ = made.at("cases");
+  }
+  static Json ask(const std::string& words) {
+    const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+    return Json::parse(ran.out, nullptr, false);
+  }
+  static std::string first_case() { return cases_[0].at("case_id"); }
+  static inline std::filesystem::path scratch_;
+  static inline std::string library_;
+  static inline Json cases_;
+};
+
+TEST_F(SimulateTest, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
+  ASSERT_EQ(cases_.size(), 3U);
+  for (const Json& one : cases_) {
+    const std::string id = one.at("case_id");
+    const Json shown = ask("case show " + id);
+    const Json& criteria = shown.at("rule");
+    ASSERT_GE(criteria.size(), 6U);
+    for (const bool expert : {true, false}) {
+      const Json ran = ask("simulate --count 10 --no-pictures --seed 1 --operator " +
+                           std::string(expert ? "expert" : "novice") + " --case " + id);
+      int passed = 0;
+      for (const Json& attempt : ran.at("attempts")) passed += passes(attempt, criteria) ? 1 : 0;
+      if (expert)
+        EXPECT_GE(passed, 8) << one.at("title");
+      else
+        EXPECT_LE(passed, 3) << one.at("title");
+    }
+  }
+}
+
+TEST_F(SimulateTest, ThreadsAndPicturesChangeNothing) {
+  const std::string words = "simulate --count 5 --seed 70 --operator intermediate --case " + first_case();
+  const Json one = ask(words + " --jobs 1"), three = ask(words + " --jobs 3 --no-pictures");
+  const Json &a = one.at("attempts"), &b = three.at("attempts");
+  ASSERT_EQ(a.size(), 5U);
+  ASSERT_EQ(b.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(a[i].at("seed"), 70 + i);
+    EXPECT_EQ(b[i].at("seed"), 70 + i);
+    EXPECT_EQ(a[i].at("metrics"), b[i].at("metrics")) << i;
+  }
+  EXPECT_NE(a[0].at("metrics"), a[1].at("metrics"));
+}
+
+TEST_F(SimulateTest, PeopleAreDifferentAndTheSameAgain) {
+  const std::string words =
+      "simulate --people 3 --count 2 --seed 5 --no-pictures --operator expert --case " + first_case();
+  const Json first = ask(words), again = ask(words);
+  const Json& attempts = first.at("attempts");
+  ASSERT_EQ(attempts.size(), 6U);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(attempts[i].at("person"), i / 2 + 1);
+    EXPECT_EQ(attempts[i].at("attempt_number"), i % 2 + 1);
+    EXPECT_EQ(attempts[i].at("seed"), 5 + i);
+    EXPECT_EQ(attempts[i].at("metrics"), again.at("attempts")[i].at("metrics"));
+    names.insert(attempts[i].at("operator").get<std::string>());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"expert-1", "expert-2", "expert-3"}));
+}
+
+TEST_F(SimulateTest, ALearnerGetsBetter) {
+  const Json ran = ask("simulate --count 24 --seed 1 --no-pictures --operator learner --case " + first_case());
+  const Json& attempts = ran.at("attempts");
+  ASSERT_EQ(attempts.size(), 24U);
+  double first = 0.0, last = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    first += *fixtures::metric(attempts[static_cast<std::size_t>(i)], "blind_advance") / 6.0;
+    last += *fixtures::metric(attempts[static_cast<std::size_t>(18 + i)], "blind_advance") / 6.0;
+  }
+  EXPECT_LT(last, 0.6 * first);
+}
+
+TEST_F(SimulateTest, SaysEverywhereThatItIsSynthetic) {
+  const Json ran = ask("simulate --seed 3 --operator expert --case " + first_case());
+  EXPECT_EQ(ran.at("attempts")[0].at("synthetic"), true);
+  const std::string id = ran.at("attempts")[0].at("attempt_id");
+  EXPECT_EQ(ask("attempt show " + id).at("synthetic"), true);
+  const Json list = ask("attempt list");
+  for (const Json& attempt : list.at("attempts")) EXPECT_EQ(attempt.at("synthetic"), true);
+  for (const std::string& words : {"attempt list", "attempt show " + id}) {
+    const auto text = run(kProgram + " " + std::string(words) + " --library " + library_, scratch_);
+    EXPECT_NE(text.out.find("Simulated expert"), std::string::npos) << text.out;
+  }
+  // Nobody simulated passes for a person.
+  const auto file = scratch_ / "person.json";
+  std::ofstream(file) << R"({"name": "person"})";
+  const auto refused =
+      run(kProgram + " simulate --operator " + file.string() + " --case " + first_case() + " --library " + library_,
+          scratch_);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("bad_operator"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace seldinger

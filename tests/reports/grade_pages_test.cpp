@@ -1,0 +1,208 @@
+// What a page says of a grade: sentences first, each criterion, whose band it is, that nothing of the data becomes
+// markup.
+#include <gmock/gmock.h>
+
+#include "reports/attempt_page.h"
+#include "reports/attempts_page.h"
+#include "reports/compare_page.h"
+#include "reports/curricula_page.h"
+#include "reports/grade_words.h"
+#include "sample_attempt.h"
+
+namespace seldinger::reports {
+namespace {
+
+using assessment::SetKind;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const Visitor kTrainee{"Tom", "trainee", "token-1"};
+
+assessment::CriterionResult result(const char* text, bool critical, std::optional<double> value, const char* unit,
+                                   assessment::Outcome outcome, const char* reason = "") {
+  assessment::CriterionResult made;
+  made.criterion = *assessment::criterion_from(text);
+  made.criterion.critical = critical;
+  made.value = value;
+  made.unit = unit;
+  made.outcome = outcome;
+  made.reason = reason;
+  return made;
+}
+
+casedb::AttemptGrade failed_grade() {
+  using enum assessment::Outcome;
+  casedb::AttemptGrade grade;
+  grade.grade.verdict = assessment::Verdict::failed;
+  grade.grade.criteria = {result("nogo_length_critical <= 0", true, 3.25, "mm", missed),
+                          result("core_in_target >= 8", false, std::nullopt, "mm", not_measured, "no_endpoint"),
+                          result("hit >= 1", false, 1.0, "bool", met)};
+  grade.debrief = {
+      {assessment::SentenceKind::critical_error, "Went 3.2 mm through something.", "nogo_length_critical"},
+      {assessment::SentenceKind::well, "Hit the target.", "hit"}};
+  return grade;
+}
+
+void give_band(casedb::AttemptGrade& grade, SetKind kind, std::size_t people) {
+  grade.experts.kind = kind;
+  grade.experts.id = "C-0123";
+  grade.experts.newest_us = 1772373909000000;
+  grade.experts.person_ids.resize(people);
+  grade.experts.attempt_ids.resize(3 * people);
+  grade.experts.bands = {{"skin_punctures", "count", 1, people, 1.0, 2.0, 1.2, 0.3}};
+}
+
+TEST(GradeOnPage, SentencesComeBeforeEverythingElse) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  const std::size_t first = html.find("Went 3.2 mm through something."), second = html.find("Hit the target.");
+  ASSERT_NE(first, html.npos);
+  EXPECT_LT(first, second);
+  EXPECT_LT(second, html.find("Not passed: 2 of 3 criteria not met, 1 critical error"));
+  EXPECT_LT(html.find("Not passed"), html.find("<table"));
+  EXPECT_LT(second, html.find("class=\"outcome\""));
+  EXPECT_THAT(html, HasSubstr("provisional"));
+}
+
+TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  const std::size_t at = html.find("<table class=\"list criteria\">");
+  const std::string table = html.substr(at, html.find("</table>", at) - at);
+  EXPECT_THAT(table, HasSubstr("Way through critical <span class=\"mark critical\">critical</span>"));
+  EXPECT_THAT(table, HasSubstr(">3.2 mm<"));
+  EXPECT_THAT(table, HasSubstr(">none<"));
+  EXPECT_THAT(table, HasSubstr("<span class=\"no\">Missed</span>"));
+  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">no endpoint</span>"));
+  EXPECT_THAT(table, HasSubstr("<span class=\"no\">Not met</span>"));
+  EXPECT_THAT(table, HasSubstr(">Yes<"));
+  EXPECT_THAT(table, HasSubstr("<span class=\"yes\">Met</span>"));
+  EXPECT_THAT(table, Not(HasSubstr("Experts"))) << "there are none";
+}
+
+TEST(GradeOnPage, NamesWhoseBandItIs) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  give_band(view.grade, SetKind::consultants, 8);
+  view.grade.provisional = false;
+  std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<span class=\"band\">experts 1–2</span>"));
+  EXPECT_THAT(html, HasSubstr("8 consultants, 24 attempts, the last on 2026-03-01, set C-0123."));
+  EXPECT_THAT(html, Not(HasSubstr("rovisional")));
+  EXPECT_THAT(html, Not(HasSubstr("imulated expert,")));
+  give_band(view.grade, SetKind::simulated, 8);
+  view.grade.provisional = true;
+  html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<span class=\"band\">simulated expert 1–2</span>"));
+  EXPECT_THAT(html, HasSubstr("Simulated expert, not a standard"));
+  EXPECT_THAT(html, Not(HasSubstr("consultants, 24")));
+}
+
+TEST(GradeOnPage, AScoreSaysWhatItIsMadeOf) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  give_band(view.grade, SetKind::consultants, 8);
+  view.grade.score.value = 62.6;
+  view.grade.score.parts = {{"time_total", "s", 1, 20.0, 0.75, "", 30.0, 13.3},
+                            {"withdrawals_partial", "count", 1, 0.0, std::nullopt, "no_spread", 0.0, 0.0}};
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("Score: 63 of 100"));
+  EXPECT_THAT(html, HasSubstr("changes nothing of it"));
+  EXPECT_THAT(html, HasSubstr("not counted: the experts do not differ"));
+  EXPECT_THAT(html, HasSubstr("every metric weighs the same"));
+}
+
+TEST(GradeOnPage, OfNoRuleOrWhatIsNotGradedSaysSo) {
+  AttemptView view = sample_attempt();
+  EXPECT_THAT(attempt_page(kTrainee, view, nullptr), HasSubstr("No pass rule"));
+  view.grade.grade.verdict = assessment::Verdict::not_gradable;
+  view.grade.debrief = {{assessment::SentenceKind::not_gradable, "This attempt is not graded: x.", ""}};
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("Not graded"));
+  EXPECT_THAT(html, Not(HasSubstr("provisional")));
+}
+
+TEST(GradeOnList, EachAttemptSaysHowItWent) {
+  AttemptView view = sample_attempt();
+  for (const auto& [verdict, word] :
+       {std::pair{assessment::Verdict::passed, "<span class=\"yes\">Passed</span>"},
+        std::pair{assessment::Verdict::failed, "<span class=\"no\">Not passed</span>"},
+        std::pair{assessment::Verdict::not_gradable, "<span class=\"note\">Not graded</span>"},
+        std::pair{assessment::Verdict::no_rule, "<span class=\"note\">No pass rule</span>"}}) {
+    view.grade.grade.verdict = verdict;
+    EXPECT_THAT(attempts_page(kTrainee, std::vector{view}, {}), HasSubstr(word));
+  }
+  view.grade = failed_grade();
+  EXPECT_THAT(attempts_page(kTrainee, std::vector{view}, {}), HasSubstr("critical error"));
+}
+
+TEST(CurriculaPage, TellsATraineeWhatIsDueAndWhatIsNotOpen) {
+  CurriculumView view;
+  view.own = true;
+  view.curriculum.title = "First <year>";
+  view.curriculum.state = "published";
+  view.curriculum.items = {{"f1", {}, {}}, {"f2", 5, {{0, assessment::Proficiency::proficient}}}};
+  view.items.resize(2);
+  view.items[0].title = "Case A";
+  view.items[0].case_id = view.items[1].case_id = "c";
+  view.items[0].attempts = 3;
+  view.items[0].passes = 1;
+  view.items[0].progress = {assessment::Proficiency::passed, true, true, {}};
+  view.items[1].title = "Case B";
+  view.items[1].progress = {assessment::Proficiency::not_started, false, false, 5};
+  const std::string html = curricula_page(kTrainee, std::vector{view});
+  EXPECT_THAT(html, HasSubstr("First &lt;year&gt;"));
+  EXPECT_THAT(html, HasSubstr("Passed, not yet proficient"));
+  EXPECT_THAT(html, HasSubstr("<span class=\"mark due\">due</span>"));
+  EXPECT_THAT(html, HasSubstr("not open yet"));
+  EXPECT_THAT(html, HasSubstr("after 1 is proficient"));
+  EXPECT_THAT(html, HasSubstr("1 of 3"));
+  EXPECT_THAT(html, HasSubstr("no limit"));
+  EXPECT_THAT(curricula_page(kTrainee, {}), HasSubstr("no curriculum here yet"));
+}
+
+TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
+  casedb::Comparison comparison;
+  comparison.row.title = "Case </title><script>";
+  comparison.criteria = {failed_grade().grade.criteria[0], failed_grade().grade.criteria[2]};
+  for (const bool person : {true, false}) {
+    casedb::ComparedGroup& group = comparison.groups.emplace_back();
+    if (person) group.person_id = "0190a1b2-0000-7000-8000-0000003f20ab";
+    group.operator_name = "novice";
+    group.gradable = 3;
+    group.passed = person ? 1 : 0;
+    group.met = {3, 1};
+    group.of_criteria = {{3, 0.0, 0.0, 0.0, 0.0}, {3, 0.0, 1.0 / 3.0, 0.0, 1.0}};
+    group.attempts.push_back({sample_attempt().row, failed_grade()});
+  }
+  const std::string html = compare_page(comparison, ".x > .y { color: red }");
+  EXPECT_THAT(html, HasSubstr(".x > .y { color: red }"));
+  EXPECT_THAT(html, HasSubstr("Person 3f20ab"));
+  EXPECT_THAT(html, HasSubstr("Simulated novice"));
+  EXPECT_LT(html.find("Person 3f20ab"), html.find("Simulated novice"));
+  EXPECT_THAT(html, HasSubstr("1 of 3"));
+  EXPECT_THAT(html, HasSubstr("Went 3.2 mm through something."));
+  EXPECT_THAT(html, HasSubstr("Training only — not for planning a patient’s procedure."));
+  EXPECT_THAT(html, HasSubstr("Simulated operators test the software."));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_EQ(html.find("http"), html.npos);
+}
+
+TEST(GradeWords, ScoresAndSetsReadAsSentences) {
+  assessment::Score score;
+  score.reason = "no_expert_set";
+  EXPECT_EQ(score_text(score), "none: too few consultants have made attempts");
+  score.value = 0.0;
+  score.reason = "critical_error";
+  EXPECT_EQ(score_text(score), "0 of 100, for a critical error");
+  assessment::ExpertSet set;
+  EXPECT_EQ(experts_text(set), "No expert has set a standard yet; that takes 8 consultants with 3 attempts each.");
+  EXPECT_EQ(compared_text({0, 0, 0, 0, 0}, "mm"), "—");
+  EXPECT_EQ(compared_text({5, 12.0, 12.0, 9.0, 14.0}, "mm"), "12 mm (9–14 mm)");
+  EXPECT_EQ(compared_text({5, 1.0, 0.6, 0.0, 1.0}, "bool"), "3 of 5");
+}
+
+}  // namespace
+}  // namespace seldinger::reports
