@@ -1,4 +1,5 @@
-// bench --stage displacement: time against error of what moves tissue under a probe, and of the way back.
+// bench --stage displacement: time against error of what moves tissue under a probe, of the way back, and of whole
+// pictures.
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -9,8 +10,11 @@
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
 #include "sim/imaging/displacement/points_gpu.h"
+#include "sim/imaging/mpr/mpr.h"
 #include "sim/tissue/contact_peers.h"
 #include "sim/tissue/displacement.h"
+#include "sim/tissue/rest_plane.h"
+#include "sim/volume/phantom.h"
 
 namespace seldinger::app {
 namespace {
@@ -130,6 +134,21 @@ void measure_inverse(double depth_mm, bool quick, std::vector<BenchRow>& rows) {
   } catch (const base::Failure& failure) {
     std::fprintf(stderr, "no GL here: %s\n", failure.what());
   }
+  for (const double spacing_mm : {1.0, 2.0, 4.0, 8.0}) {
+    BenchRow row = row_of("grid", "", size);
+    std::vector<glm::dvec3> found_mm(picture.at_mm.size());
+    time_into(row, quick ? 3 : 11, [&] {
+      const tissue::RestPlane plane(
+          displacement, {.first_lps_mm = {-60.0, 0.0, 0.0}, .v = {0.0, 0.0, 1.0}, .size_mm = {120.0, 110.0}},
+          spacing_mm);
+      for (std::size_t i = 0; i < found_mm.size(); ++i)
+        found_mm[i] = plane.rest_of(picture.at_mm[i].x + 60.0, picture.at_mm[i].z);
+    });
+    Miss miss;
+    for (std::size_t i = 0; i < found_mm.size(); ++i) miss.add(found_mm[i] - picture.rest_mm[i]);
+    finish(row, miss, "every " + bench_number(spacing_mm) + " mm, " + pixels);
+    rows.push_back(row);
+  }
   for (const int newton : {0, 1, 2})
     for (int fixed = 1; fixed <= (newton == 0 ? 8 : 4); ++fixed) {
       const std::string method = newton == 0 ? "fixed point" : "fixed point, then Newton " + std::to_string(newton);
@@ -157,6 +176,63 @@ void measure_inverse(double depth_mm, bool quick, std::vector<BenchRow>& rows) {
     }
 }
 
+// A whole MPR picture of the torso in a breath under a probe, beside that of one who lies still.
+void measure_pictures(bool quick, std::vector<BenchRow>& rows) {
+  const volume::Volume volume = volume::make_phantom().volume;
+  imaging::MprView view;
+  view.center_lps_mm =
+      glm::dvec3(volume.lps_from_voxel * glm::dvec4(glm::dvec3(volume.size_voxels - 1) * 0.5, 1.0));
+  view.u = {0.8, 0.0, 0.6};
+  view.v = {0.0, 1.0, 0.0};
+  view.pixel_mm = 0.5;
+  view.width_px = view.height_px = quick ? 128 : 512;
+  const tissue::SkinPress press{.at_lps_mm = view.center_lps_mm - glm::dvec3(0.0, 60.0, 0.0),
+                                .inward = {0.0, 1.0, 0.0},
+                                .radius_mm = kRadiusMm,
+                                .depth_mm = 8.0};
+  const tissue::Breath breath{{.middle_x_mm = view.center_lps_mm.x,
+                               .back_y_mm = view.center_lps_mm.y + 110.0,
+                               .dome_z_mm = view.center_lps_mm.z},
+                              {2.0, 15.0, 16.0}};
+  const auto moving = tissue::displacement_of({.presses = {&press, 1}, .breath = breath});
+  const imaging::HuImage exact = imaging::mpr_reference(volume, view, {}, moving);
+  const std::string pixels = std::to_string(view.width_px) + "x" + std::to_string(view.height_px);
+  const auto add = [&](const std::string& method, const std::string& backend, const std::string& device,
+                       const std::function<imaging::HuImage()>& make, bool moves) {
+    imaging::HuImage picture = make();  // warm
+    BenchRow row = row_of(method, pixels + ", linear", "MPR " + bench_size(volume));
+    row.backend = backend;
+    row.device = device;
+    time_into(row, quick ? 3 : 11, [&] { picture = make(); });
+    if (moves) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < picture.size(); ++i)
+        sum += std::abs(static_cast<double>(picture[i]) - static_cast<double>(exact[i]));
+      row.error = bench_number(sum / static_cast<double>(picture.size()));
+      row.error_unit = "HU mean abs";
+      row.reference = "linear, double, plain, 6 fixed-point and 4 Newton steps";
+    }
+    rows.push_back(row);
+  };
+  add(
+      "still", "cpu", "all cores", [&] { return imaging::mpr_cpu(volume, view, {}); }, false);
+  add(
+      "moving, grid", "cpu", "all cores", [&] { return imaging::mpr_cpu(volume, view, {}, moving); }, true);
+  try {
+    gpu::Context context;
+    imaging::MprGpu each(context, volume, imaging::WayBack::each_pixel);
+    imaging::MprGpu grid(context, volume, imaging::WayBack::grid);
+    add(
+        "still", "gpu", context.renderer(), [&] { return each.render(view, {}); }, false);
+    add(
+        "moving, each pixel", "gpu", context.renderer(), [&] { return each.render(view, {}, moving); }, true);
+    add(
+        "moving, grid", "gpu", context.renderer(), [&] { return grid.render(view, {}, moving); }, true);
+  } catch (const base::Failure& failure) {
+    std::fprintf(stderr, "no GL here: %s\n", failure.what());
+  }
+}
+
 }  // namespace
 
 void bench_displacement(bool quick, std::vector<BenchRow>& rows) {
@@ -164,6 +240,7 @@ void bench_displacement(bool quick, std::vector<BenchRow>& rows) {
     measure_models(depth_mm, quick, rows);
     measure_inverse(depth_mm, quick, rows);
   }
+  measure_pictures(quick, rows);
 }
 
 }  // namespace seldinger::app

@@ -46,10 +46,14 @@ struct MprParameters {
 struct MprDisplaced {
   mat4 voxel_from_center;  // continuous voxel index of a place at rest, mm from the view's centre
   vec4 center_lps_mm;      // xyz
-  int fixed_point_steps;
+  int fixed_point_steps;   // of each pixel's way back
   int newton_steps;
+  int columns;  // of a grid's cells
+  int rows;
+  float nodes_per_pixel;
   int padding_0;
   int padding_1;
+  int padding_2;
 };
 
 // The start of a row is computed first, then the column added to it: never accumulated, and every caller that

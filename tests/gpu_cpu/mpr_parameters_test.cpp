@@ -19,7 +19,7 @@ namespace {
 
 TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
   const auto files = embedded::mpr_shaders();
-  ASSERT_EQ(files.size(), 2U);
+  ASSERT_EQ(files.size(), 3U);
   const std::map<std::string, std::size_t> offsets = offsets_from_compiler(files[0]);
   using P = shaders::MprParameters;
   const std::map<std::string, std::size_t> ours{
@@ -51,17 +51,24 @@ TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
 
 TEST(MprParameters, OfAPatientWhoMovesHaveThemToo) {
   const auto files = embedded::mpr_shaders();
-  ASSERT_EQ(files.size(), 2U);
+  ASSERT_EQ(files.size(), 3U);
   using D = shaders::MprDisplaced;
-  const std::map<std::string, std::size_t> ours{{"voxel_from_center", offsetof(D, voxel_from_center)},
-                                                {"center_lps_mm", offsetof(D, center_lps_mm)},
-                                                {"fixed_point_steps", offsetof(D, fixed_point_steps)},
-                                                {"newton_steps", offsetof(D, newton_steps)}};
-  EXPECT_EQ(offsets_from_compiler(files[1], "displaced"), ours);
   using P = shaders::MprParameters;
-  const auto parameters = offsets_from_compiler(files[1]);
-  ASSERT_EQ(parameters.count("lesion_hu"), 1U);
-  EXPECT_EQ(parameters.at("lesion_hu"), offsetof(P, lesion_hu));
+  const std::map<std::string, std::size_t> by_pixel{{"voxel_from_center", offsetof(D, voxel_from_center)},
+                                                    {"center_lps_mm", offsetof(D, center_lps_mm)},
+                                                    {"fixed_point_steps", offsetof(D, fixed_point_steps)},
+                                                    {"newton_steps", offsetof(D, newton_steps)}};
+  EXPECT_EQ(offsets_from_compiler(files[1], "displaced"), by_pixel);
+  const std::map<std::string, std::size_t> by_grid{{"voxel_from_center", offsetof(D, voxel_from_center)},
+                                                   {"columns", offsetof(D, columns)},
+                                                   {"rows", offsetof(D, rows)},
+                                                   {"nodes_per_pixel", offsetof(D, nodes_per_pixel)}};
+  EXPECT_EQ(offsets_from_compiler(files[2], "displaced"), by_grid);
+  for (const std::size_t file : {1U, 2U}) {
+    const auto parameters = offsets_from_compiler(files[file]);
+    ASSERT_EQ(parameters.count("lesion_hu"), 1U);
+    EXPECT_EQ(parameters.at("lesion_hu"), offsetof(P, lesion_hu));
+  }
 }
 
 }  // namespace

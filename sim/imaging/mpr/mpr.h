@@ -57,18 +57,24 @@ HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const I
                       const tissue::Displacement& displacement);
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
                 const tissue::Displacement& displacement);
-// What pictures spend on a sample's way back: right to 0.01 mm rms (docs/decisions/0023).
-constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 4, .newton = 1};
+
+// How the GPU finds where a pixel's tissue was: by itself for each, or on the CPU's grid of 2 mm
+// (sim/tissue/rest_plane.h), as mpr_cpu does. The first is hardware's; software GL takes 30 times as long for it.
+enum class WayBack { none, each_pixel, grid };
+constexpr tissue::InverseSteps kPixelSteps{.fixed_point = 4, .newton = 1};
+inline WayBack way_back_for(const gpu::Context& context) noexcept {
+  return context.software() ? WayBack::grid : WayBack::each_pixel;
+}
 
 // Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May
 // outlive the context. Throws base::Failure("gl") when the volume exceeds the largest texture or memory.
 class MprGpu {
  public:
-  // What a moving patient's pictures need besides is made only where the patient moves.
-  MprGpu(gpu::Context& context, const volume::Volume& volume, bool patient_moves = false);
+  // What a moving patient's pictures need besides is made only where the patient moves (way_back_for).
+  MprGpu(gpu::Context& context, const volume::Volume& volume, WayBack way_back = WayBack::none);
   ~MprGpu();
   HuImage render(const MprView& view, const Inserted& inserted);
-  // As the CPU's. Without sources it is the picture above; with some the patient must move (CHECKed).
+  // As the CPU's. Without sources it is the picture above; with some there must be a way back (CHECKed).
   HuImage render(const MprView& view, const Inserted& inserted, const tissue::Displacement& displacement);
 
  private:

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "shaders/shared/mpr.glsl.h"
 #include "sim/base/check.h"
@@ -33,11 +34,12 @@ static_assert(offsetof(MprParameters, lesion_sphere_mm) == 192);
 static_assert(offsetof(MprParameters, lesion_hu) == 448);
 static_assert(sizeof(MprParameters) == 704);
 static_assert(offsetof(MprDisplaced, fixed_point_steps) == 80);
-static_assert(sizeof(MprDisplaced) == 96);
+static_assert(sizeof(MprDisplaced) == 112);
 
 constexpr int kGroupPx = 16;  // local_size_x and _y of the shader
 constexpr int kTextureUnit = 0, kParametersBinding = 0, kPictureBinding = 1;
 constexpr int kDisplacedBinding = 1, kSourcesBinding = 2;  // of uniform blocks
+constexpr int kGridBinding = 2;                            // of storage
 
 std::string_view shader(std::string_view name) {
   const auto files = embedded::mpr_shaders();
@@ -92,25 +94,41 @@ namespace {
 
 // What pictures of a patient who moves need besides.
 struct Moving {
-  explicit Moving(gpu::Context& context)
-      : slice(context, shader("mpr_displaced.comp")),
+  Moving(gpu::Context& context, WayBack asked)
+      : way_back(asked),
+        slice(context, shader(asked == WayBack::grid ? "mpr_displaced_grid.comp" : "mpr_displaced.comp")),
         displaced(context, gpu::BufferUse::uniform, sizeof(MprDisplaced)),
-        sources(context, gpu::BufferUse::uniform, sizeof(tissue::Displacement)) {}
+        sources(context, gpu::BufferUse::uniform, sizeof(tissue::Displacement)),
+        grid(context, gpu::BufferUse::storage, sizeof(glm::vec4)) {}
 
   void set(const glm::dmat4& voxel_from_lps, const MprView& view, const tissue::Displacement& displacement) {
     MprDisplaced parameters{};
     parameters.voxel_from_center = glm::mat4(voxel_from_lps * glm::translate(glm::dmat4(1.0), view.center_lps_mm));
     parameters.center_lps_mm = vec4_from(view.center_lps_mm);
-    parameters.fixed_point_steps = kPictureSteps.fixed_point;
-    parameters.newton_steps = kPictureSteps.newton;
+    if (way_back == WayBack::grid) {
+      const tissue::RestPlane plane = rest_plane_of(view, displacement);
+      parameters.columns = plane.columns();
+      parameters.rows = plane.rows();
+      parameters.nodes_per_pixel = static_cast<float>(view.pixel_mm / tissue::kRestSpacingMm);
+      std::vector<glm::vec4> moved_mm;
+      for (const glm::dvec3& moved : plane.moved_mm()) moved_mm.push_back(vec4_from(moved));
+      const auto bytes = std::as_bytes(std::span(moved_mm));
+      if (grid.size() < bytes.size()) grid.resize(bytes.size());
+      grid.write(bytes);
+      grid.bind(kGridBinding);
+    } else {
+      parameters.fixed_point_steps = kPixelSteps.fixed_point;
+      parameters.newton_steps = kPixelSteps.newton;
+      sources.write(std::as_bytes(std::span(&displacement, 1)));
+      sources.bind(kSourcesBinding);
+    }
     displaced.write(std::as_bytes(std::span(&parameters, 1)));
-    sources.write(std::as_bytes(std::span(&displacement, 1)));
     displaced.bind(kDisplacedBinding);
-    sources.bind(kSourcesBinding);
   }
 
+  WayBack way_back;
   gpu::Program slice;
-  gpu::Buffer displaced, sources;
+  gpu::Buffer displaced, sources, grid;
 };
 
 }  // namespace
@@ -133,9 +151,9 @@ struct MprGpu::Parts {
   gpu::Buffer picture;  // as large as the largest picture so far
 };
 
-MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume, bool patient_moves)
+MprGpu::MprGpu(gpu::Context& context, const volume::Volume& volume, WayBack way_back)
     : parts_(std::make_unique<Parts>(context, volume)) {
-  if (patient_moves) parts_->moving.emplace(context);
+  if (way_back != WayBack::none) parts_->moving.emplace(context, way_back);
 }
 
 MprGpu::~MprGpu() = default;

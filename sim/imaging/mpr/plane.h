@@ -10,6 +10,7 @@
 #include "sim/base/check.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/mpr/mpr.h"
+#include "sim/tissue/rest_plane.h"
 
 namespace seldinger::imaging {
 
@@ -49,6 +50,13 @@ inline Plane plane_from_view(const glm::dmat4& voxel_from_lps, const MprView& vi
   plane.index_per_row = turn * plane.position_per_row_mm;
   plane.index_first = glm::dvec3(voxel_from_lps * glm::dvec4(view.center_lps_mm + plane.position_first_mm, 1.0));
   return plane;
+}
+
+// Where the tissue of the view's pixels was: from the middle of pixel (0,0), along rows and columns.
+inline tissue::RestPlane rest_plane_of(const MprView& view, const tissue::Displacement& displacement) {
+  const glm::dvec2 size_mm = view.pixel_mm * glm::dvec2(view.width_px - 1, view.height_px - 1);
+  return {displacement,
+          {view.center_lps_mm - 0.5 * size_mm.x * view.u - 0.5 * size_mm.y * view.v, view.u, view.v, size_mm}};
 }
 
 }  // namespace seldinger::imaging
