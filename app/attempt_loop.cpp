@@ -218,39 +218,30 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
 }
 
 Replay replay(const cases::Case& scene, const cases::Recording& recording) {
-  cases::State state;
-  std::uint64_t hash = 0;
-  std::size_t pose = 0;
-  ModelForces forces(scene);
-  engine::Patient patient(scene);
+  Room room(scene);
   std::vector<cases::Event> events;
+  std::size_t poses = 0;
+  std::optional<cases::Endpoint> endpoint;
+  const auto is_next = [](const auto& rows, std::size_t at, const auto& row) {
+    return at < rows.size() && rows[at] == row;
+  };
   for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
-    engine::step(scene, recording.inputs[i], recording.dt_s, state);
-    hash = cases::state_hash(state, hash);
-    bool same = static_cast<std::uint32_t>(hash) == recording.hashes[i];
-    assessment::RecordedTick tick;
-    tick.inputs = recording.inputs[i];
-    tick.reaction = patient.advance(tick.inputs, state);
+    const assessment::RecordedTick tick = room.advance(recording.inputs[i], recording.dt_s);
     const std::size_t told = events.size();
-    assessment::add_events(state.t_s, tick, events);
-    const auto force = forces.advance(state, recording.dt_s);
-    if ((state.tick - 1) % kPoseTicks == 0) {
-      const cases::PoseSample now = pose_of(state);
-      same = same && pose < recording.poses.size() && recording.poses[pose] == now;
-      if (force && !recording.forces.empty())
-        same = same && pose < recording.forces.size() && recording.forces[pose] == *force;
-      ++pose;
+    assessment::add_events(room.state().t_s, tick, events);
+    if (tick.endpoint) endpoint = tick.endpoint;
+    bool same = tick.hash == recording.hashes[i];
+    if (tick.pose) {
+      same = same && is_next(recording.poses, poses, *tick.pose);
+      if (tick.force && !recording.forces.empty()) same = same && is_next(recording.forces, poses, *tick.force);
+      ++poses;
     }
     for (std::size_t e = told; recording.events && e < events.size(); ++e)
-      same = same && e < recording.events->size() && (*recording.events)[e] == events[e];
-    if (!same) return {false, state.tick};
+      same = same && is_next(*recording.events, e, events[e]);
+    if (!same) return {false, room.state().tick};
   }
-  const bool endpoint_same =
-      state.fire.fired == recording.endpoint.has_value() &&
-      (!recording.endpoint ||
-       (*recording.endpoint == cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction}));
   const bool events_same = !recording.events || recording.events->size() == events.size();
-  return {pose == recording.poses.size() && endpoint_same && events_same, state.tick};
+  return {poses == recording.poses.size() && endpoint == recording.endpoint && events_same, room.state().tick};
 }
 
 }  // namespace seldinger::app
