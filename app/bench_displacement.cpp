@@ -11,6 +11,7 @@
 #include "sim/imaging/displacement/points_gpu.h"
 #include "sim/tissue/contact_peers.h"
 #include "sim/tissue/displacement.h"
+#include "sim/tissue/rest_plane.h"
 
 namespace seldinger::app {
 namespace {
@@ -129,6 +130,21 @@ void measure_inverse(double depth_mm, bool quick, std::vector<BenchRow>& rows) {
     on_gpu.emplace(*context, given_mm.size());
   } catch (const base::Failure& failure) {
     std::fprintf(stderr, "no GL here: %s\n", failure.what());
+  }
+  for (const double spacing_mm : {1.0, 2.0, 4.0, 8.0}) {
+    BenchRow row = row_of("grid", "", size);
+    std::vector<glm::dvec3> found_mm(picture.at_mm.size());
+    time_into(row, quick ? 3 : 11, [&] {
+      const tissue::RestPlane plane(
+          displacement, {.first_lps_mm = {-60.0, 0.0, 0.0}, .v = {0.0, 0.0, 1.0}, .size_mm = {120.0, 110.0}},
+          spacing_mm);
+      for (std::size_t i = 0; i < found_mm.size(); ++i)
+        found_mm[i] = plane.rest_of(picture.at_mm[i].x + 60.0, picture.at_mm[i].z);
+    });
+    Miss miss;
+    for (std::size_t i = 0; i < found_mm.size(); ++i) miss.add(found_mm[i] - picture.rest_mm[i]);
+    finish(row, miss, "every " + bench_number(spacing_mm) + " mm, " + pixels);
+    rows.push_back(row);
   }
   for (const int newton : {0, 1, 2})
     for (int fixed = 1; fixed <= (newton == 0 ? 8 : 4); ++fixed) {

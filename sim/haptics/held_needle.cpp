@@ -24,6 +24,15 @@ cases::Gauge gauge_of(const cases::Instrument& instrument) {
   return {0, 2.0 * instrument.radius_mm, 2.0 * instrument.inner_radius_mm};
 }
 
+// Bone ahead does not give way: tissue is pushed no further than up to it.
+double pushed_mm(const HeldNeedleState& state) noexcept {
+  const auto path = state.path.span();
+  double to_mm = state.depth_mm;
+  for (std::size_t ahead = state.track.opened; ahead < path.size(); ++ahead)
+    if (path[ahead].tissue.impenetrable) to_mm = std::min(to_mm, path[ahead].start_mm);
+  return std::max(0.0, to_mm - state.track.cut_mm);
+}
+
 void leave(HeldNeedleState& state) noexcept {
   // A hole stays where it is; a dent does not.
   if (state.track.opened == 0) state.track = {};
@@ -112,7 +121,7 @@ HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw
                 .radius_mm = 0.5 * gauge_.outer_mm,
                 .cut_mm = std::min(state.track.cut_mm, state.depth_mm),
                 .tip_n = force.along.tip_n,
-                .tip_mm = std::max(0.0, state.depth_mm - state.track.cut_mm),
+                .tip_mm = pushed_mm(state),
                 .shaft_mm = law.dragged_mm(in_tissue_mm, state.track)};
   force.force_n = side_law.advance(shift_mm, in_tissue_mm, state.side) - force.along.axial_n * state.direction;
   return force;

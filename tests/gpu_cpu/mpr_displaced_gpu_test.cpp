@@ -1,4 +1,4 @@
-// MPR of a patient who moves, on the GPU against the CPU; and of one who does not, the picture it always was.
+// MPR of a patient who moves, on the GPU against the reference; and of one who does not, the picture it always was.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,15 +58,15 @@ Scene scene() {
   return s;
 }
 
-TEST(MprDisplacedOnGpu, IsTheCpus) {
+TEST(MprDisplacedOnGpu, IsTheReference) {
   const Scene s = scene();
   gpu::Context context;
   MprGpu gpu(context, s.volume, true);
   const HuImage on_gpu = gpu.render(s.view, s.inserted, moving());
-  const HuImage on_cpu = mpr_cpu(s.volume, s.view, s.inserted, moving());
+  const HuImage reference = mpr_reference(s.volume, s.view, s.inserted, moving());
   // Beyond an HU only where rounding decides: on the edges of lesions and needle.
   int apart = 0;
-  for (std::size_t i = 0; i < on_gpu.size(); ++i) apart += std::abs(on_gpu[i] - on_cpu[i]) <= 1.0F ? 0 : 1;
+  for (std::size_t i = 0; i < on_gpu.size(); ++i) apart += std::abs(on_gpu[i] - reference[i]) <= 1.0F ? 0 : 1;
   EXPECT_LE(apart, 25) << "of " << on_gpu.size();
   EXPECT_NE(on_gpu, gpu.render(s.view, s.inserted)) << "and it did move";
 }

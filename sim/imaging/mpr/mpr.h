@@ -57,7 +57,7 @@ HuImage mpr_reference(const volume::Volume& volume, const MprView& view, const I
                       const tissue::Displacement& displacement);
 HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserted& inserted,
                 const tissue::Displacement& displacement);
-// What pictures spend on a sample's way back: right to 0.01 mm rms (docs/decisions/0023).
+// What the GPU spends on a pixel's way back; the CPU asks on a grid of 2 mm (sim/tissue/rest_plane.h).
 constexpr tissue::InverseSteps kPictureSteps{.fixed_point = 4, .newton = 1};
 
 // Holds the volume as a stack of integer 2-D textures; render() as often as wanted, on the context's thread. May

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "shaders/shared/mpr.glsl.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/plane.h"
 #include "sim/imaging/mpr/segment_clip.h"
+#include "sim/tissue/rest_plane.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -57,17 +59,21 @@ class Painter {
       : volume_(volume),
         view_(view),
         inserted_(inserted),
-        displacement_(tissue::count_sources(displacement) > 0 ? &displacement : nullptr),
         voxel_from_lps_(volume::voxel_from_lps(volume)),
         plane_(plane_from_view(voxel_from_lps_, view)),
         needle_(inserted.needle && is_finite(*inserted.needle) ? &*inserted.needle : nullptr),
-        image_(image) {}
+        image_(image) {
+    if (tissue::count_sources(displacement) > 0)
+      at_rest_.emplace(displacement,
+                       tissue::PlanePart{view.center_lps_mm + plane_.position_first_mm, view.u, view.v,
+                                         view.pixel_mm * glm::dvec2(view.width_px - 1, view.height_px - 1)});
+  }
 
   void paint_row(int row) const {
     float* pixels = image_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(view_.width_px);
     const glm::dvec3 row_mm = shaders::mpr_row_start(plane_.position_first_mm, plane_.position_per_row_mm, row);
-    if (displacement_ != nullptr) {
-      paint_displaced(row_mm, pixels);
+    if (at_rest_) {
+      paint_displaced(row, pixels);
     } else {
       paint_volume(row, pixels);
       // Backwards, so that the first lesion that contains a point is the last to write.
@@ -110,12 +116,9 @@ class Painter {
   }
 
   // Each pixel by where its tissue was at rest: neighbours in a row are none there.
-  void paint_displaced(const glm::dvec3& row_mm, float* pixels) const {
-    for (int c = 0; c < view_.width_px; ++c) {
-      const glm::dvec3 p_mm = shaders::mpr_in_row(row_mm, plane_.position_per_column_mm, c);
-      const glm::dvec3 rest_lps_mm = tissue::rest_of(*displacement_, view_.center_lps_mm + p_mm, kPictureSteps);
-      pixels[c] = rest_hu(rest_lps_mm);
-    }
+  void paint_displaced(int row, float* pixels) const {
+    for (int c = 0; c < view_.width_px; ++c)
+      pixels[c] = rest_hu(at_rest_->rest_of(c * view_.pixel_mm, row * view_.pixel_mm));
   }
 
   float rest_hu(const glm::dvec3& rest_lps_mm) const {
@@ -205,9 +208,9 @@ class Painter {
   const volume::Volume& volume_;
   const MprView& view_;
   const Inserted& inserted_;
-  const tissue::Displacement* displacement_;  // null: nothing moves
   glm::dmat4 voxel_from_lps_;
   Plane plane_;
+  std::optional<tissue::RestPlane> at_rest_;  // nothing where nothing moves
   const NeedlePose* needle_;
   HuImage& image_;
 };

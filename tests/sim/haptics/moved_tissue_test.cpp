@@ -68,6 +68,19 @@ TEST(MovedTissue, TheTissueAtTheTipIsAtTheTip) {
   EXPECT_EQ(tissue::count_sources(hands.displacement()), 0) << "outside nothing moves";
 }
 
+// The rib, 6 mm deep: the needle stands on it and is pushed on, but bone stays where it is.
+TEST(MovedTissue, BoneBeforeTheTipDoesNotMove) {
+  Hands hands;
+  double most_mm = 0.0;
+  for (int i = 0; i <= 1500; ++i) {
+    hands.rest({}, holding(Tool::needle, {40.0, 0.0, 3.0 - 0.01 * i}), 1);
+    const tissue::NeedleDrag& drag = hands.states[1].needle.drag;
+    most_mm = std::max(most_mm, drag.cut_mm + drag.tip_mm);
+  }
+  EXPECT_GT(most_mm, 4.0) << "up to the bone tissue gives way,";
+  EXPECT_LT(most_mm, 7.1) << "within a voxel of where bone begins; the device is 12 mm deep";
+}
+
 // A puncture is seen when it is felt: in the tick of the rupture what lay before the tip goes back.
 TEST(MovedTissue, SnapsBackInTheTickOfTheRupture) {
   Hands hands;
