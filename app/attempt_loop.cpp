@@ -50,6 +50,7 @@ class Attempt {
     recording_.events.emplace();
   }
   const cases::State& state() const noexcept { return ticks_.state(); }
+  const tissue::Displacement& displacement() const noexcept { return ticks_.displacement(); }
 
   // What was said in it.
   cases::EventKind tick(cases::Inputs hands) {
@@ -89,7 +90,7 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
     new_frame = due >= frames;
     if (!new_frame) continue;
     frames = due + 1;
-    frame = truth_of(state);
+    frame = truth_of(state, attempt.displacement());
     frame.live = !state.probe.frozen;
     attempt.picture(frame);
   }
@@ -127,17 +128,20 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
 
 }  // namespace
 
-std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene) {
+Sight sight_of(const cases::Case& scene) {
   const auto needle = [&scene](const cases::State& state) {
     return needle_of(scene, state.needle.tip_lps_mm, state.needle.direction);
   };
   CHECK(scene.picture.modality != cases::Modality::xray);
   if (scene.picture.modality == cases::Modality::ultrasound)
-    return [needle, sight = std::make_shared<UltrasoundSight>(scene)](const cases::State& state) {
+    return [needle, sight = std::make_shared<UltrasoundSight>(scene)](const cases::State& state,
+                                                                      const tissue::Displacement&) {
       return frame_truth(state.t_s, sight->see(probe_of(pose_of(state)), needle(state)));
     };
-  return [needle, &scene](const cases::State& state) {
-    return frame_truth(state.t_s, view_of(scene, pose_of(state)), needle(state), scene.lesions);
+  return [needle, &scene](const cases::State& state, const tissue::Displacement& displacement) {
+    auto target = target_of(scene.lesions);
+    if (target) target = tissue::displaced(displacement, *target);
+    return frame_truth(state.t_s, imaging::mpr_visible(view_of(scene, pose_of(state)), needle(state), target));
   };
 }
 
@@ -181,10 +185,10 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
 }
 
 GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
-                              const imaging::NeedlePose& needle) {
+                              const imaging::NeedlePose& needle, const tissue::Displacement& displacement) {
   const imaging::MprView view = view_of(scene, pose);
-  return {imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}), kWindowCenterHu,
-                                kWindowWidthHu),
+  return {imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}, displacement),
+                                kWindowCenterHu, kWindowWidthHu),
           view.width_px, view.height_px};
 }
 
@@ -208,6 +212,19 @@ std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const 
 
 }  // namespace
 
+namespace {
+
+// When the trigger fell, or last.
+tissue::Displacement displacement_at_end(const cases::Case& scene, const cases::Recording& recording) {
+  if (!scene.breathing && !scene.yields) return {};
+  Room room(scene);
+  for (const cases::Inputs& inputs : recording.inputs)
+    if (!room.state().fire.fired) room.advance(inputs, recording.dt_s);
+  return room.displacement();
+}
+
+}  // namespace
+
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
   CHECK(!recording.poses.empty());
   if (scene.picture.modality == cases::Modality::xray) return xray_picture_at_endpoint(scene, recording);
@@ -221,46 +238,37 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
   if (scene.picture.modality == cases::Modality::ultrasound)
     return png_of(
         UltrasoundSight(scene).picture(probe_of(pose), needle, recording.hashes.back(), recording.frames.size()));
-  return png_of(slice_under_probe(scene, pose, needle));
+  return png_of(slice_under_probe(scene, pose, needle, displacement_at_end(scene, recording)));
 }
 
 Replay replay(const cases::Case& scene, const cases::Recording& recording, const TickSeen& seen) {
   const bool comparable = recording.step_version == engine::kStepVersion;
-  cases::State state;
-  std::uint64_t hash = 0;
-  std::size_t pose = 0;
-  ModelForces forces(scene);
-  engine::Patient patient(scene);
+  Room room(scene);
   std::vector<cases::Event> events;
+  std::size_t poses = 0;
+  std::optional<cases::Endpoint> endpoint;
+  const auto is_next = [](const auto& rows, std::size_t at, const auto& row) {
+    return at < rows.size() && rows[at] == row;
+  };
   for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
-    engine::step(scene, recording.inputs[i], recording.dt_s, state);
-    hash = cases::state_hash(state, hash);
-    bool same = static_cast<std::uint32_t>(hash) == recording.hashes[i];
-    assessment::RecordedTick tick;
-    tick.inputs = recording.inputs[i];
-    tick.reaction = patient.advance(tick.inputs, state);
+    const assessment::RecordedTick tick = room.advance(recording.inputs[i], recording.dt_s);
     const std::size_t told = events.size();
-    assessment::add_events(state.t_s, tick, events);
-    const auto force = forces.advance(state, recording.dt_s);
-    if ((state.tick - 1) % kPoseTicks == 0) {
-      const cases::PoseSample now = pose_of(state);
-      same = same && pose < recording.poses.size() && recording.poses[pose] == now;
-      if (force && !recording.forces.empty())
-        same = same && pose < recording.forces.size() && recording.forces[pose] == *force;
-      ++pose;
+    assessment::add_events(room.state().t_s, tick, events);
+    if (tick.endpoint) endpoint = tick.endpoint;
+    bool same = tick.hash == recording.hashes[i];
+    if (tick.pose) {
+      same = same && is_next(recording.poses, poses, *tick.pose);
+      if (tick.force && !recording.forces.empty()) same = same && is_next(recording.forces, poses, *tick.force);
+      ++poses;
     }
     for (std::size_t e = told; recording.events && e < events.size(); ++e)
-      same = same && e < recording.events->size() && (*recording.events)[e] == events[e];
-    if (!same && comparable) return {false, state.tick};
-    if (seen) seen(state);
+      same = same && is_next(*recording.events, e, events[e]);
+    if (!same && comparable) return {false, room.state().tick};
+    if (seen) seen(room.state(), room.displacement());
   }
   if (!comparable) return {false, 0};
-  const bool endpoint_same =
-      state.fire.fired == recording.endpoint.has_value() &&
-      (!recording.endpoint ||
-       (*recording.endpoint == cases::Endpoint{state.fire.t_s, state.fire.tip_lps_mm, state.fire.direction}));
   const bool events_same = !recording.events || recording.events->size() == events.size();
-  return {pose == recording.poses.size() && endpoint_same && events_same, state.tick};
+  return {poses == recording.poses.size() && endpoint == recording.endpoint && events_same, room.state().tick};
 }
 
 }  // namespace seldinger::app

@@ -27,8 +27,10 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
                              const assessment::OperatorProfile& profile, std::uint64_t seed,
                              std::span<const cases::Event> scenario = {});
 
-// What the picture under the probe shows of a state, of slice or ultrasound (CHECKed); the scene must outlive it.
-std::function<cases::FrameTruth(const cases::State&)> sight_of(const cases::Case& scene);
+// What the picture under the probe shows of a state and how its tissue is displaced, of slice or ultrasound
+// (CHECKed); the scene must outlive it.
+using Sight = std::function<cases::FrameTruth(const cases::State&, const tissue::Displacement&)>;
+Sight sight_of(const cases::Case& scene);
 
 // What metrics measure of a recording made in this scene, which must outlive it.
 base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording);
@@ -48,12 +50,12 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
 
 // A slice of the CT as the screen shows it under a probe.
 GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
-                              const imaging::NeedlePose& needle);
+                              const imaging::NeedlePose& needle, const tissue::Displacement& displacement);
 
 // Replays the inputs by this step version: states, poses and, where the scene has tissue and the recording them,
 // forces. `seen` is called after each tick, up to the first that differs. What another step version recorded is
 // walked through and compared with nothing: not the same.
-using TickSeen = std::function<void(const cases::State&)>;
+using TickSeen = std::function<void(const cases::State&, const tissue::Displacement&)>;
 struct Replay {
   bool same = false;
   std::uint64_t first_difference_tick = 0;

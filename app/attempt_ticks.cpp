@@ -1,5 +1,6 @@
 #include "app/attempt_ticks.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "app/servo_trial.h"
@@ -12,44 +13,70 @@ cases::PoseSample pose_of(const cases::State& state) {
           state.probe.axial, state.probe.lateral};
 }
 
-ModelForces::ModelForces(const cases::Case& scene) {
+namespace {
+
+// Up the shaft from the tip, at least: there the needle's line is told by where the skin holds it.
+constexpr double kShortestMm = 20.0;
+
+}  // namespace
+
+Room::Room(const cases::Case& scene) : scene_(scene), tissue_(scene), patient_(scene) {
   if (!scene.classes.empty()) hands_.emplace(scene, two_virtual_devices());
 }
 
-std::optional<cases::ForceSample> ModelForces::advance(const cases::State& state, double elapsed_s) noexcept {
+std::optional<cases::ForceSample> Room::feel(double elapsed_s) noexcept {
   if (!hands_) return std::nullopt;
   haptics::HandInput needle, probe;
   needle.tool = haptics::Tool::needle;
-  needle.pose.position_lps_mm = state.needle.tip_lps_mm;
-  needle.pose.axis = state.needle.direction;
+  needle.pose.position_lps_mm = state_.needle.tip_lps_mm;
+  needle.pose.axis = state_.needle.direction;
   probe.tool = haptics::Tool::probe;
-  probe.pose = {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
-  const haptics::HandForces forces = hands_->advance({probe, needle}, elapsed_s, states_);
+  probe.pose = {state_.probe.origin_lps_mm, state_.probe.axial, state_.probe.lateral};
+  if (tissue_.moves()) {
+    needle.pose = engine::at_rest(tissue_.felt_by_needle(state_, hand_states_), needle.pose,
+                                  std::max(kShortestMm, state_.needle.inserted_mm));
+    probe.pose.position_lps_mm = tissue::rest_of(tissue_.felt_by_probe(state_), probe.pose.position_lps_mm);
+  }
+  const haptics::HandForces forces = hands_->advance({probe, needle}, elapsed_s, hand_states_);
   const glm::dvec3& needle_n = forces[1].wanted_n;
-  const double axial_n = -glm::dot(needle_n, state.needle.direction);
-  return cases::ForceSample{state.t_s, axial_n, glm::length(needle_n + axial_n * state.needle.direction),
+  const double axial_n = -glm::dot(needle_n, needle.pose.axis);
+  return cases::ForceSample{state_.t_s, axial_n, glm::length(needle_n + axial_n * needle.pose.axis),
                             glm::length(forces[0].wanted_n)};
+}
+
+std::optional<glm::dvec3> Room::rest_of(const glm::dvec3& tip_lps_mm) const noexcept {
+  if (!tissue_.moves()) return std::nullopt;
+  return tissue::rest_of(displacement_, tip_lps_mm);
+}
+
+assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s) noexcept {
+  assessment::RecordedTick tick;
+  tick.inputs = inputs;
+  const bool fired = state_.fire.fired;
+  // By what held until now: a hand's tick is felt, and shows, in the next.
+  engine::step(scene_, inputs, dt_s, tissue_.felt_by_needle(state_, hand_states_), state_);
+  hash_ = cases::state_hash(state_, hash_);
+  tick.hash = static_cast<std::uint32_t>(hash_);
+  tick.reaction = patient_.advance(inputs, state_);
+  const auto force = feel(dt_s);
+  if (tissue_.moves()) displacement_ = tissue_.seen(state_, hand_states_);
+  if ((state_.tick - 1) % kPoseTicks == 0) {
+    tick.pose = pose_of(state_);
+    tick.pose->rest_tip_lps_mm = rest_of(state_.needle.tip_lps_mm);
+    tick.force = force;
+  }
+  if (state_.fire.fired && !fired)
+    tick.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction,
+                                    rest_of(state_.fire.tip_lps_mm)};
+  return tick;
 }
 
 assessment::RecordedTick AttemptTicks::advance(const cases::Inputs& hands) noexcept {
   constexpr double kTickS = engine::kTickSeconds;
-  assessment::RecordedTick tick;
-  tick.inputs = hands;
-  tick.inputs.needle = needle_arm_.advance(hands.needle, kTickS);
-  tick.inputs.probe = probe_arm_.advance(hands.probe, kTickS);
-  const bool fired = state_.fire.fired;
-  engine::step(scene_, tick.inputs, kTickS, state_);
-  hash_ = cases::state_hash(state_, hash_);
-  tick.hash = static_cast<std::uint32_t>(hash_);
-  tick.reaction = patient_.advance(tick.inputs, state_);
-  const auto force = forces_.advance(state_, kTickS);
-  if ((state_.tick - 1) % kPoseTicks == 0) {
-    tick.pose = pose_of(state_);
-    tick.force = force;
-  }
-  if (state_.fire.fired && !fired)
-    tick.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction};
-  return tick;
+  cases::Inputs inputs = hands;
+  inputs.needle = needle_arm_.advance(hands.needle, kTickS);
+  inputs.probe = probe_arm_.advance(hands.probe, kTickS);
+  return room_.advance(inputs, kTickS);
 }
 
 }  // namespace seldinger::app

@@ -9,6 +9,7 @@
 #include "sim/case/case.h"
 #include "sim/case/state.h"
 #include "sim/devices/virtual_device.h"
+#include "sim/engine/moving_tissue.h"
 #include "sim/engine/patient.h"
 #include "sim/haptics/two_hands.h"
 
@@ -19,15 +20,31 @@ constexpr std::uint64_t kPoseTicks = 10;
 
 cases::PoseSample pose_of(const cases::State& state);
 
-// What tissue asks of hands that hold needle and probe where `state` says. Without classes in the scene: nothing.
-class ModelForces {
+// The room, tick by tick: the step, the tissue that moves, what it asks of the hands, and how the patient reacts.
+// The same for an attempt and for its replay.
+class Room {
  public:
-  explicit ModelForces(const cases::Case& scene);
-  std::optional<cases::ForceSample> advance(const cases::State& state, double elapsed_s) noexcept;
+  // The scene must outlive it. Without classes in it nothing is felt, and hands move no tissue.
+  explicit Room(const cases::Case& scene);
+  const cases::State& state() const noexcept { return state_; }
+  // Of the tick that was done: where what pictures show is.
+  const tissue::Displacement& displacement() const noexcept { return displacement_; }
+
+  // One tick, and what it leaves behind. Allocates nothing.
+  assessment::RecordedTick advance(const cases::Inputs& inputs, double dt_s) noexcept;
 
  private:
+  std::optional<cases::ForceSample> feel(double elapsed_s) noexcept;
+  std::optional<glm::dvec3> rest_of(const glm::dvec3& tip_lps_mm) const noexcept;
+
+  const cases::Case& scene_;
+  engine::MovingTissue tissue_;
   std::optional<haptics::TwoHands> hands_;
-  haptics::HandStates states_{};
+  haptics::HandStates hand_states_{};
+  engine::Patient patient_;
+  tissue::Displacement displacement_{};
+  cases::State state_;
+  std::uint64_t hash_ = 0;
 };
 
 // A mentor's events, each put into the first tick from its time on in which nobody else says anything.
@@ -45,22 +62,20 @@ class Scenario {
   std::span<const cases::Event> events_;
 };
 
+// An attempt: hands through the arms into the room.
 class AttemptTicks {
  public:
   // The scene must outlive it.
-  explicit AttemptTicks(const cases::Case& scene) : scene_(scene), forces_(scene), patient_(scene) {}
-  const cases::State& state() const noexcept { return state_; }
+  explicit AttemptTicks(const cases::Case& scene) : room_(scene) {}
+  const cases::State& state() const noexcept { return room_.state(); }
+  const tissue::Displacement& displacement() const noexcept { return room_.displacement(); }
 
   // One tick of where hands want to be, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& hands) noexcept;
 
  private:
-  const cases::Case& scene_;
-  ModelForces forces_;
-  engine::Patient patient_;
+  Room room_;
   devices::VirtualDevice needle_arm_, probe_arm_;
-  cases::State state_;
-  std::uint64_t hash_ = 0;
 };
 
 }  // namespace seldinger::app

@@ -98,6 +98,8 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.position = row.position;
   scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
   scene.defer_is_right = row.clinic.defer;
+  scene.breathing = row.motion.breathing();
+  scene.yields = row.motion.yields;
 
   const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
   Voxels voxels(library, row, scene.volume);

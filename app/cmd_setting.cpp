@@ -46,6 +46,17 @@ void read_clinic(const Arguments& arguments, casedb::Clinic& clinic) {
   }
 }
 
+void read_motion(const Arguments& arguments, casedb::Motion& motion) {
+  motion.breath_depth = arguments.number("--breath-depth", motion.breath_depth);
+  motion.breath_period_s = arguments.number("--breath-period-s", motion.breath_period_s);
+  motion.breath_irregularity = arguments.number("--breath-irregularity", motion.breath_irregularity);
+  if (arguments.has("--tissue")) {
+    const std::string tissue = arguments.text("--tissue");
+    if (tissue != "still" && tissue != "yields") throw UsageError("--tissue is still or yields");
+    motion.yields = tissue == "yields";
+  }
+}
+
 void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
   if (!arguments.has("--pass") && !arguments.has("--critical")) return;
   rule.criteria.clear();
@@ -80,6 +91,7 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
   }
   read_instrument(arguments, setting.instrument);
   read_clinic(arguments, setting.clinic);
+  read_motion(arguments, setting.motion);
   if (arguments.has("--entry-mm")) {
     setting.planned_entry_lps_mm = parse_point(arguments.text("--entry-mm"));
     if (!setting.planned_entry_lps_mm) throw UsageError("--entry-mm needs X,Y,Z in mm");

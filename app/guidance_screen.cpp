@@ -12,7 +12,7 @@ GuidanceScreen::GuidanceScreen(const cases::Case& scene, std::uint64_t seed) : s
   if (scene.picture.modality == cases::Modality::xray) room_.emplace(scene);
 }
 
-void GuidanceScreen::tick(const cases::State& state) {
+void GuidanceScreen::tick(const cases::State& state, const tissue::Displacement& displacement) {
   if (room_) {
     live_ = state.fluoroscopy.live;
     if (!state.fluoroscopy.frame_due) return;
@@ -24,6 +24,7 @@ void GuidanceScreen::tick(const cases::State& state) {
     pictures_ = due + 1;
   }
   shown_ = state;
+  shown_displacement_ = displacement;
   drawn_ = false;
 }
 
@@ -40,7 +41,7 @@ const GreyPicture& GuidanceScreen::picture() {
                                    tool.radius_mm,  tool.inner_radius_mm,  tool.hu};
   picture_ = sight_ ? sight_->picture({pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral}, needle,
                                       seed_, static_cast<std::uint64_t>(pictures_))
-                    : slice_under_probe(scene_, pose, needle);
+                    : slice_under_probe(scene_, pose, needle, shown_displacement_);
   return picture_;
 }
 

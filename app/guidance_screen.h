@@ -10,6 +10,7 @@
 #include "app/ultrasound_sight.h"
 #include "sim/case/case.h"
 #include "sim/case/state.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 
@@ -19,7 +20,7 @@ class GuidanceScreen {
   GuidanceScreen(const cases::Case& scene, std::uint64_t seed);
 
   // After each tick, in order. Draws nothing.
-  void tick(const cases::State& state);
+  void tick(const cases::State& state, const tissue::Displacement& displacement);
 
   // What is on the screen now, drawn when it is asked for; without pixels before the first picture.
   const GreyPicture& picture();
@@ -31,6 +32,7 @@ class GuidanceScreen {
   std::optional<UltrasoundSight> sight_;
   std::optional<FluoroscopyRoom> room_;
   cases::State shown_;  // of which the screen shows the picture
+  tissue::Displacement shown_displacement_{};
   long long pictures_ = 0;
   bool live_ = false, drawn_ = true;
   GreyPicture picture_;

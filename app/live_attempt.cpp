@@ -36,7 +36,11 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
                                 });
 
   AttemptTicks ticks(scene_);
-  base::Snapshot<cases::State> states;
+  struct Moment {
+    cases::State state;
+    tissue::Displacement displacement{};
+  };
+  base::Snapshot<Moment> moments;
   base::Snapshot<cases::FrameTruth> frames;
   std::atomic<bool> over{false};
   engine::ServoLoop servo({}, [&](double elapsed_s) {
@@ -50,7 +54,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
       const bool kept = recorder.tick(ticks.advance(inputs));
       if (!kept || done() || ticks.state().t_s >= kMaxAttemptSeconds) over = true;
     }
-    states.put(ticks.state());
+    moments.put({ticks.state(), ticks.displacement()});
   });
 
   const auto begun = std::chrono::steady_clock::now();
@@ -58,10 +62,10 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
     std::this_thread::sleep_until(
         begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                     std::chrono::duration<double>(static_cast<double>(next) / scene_.picture.rate_hz)));
-    const auto state = states.take();
-    if (!state) continue;
-    cases::FrameTruth frame = see(*state);
-    frame.live = !state->probe.frozen;
+    const auto moment = moments.take();
+    if (!moment) continue;
+    cases::FrameTruth frame = see(moment->state, moment->displacement);
+    frame.live = !moment->state.probe.frozen;
     recorder.frame(frame);
     frames.put(frame);
   }

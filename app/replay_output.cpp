@@ -72,9 +72,9 @@ reports::SheetPlane row_of(const Scene& s, const BodyPlane& plane) {
 template <typename Before, typename After>
 Replay walk(const Scene& s, const cases::Recording& recording, GuidanceScreen& screen, const Before& before,
             const After& after) {
-  return replay(s.scene, recording, [&](const cases::State& state) {
+  return replay(s.scene, recording, [&](const cases::State& state, const tissue::Displacement& displacement) {
     before(state);
-    screen.tick(state);
+    screen.tick(state, displacement);
     after(state);
   });
 }

@@ -37,6 +37,9 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
     return base::Error{"other_modality", "the case is not practised with this modality"};
   auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
   if (!scene) return scene.error();
+  if ((scene->breathing || scene->yields) && picture.modality != cases::Modality::mpr)
+    return base::Error{"motion_not_shown",
+                       "a patient who moves is shown by mpr only: ultrasound and fluoroscopy do not show it yet"};
   scene->instrument.kind = kind.value_or(row->instrument.kind);
   assessment::PathLimits limits = assessment::path_limits(*scene);
   if (picture.modality == cases::Modality::ultrasound)

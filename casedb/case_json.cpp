@@ -109,6 +109,10 @@ void add_authoring(const CaseParts& parts, Json& json) {
                     {"allergy", row.clinic.allergy},
                     {"indication", row.clinic.indication},
                     {"decision", row.clinic.defer ? "defer" : "proceed"}};
+  json["motion"] = {{"breath_depth", row.motion.breath_depth},
+                    {"breath_period_s", row.motion.breath_period_s},
+                    {"breath_irregularity", row.motion.breath_irregularity},
+                    {"tissue", row.motion.yields ? "yields" : "still"}};
   json["planned_entry_mm"] = row.planned_entry_lps_mm ? point(*row.planned_entry_lps_mm) : Json(nullptr);
   json["difficulty"] = kDifficultyNames[static_cast<std::size_t>(row.difficulty)];
   json["time_limit_s"] = maybe(row.time_limit_s);

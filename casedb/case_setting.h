@@ -24,6 +24,14 @@ struct Clinic {
   bool defer = false;                           // the right decision
 };
 
+// What of the patient moves. None of it: as still as the CT.
+struct Motion {
+  double breath_depth = 0.0;  // a share of a quiet breath of the liver (cases::Breathing); 0: none
+  double breath_period_s = 4.0, breath_irregularity = 0.1;
+  bool yields = false;  // tissue, to probe and needle
+  std::optional<cases::Breathing> breathing() const;
+};
+
 struct CaseSetting {
   cases::Modality modality = cases::Modality::mpr;  // what it is practised with
   std::vector<cases::Modality> further_modalities;  // what it may be practised with too
@@ -31,6 +39,7 @@ struct CaseSetting {
   cases::Instrument instrument;
   cases::Approach approach = cases::Approach::in_plane;
   Clinic clinic;
+  Motion motion;
   std::optional<glm::dvec3> planned_entry_lps_mm;
   Difficulty difficulty = Difficulty::moderate;
   std::optional<double> time_limit_s;

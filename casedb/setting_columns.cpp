@@ -37,6 +37,15 @@ std::string name_of(cases::Approach approach) {
   return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
 }
 
+std::optional<cases::Breathing> Motion::breathing() const {
+  if (!(breath_depth > 0.0)) return std::nullopt;
+  cases::Breathing made;
+  made.amplitude_mm *= breath_depth;
+  made.period_s = breath_period_s;
+  made.irregularity = breath_irregularity;
+  return made;
+}
+
 base::Result<void> check_setting(const CaseSetting& setting) {
   base::Error error{"bad_setting", "the setting of the case is not sound"};
   const auto wrong = [&](const char* text) { error.findings.push_back({"bad_setting", text}); };
@@ -61,6 +70,10 @@ base::Result<void> check_setting(const CaseSetting& setting) {
   if (clinic.inr && !within(*clinic.inr, 0.5, 20.0)) wrong("INR is from 0.5 to 20");
   if (clinic.platelets_per_nl && !within(*clinic.platelets_per_nl, 0.0, 3000.0))
     wrong("platelets are from 0 to 3000 per nl");
+  const Motion& motion = setting.motion;
+  if (!within(motion.breath_depth, 0.0, 2.0) || !within(motion.breath_period_s, 1.0, 20.0) ||
+      !within(motion.breath_irregularity, 0.0, 0.4))
+    wrong("a breath is up to twice as deep as a quiet one, 1 to 20 s long, and up to 0.4 irregular");
   if (!sound_text(clinic.allergy) || !sound_text(clinic.indication))
     wrong("allergy and indication are one line of at most 200 bytes");
   if (setting.planned_entry_lps_mm)
@@ -117,6 +130,10 @@ void bind_setting(Statement& statement, const CaseSetting& setting) {
   statement.bind("inr", clinic.inr).bind("platelets_per_nl", clinic.platelets_per_nl);
   statement.bind("allergy", clinic.allergy).bind("indication", clinic.indication);
   statement.bind("decision", clinic.defer ? "defer" : "proceed");
+  statement.bind("breath_depth", setting.motion.breath_depth);
+  statement.bind("breath_period_s", setting.motion.breath_period_s);
+  statement.bind("breath_irregularity", setting.motion.breath_irregularity);
+  statement.bind("tissue_yields", setting.motion.yields ? 1 : 0);
   statement.bind("planned_entry_x_lps_mm", entry(0)).bind("planned_entry_y_lps_mm", entry(1));
   statement.bind("planned_entry_z_lps_mm", entry(2));
   statement.bind("difficulty", kDifficultyNames[static_cast<std::size_t>(setting.difficulty)]);
@@ -143,6 +160,10 @@ void read_setting(const Statement& from, CaseSetting& setting) {
   setting.clinic.allergy = from.text("allergy");
   setting.clinic.indication = from.text("indication");
   setting.clinic.defer = from.text("decision") == "defer";
+  setting.motion.breath_depth = from.real("breath_depth");
+  setting.motion.breath_period_s = from.real("breath_period_s");
+  setting.motion.breath_irregularity = from.real("breath_irregularity");
+  setting.motion.yields = from.integer("tissue_yields") != 0;
   if (!from.is_null("planned_entry_x_lps_mm"))
     setting.planned_entry_lps_mm =
         glm::dvec3(from.real("planned_entry_x_lps_mm"), from.real("planned_entry_y_lps_mm"),

@@ -7,7 +7,7 @@ INSERT INTO training_case (
   skin_sha256, labels_sha256, classes_sha256, modality, patient_position, further_modalities, approach,
   instrument_kind, instrument_length_mm, instrument_radius_mm, instrument_inner_radius_mm, instrument_hu,
   instrument_throw_mm, instrument_notch_mm, instrument_dead_tip_mm, inr, platelets_per_nl, allergy,
-  indication, decision, planned_entry_x_lps_mm, planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty,
+  indication, decision, breath_depth, breath_period_s, breath_irregularity, tissue_yields, planned_entry_x_lps_mm, planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty,
   time_limit_s, attempt_limit, pass_rule, family_id, version, face_state, burned_in_checked_us,
   burned_in_checked_by
 ) VALUES (
@@ -19,6 +19,7 @@ INSERT INTO training_case (
   :further_modalities, :approach, :instrument_kind, :instrument_length_mm, :instrument_radius_mm,
   :instrument_inner_radius_mm, :instrument_hu, :instrument_throw_mm, :instrument_notch_mm,
   :instrument_dead_tip_mm, :inr, :platelets_per_nl, :allergy, :indication, :decision,
+  :breath_depth, :breath_period_s, :breath_irregularity, :tissue_yields,
   :planned_entry_x_lps_mm, :planned_entry_y_lps_mm, :planned_entry_z_lps_mm, :difficulty, :time_limit_s,
   :attempt_limit, :pass_rule, :family_id, :version, :face_state, :burned_in_checked_us,
   :burned_in_checked_by

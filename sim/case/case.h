@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/case/breathing.h"
 #include "sim/case/fluoroscope.h"
 #include "sim/case/mesh.h"
 #include "sim/case/mesh_index.h"
@@ -75,8 +76,11 @@ struct Case {
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   PatientPosition position = PatientPosition::supine;
   std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
-  std::optional<bool> defer_is_right{};              // what has to be decided at the sign-in; nothing: nobody said
-  Fluoroscope fluoroscope;                           // used under xray only
+  // What moves its tissue; neither: it lies as still as the CT.
+  std::optional<Breathing> breathing{};
+  bool yields = false;                   // to probe and needle
+  std::optional<bool> defer_is_right{};  // what has to be decided at the sign-in; nothing: nobody said
+  Fluoroscope fluoroscope;               // used under xray only
 };
 
 }  // namespace seldinger::cases

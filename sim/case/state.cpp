@@ -58,6 +58,12 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
   add_integer((state.needle.skin.geometric_inside ? 1U : 0U) | (state.needle.skin.in_body ? 2U : 0U) |
               (state.probe.frozen ? 4U : 0U) | (state.fire.fired ? 8U : 0U) |
               (state.fluoroscopy.in_use ? 16U : 0U));
+  if (state.breath.moves) {
+    const BreathState& breath = state.breath.state;
+    for (const double value : {breath.phase, breath.asked_s, breath.held, breath.cough_s, state.breath.level})
+      add(value);
+    add_integer(breath.breath << 2U | (breath.failed ? 1U : 0U) | (state.breath.hold_asked ? 2U : 0U));
+  }
   return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sim/case/breathing.h"
 #include "sim/case/fluoroscope.h"
 #include "sim/case/inputs.h"
 #include "sim/case/skin_passage.h"
@@ -24,6 +25,14 @@ struct ProbeState {
   bool frozen = false;
 };
 
+// A patient holds the breath whether or not the case shows how it moves the tissue.
+struct PatientBreath {
+  BreathState state;
+  bool hold_asked = false;
+  bool moves = false;  // the case breathes: what follows from it counts in the hash
+  double level = 0.0;  // 0 breathed out, about 1 breathed in
+};
+
 struct FireState {
   bool fired = false;
   double t_s = 0.0;            // of the first trigger
@@ -37,6 +46,7 @@ struct State {
   NeedleState needle;
   ProbeState probe;
   FireState fire;
+  PatientBreath breath;
   FluoroscopyState fluoroscopy;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sim/tissue/breathing.h"
+
 namespace seldinger::engine {
 namespace {
 
@@ -20,9 +22,9 @@ Patient::Patient(const cases::Case& scene) : scene_(scene) {
 // Outside, where its way would meet the skin; else the nearest skin.
 glm::dvec3 Patient::pointed_at(const cases::NeedleState& needle) const noexcept {
   if (needle.skin.in_body) return needle.skin.entry_lps_mm;
-  const auto hit = scene_.skin_index.first_hit(needle.tip_lps_mm, needle.direction, kPointingMm);
-  if (hit && !hit->cut) return needle.tip_lps_mm + hit->distance_mm * needle.direction;
-  return scene_.skin_index.closest_skin(needle.tip_lps_mm).point_lps_mm;
+  const auto hit = scene_.skin_index.first_hit(needle.skin.tip_lps_mm, needle.direction, kPointingMm);
+  if (hit && !hit->cut) return needle.skin.tip_lps_mm + hit->distance_mm * needle.direction;
+  return scene_.skin_index.closest_skin(needle.skin.tip_lps_mm).point_lps_mm;
 }
 
 bool Patient::in_bone(const glm::dvec3& tip_lps_mm) const noexcept {
@@ -49,36 +51,16 @@ void Patient::note(EventKind kind) noexcept {
 
 EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& state) noexcept {
   const cases::NeedleState& needle = state.needle;
-  switch (inputs.event) {
-    case EventKind::anaesthetic:
-      if (!scene_.skin_index.empty()) numb_lps_mm_[numbed_++ % numb_lps_mm_.size()] = pointed_at(needle);
-      break;
-    case EventKind::breath_hold_request:
-      if (!asked_ && !holds_) {
-        asked_ = true;
-        asked_s_ = state.t_s;
-      }
-      break;
-    case EventKind::breathe_again:
-      asked_ = holds_ = false;
-      break;
-    case EventKind::cough:
-      if (holds_) note(EventKind::breath_lost);
-      asked_ = holds_ = false;
-      break;
-    default:
-      break;
-  }
-  if (asked_ && state.t_s - asked_s_ >= kGrantSeconds) {
-    asked_ = false;
-    holds_ = true;
-    held_s_ = state.t_s;
+  if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty())
+    numb_lps_mm_[numbed_++ % numb_lps_mm_.size()] = pointed_at(needle);
+  if (inputs.event == EventKind::breathe_again) let_go_ = true;
+  const bool held = tissue::holds(state.breath.state);
+  if (held && !held_) {
     note(EventKind::breath_held);
+    let_go_ = false;
   }
-  if (holds_ && state.t_s - held_s_ >= kHoldSeconds) {
-    holds_ = false;
-    note(EventKind::breath_lost);
-  }
+  if (!held && held_ && !let_go_) note(EventKind::breath_lost);
+  held_ = held;
 
   if (needle.skin.in_body && !was_in_body_) {
     bool numb = false;
@@ -87,7 +69,7 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
     if (!numb) note(EventKind::pain_skin);
   }
   was_in_body_ = needle.skin.in_body;
-  if (needle.skin.in_body && in_bone(needle.tip_lps_mm)) {
+  if (needle.skin.in_body && in_bone(needle.skin.tip_lps_mm)) {
     if (state.t_s - bone_s_ >= kBoneAgainSeconds) note(EventKind::pain_bone);
     bone_s_ = state.t_s;
   }

@@ -14,9 +14,9 @@
 
 namespace seldinger::engine {
 
-// How far about its place an anaesthetic works (a wheal and what spreads from it), how long a patient takes to stop
-// breathing when asked, and can: judgement. That it takes a minute to work is left out: nobody trains waiting.
-constexpr double kNumbMm = 15.0, kGrantSeconds = 1.2, kHoldSeconds = 20.0;
+// How far about its place an anaesthetic works (a wheal and what spreads from it): judgement. That it takes a
+// minute to work is left out: nobody trains waiting.
+constexpr double kNumbMm = 15.0;
 // Bone felt again so much later hurts again.
 constexpr double kBoneAgainSeconds = 0.5;
 
@@ -29,9 +29,8 @@ class Patient {
   // comes in the next. Allocates nothing.
   cases::EventKind advance(const cases::Inputs& inputs, const cases::State& state) noexcept;
 
-  bool holds_breath() const noexcept { return holds_; }
-
  private:
+  // The tip, the skin and bone as they lie in the patient at rest.
   glm::dvec3 pointed_at(const cases::NeedleState& needle) const noexcept;
   bool in_bone(const glm::dvec3& tip_lps_mm) const noexcept;
   void note(cases::EventKind kind) noexcept;
@@ -40,8 +39,8 @@ class Patient {
   glm::dmat4 voxel_from_lps_{1.0};
   std::array<glm::dvec3, 4> numb_lps_mm_{};  // the latest places
   std::uint32_t numbed_ = 0;                 // how many there were
-  bool was_in_body_ = false, asked_ = false, holds_ = false;
-  double asked_s_ = 0.0, held_s_ = 0.0, bone_s_ = -1e9;
+  bool was_in_body_ = false, held_ = false, let_go_ = false;
+  double bone_s_ = -1e9;
   std::array<cases::EventKind, 4> waiting_{};  // reactions not told yet, in their order
 };
 

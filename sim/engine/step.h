@@ -6,6 +6,7 @@
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
 #include "sim/case/state.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::engine {
 
@@ -15,8 +16,12 @@ constexpr double kTickSeconds = 0.001;
 
 // Advances one tick. Pure: the same arguments give the same State on every machine, in Debug and in -O2. No clock,
 // file, allocation, lock or global; only + − × ÷ √ and sim/base/exact_math.
-// Tools move as the hands do: this version has no forces and no tissue motion. A case of another modality than xray
-// does not touch the fluoroscope.
+// Tools move as the hands do. Where the tip is relative to the skin is told in the patient at rest, from whose
+// place tissue is displaced as `displacement` says. A case of another modality than xray does not touch the
+// fluoroscope.
+void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s,
+          const tissue::Displacement& displacement, cases::State& state) noexcept;
+// Of tissue that is where it is at rest.
 void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s, cases::State& state) noexcept;
 
 }  // namespace seldinger::engine

@@ -155,7 +155,7 @@ TEST(GuidanceScreen, HoldsTheLastImage) {
     inputs.fluoroscope.pedal = pedal;
     for (int i = 0; i < ticks; ++i) {
       engine::step(scene, inputs, engine::kTickSeconds, state);
-      screen.tick(state);
+      screen.tick(state, {});
     }
   };
   run(10, false);
@@ -184,7 +184,7 @@ TEST(GuidanceScreen, AFrozenPictureStays) {
     inputs.freeze = freeze;
     for (int i = 0; i < 100; ++i) {
       engine::step(scene, inputs, engine::kTickSeconds, state);
-      screen.tick(state);
+      screen.tick(state, {});
     }
   };
   run(false);
