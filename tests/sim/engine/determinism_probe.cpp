@@ -10,6 +10,7 @@
 #include "assessment/operators/scripted.h"
 #include "sim/base/hash.h"
 #include "sim/devices/virtual_device.h"
+#include "sim/engine/moving_tissue.h"
 #include "sim/engine/patient.h"
 #include "sim/engine/step.h"
 #include "sim/haptics/two_hands.h"
@@ -24,6 +25,8 @@ cases::State under_probe(const cases::Case& scene, const assessment::PuncturePla
   assessment::ScriptedOperator person(*assessment::named_profile("novice"), plan, scene.instrument, 42);
   devices::VirtualDevice needle_arm, probe_arm;
   engine::Patient patient(scene);
+  const engine::MovingTissue tissue(scene);
+  const haptics::HandStates hands{};
   cases::State state;
   std::uint64_t hash = 0;
   for (int tick = 0; tick < 40'000 && !person.done(); ++tick) {
@@ -34,7 +37,7 @@ cases::State under_probe(const cases::Case& scene, const assessment::PuncturePla
     inputs.needle = needle_arm.advance(inputs.needle, 0.001);
     inputs.probe = probe_arm.advance(inputs.probe, 0.001);
     if (tick == 500) inputs.event = cases::EventKind::breath_hold_request;
-    engine::step(scene, inputs, 0.001, state);
+    engine::step(scene, inputs, 0.001, tissue.felt_by_needle(state, hands), state);
     hash = base::hash_combine(cases::state_hash(state, hash),
                               static_cast<std::uint64_t>(patient.advance(inputs, state)));
     std::printf("%016llx\n", static_cast<unsigned long long>(hash));
@@ -125,6 +128,9 @@ int main() {
   plan.entry_lps_mm = plan.target_lps_mm - plan.direction * plan.depth_mm;
   plan.probe = {plan.entry_lps_mm + glm::dvec3(30, 0, 0), {-0.5, 0.8, 0.0}, {0.8, 0.5, 0.0}};
   const bool fired = under_probe(scene, plan).fire.fired;
+  scene.breathing.emplace();
+  under_probe(scene, plan);
+  scene.breathing.reset();
   scene.picture.modality = cases::Modality::xray;
   const bool fired_there = under_xray(scene, plan).fire.fired;
   return under_hands(scene, plan) > 2.0 && fired_there && fired ? 0 : 1;

@@ -1,0 +1,86 @@
+// A patient who breathes and whose tissue yields, under MPR: attempts that replay bit for bit, tips told at rest,
+// and a still patient who is the same as ever.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/process.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+
+class MotionTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = fixtures::fresh_folder("motion");
+    library_ = (scratch_ / "library").string();
+    const auto ran = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    still_ = Json::parse(ran.out)["case_id"];
+  }
+  static Json ask(const std::string& words, int expected = 0) {
+    const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, expected) << words << "\n" << ran.err;
+    return Json::parse(ran.out, nullptr, false);
+  }
+  static void set(const std::string& case_id, const std::string& words) {
+    const auto ran = run(kProgram + " case setting " + case_id + " " + words + " --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+  }
+  // A version of the demo's case under MPR.
+  static std::string version(const std::string& words) {
+    const auto ran = run(kProgram + " case version " + still_ + " --json --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    const std::string case_id = Json::parse(ran.out)["case_id"];
+    set(case_id, "--modality mpr " + words);
+    return case_id;
+  }
+  static inline std::filesystem::path scratch_;
+  static inline std::string library_, still_;
+};
+
+TEST_F(MotionTest, AnAttemptAtWhoBreathesAndYieldsReplaysBitForBit) {
+  const std::string moving = version("--breath-depth 1 --tissue yields");
+  EXPECT_EQ(ask("case show " + moving)["motion"]["breath_depth"], 1.0);
+  const Json made = ask("simulate --operator expert --seed 4 --event cough@6 --case " + moving);
+  const std::string id = made["attempts"][0]["attempt_id"];
+  EXPECT_TRUE(fixtures::metric(made["attempts"][0], "tip_target_dist").has_value());
+  EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
+  const Json again = ask("recompute --attempt " + id);
+  EXPECT_EQ(again["not_bit_identical"], 0);
+  EXPECT_EQ(again["not_scored"], Json::array());
+  EXPECT_GT(again["values"], 60);
+}
+
+TEST_F(MotionTest, TheSameHandsMeetAnotherPlaceInWhoBreathes) {
+  // Nothing but the breath differs: where the needle is at rest, and so what it meets.
+  const auto distance = [](const std::string& case_id) {
+    const Json made = ask("simulate --operator novice --seed 9 --case " + case_id);
+    return fixtures::metric(made["attempts"][0], "tip_target_dist").value();
+  };
+  const std::string a = version(""), b = version("--breath-depth 1.5");
+  const double still_mm = distance(a), again_mm = distance(a), breathing_mm = distance(b);
+  EXPECT_EQ(still_mm, again_mm);
+  EXPECT_GT(std::abs(breathing_mm - still_mm), 0.1);
+}
+
+TEST_F(MotionTest, WhatDoesNotShowItYetSaysSo) {
+  const std::string moving = version("--breath-depth 1");
+  set(moving, "--modality ultrasound");
+  const auto ran =
+      run(kProgram + " simulate --operator expert --case " + moving + " --library " + library_, scratch_);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_EQ(ran.err.rfind("error: motion_not_shown: ", 0), 0U) << ran.err;
+  const auto bad = run(kProgram + " case setting " + moving + " --breath-depth 9 --library " + library_, scratch_);
+  EXPECT_EQ(bad.exit_code, 3);
+}
+
+}  // namespace
+}  // namespace seldinger

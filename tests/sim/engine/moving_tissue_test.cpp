@@ -1,0 +1,105 @@
+// Tests of sim/engine/moving_tissue: nothing moves unless the scene asks for it, and then tools are told at rest.
+#include "sim/engine/moving_tissue.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "sim/engine/step.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::engine {
+namespace {
+
+cases::Case body() {
+  cases::Case scene;
+  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  return scene;
+}
+
+TEST(MovingTissue, OfAStillSceneHasNoSource) {
+  const cases::Case scene = body();
+  const MovingTissue tissue(scene);
+  haptics::HandStates hands{};
+  hands[0].tool = haptics::Tool::probe;
+  hands[0].probe.press.depth_mm = 8.0;
+  cases::State state;
+  state.breath.level = 1.0;
+  EXPECT_FALSE(tissue.moves());
+  EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 0);
+  const cases::ToolPose pose{{1.0, 2.0, 3.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+  EXPECT_EQ(at_rest({}, pose, 20.0).position_lps_mm, pose.position_lps_mm);
+}
+
+TEST(MovingTissue, EachHandFindsWhatTheOthersDo) {
+  cases::Case scene = body();
+  scene.yields = true;
+  scene.breathing.emplace();
+  const MovingTissue tissue(scene);
+  ASSERT_TRUE(tissue.moves());
+  haptics::HandStates hands{};
+  hands[0].tool = haptics::Tool::probe;
+  hands[0].probe.press = {.at_lps_mm = {0, -100, 0}, .inward = {0, 1, 0}, .radius_mm = 20.0, .depth_mm = 6.0};
+  hands[1].tool = haptics::Tool::needle;
+  hands[1].needle.drag = {.entry_lps_mm = {40, -90, 0},
+                          .direction = {0, 1, 0},
+                          .cut_mm = 40.0,
+                          .tip_n = 0.5,
+                          .tip_mm = 1.0,
+                          .shaft_mm = 0.5};
+  cases::State state;
+  EXPECT_EQ(tissue::count_sources(tissue.felt_by_probe(state)), 0) << "breathed out, breath moves nothing";
+  EXPECT_EQ(tissue::count_sources(tissue.felt_by_needle(state, hands)), 1) << "the press, not its own drag";
+  EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 3) << "press, tip and shaft";
+  state.breath.level = 0.5;
+  EXPECT_EQ(tissue::count_sources(tissue.felt_by_probe(state)), 1);
+  EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 4);
+  scene.yields = false;
+  EXPECT_EQ(tissue::count_sources(tissue.seen(state, hands)), 1);
+}
+
+TEST(MovingTissue, ANeedleThatRestsIsMovedThroughTheTissueByBreath) {
+  cases::Case scene = body();
+  scene.breathing.emplace();
+  const MovingTissue tissue(scene);
+  cases::State state;
+  cases::Inputs inputs;
+  inputs.needle = {{0.3, -40.0, 0.3}, {0, 1, 0}, {1, 0, 0}};
+  const haptics::HandStates hands{};
+  double least_mm = 1e9, most_mm = -1e9, z_least_mm = 1e9, z_most_mm = -1e9;
+  for (int tick = 0; tick < 8000; ++tick) {
+    step(scene, inputs, 0.001, tissue.felt_by_needle(state, hands), state);
+    EXPECT_EQ(state.needle.tip_lps_mm, inputs.needle.position_lps_mm) << "the tool is where the hand holds it";
+    const glm::dvec3& rest = state.needle.skin.tip_lps_mm;
+    least_mm = std::min(least_mm, rest.y);
+    most_mm = std::max(most_mm, rest.y);
+    z_least_mm = std::min(z_least_mm, rest.z);
+    z_most_mm = std::max(z_most_mm, rest.z);
+  }
+  EXPECT_TRUE(state.needle.skin.in_body);
+  EXPECT_GT(z_most_mm - z_least_mm, 1.0) << "tissue goes down and up past the tip";
+  EXPECT_LT(z_most_mm - z_least_mm, 20.0);
+  EXPECT_NEAR(z_least_mm, 0.3, 0.01) << "breathed out is where the CT was";
+  EXPECT_GT(most_mm - least_mm, 0.5);
+}
+
+TEST(MovingTissue, ABreathCountsInTheHashOfWhoBreathesAlone) {
+  cases::Case still = body(), breathing = body();
+  breathing.breathing.emplace();
+  cases::State a, b;
+  for (int tick = 0; tick < 50; ++tick) {
+    step(still, {}, 0.001, a);
+    step(breathing, {}, 0.001, b);
+  }
+  EXPECT_NE(cases::state_hash(a, 0), cases::state_hash(b, 0));
+  cases::State c = a;
+  c.breath.state.phase += 0.1;
+  EXPECT_EQ(cases::state_hash(a, 0), cases::state_hash(c, 0));
+  c = b;
+  c.breath.state.phase += 0.1;
+  EXPECT_NE(cases::state_hash(b, 0), cases::state_hash(c, 0));
+}
+
+}  // namespace
+}  // namespace seldinger::engine
