@@ -56,6 +56,48 @@ TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
   }
 }
 
+// All eight, with the real CTs: what tests/e2e/simulate_test does for those of the built-in torso.
+TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
+  const auto scratch = fixtures::fresh_folder("long_graded");
+  const std::string library = " --library " + (scratch / "library").string();
+  const auto ran = run(kProgram + " demo --cases --json --ct " + kData + "/ct-abdomen-contrast-dicom --ct " +
+                           kData + "/ct-abdomen-pelvis/abdomen_pelvis_2x.mha --ct " + kData +
+                           "/ct-thorax-inlet/thorax_inlet_1mm.mha" + library,
+                       scratch);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json made = Json::parse(ran.out);
+  ASSERT_EQ(made.at("cases").size(), 8U);
+  for (const Json& one : made.at("cases")) {
+    const std::string id = one.at("case_id");
+    const auto shown = run(kProgram + " case show " + id + " --json" + library, scratch);
+    const Json criteria = Json::parse(shown.out).at("rule");
+    const bool to_defer = one.at("decision") == "defer";
+    for (const bool expert : {true, false}) {
+      const auto tried = run(kProgram + " simulate --count 30 --no-pictures --json --operator " +
+                                 (expert ? "expert" : "novice") + " --case " + id + library,
+                             scratch);
+      ASSERT_EQ(tried.exit_code, 0) << tried.err;
+      const Json answer = Json::parse(tried.out);
+      int passed = 0;
+      for (const Json& attempt : answer.at("attempts")) {
+        bool all = true;
+        for (const Json& criterion : criteria) {
+          const double value = metric(attempt, criterion.at("metric")), wanted = criterion.at("value");
+          const std::string comparison = criterion.at("comparison");
+          all = all && (comparison == "<="   ? value <= wanted
+                        : comparison == ">=" ? value >= wanted
+                                             : value == wanted);
+        }
+        passed += all ? 1 : 0;
+      }
+      if (expert)
+        EXPECT_GE(passed, 24) << one.at("title");
+      else
+        EXPECT_LE(passed, to_defer ? 20 : 8) << one.at("title");
+    }
+  }
+}
+
 TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
   const auto scratch = fixtures::fresh_folder("long_kill");
   const std::string library = " --library " + (scratch / "library").string();
