@@ -129,8 +129,10 @@ base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trial
           done = attempt_id.error();
           return false;
         }
-        stored({*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics, trials[i].person,
-                trials[i].number});
+        SimulatedAttempt one{*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics};
+        one.person = trials[i].person;
+        one.number = trials[i].number;
+        stored(std::move(one));
         return true;
       });
   return done;
