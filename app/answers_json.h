@@ -23,9 +23,9 @@ struct SimulatedAttempt {
   std::string attempt_id, operator_name;
   std::uint64_t seed = 0;
   std::vector<assessment::MetricValue> metrics;
-  std::optional<casedb::AttemptGrade> grade{};
   std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
   std::uint64_t number = 0;               // of the attempt, from 0
+  std::optional<casedb::AttemptGrade> grade{};
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.
