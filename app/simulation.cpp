@@ -129,7 +129,7 @@ base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trial
           done = attempt_id.error();
           return false;
         }
-        stored({*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics, trials[i].person,
+        stored({*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics, {}, trials[i].person,
                 trials[i].number});
         return true;
       });
