@@ -283,7 +283,9 @@ CREATE TABLE training_case (
   CHECK (version BETWEEN 1 AND 1000000 AND (version = 1) = (family_id IS NULL)), audience TEXT NOT NULL DEFAULT 'everyone'
   CHECK (audience IN ('everyone', 'own_cohort')), face_state TEXT NOT NULL DEFAULT 'unchecked'
   CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
-  CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL)) STRICT;
+  CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL), breath_depth REAL NOT NULL DEFAULT 0.0
+  CHECK (breath_depth BETWEEN 0 AND 2), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
+  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1))) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
@@ -494,6 +496,14 @@ END;
 CREATE TRIGGER training_case_keeps_its_face_state BEFORE UPDATE OF face_state ON training_case
 BEGIN
   SELECT RAISE(ABORT, 'the face state of a case cannot be changed');
+END;
+
+CREATE TRIGGER training_case_keeps_its_motion
+BEFORE UPDATE OF breath_depth, breath_period_s, breath_irregularity, tissue_yields ON training_case
+WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
 END;
 
 CREATE TRIGGER training_case_keeps_its_place BEFORE UPDATE OF family_id, version ON training_case

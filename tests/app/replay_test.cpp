@@ -218,7 +218,7 @@ TEST(Replay, IsSeenUpToTheFirstDifferenceAndThroughWhatCannotBeCompared) {
                                  state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral});
   }
   std::uint64_t last = 0;
-  const auto seen = [&](const cases::State& now) { last = now.tick; };
+  const auto seen = [&](const cases::State& now, const tissue::Displacement&) { last = now.tick; };
   EXPECT_TRUE(replay(scene, recording, seen).same);
   EXPECT_EQ(last, 50U);
   recording.hashes[29] ^= 1U;

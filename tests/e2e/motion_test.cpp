@@ -24,6 +24,9 @@ class MotionTest : public testing::Test {
     const auto ran = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
     still_ = Json::parse(ran.out)["case_id"];
+    const auto added = run(
+        "printf 'a long password' | " + kProgram + " user add mia --role mentor --library " + library_, scratch_);
+    ASSERT_EQ(added.exit_code, 0) << added.err;
   }
   static Json ask(const std::string& words, int expected = 0) {
     const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
@@ -36,7 +39,7 @@ class MotionTest : public testing::Test {
   }
   // A version of the demo's case under MPR.
   static std::string version(const std::string& words) {
-    const auto ran = run(kProgram + " case version " + still_ + " --json --library " + library_, scratch_);
+    const auto ran = run(kProgram + " case version " + still_ + " --by mia --json --library " + library_, scratch_);
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     const std::string case_id = Json::parse(ran.out)["case_id"];
     set(case_id, "--modality mpr " + words);
