@@ -72,11 +72,14 @@ void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
 }
 
 void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
-  if (arguments.has("--modality")) setting.modality = modality_named("--modality", arguments.text("--modality"));
+  if (arguments.has("--modality")) {
+    setting.modality = modality_named("--modality", arguments.text("--modality"));
+    std::erase(setting.further_modalities, setting.modality);
+  }
   if (arguments.has("--also")) {
     setting.further_modalities.clear();
     for (const std::string& name : arguments.all("--also"))
-      setting.further_modalities.push_back(modality_named("--also", name));
+      if (name != "none") setting.further_modalities.push_back(modality_named("--also", name));
   }
   if (arguments.has("--position")) {
     const auto position = casedb::position_from(arguments.text("--position"));

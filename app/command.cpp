@@ -75,7 +75,7 @@ constexpr Option kSettingOptions[] = {
     kLibrary,
     {"--title", "TEXT", "the case's title"},
     {"--modality", "mpr|xray|ultrasound", "what it is practised with"},
-    {"--also", "mpr|xray|ultrasound", "what it may be practised with too", true},
+    {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else", true},
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies"},
     {"--approach", "in_plane|out_of_plane", "of needle to picture"},
     {"--instrument", "access|core", "access: the tip decides; core: the fired notch"},

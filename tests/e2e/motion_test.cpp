@@ -76,7 +76,17 @@ TEST_F(MotionTest, TheSameHandsMeetAnotherPlaceInWhoBreathes) {
 
 TEST_F(MotionTest, WhatDoesNotShowItYetSaysSo) {
   const std::string moving = version("--breath-depth 1");
+  const auto shown = [&] {
+    const Json checked = ask("case check " + moving, 1);
+    for (const Json& check : checked["checks"])
+      if (check["check"] == "motion_shown") return check["holds"].get<bool>();
+    return false;
+  };
+  set(moving, "--also none");
+  EXPECT_TRUE(shown());
+  EXPECT_EQ(ask("case show " + moving)["further_modalities"], Json::array());
   set(moving, "--modality ultrasound");
+  EXPECT_FALSE(shown());
   const auto ran =
       run(kProgram + " simulate --operator expert --case " + moving + " --library " + library_, scratch_);
   EXPECT_EQ(ran.exit_code, 3);
