@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "reports/base64.h"
 #include "reports/timeline.h"
 #include "tests/reports/sample_attempt.h"
@@ -72,9 +70,12 @@ TEST(ReplaySheet, NeedsNothingBesideItAndRunsNothing) {
   EXPECT_EQ(page.find("<link"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);
   EXPECT_EQ(page.find("url("), std::string::npos);
-  const std::regex source("(src|href)=\"([^\"]{0,22})");
-  for (std::sregex_iterator at(page.begin(), page.end(), source), end; at != end; ++at)
-    EXPECT_EQ((*at)[2], "data:image/png;base64,");
+  const std::string picture = "data:image/png;base64,";
+  int sources = 0;
+  for (const std::string name : {"src=\"", "href=\""})
+    for (std::size_t at = page.find(name); at != page.npos; at = page.find(name, at + 1), ++sources)
+      EXPECT_EQ(page.substr(at + name.size(), picture.size()), picture);
+  EXPECT_GT(sources, 0);
 }
 
 TEST(ReplaySheet, WordsStayWords) {
