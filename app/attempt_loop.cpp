@@ -210,10 +210,6 @@ std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const 
   return png_of(FluoroscopyRoom(scene).picture(exposed, recording.hashes.back()));
 }
 
-}  // namespace
-
-namespace {
-
 // When the trigger fell, or last.
 tissue::Displacement displacement_at_end(const cases::Case& scene, const cases::Recording& recording) {
   if (!scene.breathing && !scene.yields) return {};

@@ -59,15 +59,16 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   tick.hash = static_cast<std::uint32_t>(hash_);
   tick.reaction = patient_.advance(inputs, state_);
   const auto force = feel(dt_s);
+  // Before a core needle's throw, in the same tick, drags what the trigger found.
+  if (state_.fire.fired && !fired)
+    tick.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction,
+                                    rest_of(state_.fire.tip_lps_mm)};
   if (tissue_.moves()) displacement_ = tissue_.seen(state_, hand_states_);
   if ((state_.tick - 1) % kPoseTicks == 0) {
     tick.pose = pose_of(state_);
     tick.pose->rest_tip_lps_mm = rest_of(state_.needle.tip_lps_mm);
     tick.force = force;
   }
-  if (state_.fire.fired && !fired)
-    tick.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction,
-                                    rest_of(state_.fire.tip_lps_mm)};
   return tick;
 }
 
