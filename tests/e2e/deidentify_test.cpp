@@ -215,24 +215,24 @@ TEST_F(NoIdentifier, SomebodyWhoMayConfirmsThatNoTextIsBurnedIn) {
                   .exit_code,
               0);
   };
-  add("ada", "mentor");
+  add("olga", "mentor");
   add("tom", "trainee");
   const auto import = [&](const std::string& options) {
     return run(kProgram + " import " + source + to + options + " --json", folder_ / "run");
   };
-  const auto by_ada = import(" --no-burned-in-text --by ada");
-  ASSERT_EQ(by_ada.exit_code, 0) << by_ada.err;
-  EXPECT_TRUE(Json::parse(by_ada.out).at("burned_in_checked").at("person_id").is_string());
-  EXPECT_EQ(by_ada.out.find("ada"), std::string::npos);
+  const auto by_olga = import(" --no-burned-in-text --by olga");
+  ASSERT_EQ(by_olga.exit_code, 0) << by_olga.err;
+  EXPECT_TRUE(Json::parse(by_olga.out).at("burned_in_checked").at("person_id").is_string());
+  EXPECT_EQ(by_olga.out.find("olga"), std::string::npos);
   const Json later = Json::parse(import(" --denoise").out);
   EXPECT_TRUE(later.at("burned_in_checked").is_null());
   const auto& warnings = later.at("warnings");
   EXPECT_TRUE(
       std::any_of(warnings.begin(), warnings.end(), [](const Json& one) { return one.at("code") == "denoised"; }));
   const std::string confirm = kProgram + " case confirm " + later.at("case_id").get<std::string>() + to + " --by ";
-  EXPECT_EQ(run(confirm + "ada", folder_ / "run").exit_code, 2) << "what is confirmed is said";
+  EXPECT_EQ(run(confirm + "olga", folder_ / "run").exit_code, 2) << "what is confirmed is said";
   EXPECT_EQ(run(confirm + "tom --no-burned-in-text", folder_ / "run").exit_code, 3);
-  EXPECT_EQ(run(confirm + "ada --no-burned-in-text", folder_ / "run").exit_code, 0);
+  EXPECT_EQ(run(confirm + "olga --no-burned-in-text", folder_ / "run").exit_code, 0);
   const auto shown =
       run(kProgram + " case show " + later.at("case_id").get<std::string>() + to + " --json", folder_ / "run");
   EXPECT_TRUE(Json::parse(shown.out).at("burned_in_checked").at("person_id").is_string());
@@ -240,7 +240,7 @@ TEST_F(NoIdentifier, SomebodyWhoMayConfirmsThatNoTextIsBurnedIn) {
   EXPECT_EQ(by_tom.exit_code, 3);
   EXPECT_EQ(by_tom.err.rfind("error: not_allowed: ", 0), 0U) << by_tom.err;
   EXPECT_EQ(by_nobody.err.rfind("error: no_user: ", 0), 0U) << by_nobody.err;
-  EXPECT_EQ(import(" --by ada").exit_code, 2);
+  EXPECT_EQ(import(" --by olga").exit_code, 2);
 }
 
 }  // namespace
