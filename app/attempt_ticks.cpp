@@ -58,7 +58,7 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   hash_ = cases::state_hash(state_, hash_);
   tick.hash = static_cast<std::uint32_t>(hash_);
   tick.reaction = patient_.advance(inputs, state_);
-  const auto force = feel(dt_s);
+  force_ = feel(dt_s);
   // Before a core needle's throw, in the same tick, drags what the trigger found.
   if (state_.fire.fired && !fired)
     tick.endpoint = cases::Endpoint{state_.fire.t_s, state_.fire.tip_lps_mm, state_.fire.direction,
@@ -67,7 +67,7 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   if ((state_.tick - 1) % kPoseTicks == 0) {
     tick.pose = pose_of(state_);
     tick.pose->rest_tip_lps_mm = rest_of(state_.needle.tip_lps_mm);
-    tick.force = force;
+    tick.force = force_;
   }
   return tick;
 }

@@ -20,6 +20,13 @@ constexpr std::uint64_t kPoseTicks = 10;
 
 cases::PoseSample pose_of(const cases::State& state);
 
+// What is shown of a tick, by whoever draws: where everything is, and what the hands feel.
+struct Moment {
+  cases::State state;
+  tissue::Displacement displacement{};
+  std::optional<cases::ForceSample> force{};  // none: nothing is felt in this case
+};
+
 // The room, tick by tick: the step, the tissue that moves, what it asks of the hands, and how the patient reacts.
 // The same for an attempt and for its replay.
 class Room {
@@ -29,6 +36,7 @@ class Room {
   const cases::State& state() const noexcept { return state_; }
   // Of the tick that was done: where what pictures show is.
   const tissue::Displacement& displacement() const noexcept { return displacement_; }
+  Moment moment() const noexcept { return {state_, displacement_, force_}; }
 
   // One tick, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& inputs, double dt_s) noexcept;
@@ -43,6 +51,7 @@ class Room {
   haptics::HandStates hand_states_{};
   engine::Patient patient_;
   tissue::Displacement displacement_{};
+  std::optional<cases::ForceSample> force_;
   cases::State state_;
   std::uint64_t hash_ = 0;
 };
@@ -69,6 +78,7 @@ class AttemptTicks {
   explicit AttemptTicks(const cases::Case& scene) : room_(scene) {}
   const cases::State& state() const noexcept { return room_.state(); }
   const tissue::Displacement& displacement() const noexcept { return room_.displacement(); }
+  Moment moment() const noexcept { return room_.moment(); }
 
   // One tick of where hands want to be, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& hands) noexcept;

@@ -4,10 +4,12 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <thread>
 
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
+#include "app/fluoroscopy.h"
 #include "casedb/running_mark.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/engine/step.h"
@@ -17,14 +19,23 @@ namespace {
 
 // A stall longer than this is not caught up with: hands would seem to have stood still for as long.
 constexpr int kMostTicksAtOnce = 20;
+// A pulse's report reaches the servo well before the next pulse, which comes after 1/15 s at the earliest.
+constexpr double kPulsesLookedForHz = 500.0;
 
 }  // namespace
 
 LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene)
     : library_(library), head_(std::move(head)), scene_(scene) {}
 
-base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::function<bool()>& done) {
-  const auto see = sight_of(scene_);
+base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::function<bool()>& done,
+                                             const Watch& watch) {
+  const bool xray = scene_.picture.modality == cases::Modality::xray;
+  Sight see;
+  std::optional<FluoroscopyRoom> room;
+  if (xray)
+    room.emplace(scene_);
+  else
+    see = sight_of(scene_);
   const auto attempt_id = casedb::open_attempt(library_, head_);
   if (!attempt_id) return attempt_id.error();
   const casedb::RunningMark mark(library_.folder(), *attempt_id);
@@ -36,33 +47,52 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
                                 });
 
   AttemptTicks ticks(scene_);
-  struct Moment {
-    cases::State state;
-    tissue::Displacement displacement{};
-  };
   base::Snapshot<Moment> moments;
+  base::Snapshot<cases::State> pulses;
   base::Snapshot<cases::FrameTruth> frames;
+  base::Snapshot<cases::ExposureReport> reports;
   std::atomic<bool> over{false};
-  engine::ServoLoop servo({}, [&](double elapsed_s) {
+  engine::ServoLoop servo({}, [&, report = cases::ExposureReport{}](double elapsed_s) mutable {
     if (over) return;
     const auto frame = frames.take();
+    if (const auto exposed = reports.take()) report = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
     const int due =
         std::clamp(static_cast<int>(std::lround(elapsed_s / engine::kTickSeconds)), 1, kMostTicksAtOnce);
     for (int i = 0; i < due && !over; ++i) {
-      const cases::Inputs inputs = hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
+      cases::Inputs inputs = hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
+      inputs.exposure = report;
       const bool kept = recorder.tick(ticks.advance(inputs));
-      if (!kept || done() || ticks.state().t_s >= kMaxAttemptSeconds) over = true;
+      if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.state());
+      if (!kept || done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
     }
-    moments.put({ticks.state(), ticks.displacement()});
+    const Moment moment = ticks.moment();
+    moments.put(moment);
+    if (watch) watch(moment);
   });
 
   const auto begun = std::chrono::steady_clock::now();
+  std::optional<cases::FrameTruth> last;  // of a fluoroscope that is live
+  const double rate_hz = xray ? kPulsesLookedForHz : scene_.picture.rate_hz;
   for (long long next = 0; !over && !recorder.failed(); ++next) {
-    std::this_thread::sleep_until(
-        begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                    std::chrono::duration<double>(static_cast<double>(next) / scene_.picture.rate_hz)));
+    std::this_thread::sleep_until(begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                              std::chrono::duration<double>(static_cast<double>(next) / rate_hz)));
     const auto moment = moments.take();
+    if (room) {
+      if (const auto pulse = pulses.take()) {
+        const FluoroscopyRoom::Exposed exposed = room->expose(*pulse);
+        reports.put(exposed.report);
+        recorder.frame(exposed.truth);
+        last = exposed.truth;
+      } else if (moment && last && !moment->state.fluoroscopy.live) {
+        last->t_s = moment->state.t_s;  // the last image stays, and shows nothing that happens
+        last->live = false;
+        last->beam.reset();
+        recorder.frame(*last);
+        last.reset();
+      }
+      continue;
+    }
     if (!moment) continue;
     cases::FrameTruth frame = see(moment->state, moment->displacement);
     frame.live = !moment->state.probe.frozen;

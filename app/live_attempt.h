@@ -1,6 +1,6 @@
 // An attempt in real time. The servo's thread asks the hands, steps, and hands what happened to the recorder; this
-// thread tells what each picture shows; the recorder's thread stores. They meet in snapshots and one queue, so that
-// neither picture nor disk ever keeps the servo waiting.
+// thread tells what each picture shows, and exposes what a fluoroscope's pulses do; the recorder's thread stores.
+// They meet in snapshots and one queue, so that neither picture nor disk ever keeps the servo waiting.
 #pragma once
 
 #include <functional>
@@ -13,6 +13,9 @@
 
 namespace seldinger::app {
 
+// A person who has not finished by then is gone.
+constexpr double kMostLiveSeconds = 1800.0;
+
 struct StoredAttempt {
   std::string attempt_id;
   std::vector<assessment::MetricValue> metrics;
@@ -23,13 +26,16 @@ class LiveAttempt {
   // By the servo: what the hands want now; `frame` is a picture that appeared since the last tick.
   using Hands = std::function<cases::Inputs(const cases::State&, const cases::FrameTruth* frame)>;
 
-  // The library and the scene (of slice or ultrasound, with its tissue) must outlive it.
+  // The library and the scene (with what its modality needs) must outlive it.
   LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene);
 
-  // Until `done` says so (asked by the servo after each tick), kMaxAttemptSeconds are over, or it cannot be
+  // What else there is to do with a tick, by the servo: it must not allocate, lock or wait.
+  using Watch = std::function<void(const Moment&)>;
+
+  // Until `done` says so (asked by the servo after each tick), kMostLiveSeconds are over, or it cannot be
   // recorded any more. Stored, scored and durable when it returns. Refused as casedb::open_attempt and
   // close_attempt.
-  base::Result<StoredAttempt> run(const Hands& hands, const std::function<bool()>& done);
+  base::Result<StoredAttempt> run(const Hands& hands, const std::function<bool()>& done, const Watch& watch = {});
 
  private:
   casedb::Library& library_;

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "app/answers_json.h"
-#include "assessment/operators/plan.h"
+#include "app/task.h"
 #include "assessment/operators/profile.h"
 #include "casedb/store.h"
-#include "sim/case/case.h"
 
 namespace seldinger::app {
 
@@ -29,9 +28,7 @@ std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& 
 
 class Simulation {
  public:
-  // An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the
-  // modality is the case's unless given. Refused: `no_case`, `no_lesion`, `no_path`, `other_modality` (not one of
-  // the case's), damaged assets. `library` must outlive it.
+  // As prepare_task. `library` must outlive it.
   static base::Result<Simulation> prepare(casedb::Library& library, const std::string& case_id,
                                           const std::string& lesion_id,
                                           std::optional<cases::InstrumentKind> kind = std::nullopt,
@@ -57,21 +54,10 @@ class Simulation {
   // Changes nothing, so that threads may make many at once.
   base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                         const std::optional<std::string>& person_id, bool picture) const;
-  casedb::AttemptHead head(const assessment::OperatorProfile& profile, std::uint64_t seed,
-                           const std::optional<std::string>& person_id) const;
-  Simulation(casedb::Library& library, casedb::CaseRow row, casedb::LesionRow lesion, cases::Case scene,
-             assessment::PuncturePlan plan)
-      : library_(&library),
-        row_(std::move(row)),
-        lesion_(std::move(lesion)),
-        scene_(std::move(scene)),
-        plan_(plan) {}
+  Simulation(casedb::Library& library, Task task) : library_(&library), task_(std::move(task)) {}
 
   casedb::Library* library_;
-  casedb::CaseRow row_;
-  casedb::LesionRow lesion_;
-  cases::Case scene_;
-  assessment::PuncturePlan plan_;
+  Task task_;
   std::vector<cases::Event> scenario_;
 };
 

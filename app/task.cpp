@@ -1,0 +1,66 @@
+#include "app/task.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/case_build.h"
+#include "app/ultrasound_sight.h"
+#include "app/version.h"
+
+namespace seldinger::app {
+
+base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
+                                std::optional<cases::InstrumentKind> kind,
+                                std::optional<cases::Modality> modality) {
+  const auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
+  const casedb::LesionRow* found = nullptr;
+  const auto lesions = casedb::list_lesions(library, case_id);
+  for (const casedb::LesionRow& lesion : lesions)
+    if (found == nullptr && (lesion_id.empty() || lesion.lesion_id == lesion_id)) found = &lesion;
+  if (found == nullptr)
+    return base::Error{"no_lesion", lesion_id.empty() ? "the case has no lesion; `seldinger case lesion` places one"
+                                                      : "the case has no lesion of that id"};
+  cases::Picture picture;
+  picture.modality = modality.value_or(row->modality);
+  const auto& further = row->further_modalities;
+  if (picture.modality != row->modality &&
+      std::find(further.begin(), further.end(), picture.modality) == further.end())
+    return base::Error{"other_modality", "the case is not practised with this modality"};
+  auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
+  if (!scene) return scene.error();
+  if ((scene->breathing || scene->yields) && picture.modality != cases::Modality::mpr)
+    return base::Error{"motion_not_shown",
+                       "a patient who moves is shown by mpr only: ultrasound and fluoroscopy do not show it yet"};
+  scene->instrument.kind = kind.value_or(row->instrument.kind);
+  assessment::PathLimits limits = assessment::path_limits(*scene);
+  if (picture.modality == cases::Modality::ultrasound)
+    limits.looks_from = [&](const assessment::PuncturePlan& plan) {
+      return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
+    };
+  auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
+  if (!plan) return plan.error();
+  if (plan->picture) scene->picture = *plan->picture;
+  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl};
+  return Task{*row, *found, std::move(*scene), *plan};
+}
+
+casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::uint64_t seed,
+                            const std::optional<std::string>& person_id) {
+  casedb::AttemptHead head;
+  head.case_id = task.row.case_id;
+  head.lesion_id = task.lesion.lesion_id;
+  head.person_id = person_id;
+  head.operator_name = std::move(operator_name);
+  head.seed = seed;
+  head.program_version = kVersion;
+  head.instrument = task.scene.instrument;
+  head.picture = task.scene.picture;
+  head.approach = task.scene.approach;
+  head.started_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  return head;
+}
+
+}  // namespace seldinger::app

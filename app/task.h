@@ -1,0 +1,33 @@
+// What there is to be done at a stored case: its scene, its target, and the way to it. The same for a simulated
+// operator and for a person.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "assessment/operators/plan.h"
+#include "casedb/store.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+
+namespace seldinger::app {
+
+struct Task {
+  casedb::CaseRow row;
+  casedb::LesionRow lesion;
+  cases::Case scene;
+  assessment::PuncturePlan plan;
+};
+
+// An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the
+// modality is the case's unless given. Refused: `no_case`, `no_lesion`, `no_path`, `other_modality` (not one of the
+// case's), `motion_not_shown`, damaged assets.
+base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
+                                std::optional<cases::InstrumentKind> kind = std::nullopt,
+                                std::optional<cases::Modality> modality = std::nullopt);
+
+// Of an attempt at it that begins now.
+casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::uint64_t seed,
+                            const std::optional<std::string>& person_id);
+
+}  // namespace seldinger::app
