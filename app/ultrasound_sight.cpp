@@ -157,15 +157,22 @@ struct UltrasoundSight::Screen {
   imaging::PolarPicture polar;
 };
 
+imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                               std::uint64_t seed, std::uint64_t frame,
+                                               imaging::PolarPicture& picture) const {
+  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
+                            picture);
+  imaging::add_receiver_noise(seed, frame, picture);
+  return view;
+}
+
 GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
                                      std::uint64_t seed, std::uint64_t frame) {
-  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
-  if (!screen_) screen_ = std::make_shared<Screen>(view);
+  if (!screen_) screen_ = std::make_shared<Screen>(view_of(scene_.picture, probe));
   const imaging::ScanConverter& converter = screen_->converter;
   GreyPicture picture;
-  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
-                            screen_->polar);
-  imaging::add_receiver_noise(seed, frame, screen_->polar);
+  const imaging::UltrasoundView view = polar(probe, needle, seed, frame, screen_->polar);
   converter.grey(view, {}, screen_->polar, picture.grey);
   picture.width_px = converter.width_px();
   picture.height_px =

@@ -11,6 +11,7 @@
 #include "assessment/operators/plan.h"
 #include "sim/case/case.h"
 #include "sim/case/mesh_index.h"
+#include "sim/imaging/ultrasound/ultrasound.h"
 #include "sim/imaging/ultrasound/visible.h"
 
 namespace seldinger::app {
@@ -38,6 +39,9 @@ class UltrasoundSight {
 
   // In the scene's picture, with its lesions.
   imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle) const;
+  // What the machine receives there, with its noise; answers how it looked.
+  imaging::UltrasoundView polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
+                                std::uint64_t frame, imaging::PolarPicture& picture) const;
   // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
   GreyPicture picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
                       std::uint64_t frame);
