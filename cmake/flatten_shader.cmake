@@ -1,4 +1,5 @@
 # Run by shaders.cmake. The include extension is a compiler's, not GL's: drivers get the flattened text without it.
+# glslangValidator knows the stage by the file's ending (.comp, .vert, .frag).
 execute_process(COMMAND ${GLSLANG} -E -I${SHADERS} ${SHADERS}/${SHADER} OUTPUT_VARIABLE text RESULT_VARIABLE code)
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "${SHADER}: preprocessing failed\n${text}")

@@ -44,6 +44,12 @@ void Buffer::bind(int binding) const {
   glBindBufferBase(target_of(use_), static_cast<GLuint>(binding), name_);
 }
 
+void Buffer::bind_part(int binding, std::size_t from, std::size_t bytes) const {
+  CHECK(use_ == BufferUse::uniform && from % kUniformAlignment == 0 && from + bytes <= bytes_);
+  glBindBufferRange(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), name_, static_cast<GLintptr>(from),
+                    static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::clear() {
   handles_->make_current();
   glBindBuffer(target_of(use_), name_);

@@ -1,0 +1,4 @@
+// Depth alone.
+#version 430 core
+
+void main() {}

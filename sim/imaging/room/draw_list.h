@@ -1,0 +1,81 @@
+// What is drawn of the room in one picture: plain data, made anew for each without making meshes or allocating
+// (once its list has grown), and tested without GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "sim/case/case.h"
+#include "sim/case/state.h"
+#include "sim/imaging/room/room_scene.h"
+
+namespace seldinger::imaging {
+
+enum class RoomPart : std::uint8_t {
+  skin,
+  cut_end,  // where the CT ends
+  table,
+  floor,
+  walls,
+  needle_shaft,
+  needle_hub,
+  probe,
+  target,
+  structure,
+  bone,
+  planned_path,  // entry → target
+  planned_entry,
+  scan_plane,
+  guide_line,  // where the needle would go on
+  tube,        // of the C-arm
+  detector,
+  arm
+};
+
+// Which light map a thing casts into.
+enum class Casts : std::uint8_t { nothing, still, tools };
+
+struct RoomItem {
+  RoomPart part = RoomPart::skin;
+  MeshHandle mesh = kNoMesh;
+  glm::dmat4 lps_from_mesh{1.0};
+  glm::vec4 colour{1.0F};  // linear; alpha < 1: drawn over what is behind, in the list's order
+  float roughness = 0.6F, metal = 0.0F;
+  glm::vec3 light_under_skin{0.0F};  // share of light that goes round (red, green, blue)
+  Casts casts = Casts::nothing;
+  bool shadowed = true;    // shadows fall on it
+  bool displaced = false;  // moves with the tissue
+  bool cut = false;        // by DrawList::cut
+  bool both_sides = false;
+  double least_half_px = 0.0;  // x and y of the mesh are a radius, drawn at least as many pixels wide
+};
+
+// What has dot(normal, place) > distance is cut away of items that are cut.
+struct CutPlane {
+  glm::dvec3 normal{0.0};
+  double distance_mm = 0.0;
+};
+
+struct DrawList {
+  std::vector<RoomItem> items;  // opaque ones first
+  std::optional<CutPlane> cut;
+  bool needs_displacement = false;  // something displaced is in the list
+};
+
+struct RoomOptions {
+  // 0: as in reality. 1: the scan plane's outline. 2: also the needle's own line. 3: also the target through the
+  // skin and the planned path.
+  int help = 0;
+  // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
+  bool mentor = false;
+};
+
+// Of a state: the tools where hands hold them. `list` is emptied first.
+void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
+                    const RoomOptions& options, DrawList& list);
+
+}  // namespace seldinger::imaging

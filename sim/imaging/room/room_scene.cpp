@@ -1,0 +1,152 @@
+#include "sim/imaging/room/room_scene.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "sim/imaging/room/tool_forms.h"
+
+namespace seldinger::imaging {
+namespace {
+
+constexpr double kTableHeightMm = 850.0;  // a usual working height
+constexpr double kTableHalfWidthMm = 260.0, kMattressMm = 50.0, kTopMm = 35.0;
+constexpr double kBeyondMm = 350.0;  // what of the table is seen beyond the patient's ends
+constexpr double kWallMm = 2600.0, kCeilingMm = 1900.0;
+
+const RoomColour kMattress(0.09F, 0.12F, 0.16F), kSteel(0.62F, 0.63F, 0.65F);
+
+// A box given by the room's axes.
+void put_box(const RoomFrame& frame, const glm::dvec3& low_mm, const glm::dvec3& high_mm, double bevel_mm,
+             const RoomColour& paint, RoomMesh& mesh) {
+  const glm::dmat4 lps_from_room(glm::dvec4(frame.across, 0.0), glm::dvec4(frame.head, 0.0),
+                                 glm::dvec4(frame.up, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0));
+  mesh.append(box(low_mm, high_mm, bevel_mm, paint), lps_from_room);
+}
+
+RoomMesh table_of(const RoomFrame& f) {
+  const double middle = 0.5 * (f.low_mm.x + f.high_mm.x);
+  const double half = std::max(kTableHalfWidthMm, 0.5 * (f.high_mm.x - f.low_mm.x) + 40.0);
+  const double foot = f.low_mm.y - kBeyondMm, head = f.high_mm.y + kBeyondMm;
+  RoomMesh mesh;
+  put_box(f, {middle - half, foot, f.table_mm - kMattressMm}, {middle + half, head, f.table_mm}, 14.0, kMattress,
+          mesh);
+  put_box(f, {middle - half - 15.0, foot - 15.0, f.table_mm - kMattressMm - kTopMm},
+          {middle + half + 15.0, head + 15.0, f.table_mm - kMattressMm}, 8.0, kSteel, mesh);
+  put_box(f, {middle - 170.0, 0.5 * (foot + head) - 260.0, f.floor_mm},
+          {middle + 170.0, 0.5 * (foot + head) + 260.0, f.table_mm - kMattressMm - kTopMm}, 20.0, kSteel, mesh);
+  return mesh;
+}
+
+void put_face(const RoomFrame& f, const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
+              RoomMesh& mesh) {
+  const glm::dvec3 normal = glm::normalize(glm::cross(u, v));
+  constexpr int n = 8;  // so that light varies over it
+  const auto lps = [&](const glm::dvec3& p) { return f.lps(p.x, p.y, p.z); };
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i)
+      mesh.add(lps(corner + u * (static_cast<double>(i) / n) + v * (static_cast<double>(j) / n)), lps(normal));
+  for (std::uint32_t j = 0; j < n; ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = base + j * (n + 1) + i;
+      mesh.triangles.push_back({a, a + 1, a + n + 1});
+      mesh.triangles.push_back({a + 1, a + n + 2, a + n + 1});
+    }
+}
+
+glm::dvec3 room_middle(const RoomFrame& f) {
+  return 0.5 * (f.low_mm + f.high_mm);
+}
+
+RoomMesh floor_of(const RoomFrame& f) {
+  const glm::dvec3 m = room_middle(f);
+  RoomMesh mesh;
+  put_face(f, {m.x - kWallMm, m.y - kWallMm, f.floor_mm}, {2.0 * kWallMm, 0.0, 0.0}, {0.0, 2.0 * kWallMm, 0.0},
+           mesh);
+  return mesh;
+}
+
+RoomMesh walls_of(const RoomFrame& f) {
+  const glm::dvec3 m = room_middle(f);
+  const double w = kWallMm, low = f.floor_mm, rise = f.table_mm + kCeilingMm - f.floor_mm;
+  const glm::dvec3 x(2.0 * w, 0.0, 0.0), y(0.0, 2.0 * w, 0.0), z(0.0, 0.0, rise);
+  RoomMesh mesh;
+  put_face(f, {m.x - w, m.y - w, low}, y, z, mesh);
+  put_face(f, {m.x + w, m.y - w, low}, z, y, mesh);
+  put_face(f, {m.x - w, m.y - w, low}, z, x, mesh);
+  put_face(f, {m.x - w, m.y + w, low}, x, z, mesh);
+  put_face(f, {m.x - w, m.y - w, low + rise}, y, x, mesh);
+  return mesh;
+}
+
+// The part of a mesh whose triangles are cut, or are not.
+RoomMesh part_of(const cases::Mesh& mesh, bool cut) {
+  constexpr auto kNew = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> here(mesh.vertices_lps_mm.size(), kNew);
+  RoomMesh part;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if ((mesh.cut[t] != 0) != cut) continue;
+    glm::uvec3 corners{0U};
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t from = mesh.triangles[t][i];
+      if (here[from] == kNew) here[from] = part.add(glm::dvec3(mesh.vertices_lps_mm[from]), {0.0, 0.0, 1.0});
+      corners[i] = here[from];
+    }
+    part.triangles.push_back(corners);
+  }
+  make_smooth(part);
+  return part;
+}
+
+}  // namespace
+
+RoomFrame room_frame_of(const cases::Case& scene) {
+  RoomFrame f;
+  f.up = cases::upwards(scene.position);
+  f.across = glm::cross(f.head, f.up);
+  f.low_mm = glm::dvec3(std::numeric_limits<double>::max());
+  f.high_mm = -f.low_mm;
+  const auto take = [&](const glm::dvec3& p) {
+    const glm::dvec3 at(glm::dot(p, f.across), glm::dot(p, f.head), glm::dot(p, f.up));
+    f.low_mm = glm::min(f.low_mm, at);
+    f.high_mm = glm::max(f.high_mm, at);
+  };
+  for (const glm::vec3& vertex : scene.skin.vertices_lps_mm) take(glm::dvec3(vertex));
+  if (scene.skin.vertices_lps_mm.empty())
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 share(corner & 1, (corner >> 1) & 1, corner >> 2);
+      take(glm::dvec3(scene.volume.lps_from_voxel * glm::dvec4(share * glm::dvec3(scene.volume.size_voxels), 1.0)));
+    }
+  f.table_mm = f.low_mm.z;
+  f.floor_mm = f.table_mm - kTableHeightMm;
+  return f;
+}
+
+RoomScene make_room_scene(const cases::Case& scene) {
+  RoomScene room;
+  room.frame = room_frame_of(scene);
+  const auto add = [&](RoomMesh mesh) {
+    if (mesh.triangles.empty()) return kNoMesh;
+    room.meshes.push_back(std::move(mesh));
+    return static_cast<MeshHandle>(room.meshes.size() - 1);
+  };
+  room.skin = add(part_of(scene.skin, false));
+  room.cut_ends = add(part_of(scene.skin, true));
+  room.table = add(table_of(room.frame));
+  room.floor = add(floor_of(room.frame));
+  room.walls = add(walls_of(room.frame));
+  const cases::Instrument& needle = scene.instrument;
+  room.shaft_radius_mm = needle.radius_mm;
+  room.throw_mm = needle.kind == cases::InstrumentKind::core ? needle.throw_mm : 0.0;
+  room.shaft = add(shaft_form(needle));
+  room.hub = add(hub_form(needle));
+  if (scene.picture.modality != cases::Modality::xray) {
+    const Probe* probe = probe_named(scene.picture.probe);
+    room.probe = add(probe_form(probe != nullptr ? *probe : kC52v));
+  }
+  room.ball = add(unit_sphere(12));
+  return room;
+}
+
+}  // namespace seldinger::imaging
