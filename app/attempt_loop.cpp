@@ -168,6 +168,8 @@ base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cas
   }
   setting.position = scene.position;
   setting.defer_is_right = scene.defer_is_right;
+  setting.breathes = scene.breathing.has_value();
+  setting.yields = scene.yields;
   return assessment::make_signals(setting, recording);
 }
 

@@ -40,6 +40,7 @@ struct AttemptSetting {
   std::span<const cases::Structure> structures{};
   cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
+  bool breathes = false, yields = false;                             // what moves the case's tissue
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {

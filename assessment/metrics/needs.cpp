@@ -79,6 +79,9 @@ constexpr NeedInfo kNeeds[] = {
     {kMustCross, "a structure to be crossed", "no_must_cross_structure", &of_structures<StructureRule::must_cross>},
     {kOrgan, "the target's organ", "no_organ_structure", &of_structures<StructureRule::organ>},
     {kLumen, "the lumen to be reached", "no_target_structure", &of_structures<StructureRule::target>},
+    {kBreathes, "a patient who breathes", "patient_lies_still",
+     [](const Signals& s) { return s.setting.breathes; }},
+    {kYields, "tissue that yields", "tissue_lies_still", [](const Signals& s) { return s.setting.yields; }},
     {kSkin, "skin", "no_skin", [](const Signals& s) { return !s.setting.skin->empty(); }},
     {kPictures, "pictures", "no_picture", [](const Signals& s) { return !s.frames.empty(); }},
     {kBeam, "the beam's record", "beam_not_recorded", &beam_recorded},
@@ -110,7 +113,8 @@ bool applies(std::uint32_t needs, const Manner& manner) {
 
 bool absent_from_case(std::string_view reason) {
   constexpr std::uint32_t of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory |
-                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kDecision;
+                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kDecision | kBreathes |
+                                    kYields;
   return std::any_of(std::begin(kNeeds), std::end(kNeeds),
                      [&](const NeedInfo& info) { return (info.need & of_case) != 0 && reason == info.reason; });
 }

@@ -49,6 +49,8 @@ enum Need : std::uint32_t {
   kTrouble = 1U << 24U,  // an event of a mentor's
   // Of the case.
   kDecision = 1U << 25U,
+  kBreathes = 1U << 26U,
+  kYields = 1U << 27U,
 };
 
 struct NeedInfo {

@@ -15,13 +15,13 @@ Measured decision_right(const Signals& signals) {
 }
 
 Measured steps_done(const Signals& signals) {
-  const StepCounts counts = count_steps(walk_steps(signals));
+  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
   if (counts.asked() == 0) return Measured::none("no_step_asked_for");
   return Measured::of(static_cast<double>(counts.done) / counts.asked());
 }
 
 Measured steps_violated(const Signals& signals) {
-  return Measured::of(count_steps(walk_steps(signals)).violated);
+  return Measured::of(count_steps(walk_steps(signals), unmet_needs(signals)).violated);
 }
 
 Measured pain_reactions(const Signals& signals) {
@@ -39,10 +39,10 @@ constexpr MetricInfo kMetrics[] = {
      "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
      "nothing_decided (neither said nor punctured).",
      "clinical.md, case 8; SIR 2019 thresholds", &decision_right},
-    {"steps_done", 1, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
+    {"steps_done", 2, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for. Null: no_step_asked_for.", kSteps,
      &steps_done},
-    {"steps_violated", 1, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
+    {"steps_violated", 2, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
      "Graded steps (steps.md) that were violated.", kSteps, &steps_violated},
     {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better, kEvents | kSkin,
      "How often the patient felt pain: skin punctured where it was not numb, bone met.", kSteps, &pain_reactions},

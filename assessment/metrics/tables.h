@@ -22,6 +22,7 @@ std::span<const MetricInfo> time_metrics();
 std::span<const MetricInfo> fluoroscopy_metrics();
 std::span<const MetricInfo> recording_metrics();
 std::span<const MetricInfo> procedure_metrics();
+std::span<const MetricInfo> breath_metrics();
 
 // At the endpoint; there is one, and a target.
 bool target_hit(const Signals& signals);

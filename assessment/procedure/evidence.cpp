@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "assessment/breath_holds.h"
 #include "assessment/metrics/tables.h"
 #include "assessment/signals.h"
 #include "sim/base/check.h"
@@ -24,6 +25,8 @@ constexpr double kAspirationSeconds = 15.0;
 constexpr double kBlindRunMm = 5.0;  // clinical.md, "Common"
 constexpr double kJiggleMostMm = 5.0, kJiggleSeconds = 2.0;
 constexpr double kReactSeconds = 1.0, kTroubleSeconds = 3.0, kTroubleMm = 2.0;
+constexpr double kPushMm = 2.0;                        // so far in breath is no slip of the hand
+constexpr double kLossNoticedSeconds = 1.0;            // until then a lost breath is nobody's fault
 constexpr double kAlongDeg = 10.0, kAcrossDeg = 30.0;  // clinical.md, case 6: views at least 30° apart
 
 template <EventKind kind>
@@ -149,6 +152,28 @@ Moment in_trouble(const Signals& signals) {
   return std::nullopt;
 }
 
+// When the hand had pushed the tip on by over kPushMm on the last of its way, of what counts.
+template <typename Counts>
+Moment pushed_on(const Signals& signals, const Counts& counts) {
+  const std::vector<double> pushed_mm = pushed_on_last_way_mm(signals);
+  double sum_mm = 0.0;
+  return first_pose(signals, [&](std::size_t i) {
+    if (counts(signals.poses[i].t_s)) sum_mm += pushed_mm[i];
+    return sum_mm > kPushMm;
+  });
+}
+Moment last_way_begun(const Signals& signals) {
+  return pushed_on(signals, [](double) { return true; });
+}
+Moment pushed_in_breath(const Signals& signals) {
+  const std::vector<BreathHold> holds = breath_holds(signals);
+  return pushed_on(signals, [&](double t_s) { return !held_at(holds, t_s, kLossNoticedSeconds); });
+}
+Moment fired_in_breath(const Signals& signals) {
+  if (!signals.endpoint) return std::nullopt;
+  return held_at(breath_holds(signals), signals.endpoint->t_s) ? std::nullopt : Moment(signals.endpoint->t_s);
+}
+
 Moment target_seen(const Signals& signals) {
   return first_frame(signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.target; });
 }
@@ -235,6 +260,7 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
     {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
     {Evidence::bone_pain, "the needle met bone", kSaid, &event<EventKind::pain_bone>},
+    {Evidence::breath_granted, "the patient held the breath", kSaid, &event<EventKind::breath_held>},
     {Evidence::probe_on_skin, "the middle of the probe's face was within 15 mm of the skin", kSkin, &probe_on_skin},
     {Evidence::needle_at_skin, "the tip was within 5 mm of the skin, or in it", kSkin, &needle_at_skin},
     {Evidence::punctured, "the first puncture that skin_punctures counts", kSkin, &punctured},
@@ -251,6 +277,13 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::stopped_in_trouble,
      "from 1 to 4 s after a cough, bleeding or drop of pressure the needle came at most 2 mm deeper", kSaid | kSkin,
      &in_trouble<false>},
+    {Evidence::last_way_begun,
+     "the tip was pushed on by over 2 mm in the target's organ (none marked: at most 20 mm from the target)",
+     kTarget | kSkin, &last_way_begun},
+    {Evidence::pushed_in_breath,
+     "it was pushed on so by over 2 mm while breath moved, the second after a hold was lost left out",
+     kSaid | kTarget | kSkin, &pushed_in_breath},
+    {Evidence::fired_in_breath, "the trigger fell while breath moved", kSaid, &fired_in_breath},
     {Evidence::target_seen, "a live picture showed the target", kSeen | kTarget, &target_seen},
     {Evidence::tip_seen, "a live picture showed the tip in tissue", kSeen | kSkin, &tip_seen},
     {Evidence::both_seen, "a live picture showed target and tip in tissue at once", kSeen | kTarget | kSkin,

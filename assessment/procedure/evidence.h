@@ -28,6 +28,7 @@ enum class Evidence : std::uint8_t {
   // Answered by the patient.
   skin_pain,
   bone_pain,
+  breath_granted,
   // Of the hands.
   probe_on_skin,
   needle_at_skin,
@@ -38,6 +39,9 @@ enum class Evidence : std::uint8_t {
   needle_out,
   went_on_in_trouble,
   stopped_in_trouble,
+  last_way_begun,
+  pushed_in_breath,
+  fired_in_breath,
   // Of the pictures.
   target_seen,
   tip_seen,

@@ -20,56 +20,64 @@ constexpr const char* kTask(int step) {
 constexpr const char* kOutOf = "clinical.md: out-of-plane with dynamic tip positioning";
 constexpr const char* kBullsEye = "clinical.md, case 6: bull's-eye, then depth view";
 
+constexpr std::uint32_t kAlways = 0;  // graded
+
 constexpr StepInfo kSteps[] = {
     {"sign_in", "Sign in: identity, consent, imaging, allergy, INR, platelets", kEvents, signed_in, punctured, none,
-     true, kAround},
-    {"decide", "Decide to proceed or to defer", kEvents, decided, punctured, none, true, kAround},
+     kAlways, kAround},
+    {"decide", "Decide to proceed or to defer", kEvents, decided, punctured, none, kAlways, kAround},
     {"check_probe", "Choose the probe and check its orientation", kEvents | kUltrasound, probe_checked, punctured,
-     none, true, kAround},
+     none, kAlways, kAround},
     {"place_probe", "Place the probe on the patient at the entry", kPicturePlane | kSkin, probe_on_skin, punctured,
-     none, true, kTask(1)},
+     none, kAlways, kTask(1)},
     {"find_target", "Find the target in the picture", kPicturePlane | kPictures | kTarget, target_seen, punctured,
-     none, true, kTask(2)},
+     none, kAlways, kTask(2)},
     {"find_target_under_beam", "Find the target under fluoroscopy", kXray | kPictures | kTarget, target_under_beam,
-     punctured, none, true, kBullsEye},
+     punctured, none, kAlways, kBullsEye},
     {"note_depth", "Note planned entry and depth, and the needle's markings", kEvents, plan_noted, punctured, none,
-     true, kTask(3)},
+     kAlways, kTask(3)},
     {"anaesthetise", "Give local anaesthetic, after aspiration", kEvents, anaesthetised, punctured,
-     anaesthetised_unaspirated, true, kAround},
-    {"nick", "Nick the skin", kEvents | kCoreNeedle, nicked, punctured, none, true, kAround},
-    {"hold_at_entry", "Hold the needle at the entry", kSkin, needle_at_skin, none, none, true, kTask(4)},
+     anaesthetised_unaspirated, kAlways, kAround},
+    {"nick", "Nick the skin", kEvents | kCoreNeedle, nicked, punctured, none, kAlways, kAround},
+    {"hold_at_entry", "Hold the needle at the entry", kSkin, needle_at_skin, none, none, kAlways, kTask(4)},
     {"aim_along_beam", "Aim along the beam: bull's-eye view", kXray | kPictures | kBeam, looked_along_needle,
-     at_target, hand_in_beam, true, kBullsEye},
-    {"insert", "Insert the needle, through skin that is numb", kSkin, punctured, none, skin_pain, true, kTask(6)},
+     at_target, hand_in_beam, kAlways, kBullsEye},
+    {"insert", "Insert the needle, through skin that is numb", kSkin, punctured, none, skin_pain, kAlways,
+     kTask(6)},
     {"needle_in_plane", "Bring needle and picture together: see the tip in tissue",
-     kPicturePlane | kPictures | kSkin | kInPlane, tip_seen, fired, none, true, kTask(7)},
+     kPicturePlane | kPictures | kSkin | kInPlane, tip_seen, fired, none, kAlways, kTask(7)},
     {"jiggle", "Jiggle the needle gently to find it in the picture", kUltrasound | kSkin, jiggled, fired, none,
-     false, kTask(8)},
+     kYields, kTask(8)},
     {"see_both", "See needle and target in one picture", kPicturePlane | kPictures | kTarget | kSkin | kInPlane,
-     both_seen, fired, none, true, kTask(8)},
+     both_seen, fired, none, kAlways, kTask(8)},
     {"advance_seen", "Advance slowly towards the target, the tip in the picture",
-     kPicturePlane | kPictures | kTarget | kSkin | kInPlane, at_target, fired, blind_run, true, kTask(9)},
+     kPicturePlane | kPictures | kTarget | kSkin | kInPlane, at_target, fired, blind_run, kAlways, kTask(9)},
     {"advance_to_plane", "Advance no further than the picture's plane: the probe goes first",
-     kPicturePlane | kTarget | kSkin | kOutOfPlane, at_target, fired, beyond_plane, true, kOutOf},
-    {"keep_off_bone", "Keep off bone", kEvents | kSkin, at_target, fired, bone_pain, true, kAround},
+     kPicturePlane | kTarget | kSkin | kOutOfPlane, at_target, fired, beyond_plane, kAlways, kOutOf},
+    {"keep_off_bone", "Keep off bone", kEvents | kSkin, at_target, fired, bone_pain, kAlways, kAround},
     {"judge_depth", "Judge the depth from a second view", kXray | kPictures | kBeam | kTarget | kSkin,
-     looked_across_needle, fired, none, true, kBullsEye},
+     looked_across_needle, fired, none, kAlways, kBullsEye},
     {"reach_target", "Reach the target; with a core needle, its edge", kTarget | kSkin, at_target, fired, none,
-     true, kTask(10)},
+     kAlways, kTask(10)},
     {"stop_in_trouble", "Stop when the patient coughs, bleeds or loses pressure", kEvents | kTrouble | kSkin,
-     stopped_in_trouble, none, went_on_in_trouble, true, kAround},
-    {"ask_breath_hold", "Ask the patient to hold the breath", kEvents, breath_hold_asked, fired, none, false,
+     stopped_in_trouble, none, went_on_in_trouble, kAlways, kAround},
+    {"ask_breath_hold", "Ask the patient to hold the breath", kEvents, breath_hold_asked, fired, none, kBreathes,
      kTask(11)},
+    {"hold_before_organ", "Have the breath held before the organ is entered, and on the way in it",
+     kEvents | kBreathes | kTarget | kSkin, breath_granted, last_way_begun, pushed_in_breath, kAlways, kTask(11)},
     {"check_in_breath_hold", "Check needle and target while the breath is held",
-     kEvents | kPicturePlane | kPictures | kTarget, seen_in_breath_hold, fired, none, false, kTask(12)},
+     kEvents | kPicturePlane | kPictures | kTarget, seen_in_breath_hold, fired, none, kBreathes, kTask(12)},
+    {"fire_in_breath_hold", "Take the sample, or declare access, with the breath held", kEvents | kBreathes, fired,
+     none, fired_in_breath, kAlways, kTask(12)},
     {"sample", "Take the sample, or declare access, with the tip in the picture",
-     kPicturePlane | kPictures | kInPlane, fired, none, fired_unseen, true, kAround},
-    {"declare", "Declare that the place is reached", kXray, fired, none, none, true, kAround},
-    {"declare_out_of_plane", "Declare that the place is reached", kOutOfPlane, fired, none, none, true, kAround},
-    {"needle_out", "Take the needle out", kEvents | kCoreNeedle | kSkin, needle_out, none, none, true, kAround},
+     kPicturePlane | kPictures | kInPlane, fired, none, fired_unseen, kAlways, kAround},
+    {"declare", "Declare that the place is reached", kXray, fired, none, none, kAlways, kAround},
+    {"declare_out_of_plane", "Declare that the place is reached", kOutOfPlane, fired, none, none, kAlways, kAround},
+    {"needle_out", "Take the needle out", kEvents | kCoreNeedle | kSkin, needle_out, none, none, kAlways, kAround},
     {"scan_after", "Scan once more with the needle out",
-     kEvents | kCoreNeedle | kPicturePlane | kPictures | kTarget | kSkin, scanned_after, none, none, true, kAround},
-    {"sign_out", "Sign out", kEvents, signed_out, none, none, true, kAround},
+     kEvents | kCoreNeedle | kPicturePlane | kPictures | kTarget | kSkin, scanned_after, none, none, kAlways,
+     kAround},
+    {"sign_out", "Sign out", kEvents, signed_out, none, none, kAlways, kAround},
 };
 
 constexpr std::string_view kStates[] = {"done", "skipped", "violated", "not_asked"};
@@ -128,17 +136,28 @@ std::vector<StepResult> walk_steps(const Signals& signals) {
   return results;
 }
 
-StepCounts count_steps(std::span<const StepResult> results) {
+StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet) {
   StepCounts counts;
   for (const StepResult& result : results) {
     const StepInfo* step = find_step(result.id);
-    if (step == nullptr || !step->graded) continue;
+    if (step == nullptr || (step->graded_with & unmet) != 0) continue;
     counts.done += result.state == StepState::done ? 1 : 0;
     counts.skipped += result.state == StepState::skipped ? 1 : 0;
     counts.violated += result.state == StepState::violated ? 1 : 0;
   }
   return counts;
 }
+
+namespace {
+
+std::string words_of_needs(std::uint32_t needs) {
+  std::string text;
+  for (const NeedInfo& need : assessment::needs())
+    if ((needs & need.need) != 0) text += (text.empty() ? "" : ", ") + std::string(need.words);
+  return text;
+}
+
+}  // namespace
 
 std::string steps_markdown() {
   const auto words = [](Evidence of) { return of == none ? std::string("–") : std::string(about(of).words); };
@@ -148,16 +167,16 @@ std::string steps_markdown() {
       "compares.\nA step is done when its evidence was there in time, skipped when it never was or came too late, "
       "violated\nwhatever else was done, and not asked for where the guidance, the needle, the case or the "
       "recording "
-      "lacks what\nit needs. Steps that are not graded count once tissue moves (clinical.md).\n\n"
+      "lacks what\nit needs. Steps that are graded with something count in cases that have it, else they are told "
+      "and do not count "
+      "(clinical.md).\n\n"
       "| id | step | asked for with | done when | before | violated when | graded | source |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const StepInfo& step : kSteps) {
-    std::string needs;
-    for (const NeedInfo& need : assessment::needs())
-      if ((step.needs & need.need) != 0) needs += (needs.empty() ? "" : ", ") + std::string(need.words);
+    const std::string needs = words_of_needs(step.needs), graded_with = words_of_needs(step.graded_with);
     text += "| `" + std::string(step.id) + "` | " + step.words + " | " + (needs.empty() ? "–" : needs) + " | " +
             words(step.completes) + " | " + words(step.by) + " | " + words(step.violates) + " | " +
-            (step.graded ? "yes" : "no") + " | " + step.source + " |\n";
+            (graded_with.empty() ? "yes" : "with " + graded_with) + " | " + step.source + " |\n";
   }
   return text;
 }

@@ -12,7 +12,9 @@
 
 namespace seldinger::assessment {
 
-constexpr int kStepsVersion = 1;  // higher when a row below changes its meaning: stored results keep theirs
+// Higher when a row below changes its meaning: stored results keep theirs. 2: a held breath and a jiggle count
+// where tissue moves.
+constexpr int kStepsVersion = 2;
 
 struct StepInfo {
   const char* id;
@@ -21,7 +23,8 @@ struct StepInfo {
   Evidence completes;
   Evidence by;        // done later than this it is skipped; none: any time will do
   Evidence violates;  // none: it cannot be violated
-  bool graded;        // counts in steps_done and steps_violated
+  // Counts in steps_done and steps_violated where these Needs, or-ed, are met; 0: everywhere.
+  std::uint32_t graded_with;
   const char* source;
 };
 
@@ -46,12 +49,12 @@ std::optional<StepState> step_state_from(std::string_view name) noexcept;
 // Every step, in order.
 std::vector<StepResult> walk_steps(const Signals& signals);
 
-// Of those that are graded and were asked for.
+// Of those that are graded and were asked for; `unmet` as unmet_needs() says.
 struct StepCounts {
   int done = 0, skipped = 0, violated = 0;
   int asked() const noexcept { return done + skipped + violated; }
 };
-StepCounts count_steps(std::span<const StepResult> results);
+StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet);
 
 // docs/steps.md, from the tables.
 std::string steps_markdown();

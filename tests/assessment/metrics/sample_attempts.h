@@ -208,12 +208,13 @@ inline SampleAttempt sample_attempt(const SampleKind& kind, const Sampling& samp
   const std::pair<double, cases::EventKind> said[] = {
       {0.1, sign_in},     {0.15, proceed},  {0.2, note_plan}, {0.3, aspirate},
       {0.4, anaesthetic}, {0.45, nick},     {1.6, pain_skin}, {8.0, breath_hold_request},
-      {9.2, breath_held}, {9.6, pain_bone}, {10.5, cough}};
+      {8.6, breath_held}, {9.6, pain_bone}, {10.5, cough},    {10.6, breath_lost}};
   for (const auto& [t_s, event] : said) {
     if (!sample.recording.events) sample.recording.events.emplace();
     sample.recording.events->push_back({now(t_s), event});
   }
   setting.defer_is_right = false;
+  setting.breathes = setting.yields = true;
   return sample;
 }
 

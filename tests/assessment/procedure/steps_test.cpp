@@ -23,7 +23,8 @@ constexpr SampleKind kUltrasoundAcross{cases::Modality::ultrasound, cases::Appro
 constexpr SampleKind kFluoroscopy{cases::Modality::xray, cases::Approach::in_plane, cases::InstrumentKind::access};
 
 // An attempt in which all is done as it is to be: scan, say what is to be said, straight in with the tip in the
-// picture, a jiggle, a held breath, the trigger at 8 s, out at 10 s, a last look, sign-out.
+// picture, a jiggle, a held breath before the organ's capsule (33 mm, at 4.6 s), the trigger at 8 s, out at 10 s, a
+// last look, sign-out. The patient breathes, and tissue yields.
 SampleAttempt exemplary(const SampleKind& kind) {
   SampleAttempt sample = sample_attempt(kind);
   const glm::dvec3 way = glm::normalize(sample.setting.target->center_lps_mm);
@@ -67,8 +68,9 @@ SampleAttempt exemplary(const SampleKind& kind) {
   sample.recording.events = {{0.1, EventKind::sign_in},       {0.2, EventKind::proceed},
                              {0.3, EventKind::probe_checked}, {0.4, EventKind::note_plan},
                              {0.5, EventKind::aspirate},      {0.6, EventKind::anaesthetic},
-                             {0.7, EventKind::nick},          {6.1, EventKind::breath_hold_request},
-                             {7.3, EventKind::breath_held},   {11.9, EventKind::sign_out}};
+                             {0.7, EventKind::nick},          {3.0, EventKind::breath_hold_request},
+                             {4.1, EventKind::breath_held},   {8.6, EventKind::breathe_again},
+                             {11.9, EventKind::sign_out}};
   return sample;
 }
 
@@ -163,9 +165,29 @@ const std::vector<Fault>& faults() {
          leave_out(s, EventKind::breath_held);
        },
        kUltrasoundCore,
-       {"check_in_breath_hold"}},
-      {"breath lost before a look", "check_in_breath_hold", skipped,
-       [](auto& s) { say(s, 7.301, EventKind::breath_lost); }},
+       {"hold_before_organ", "check_in_breath_hold", "fire_in_breath_hold"}},
+      {"breath held without being asked for", "ask_breath_hold", skipped,
+       [](auto& s) { leave_out(s, EventKind::breath_hold_request); }},
+      {"into the organ before breath is held", "hold_before_organ", violated,
+       [](auto& s) { move_event(s, EventKind::breath_held, 5.2); }},
+      {"on in the organ when breath is lost", "hold_before_organ", violated,
+       [](auto& s) {
+         say(s, 4.2, EventKind::breath_lost);  // a second is given to notice it
+         say(s, 5.8, EventKind::breath_held);
+       }},
+      {"stopped when breath is lost, until it is held again", "hold_before_organ", done,
+       [](auto& s) {
+         say(s, 6.0, EventKind::breath_lost);
+         say(s, 7.0, EventKind::breath_held);
+       }},
+      {"breath held, no look at it", "check_in_breath_hold", skipped,
+       [](auto& s) {
+         for (auto& frame : s.recording.frames) frame.target = frame.target && (frame.t_s < 4.1 || frame.t_s > 9.0);
+       }},
+      {"fired when breath was lost", "fire_in_breath_hold", violated,
+       [](auto& s) { say(s, 7.9, EventKind::breath_lost); }},
+      {"fired as it was given back", "fire_in_breath_hold", violated,
+       [](auto& s) { move_event(s, EventKind::breathe_again, 7.9); }},
       {"no jiggle", "jiggle", skipped,
        [](auto& s) {
          std::erase_if(s.recording.poses, [](const auto& pose) { return pose.t_s > 2.99 && pose.t_s < 3.61; });
@@ -249,6 +271,42 @@ TEST(Steps, AFaultChangesItsStepAndNoOther) {
   }
 }
 
+std::map<std::string, double> counted(const SampleAttempt& sample) {
+  std::map<std::string, double> values;
+  for (const MetricValue& metric : measure_all(*sample.signals()))
+    if (metric.value) values[metric.id] = *metric.value;
+  return values;
+}
+
+// Breath and jiggle are told of who lies still as ever, and do not count.
+TEST(Steps, OfBreathCountWhereTissueMovesOnly) {
+  SampleAttempt moving = exemplary(kUltrasoundCore);
+  EXPECT_EQ(counted(moving).at("steps_done"), 1.0);
+  SampleAttempt still = moving;
+  still.setting.breathes = still.setting.yields = false;
+  EXPECT_EQ(walked(still).at("hold_before_organ").reason, "patient_lies_still");
+  EXPECT_EQ(walked(still).at("fire_in_breath_hold").reason, "patient_lies_still");
+  for (const char* id : {"ask_breath_hold", "check_in_breath_hold", "jiggle"})
+    EXPECT_EQ(walked(still).at(id), walked(moving).at(id)) << id;
+  for (SampleAttempt* one : {&moving, &still}) {
+    leave_out(*one, EventKind::breath_hold_request);
+    leave_out(*one, EventKind::breath_held);
+    for (auto& pose : one->recording.poses)  // no jiggle
+      if (pose.t_s > 2.99 && pose.t_s < 3.61) pose.tip_lps_mm = one->recording.poses[300].tip_lps_mm;
+    for (const char* id : {"ask_breath_hold", "check_in_breath_hold", "jiggle"})
+      EXPECT_EQ(walked(*one).at(id).state, StepState::skipped) << id;
+  }
+  EXPECT_EQ(counted(still).at("steps_done"), 1.0);
+  EXPECT_EQ(counted(still).at("steps_violated"), 0.0);
+  const double asked = static_cast<double>(std::ranges::count_if(
+      walked(moving), [](const auto& one) { return one.second.state != StepState::not_asked; }));
+  EXPECT_NEAR(counted(moving).at("steps_done"), (asked - 5.0) / asked, 1e-12)
+      << "without asking, holding, looking, firing in it, and a jiggle";
+  EXPECT_EQ(counted(moving).at("steps_violated"), 2.0);
+  moving.setting.yields = false;
+  EXPECT_NEAR(counted(moving).at("steps_done"), (asked - 5.0) / (asked - 1.0), 1e-12);
+}
+
 TEST(Steps, EachCanBeSkippedOrViolated) {
   std::set<std::string> reached;
   for (const Fault& fault : faults()) {
@@ -321,10 +379,10 @@ TEST(Steps, AreCountedByState) {
   const std::vector<StepResult> results = {{"sign_in", 1, StepState::done, 1.0, ""},
                                            {"decide", 1, StepState::skipped, {}, ""},
                                            {"insert", 1, StepState::violated, 2.0, ""},
-                                           {"jiggle", 1, StepState::skipped, {}, ""},  // not graded
+                                           {"jiggle", 1, StepState::skipped, {}, ""},  // not graded: nothing yields
                                            {"nick", 1, StepState::not_asked, {}, "not_a_core_needle"},
                                            {"of_another_version", 1, StepState::done, 1.0, ""}};
-  const StepCounts counts = count_steps(results);
+  const StepCounts counts = count_steps(results, kYields);
   EXPECT_EQ(counts.done, 1);
   EXPECT_EQ(counts.skipped, 1);
   EXPECT_EQ(counts.violated, 1);
