@@ -58,6 +58,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"glog/", {}},
     {"Eigen/", {}},
     {"embree3/", {"app/bench_touch"}},
+    {"spnav.h", {"sim/devices/space_mouse.cpp"}},
 };
 
 std::vector<fs::path> sources() {
