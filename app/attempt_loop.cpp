@@ -135,8 +135,8 @@ Sight sight_of(const cases::Case& scene) {
   CHECK(scene.picture.modality != cases::Modality::xray);
   if (scene.picture.modality == cases::Modality::ultrasound)
     return [needle, sight = std::make_shared<UltrasoundSight>(scene)](const cases::State& state,
-                                                                      const tissue::Displacement&) {
-      return frame_truth(state.t_s, sight->see(probe_of(pose_of(state)), needle(state)));
+                                                                      const tissue::Displacement& displacement) {
+      return frame_truth(state.t_s, sight->see(probe_of(pose_of(state)), needle(state), displacement));
     };
   return [needle, &scene](const cases::State& state, const tissue::Displacement& displacement) {
     auto target = target_of(scene.lesions);
@@ -234,8 +234,8 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
       recording.endpoint ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
                          : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
   if (scene.picture.modality == cases::Modality::ultrasound)
-    return png_of(
-        UltrasoundSight(scene).picture(probe_of(pose), needle, recording.hashes.back(), recording.frames.size()));
+    return png_of(UltrasoundSight(scene).picture(probe_of(pose), needle, recording.hashes.back(),
+                                                 recording.frames.size(), displacement_at_end(scene, recording)));
   return png_of(slice_under_probe(scene, pose, needle, displacement_at_end(scene, recording)));
 }
 

@@ -40,7 +40,7 @@ const GreyPicture& GuidanceScreen::picture() {
   const imaging::NeedlePose needle{pose.tip_lps_mm, pose.needle_direction, tool.length_mm,
                                    tool.radius_mm,  tool.inner_radius_mm,  tool.hu};
   picture_ = sight_ ? sight_->picture({pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral}, needle,
-                                      seed_, static_cast<std::uint64_t>(pictures_))
+                                      seed_, static_cast<std::uint64_t>(pictures_), shown_displacement_)
                     : slice_under_probe(scene_, pose, needle, shown_displacement_);
   return picture_;
 }

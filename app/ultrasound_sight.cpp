@@ -14,8 +14,8 @@ namespace {
 constexpr double kLinearToMm = 35.0;
 constexpr double kTargetShare = 0.6, kDepthStepMm = 5.0, kLeastDepthMm = 30.0;
 constexpr double kScreenHz = 60.0;
-// A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Tissue
-// does not give way yet; the picture begins so much deeper.
+// A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Where
+// tissue does not yield the picture begins so much deeper.
 constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
 constexpr double kBesideFaceMm = 3.0;  // room for the needle
 constexpr double kWayStepMm = 4.0, kNearSkinMm = 12.0, kNearSkinStepMm = 1.0;
@@ -37,15 +37,19 @@ double press_mm(const imaging::Probe& probe) {
 
 }  // namespace
 
-std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride) {
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride,
+                                  const tissue::Displacement& displacement) {
   const imaging::Probe& probe = view.probe;
   std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
   if (skin.empty()) return depths;
   CHECK(stride >= 1);
   std::uint32_t hint = 0;
+  const tissue::Displacement moving = tissue::without_presses(displacement);
+  const bool moves = tissue::count_sources(moving) > 0;
   const auto depth_of = [&](int element) {
     const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
-    const cases::Closest near = skin.closest(imaging::point_of(view, beam, 0.0), hint);
+    const glm::dvec3 at = imaging::point_of(view, beam, 0.0);
+    const cases::Closest near = skin.closest(moves ? tissue::rest_of(moving, at) : at, hint);
     hint = near.triangle;
     return static_cast<float>(-near.distance_mm);
   };
@@ -98,15 +102,16 @@ imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, con
 }
 
 imaging::UltrasoundVisible UltrasoundSight::see(const cases::Picture& picture, const cases::ToolPose& probe,
-                                                const imaging::Inserted& inserted) const {
+                                                const imaging::Inserted& inserted,
+                                                const tissue::Displacement& displacement) const {
   const imaging::UltrasoundView view = view_of(picture, probe);
-  return imaging::ultrasound_visible(tissue_, view, inserted,
-                                     element_depths(scene_.skin_index, view, kContactStride));
+  return imaging::ultrasound_visible(
+      tissue_, view, inserted, element_depths(scene_.skin_index, view, kContactStride, displacement), displacement);
 }
 
-imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe,
-                                                const imaging::NeedlePose& needle) const {
-  return see(scene_.picture, probe, {needle, scene_.lesions});
+imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                                const tissue::Displacement& displacement) const {
+  return see(scene_.picture, probe, {needle, scene_.lesions}, displacement);
 }
 
 std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
@@ -132,7 +137,7 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   const auto tip_shows = [&](double inserted_mm) {
     const imaging::Inserted inserted{needle(inserted_mm), {}};
     if (plan.approach == cases::Approach::out_of_plane)
-      return see(picture, assessment::probe_over(held, inserted_mm), inserted).visible.needle_tip;
+      return see(picture, assessment::probe_over(held, inserted_mm), inserted, {}).visible.needle_tip;
     return imaging::needle_level(tissue_, view, inserted, depths, 0.0).stands_out();
   };
   double shows_from_mm = plan.depth_mm;
@@ -159,20 +164,22 @@ struct UltrasoundSight::Screen {
 
 imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
                                                std::uint64_t seed, std::uint64_t frame,
-                                               imaging::PolarPicture& picture) const {
+                                               imaging::PolarPicture& picture,
+                                               const tissue::Displacement& displacement) const {
   const imaging::UltrasoundView view = view_of(scene_.picture, probe);
-  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, element_depths(scene_.skin_index, view),
-                            picture);
+  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions},
+                            element_depths(scene_.skin_index, view, 1, displacement), picture, displacement);
   imaging::add_receiver_noise(seed, frame, picture);
   return view;
 }
 
 GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                     std::uint64_t seed, std::uint64_t frame) {
+                                     std::uint64_t seed, std::uint64_t frame,
+                                     const tissue::Displacement& displacement) {
   if (!screen_) screen_ = std::make_shared<Screen>(view_of(scene_.picture, probe));
   const imaging::ScanConverter& converter = screen_->converter;
   GreyPicture picture;
-  const imaging::UltrasoundView view = polar(probe, needle, seed, frame, screen_->polar);
+  const imaging::UltrasoundView view = polar(probe, needle, seed, frame, screen_->polar, displacement);
   converter.grey(view, {}, screen_->polar, picture.grey);
   picture.width_px = converter.width_px();
   picture.height_px =

@@ -13,15 +13,17 @@
 #include "sim/case/mesh_index.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
 #include "sim/imaging/ultrasound/visible.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 
 constexpr int kContactStride = 8;  // elements; 4 mm of a curved face, over which skin hardly bends
 
 // How deep below the skin each of the probe's elements lies, mm; an empty skin: all stand in air. Asked of every
-// `stride`-th element, between them linear.
-std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view,
-                                  int stride = 1);
+// `stride`-th element, between them linear. The skin is where the displacement puts it but for presses: under a
+// probe the whole face carries it, of which a press, being a ball's, knows only the middle.
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride = 1,
+                                  const tissue::Displacement& displacement = {});
 
 // How a target so deep below the skin, along the probe's axis, is looked at: by the linear probe down to 35 mm,
 // else by the curved one, at a depth of which the target lies at 1/2 to 2/3, as fast as sound allows up to the
@@ -37,20 +39,22 @@ class UltrasoundSight {
   std::optional<assessment::ProbeView> looks_from(const assessment::PuncturePlan& plan,
                                                   const cases::Lesion& target) const;
 
-  // In the scene's picture, with its lesions.
-  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle) const;
+  // In the scene's picture, with its lesions, of tissue that is where the displacement puts it.
+  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+                                 const tissue::Displacement& displacement = {}) const;
   // What the machine receives there, with its noise; answers how it looked.
   imaging::UltrasoundView polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
-                                std::uint64_t frame, imaging::PolarPicture& picture) const;
+                                std::uint64_t frame, imaging::PolarPicture& picture,
+                                const tissue::Displacement& displacement = {}) const;
   // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
   GreyPicture picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
-                      std::uint64_t frame);
+                      std::uint64_t frame, const tissue::Displacement& displacement = {});
 
  private:
   struct Screen;  // what pictures need beside the tissue, made with the first
   imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ToolPose& probe) const;
   imaging::UltrasoundVisible see(const cases::Picture& picture, const cases::ToolPose& probe,
-                                 const imaging::Inserted& inserted) const;
+                                 const imaging::Inserted& inserted, const tissue::Displacement& displacement) const;
   imaging::NeedlePose needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const;
 
   const cases::Case& scene_;

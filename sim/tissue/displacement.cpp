@@ -190,6 +190,17 @@ Displacement displacement_of(const Causes& causes) noexcept {
   return made;
 }
 
+Displacement without_presses(const Displacement& displacement) noexcept {
+  Displacement left{};
+  const int presses = displacement.contact_end;
+  left.tip_end = displacement.tip_end - presses;
+  left.shaft_end = displacement.shaft_end - presses;
+  left.vein_end = displacement.vein_end - presses;
+  left.breath_end = displacement.breath_end - presses;
+  for (int i = 0; i < left.breath_end; ++i) left.source[i] = displacement.source[i + presses];
+  return left;
+}
+
 int count_sources(const Displacement& displacement) noexcept {
   return displacement.breath_end;
 }

@@ -61,6 +61,9 @@ struct Causes {
 // 0.6 of the head's radius and of the bone's depth, and less over bone just under the skin.
 Displacement displacement_of(const Causes& causes) noexcept;
 
+// The same but for what probes do.
+Displacement without_presses(const Displacement& displacement) noexcept;
+
 int count_sources(const Displacement& displacement) noexcept;
 
 // x of X, in mm.

@@ -1,5 +1,5 @@
-// A patient who breathes and whose tissue yields, under MPR: attempts that replay bit for bit, tips told at rest,
-// and a still patient who is the same as ever.
+// A patient who breathes and whose tissue yields, under MPR and ultrasound: attempts that replay bit for bit, tips
+// told at rest, and a still patient who is the same as ever.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,12 +37,12 @@ class MotionTest : public testing::Test {
     const auto ran = run(kProgram + " case setting " + case_id + " " + words + " --library " + library_, scratch_);
     EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
   }
-  // A version of the demo's case under MPR.
-  static std::string version(const std::string& words) {
+  // A version of the demo's case, under MPR unless told otherwise.
+  static std::string version(const std::string& words, const std::string& modality = "mpr") {
     const auto ran = run(kProgram + " case version " + still_ + " --by mia --json --library " + library_, scratch_);
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     const std::string case_id = Json::parse(ran.out)["case_id"];
-    set(case_id, "--modality mpr " + words);
+    set(case_id, "--modality " + modality + " " + words);
     return case_id;
   }
   static inline std::filesystem::path scratch_;
@@ -60,6 +60,21 @@ TEST_F(MotionTest, AnAttemptAtWhoBreathesAndYieldsReplaysBitForBit) {
   EXPECT_EQ(again["not_bit_identical"], 0);
   EXPECT_EQ(again["not_scored"], Json::array());
   EXPECT_GT(again["values"], 60);
+}
+
+TEST_F(MotionTest, UnderUltrasoundToo) {
+  const std::string moving = version("--breath-depth 1 --tissue yields", "ultrasound");
+  const Json made = ask("simulate --operator expert --seed 4 --event cough@6 --case " + moving);
+  const std::string id = made["attempts"][0]["attempt_id"];
+  EXPECT_TRUE(fixtures::metric(made["attempts"][0], "tip_target_dist").has_value());
+  EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
+  const Json again = ask("recompute --attempt " + id);
+  EXPECT_EQ(again["not_bit_identical"], 0);
+  EXPECT_EQ(again["not_scored"], Json::array());
+  const auto ran = run(
+      kProgram + " replay " + id + " --out " + (scratch_ / "moving_us.html").string() + " --library " + library_,
+      scratch_);
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
 }
 
 TEST_F(MotionTest, TheSameHandsMeetAnotherPlaceInWhoBreathes) {
@@ -86,6 +101,10 @@ TEST_F(MotionTest, WhatDoesNotShowItYetSaysSo) {
   EXPECT_TRUE(shown());
   EXPECT_EQ(ask("case show " + moving)["further_modalities"], Json::array());
   set(moving, "--modality ultrasound");
+  EXPECT_TRUE(shown());
+  set(moving, "--also xray");
+  EXPECT_FALSE(shown());
+  set(moving, "--also none --modality xray");
   EXPECT_FALSE(shown());
   const auto ran =
       run(kProgram + " simulate --operator expert --case " + moving + " --library " + library_, scratch_);

@@ -23,8 +23,8 @@ constexpr double kAlikeVariance = 0.3842;
 
 }  // namespace
 
-LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at)
-    : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
+LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion)
+    : view_(view), tissue_at_(tissue_at), motion_(motion), fan_(fan_of(view)) {
   const double frequency_mhz = working_mhz(view);
   at_sample_.resize(static_cast<std::size_t>(view.samples));
   const std::vector<PulseTap> taps =
@@ -67,11 +67,11 @@ LatticeField::LatticeField(const UltrasoundView& view, const TissueAt& tissue_at
 }
 
 void LatticeField::noise_line(double beam, std::vector<float>& re, std::vector<float>& im) const {
-  const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
+  const BeamPath path = path_of(fan_, motion_, beam);
   for (int k = 0; k < view_.samples; ++k) {
     const auto n = static_cast<std::size_t>(k);
     const AtSample& at = at_sample_[n];
-    const glm::dvec3 p = start + ((k + 0.5) * fan_.sample_mm) * direction;
+    const glm::dvec3 p = path.at((k + 0.5) * fan_.sample_mm);
     const float tissue = tissue_at_.speckle(p);
     re[n] = im[n] = 0.0F;
     if (tissue == 0.0F) continue;

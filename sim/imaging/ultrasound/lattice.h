@@ -10,7 +10,7 @@ namespace seldinger::imaging {
 
 class LatticeField final : public SpeckleField {
  public:
-  LatticeField(const UltrasoundView& view, const TissueAt& tissue_at);
+  LatticeField(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion);
 
   int fine() const noexcept override { return 1; }
   void add_beams(int first, int end, std::vector<std::int32_t>& out) const override;
@@ -33,6 +33,7 @@ class LatticeField final : public SpeckleField {
 
   const UltrasoundView& view_;
   const TissueAt& tissue_at_;
+  const PictureMotion* motion_;
   Fan fan_;
   int most_reach_ = 0;
   std::vector<AtSample> at_sample_;

@@ -29,7 +29,7 @@ struct LineWalker::NeedleCrossing {
 };
 
 LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
-                       const Inserted& inserted)
+                       const Inserted& inserted, const PictureMotion* motion)
     : view_(view),
       fan_(fan_of(view)),
       tissue_at_(tissue_at),
@@ -40,6 +40,7 @@ LineWalker::LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, co
       most_shift_mm_(std::cbrt(volume.spacing_mm.x * volume.spacing_mm.y * volume.spacing_mm.z)),
       table_(acoustic_table(view.attenuation_db_cm_mhz)),
       needle_(inserted.needle && is_usable(*inserted.needle) ? &*inserted.needle : nullptr),
+      motion_(motion),
       frequency_mhz_(working_mhz(view)) {
   for (const Neighbour& n : around_) least_side_mm_ += shaders::kUsLeastSide * n.weight * glm::length(n.offset_mm);
   for (std::size_t i = 0; i < table_.size(); ++i) {
@@ -111,10 +112,9 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
       line.echoes.push_back({k * kUsLensMm, shaders::us_lens_line(k)});
     return;
   }
-  const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
+  const BeamPath path = path_of(fan_, motion_, beam);
   const double dz = fan_.sample_mm;
-  for (std::size_t k = 0; k < count; ++k)
-    line.tissue[k] = tissue_at_(start + ((static_cast<double>(k) + 0.5) * dz) * direction);
+  for (std::size_t k = 0; k < count; ++k) line.tissue[k] = tissue_at_(path.at((static_cast<double>(k) + 0.5) * dz));
   // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a slanted beam
   // clips.
   std::size_t first = 0;
@@ -130,12 +130,12 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
     const double mrayl = table_[tissue].impedance_mrayl;
     double late_mm = 0.0;  // how far below the samples' border the tissues' lies
     if (k > first && line.tissue[k] != line.tissue[k - 1]) {
-      late_mm = border_mm(start, direction, k, line) - static_cast<double>(k) * dz;
+      late_mm = border_mm(path, k, line) - static_cast<double>(k) * dz;
       sum_db = std::min(kUsDeadDb, sum_db + late_mm * loss_db_mm_[static_cast<std::size_t>(line.tissue[k - 1])]);
     }
     if (k == first && shaders::us_is_matched(mrayl)) before_mrayl = mrayl;
     if (mrayl != before_mrayl && sum_db < kUsDeadDb) {
-      add_interface(start, direction, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
+      add_interface(path, static_cast<int>(k), before_mrayl, mrayl, sum_db, line);
       sum_db += shaders::us_step_loss_db(shaders::us_reflection(before_mrayl, mrayl));
       before_mrayl = mrayl;
     }
@@ -156,12 +156,11 @@ void LineWalker::walk(int beam, bool contact, Line& line) const {
   if (view_.range_error) shift(first, line);
 }
 
-double LineWalker::border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample,
-                             const Line& line) const {
+double LineWalker::border_mm(const BeamPath& path, std::size_t sample, const Line& line) const {
   double above = (static_cast<double>(sample) - 0.5) * fan_.sample_mm, below = above + fan_.sample_mm;
   for (int i = 0; i < shaders::kUsBorderHalvings; ++i) {
     const double middle = 0.5 * (above + below);
-    (tissue_at_(start + middle * direction) == line.tissue[sample - 1] ? above : below) = middle;
+    (tissue_at_(path.at(middle)) == line.tissue[sample - 1] ? above : below) = middle;
   }
   return 0.5 * (above + below);
 }
@@ -188,15 +187,20 @@ void LineWalker::shift(std::size_t first, Line& line) const {
   }
 }
 
-void LineWalker::add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample,
-                               double before_mrayl, double after_mrayl, double loss_db, Line& line) const {
+void LineWalker::add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl,
+                               double loss_db, Line& line) const {
   const double reflection = shaders::us_reflection(before_mrayl, after_mrayl);
   double depth_mm = sample * fan_.sample_mm, cosine = 1.0;
   if (sample > 0) {
     if (!shaders::us_is_heard(reflection)) return;
-    const Plane plane = plane_at(start + depth_mm * direction, before_mrayl, after_mrayl);
-    const double along = glm::dot(plane.normal, direction);
-    if (plane.is_told) cosine = std::clamp(std::abs(along), 0.0, 1.0);
+    // The plane lies in tissue at rest, and the beam there goes along with it.
+    const glm::dvec3 rest = path.at(depth_mm);
+    const Plane plane = plane_at(rest, before_mrayl, after_mrayl);
+    const double along = glm::dot(plane.normal, path.along(depth_mm));
+    if (plane.is_told)
+      cosine = std::clamp(
+          std::abs(path.still() ? along : glm::dot(motion_->normal_now(rest, plane.normal), path.direction())), 0.0,
+          1.0);
     // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
     if (plane.has_place && cosine > shaders::kUsLeastPlaceCosine)
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));

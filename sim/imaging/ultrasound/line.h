@@ -6,6 +6,7 @@
 
 #include "shaders/shared/ultrasound_line.glsl.h"
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
 
 namespace seldinger::imaging {
@@ -49,8 +50,9 @@ constexpr int kMostTailLines = 8, kMostNeedleEchoes = 2 + kMostTailLines;
 
 class LineWalker {
  public:
+  // What it is given outlives it. `motion`: of tissue that moves; else null.
   LineWalker(const UltrasoundView& view, const TissueAt& tissue_at, const volume::Volume& volume,
-             const Inserted& inserted);
+             const Inserted& inserted, const PictureMotion* motion = nullptr);
   void walk(int beam, bool contact, Line& line) const;
 
   // What a walk elsewhere (ultrasound_gpu) needs.
@@ -80,9 +82,9 @@ class LineWalker {
   };
   static std::vector<Neighbour> neighbours(const volume::Volume& volume, double radius_voxels);
   Plane plane_at(const glm::dvec3& p_lps_mm, double before_mrayl, double after_mrayl) const;
-  void add_interface(const glm::dvec3& start, const glm::dvec3& direction, int sample, double before_mrayl,
-                     double after_mrayl, double loss_db, Line& line) const;
-  double border_mm(const glm::dvec3& start, const glm::dvec3& direction, std::size_t sample, const Line& line) const;
+  void add_interface(const BeamPath& path, int sample, double before_mrayl, double after_mrayl, double loss_db,
+                     Line& line) const;
+  double border_mm(const BeamPath& path, std::size_t sample, const Line& line) const;
   struct NeedleCrossing;
   NeedleCrossing crossing(const glm::dvec3& start, const glm::dvec3& direction) const;
   void shift(std::size_t first, Line& line) const;
@@ -97,6 +99,7 @@ class LineWalker {
   AcousticTable table_;
   std::array<double, volume::kTissueClasses> loss_db_mm_, shift_per_mm_;
   const NeedlePose* needle_;
+  const PictureMotion* motion_;
   double frequency_mhz_;
 };
 

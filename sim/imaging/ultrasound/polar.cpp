@@ -8,6 +8,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/ultrasound/pulse.h"
 #include "sim/imaging/ultrasound/scatterers.h"
@@ -29,12 +30,12 @@ struct Room {
 class PolarPainter {
  public:
   PolarPainter(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-               std::span<const float> depth_below_skin_mm, PolarPicture& picture)
+               std::span<const float> depth_below_skin_mm, const PictureMotion* motion, PolarPicture& picture)
       : view_(view),
         fan_(fan_of(view)),
         tissue_at_(tissue, inserted),
-        walker_(view, tissue_at_, *tissue.volume, inserted),
-        field_(speckle_field(view, tissue_at_)),
+        walker_(view, tissue_at_, *tissue.volume, inserted, motion),
+        field_(speckle_field(view, tissue_at_, motion)),
         below_skin_mm_(depth_below_skin_mm),
         frequency_mhz_(working_mhz(view)),
         wavelength_mm_(shaders::us_wavelength_mm(frequency_mhz_)),
@@ -153,12 +154,13 @@ class PolarPainter {
 
 }  // namespace
 
-std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const TissueAt& tissue_at) {
+std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const TissueAt& tissue_at,
+                                            const PictureMotion* motion) {
   switch (view.method) {
     case UltrasoundMethod::scatterers:
-      return std::make_unique<ScattererField>(view, tissue_at);
+      return std::make_unique<ScattererField>(view, tissue_at, motion);
     case UltrasoundMethod::lattice:
-      return std::make_unique<LatticeField>(view, tissue_at);
+      return std::make_unique<LatticeField>(view, tissue_at, motion);
     case UltrasoundMethod::thesis:
       break;
   }
@@ -166,13 +168,16 @@ std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const Ti
 }
 
 void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                      std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
+                      std::span<const float> depth_below_skin_mm, PolarPicture& picture,
+                      const tissue::Displacement& displacement) {
   check_view(view, depth_below_skin_mm);
   picture.beams = view.beams;
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
-  if (view.method == UltrasoundMethod::thesis) return thesis_polar(tissue, view, inserted, picture);
-  const PolarPainter painter(tissue, view, inserted, depth_below_skin_mm, picture);
+  const std::optional<PictureMotion> motion = motion_of(view, displacement);
+  const PictureMotion* moved = motion ? &*motion : nullptr;
+  if (view.method == UltrasoundMethod::thesis) return thesis_polar(tissue, view, inserted, moved, picture);
+  const PolarPainter painter(tissue, view, inserted, depth_below_skin_mm, moved, picture);
   // The same blocks for any number of threads. Wide enough that scatterers at their sides, which two blocks see,
   // are few; the arctangent's series wants them narrow.
   const int block = std::clamp(view.beams / 16, 1, 32), blocks = (view.beams + block - 1) / block;

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "shaders/shared/ultrasound_cube.glsl.h"
+#include "sim/base/check.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
 #include "sim/imaging/ultrasound/phase.h"
@@ -46,6 +48,18 @@ struct Chunk {
   float depth[kChunk], beam[kChunk];      // of the scatterer; y becomes its own
   std::uint32_t inside[kChunk];
   std::uint32_t phase[kChunk];  // steps of kPhases that the echo is turned by
+
+  // Of tissue that moves, too: `y` is where the scatterer is now, x, at_y and z where it is at rest. Its row's
+  // columns of the slab tell the difference, along the tile's axes, layer by layer.
+  float at_y[kChunk];
+  std::int32_t column[kChunk];  // where that of its row begins
+};
+struct Columns {
+  static constexpr int kRoom = 8192;
+  int count = 0;
+  float x[kRoom], y[kRoom], z[kRoom];
+  float low_mm = 0.0F, per_mm = 0.0F;  // height of the first layer; layers a mm
+  int layers = 0;                      // ≥ 2
 };
 
 struct TileFrame {
@@ -55,14 +69,28 @@ struct TileFrame {
 };
 
 // Where the scatterer of each cube is: plain loops, which the compiler runs eight at a time.
-template <bool curved>
-[[gnu::always_inline]] inline void place(const TileFrame& f, Chunk& chunk) noexcept {
+template <bool curved, bool moving>
+[[gnu::always_inline]] inline void place(const TileFrame& f, const Columns* columns, Chunk& chunk) noexcept {
   for (int n = 0; n < chunk.count; ++n) {
     const std::uint32_t bits = shaders::us_lattice_bits(chunk.seed[n]);
     const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
-    const float x = chunk.x[n] + u * f.a[0] + v * f.b[0] + w * f.c[0];
-    const float y = chunk.y[n] + u * f.a[1] + v * f.b[1] + w * f.c[1];
-    const float z = chunk.z[n] + u * f.a[2] + v * f.b[2] + w * f.c[2];
+    float x = chunk.x[n] + u * f.a[0] + v * f.b[0] + w * f.c[0];
+    float y = chunk.y[n] + u * f.a[1] + v * f.b[1] + w * f.c[1];
+    float z = chunk.z[n] + u * f.a[2] + v * f.b[2] + w * f.c[2];
+    chunk.x[n] = x;
+    chunk.z[n] = z;
+    if constexpr (moving) {
+      chunk.at_y[n] = y;
+      const float most = static_cast<float>(columns->layers - 1);
+      const float layer = std::min(std::max((y - columns->low_mm) * columns->per_mm, 0.0F), most);
+      const int below = std::min(static_cast<int>(layer), columns->layers - 2);
+      const float part = layer - static_cast<float>(below);
+      const int at = chunk.column[n] + below;
+      x += columns->x[at] + part * (columns->x[at + 1] - columns->x[at]);
+      y += columns->y[at] + part * (columns->y[at + 1] - columns->y[at]);
+      z += columns->z[at] + part * (columns->z[at + 1] - columns->z[at]);
+    }
+    chunk.y[n] = y;
     float depth = z, beam = 0.0F;
     if constexpr (curved) {
       const float from_center = z + f.radius;
@@ -72,9 +100,6 @@ template <bool curved>
     } else {
       beam = f.beam_middle + x * f.per_radian;
     }
-    chunk.x[n] = x;
-    chunk.y[n] = y;
-    chunk.z[n] = z;
     chunk.depth[n] = depth;
     chunk.beam[n] = beam;
     chunk.phase[n] = shaders::us_lattice_turned(bits) * (kPhases / 2);
@@ -84,16 +109,24 @@ template <bool curved>
   }
 }
 [[gnu::target_clones("avx2", "default")]] void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
-  place<true>(f, chunk);
+  place<true, false>(f, nullptr, chunk);
 }
 [[gnu::target_clones("avx2", "default")]] void place_straight(const TileFrame& f, Chunk& chunk) noexcept {
-  place<false>(f, chunk);
+  place<false, false>(f, nullptr, chunk);
+}
+[[gnu::target_clones("avx2", "default")]] void place_moving_curved(const TileFrame& f, const Columns& columns,
+                                                                   Chunk& chunk) noexcept {
+  place<true, true>(f, &columns, chunk);
+}
+[[gnu::target_clones("avx2", "default")]] void place_moving_straight(const TileFrame& f, const Columns& columns,
+                                                                     Chunk& chunk) noexcept {
+  place<false, true>(f, &columns, chunk);
 }
 
 }  // namespace
 
-ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissue_at)
-    : view_(view), tissue_at_(tissue_at), fan_(fan_of(view)) {
+ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion)
+    : view_(view), tissue_at_(tissue_at), motion_(motion), fan_(fan_of(view)) {
   const double frequency_mhz = working_mhz(view);
   wavelength_mm_ = shaders::us_wavelength_mm(frequency_mhz);
   fine_ = std::max(1, static_cast<int>(std::ceil(2.0 * fan_.sample_mm / (wavelength_mm_ * kMostTurns))));
@@ -173,6 +206,7 @@ ScattererField::Tile ScattererField::tile(const Band& band, double middle, doubl
     low = {-wide, -band.half_thickness_mm, band.from_mm};
     high = {wide, band.half_thickness_mm, band.to_mm};
   }
+  if (motion_ != nullptr) to_rest(t, low, high);
   const double s = band.spacing_mm;
   t.center_mm = 0.5 * (low + high);
   t.half_mm = 0.5 * (high - low);
@@ -187,6 +221,38 @@ ScattererField::Tile ScattererField::tile(const Band& band, double middle, doubl
   for (int l = 1; l < 3; ++l)
     if (std::abs(y_axis[l]) > std::abs(y_axis[t.inner])) t.inner = l;
   return t;
+}
+
+// Between which u lies in a box tells how far the box reaches at rest, which may ask for more of u: until nothing
+// more comes of it.
+void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept {
+  const tissue::MovedSlab& slab = motion_->slab();
+  const auto at = [&](const glm::dvec3& in_frame) {
+    return tile.start_lps_mm + in_frame.x * tile.axes[0] + in_frame.y * tile.axes[1] + in_frame.z * tile.axes[2];
+  };
+  const glm::dvec3 low = low_mm, high = high_mm;
+  const glm::dvec3 middle = at(0.5 * (low + high)), back = slab.rest_of(middle, middle) - middle;
+  glm::dvec3 least(glm::dot(-back, tile.axes[0]), glm::dot(-back, tile.axes[1]), glm::dot(-back, tile.axes[2]));
+  glm::dvec3 most = least;
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    low_mm = low - most;
+    high_mm = high - least;
+    glm::dvec3 box_low(1e9), box_high(-1e9);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p =
+          slab.slab_of(at({(corner & 1) != 0 ? high_mm.x : low_mm.x, (corner & 2) != 0 ? high_mm.y : low_mm.y,
+                           (corner & 4) != 0 ? high_mm.z : low_mm.z}));
+      box_low = glm::min(box_low, p);
+      box_high = glm::max(box_high, p);
+    }
+    const auto range = slab.range(box_low, box_high, tile.axes);
+    const bool more =
+        glm::any(glm::lessThan(range.low_mm, least)) || glm::any(glm::greaterThan(range.high_mm, most));
+    if (!more) break;
+    least = glm::min(least, range.low_mm);
+    most = glm::max(most, range.high_mm);
+  }
 }
 
 void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
@@ -221,11 +287,13 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
   const auto samples = static_cast<std::size_t>(view_.samples) * static_cast<std::size_t>(fine_);  // fine
   Chunk chunk;
   std::array<int, kChunk> chosen;
+  const bool moving = motion_ != nullptr;
+  Columns columns;
   const auto flush = [&] {
-    if (fan_.curved)
-      place_curved(f, chunk);
+    if (moving)
+      fan_.curved ? place_moving_curved(f, columns, chunk) : place_moving_straight(f, columns, chunk);
     else
-      place_straight(f, chunk);
+      fan_.curved ? place_curved(f, chunk) : place_straight(f, chunk);
     int kept = 0;
     for (int n = 0; n < chunk.count; ++n) {
       chosen[static_cast<std::size_t>(kept)] = n;
@@ -244,7 +312,8 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       const int to = std::min(end - 1, static_cast<int>(std::floor(beam + at.lateral_reach)));
       if (from > to) continue;
       const glm::dvec3 p = start + static_cast<double>(chunk.x[n]) * x_axis +
-                           static_cast<double>(chunk.y[n]) * y_axis + static_cast<double>(chunk.z[n]) * z_axis;
+                           static_cast<double>(moving ? chunk.at_y[n] : chunk.y[n]) * y_axis +
+                           static_cast<double>(chunk.z[n]) * z_axis;
       const float tissue = tissue_at_.speckle(p);
       if (tissue == 0.0F) continue;
       const float amplitude = tissue * at.amplitude;
@@ -260,6 +329,34 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       }
     }
     chunk.count = 0;
+    columns.count = 0;
+  };
+  // What a row's scatterers go by: the slab's column at the row's middle, of the layers that the tile's box
+  // touches.
+  int first_layer = 0;
+  if (moving) {
+    const tissue::SlabPart& part = motion_->slab().part();
+    const int most = motion_->slab().size().z - 2;
+    const auto layer_at = [&](double y_mm) {
+      return std::clamp(static_cast<int>(std::floor((y_mm - part.low_mm.z) / part.layer_mm)), 0, most);
+    };
+    first_layer = layer_at(tile.center_mm.y - half_box.y);
+    columns.layers = layer_at(tile.center_mm.y + half_box.y) + 2 - first_layer;
+    columns.low_mm = static_cast<float>(part.low_mm.z + first_layer * part.layer_mm);
+    columns.per_mm = static_cast<float>(1.0 / part.layer_mm);
+    CHECK(columns.layers <= Columns::kRoom);
+  }
+  const auto add_column = [&](int i, int j) {
+    if (columns.count + columns.layers > Columns::kRoom) flush();
+    const auto at = motion_->slab().columns((i + 0.5) * s, (j + 0.5) * s);
+    const glm::vec3 x(x_axis), y(y_axis), z(z_axis);
+    for (int l = 0; l < columns.layers; ++l) {
+      const glm::vec3 u = at.at(first_layer + l);
+      const int n = columns.count++;
+      columns.x[n] = glm::dot(u, x);
+      columns.y[n] = glm::dot(u, y);
+      columns.z[n] = glm::dot(u, z);
+    }
   };
 
   const auto cells = [&](int axis) {
@@ -290,6 +387,8 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
       const int k_first = static_cast<int>(std::ceil(k_low + center_cell[inner])),
                 k_last = static_cast<int>(std::floor(k_high + center_cell[inner]));
       if (k_first > k_last) continue;
+      if (moving) add_column(i, j);
+      int column = columns.count - columns.layers;
       glm::ivec3 cell;
       cell[outer] = i, cell[middle_axis] = j, cell[inner] = k_first;
       std::uint32_t seed = shaders::us_lattice_seed(band.key, cell.x, cell.y, cell.z);
@@ -304,7 +403,13 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
         chunk.x[n] = static_cast<float>(at.x);
         chunk.y[n] = static_cast<float>(at.y);
         chunk.z[n] = static_cast<float>(at.z);
-        if (chunk.count == kChunk) flush();
+        if (moving) chunk.column[n] = column;
+        if (chunk.count < kChunk) continue;
+        flush();
+        if (moving && k < k_last) {
+          add_column(i, j);
+          column = 0;
+        }
       }
     }
   if (chunk.count > 0) flush();

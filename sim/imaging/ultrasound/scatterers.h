@@ -14,7 +14,7 @@ namespace seldinger::imaging {
 // What holds for a whole picture: per depth sample the beam's widths, per depth band the lattice.
 class ScattererField final : public SpeckleField {
  public:
-  ScattererField(const UltrasoundView& view, const TissueAt& tissue_at);
+  ScattererField(const UltrasoundView& view, const TissueAt& tissue_at, const PictureMotion* motion = nullptr);
 
   // Fine samples to a sample: so many that the lattice's own mean, which turns by 2·fine/λ a fine sample, is well
   // below the Nyquist frequency and the pulse takes it away.
@@ -40,7 +40,8 @@ class ScattererField final : public SpeckleField {
   float most_reach(const Band& band) const noexcept;  // beams
 
   // The part of a band within `beams_half` of beam `middle`: its frame (x across, y elevation, z along its middle
-  // beam from the face), a box around it in that frame, and where the lattice's cubes lie that touch the box.
+  // beam from the face), a box in that frame around where its tissue lies at rest, and where the lattice's cubes
+  // lie that touch the box.
   struct Tile {
     glm::dvec3 start_lps_mm, axes[3];
     glm::dvec3 center_mm, half_mm;                      // of the box, in the frame; around centres of cubes
@@ -57,9 +58,11 @@ class ScattererField final : public SpeckleField {
     float amplitude;        // unit energy · lattice
   };
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
+  void to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept;
 
   const UltrasoundView& view_;
   const TissueAt& tissue_at_;
+  const PictureMotion* motion_;
   Fan fan_;
   double wavelength_mm_;
   int fine_;

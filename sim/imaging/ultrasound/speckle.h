@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/imaging/ultrasound/fan.h"
+#include "sim/imaging/ultrasound/motion.h"
 
 namespace seldinger::imaging {
 
@@ -28,7 +29,9 @@ class SpeckleField {
   virtual void add_beams(int first, int end, std::vector<std::int32_t>& out) const = 0;
 };
 
-// That of the view's method; null for thesis, which has none. Both arguments outlive it.
-std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const TissueAt& tissue_at);
+// That of the view's method; null for thesis, which has none. The arguments outlive it; `motion` is null where
+// tissue lies still.
+std::unique_ptr<SpeckleField> speckle_field(const UltrasoundView& view, const TissueAt& tissue_at,
+                                            const PictureMotion* motion);
 
 }  // namespace seldinger::imaging

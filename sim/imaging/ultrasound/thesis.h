@@ -4,6 +4,7 @@
 // design.
 #pragma once
 
+#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
 
 namespace seldinger::imaging {
@@ -17,6 +18,6 @@ constexpr double kThesisEdgeStepMm = 1.0, kThesisEdgeFrom = 0.15;    // of the w
 
 // As ultrasound_polar; a level that the default console shows as the grey that the recipe asks for.
 void thesis_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                  PolarPicture& picture);
+                  const PictureMotion* motion, PolarPicture& picture);
 
 }  // namespace seldinger::imaging

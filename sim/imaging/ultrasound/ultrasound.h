@@ -18,6 +18,7 @@
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/ultrasound/probe.h"
 #include "sim/imaging/ultrasound/tissue.h"
+#include "sim/tissue/displacement.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::imaging {
@@ -64,8 +65,11 @@ constexpr double kContactMm = 1.0;
 
 // `inserted`: lesions take the tissue of their HU; the needle scatters nothing, casts a weak shadow and sends its
 // own echo. NaN or infinite poses: no needle. CHECKs the view. `picture`'s buffers are used again.
+// `displacement`: of a patient who moves; tissue, its speckle and lesions are where it puts them, needle and probe where
+// they are. Without sources no code of it runs.
 void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                      std::span<const float> depth_below_skin_mm, PolarPicture& picture);
+                      std::span<const float> depth_below_skin_mm, PolarPicture& picture,
+                      const tissue::Displacement& displacement = {});
 
 // contracts.md's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below kLeastDb.
 constexpr float kLeastDb = -200.0F;

@@ -204,7 +204,7 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   check_view(view, depth_below_skin_mm);
   CHECK(view.method != UltrasoundMethod::thesis);
   const TissueAt tissue_at(tissue, inserted);
-  const std::unique_ptr<SpeckleField> field = speckle_field(view, tissue_at);
+  const std::unique_ptr<SpeckleField> field = speckle_field(view, tissue_at, nullptr);
   const int fine = field->fine();
   const std::size_t polar = static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples),
                     fine_polar = polar * static_cast<std::size_t>(fine);

@@ -9,6 +9,7 @@
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
+#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
 #include "sim/imaging/ultrasound/view.h"
 
@@ -37,8 +38,9 @@ struct Place {
 class Sight {
  public:
   Sight(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-        std::span<const float> depth_below_skin_mm)
+        std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement)
       : view_(view),
+        displacement_(displacement),
         fan_(fan_of(view)),
         tissue_at_(tissue, inserted),
         table_(acoustic_table(view.attenuation_db_cm_mhz)),
@@ -48,8 +50,16 @@ class Sight {
       loss_db_mm_[i] =
           shaders::us_loss_db_per_mm(table_[i].attenuation_db_cm_mhz, table_[i].exponent, frequency_mhz_);
     }
+    if (tissue::count_sources(displacement) > 0)
+      at_rest_.emplace(view, kSightMm, 0.0, [&](const glm::dvec3& at_lps_mm, const glm::dvec3&) {
+        return tissue::rest_of(displacement, at_lps_mm, {.fixed_point = 4, .newton = 0});
+      });
   }
 
+  // Of what is told at rest.
+  Place place_of_tissue(const glm::dvec3& rest_lps_mm) const {
+    return place(at_rest_ ? tissue::displaced(displacement_, rest_lps_mm) : rest_lps_mm);
+  }
   Place place(const glm::dvec3& p_lps_mm) const {
     const glm::dvec3 d = p_lps_mm - fan_.origin_lps_mm;
     const BeamAndDepth at = beam_and_depth(view_, glm::dot(d, fan_.lateral), glm::dot(d, fan_.axial));
@@ -72,10 +82,10 @@ class Sight {
   // Two-way, from the face down to a depth, as LineWalker adds it up in finer steps.
   double loss_db(double beam, double depth_mm) const {
     if (!beam_touches(view_, below_skin_mm_, beam)) return shaders::kUsDeadDb;
-    const glm::dvec3 start = fan_.start_lps_mm(beam), direction = fan_.direction(beam);
+    const BeamPath path = at_rest_ ? at_rest_->path(beam) : BeamPath(fan_.start_lps_mm(beam), fan_.direction(beam));
     const int steps = std::max(1, static_cast<int>(std::ceil(depth_mm / kWalkMm)));
     const double dz = depth_mm / steps;
-    const auto tissue = [&](double z_mm) { return tissue_at_(start + z_mm * direction); };
+    const auto tissue = [&](double z_mm) { return tissue_at_(path.at(z_mm)); };
     // A blurred skin is gel, unless there is gas beyond what it can be.
     constexpr double kStepMm = 0.25 * kWalkMm;
     double gel_mm = 0.0;
@@ -102,8 +112,9 @@ class Sight {
 
   // Mean square echo of the tissue in the plane, without loss; liver's is 1.
   double scatter(double beam, double depth_mm) const {
-    const double amplitude =
-        static_cast<double>(tissue_at_.speckle(fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam)));
+    const glm::dvec3 p =
+        at_rest_ ? at_rest_->rest_of(beam, depth_mm) : fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam);
+    const double amplitude = static_cast<double>(tissue_at_.speckle(p));
     return amplitude * amplitude;
   }
   double scatter_around(const Place& at) const {
@@ -159,7 +170,7 @@ class Sight {
 
   // Decision 0013.
   TargetLevel level(const cases::Lesion& target) const {
-    const Place at = place(target.center_lps_mm);
+    const Place at = place_of_tissue(target.center_lps_mm);
     TargetLevel level;
     level.in_field = in_field(at);
     level.off_plane_mm = at.off_plane_mm;
@@ -190,12 +201,14 @@ class Sight {
 
  private:
   const UltrasoundView& view_;
+  const tissue::Displacement& displacement_;
   Fan fan_;
   TissueAt tissue_at_;
   AcousticTable table_;
   std::array<double, volume::kTissueClasses> loss_db_mm_;
   std::span<const float> below_skin_mm_;
   double frequency_mhz_;
+  std::optional<RestFan> at_rest_;  // where tissue moves
 };
 
 const NeedlePose* usable_needle(const Inserted& inserted) {
@@ -209,8 +222,9 @@ double TargetLevel::cnr() const noexcept {
 }
 
 UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
-                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm) {
-  const Sight sight(tissue, view, inserted, depth_below_skin_mm);
+                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm,
+                                     const tissue::Displacement& displacement) {
+  const Sight sight(tissue, view, inserted, depth_below_skin_mm, displacement);
   UltrasoundVisible seen;
   if (const NeedlePose* needle = usable_needle(inserted)) {
     const Place tip = sight.place(needle->tip_lps_mm);
@@ -223,7 +237,7 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
   }
   if (!inserted.lesions.empty()) {
     const cases::Lesion& target = inserted.lesions.front();
-    const Place center = sight.place(target.center_lps_mm);
+    const Place center = sight.place_of_tissue(target.center_lps_mm);
     if (sight.in_field(center)) {
       seen.near_plane.target_2_mm = std::abs(center.off_plane_mm) <= kNearMm;
       seen.near_plane.target_5_mm = std::abs(center.off_plane_mm) <= kLessNearMm;
@@ -238,17 +252,19 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
 }
 
 NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm, double behind_tip_mm) {
+                         std::span<const float> depth_below_skin_mm, double behind_tip_mm,
+                         const tissue::Displacement& displacement) {
   const NeedlePose* needle = usable_needle(inserted);
-  return needle == nullptr ? NeedleLevel{}
-                           : Sight(tissue, view, inserted, depth_below_skin_mm).level(*needle, behind_tip_mm);
+  return needle == nullptr
+             ? NeedleLevel{}
+             : Sight(tissue, view, inserted, depth_below_skin_mm, displacement).level(*needle, behind_tip_mm);
 }
 
 TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm) {
+                         std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement) {
   return inserted.lesions.empty()
              ? TargetLevel{}
-             : Sight(tissue, view, inserted, depth_below_skin_mm).level(inserted.lesions.front());
+             : Sight(tissue, view, inserted, depth_below_skin_mm, displacement).level(inserted.lesions.front());
 }
 
 }  // namespace seldinger::imaging

@@ -30,10 +30,12 @@ struct UltrasoundVisible {
 };
 
 // The target is inserted.lesions[0]. depth_below_skin_mm: as ultrasound_polar. Poses that are not finite show
-// nothing. The shaft is looked at every kShaftStepMm.
-constexpr double kShaftStepMm = 2.0;
+// nothing. The shaft is looked at every kShaftStepMm. Of a
+// patient who moves: tissue and target are where the displacement puts them, to kSightMm of a grid.
+constexpr double kShaftStepMm = 2.0, kSightMm = 5.0;
 UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
-                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm);
+                                     const Inserted& inserted, std::span<const float> depth_below_skin_mm,
+                                     const tissue::Displacement& displacement = {});
 
 // The numbers behind it.
 struct NeedleLevel {
@@ -45,7 +47,8 @@ struct NeedleLevel {
 };
 // At a point of the shaft `behind_tip_mm`, ≥ 0; 0: the tip, which shows as the bevel or as the shaft's end.
 NeedleLevel needle_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm, double behind_tip_mm);
+                         std::span<const float> depth_below_skin_mm, double behind_tip_mm,
+                         const tissue::Displacement& displacement = {});
 
 struct TargetLevel {
   bool in_field = false;
@@ -55,6 +58,6 @@ struct TargetLevel {
   double cnr() const noexcept;
 };
 TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
-                         std::span<const float> depth_below_skin_mm);
+                         std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement = {});
 
 }  // namespace seldinger::imaging
