@@ -34,9 +34,11 @@ const std::map<std::string, std::set<std::string>> kMayUse = {
     {"reports", {"sim/base", "sim/volume", "sim/case", "assessment", "casedb"}},
     {"web", {"sim/base", "sim/volume", "sim/case", "assessment", "casedb", "reports"}},
     {"app/ultrasound_goals", {"shaders/shared", "sim/base", "sim/volume", "sim/case", "sim/gpu", "sim/imaging"}},
+    {"app/device_simulation", {"sim/base", "sim/case", "sim/haptics", "sim/devices"}},
     {"app",
-     {"app/ultrasound_goals", "sim/base", "sim/volume", "sim/case", "sim/tissue", "sim/gpu", "sim/imaging",
-      "sim/haptics", "sim/devices", "sim/engine", "assessment", "casedb", "reports", "web"}},
+     {"app/ultrasound_goals", "app/device_simulation", "sim/base", "sim/volume", "sim/case", "sim/tissue",
+      "sim/gpu", "sim/imaging", "sim/haptics", "sim/devices", "sim/engine", "assessment", "casedb", "reports",
+      "web"}},
 };
 
 // A third-party header (by how its include begins) and the only places that may include it (file or folder
@@ -59,6 +61,9 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"Eigen/", {}},
     {"embree3/", {"app/bench_touch"}},
     {"spnav.h", {"sim/devices/space_mouse.cpp"}},
+    {"boost/asio", {"sim/devices/websocket.cpp"}},
+    {"boost/beast", {"sim/devices/websocket.cpp"}},
+    {"boost/system", {"sim/devices/websocket.cpp"}},
 };
 
 std::vector<fs::path> sources() {
