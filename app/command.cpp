@@ -242,6 +242,13 @@ constexpr Option kDemoOptions[] = {
     {"--no-serve", nullptr, "end by printing what was made"},
     {"--port", "N", "the page's port; default 8080, or any free one"},
     kJson};
+constexpr Option kTrainOptions[] = {
+    {"--library", "DIR", "the library; else the demo's"},
+    {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
+    {"--width", "PIXELS", "of the window; 1280 unless given"},
+    {"--height", "PIXELS", "of the window; 800 unless given"},
+    {"--whole-screen", nullptr, "without a frame"},
+};
 constexpr Option kServeOptions[] = {kLibrary,
                                     {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},
                                     {"--port", "N", "default 8080; 0 takes any free one"}};
@@ -364,6 +371,10 @@ constexpr Command kCommands[] = {
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},
+    {"train", "", 0, 0, kTrainOptions,
+     "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys, and be told how it "
+     "went.",
+     &run_train},
     {"serve", "", 0, 0, kServeOptions, "Serves the library's pages on this machine.", &run_serve},
     {"help", "[COMMAND]", 0, 2, kHelpOptions, "Prints this, or one command's options.", &run_help},
 };

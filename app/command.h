@@ -94,5 +94,6 @@ int run_goals_haptics(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);
 int run_demo(const Arguments& arguments);
 int run_serve(const Arguments& arguments);
+int run_train(const Arguments& arguments);
 
 }  // namespace seldinger::app

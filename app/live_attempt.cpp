@@ -27,8 +27,7 @@ constexpr double kPulsesLookedForHz = 500.0;
 LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene)
     : library_(library), head_(std::move(head)), scene_(scene) {}
 
-base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::function<bool()>& done,
-                                             const Watch& watch) {
+base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   const bool xray = scene_.picture.modality == cases::Modality::xray;
   Sight see;
   std::optional<FluoroscopyRoom> room;
@@ -53,22 +52,25 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
   base::Snapshot<cases::ExposureReport> reports;
   std::atomic<bool> over{false};
   engine::ServoLoop servo({}, [&, report = cases::ExposureReport{}](double elapsed_s) mutable {
-    if (over) return;
+    if (over || (with.paused && with.paused())) {
+      over = over || with.done();
+      return;
+    }
     const auto frame = frames.take();
     if (const auto exposed = reports.take()) report = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
     const int due =
         std::clamp(static_cast<int>(std::lround(elapsed_s / engine::kTickSeconds)), 1, kMostTicksAtOnce);
     for (int i = 0; i < due && !over; ++i) {
-      cases::Inputs inputs = hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
+      cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
       const bool kept = recorder.tick(ticks.advance(inputs));
       if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.state());
-      if (!kept || done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
+      if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
     }
     const Moment moment = ticks.moment();
     moments.put(moment);
-    if (watch) watch(moment);
+    if (with.watch) with.watch(moment);
   });
 
   const auto begun = std::chrono::steady_clock::now();
@@ -100,13 +102,14 @@ base::Result<StoredAttempt> LiveAttempt::run(const Hands& hands, const std::func
     frames.put(frame);
   }
   servo.stop();
+  if (with.ended) with.ended();
   if (const auto chunks = recorder.finish(); !chunks) return chunks.error();
 
   casedb::AttemptOutcome outcome;
   outcome.servo = servo.record();
   outcome.end = ticks.state().fire.fired ? casedb::AttemptEnd::fired
                 : recorder.fell_behind() ? casedb::AttemptEnd::interrupted
-                : done()                 ? casedb::AttemptEnd::stopped
+                : with.done()            ? casedb::AttemptEnd::stopped
                                          : casedb::AttemptEnd::time_limit;
   const auto recording = casedb::load_open_recording(library_, *attempt_id);
   if (!recording) return recording.error();

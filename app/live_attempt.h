@@ -26,16 +26,21 @@ class LiveAttempt {
   // By the servo: what the hands want now; `frame` is a picture that appeared since the last tick.
   using Hands = std::function<cases::Inputs(const cases::State&, const cases::FrameTruth* frame)>;
 
+  // Who takes part. All but `ended` are asked by the servo: they must not allocate, lock or wait.
+  struct With {
+    Hands hands;
+    std::function<bool()> done;                  // after each tick
+    std::function<bool()> paused{};              // while it says so, no time goes by
+    std::function<void(const Moment&)> watch{};  // what else there is to do with a tick
+    std::function<void()> ended{};               // no tick comes any more; scoring and storing follow
+  };
+
   // The library and the scene (with what its modality needs) must outlive it.
   LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene);
 
-  // What else there is to do with a tick, by the servo: it must not allocate, lock or wait.
-  using Watch = std::function<void(const Moment&)>;
-
-  // Until `done` says so (asked by the servo after each tick), kMostLiveSeconds are over, or it cannot be
-  // recorded any more. Stored, scored and durable when it returns. Refused as casedb::open_attempt and
-  // close_attempt.
-  base::Result<StoredAttempt> run(const Hands& hands, const std::function<bool()>& done, const Watch& watch = {});
+  // Until `done` says so, kMostLiveSeconds are over, or it cannot be recorded any more. Stored, scored and durable
+  // when it returns. Refused as casedb::open_attempt and close_attempt.
+  base::Result<StoredAttempt> run(const With& with);
 
  private:
   casedb::Library& library_;

@@ -28,14 +28,14 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
   assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
   Scenario scenario(scenario_);
   LiveAttempt live(*library_, head_of(task_, profile.name, seed, std::nullopt), task_.scene);
-  const auto stored = live.run(
-      [&](const cases::State& state, const cases::FrameTruth* frame) {
-        cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
-        scenario.add_to(inputs, state.t_s);
-        person.hear(inputs.event);
-        return inputs;
-      },
-      [&] { return person.done(); });
+  const auto stored = live.run({.hands =
+                                    [&](const cases::State& state, const cases::FrameTruth* frame) {
+                                      cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
+                                      scenario.add_to(inputs, state.t_s);
+                                      person.hear(inputs.event);
+                                      return inputs;
+                                    },
+                                .done = [&] { return person.done(); }});
   if (!stored) return stored.error();
   return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
 }

@@ -130,12 +130,14 @@ Handles::Handles(std::shared_ptr<EglDisplay> display, void* context) noexcept
     : display_(std::move(display)), context_(context) {}
 
 Handles::~Handles() {
+  if (!display_) return;
   if (eglGetCurrentContext() == context_)
     eglMakeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_->handle(), context_);
 }
 
 bool Handles::try_make_current() const noexcept {
+  if (!display_) return true;
   if (eglGetCurrentContext() == context_) return true;
   return eglMakeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE;
 }
@@ -153,14 +155,27 @@ void Handles::check_errors(const char* doing) const {
   throw base::Failure("gl", std::string("OpenGL: ") + what + " while " + doing);
 }
 
-Context::Context() {
+namespace {
+
+std::shared_ptr<Handles> context_without_window() {
   const auto get_platform_display = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   if (get_platform_display == nullptr) throw base::Failure("gl", "EGL has no platform displays");
   for (const EGLDisplay display : hardware_displays(get_platform_display))
-    if ((handles_ = context_on(display))) break;
-  if (!handles_)
-    handles_ = context_on(get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-  if (!handles_) throw base::Failure("gl", "no OpenGL 4.3 core context can be had");
+    if (auto handles = context_on(display)) return handles;
+  auto handles = context_on(get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  if (!handles) throw base::Failure("gl", "no OpenGL 4.3 core context can be had");
+  return handles;
+}
+
+}  // namespace
+
+Context::Context() : Context(context_without_window()) {}
+
+Context Context::of_window() {
+  return Context(std::make_shared<Handles>(nullptr, nullptr));
+}
+
+Context::Context(std::shared_ptr<Handles> handles) : handles_(std::move(handles)) {
   load_entry_points();
   renderer_ = gl_text(GL_RENDERER);
   version_ = gl_text(GL_VERSION);

@@ -15,9 +15,13 @@ class Handles;  // the EGL side (handles.h), shared by everything made with a co
 class Context {
  public:
   Context();  // current on this thread; throws base::Failure("gl") when no GL 4.3 can be had
+  // The context of a window, which its maker made current on this thread and keeps so, and which outlives all that
+  // is made with it. Throws as above when it is less than GL 4.3.
+  static Context of_window();
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
+  Context(Context&&) noexcept = default;
 
   const std::string& renderer() const noexcept { return renderer_; }  // GL_RENDERER
   const std::string& version() const noexcept { return version_; }    // GL_VERSION
@@ -25,6 +29,8 @@ class Context {
   const std::shared_ptr<Handles>& handles() const noexcept { return handles_; }
 
  private:
+  explicit Context(std::shared_ptr<Handles> handles);
+
   std::shared_ptr<Handles> handles_;
   std::string renderer_, version_;
   bool software_ = false;

@@ -10,6 +10,7 @@ class EglDisplay;
 
 class Handles {
  public:
+  // Without a display: a window's, which is current on its thread and stays so.
   Handles(std::shared_ptr<EglDisplay> display, void* context) noexcept;
   ~Handles();
   Handles(const Handles&) = delete;

@@ -63,6 +63,7 @@ class Console {
   // Back from the newest, while frozen; clamped to what there is.
   void scroll(int pictures_back) noexcept;
   int scrolled() const noexcept { return scrolled_; }
+  int cine_pictures() const noexcept { return loop_.size(); }
   // What is on the screen; nothing before the first picture.
   std::optional<CinePicture> shown() const;
 

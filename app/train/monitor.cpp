@@ -1,0 +1,200 @@
+#include "app/train/monitor.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/attempt_loop.h"
+#include "app/fluoroscopy.h"
+#include "app/ultrasound_sight.h"
+
+namespace seldinger::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+imaging::NeedlePose needle_of(const cases::Case& scene, const cases::State& state) {
+  const cases::Instrument& tool = scene.instrument;
+  return {state.needle.tip_lps_mm, state.needle.direction, tool.length_mm,
+          tool.radius_mm,          tool.inner_radius_mm,   tool.hu};
+}
+
+// As the picture of the case is set.
+imaging::ConsolePreset preset_of(const cases::Picture& picture) {
+  const imaging::Probe* probe = imaging::probe_named(picture.probe);
+  return {"case", probe != nullptr ? *probe : imaging::kC52v, picture.depth_mm, 0.0, 60.0};
+}
+
+constexpr double kRateOver = 0.9;  // of the rate that is told, what was before counts so much
+
+}  // namespace
+
+// Draws on the monitor's thread.
+class Monitor::Painter {
+ public:
+  Painter(const cases::Case& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
+    if (scene.picture.modality == cases::Modality::ultrasound) {
+      sight_.emplace(scene);
+      console_.emplace(preset_of(scene.picture));
+    }
+    if (scene.picture.modality == cases::Modality::xray) room_.emplace(scene);
+  }
+
+  imaging::Console* console() { return console_ ? &*console_ : nullptr; }
+
+  // Of a new moment.
+  void draw(const Moment& moment, ShownPicture& shown) {
+    const cases::State& state = moment.state;
+    shown.live = room_ ? state.fluoroscopy.live : !state.probe.frozen;
+    if (room_) {
+      shown.picture = room_->picture(state, seed_);
+      shown.t_s = state.t_s;
+      ++shown.number;
+      return;
+    }
+    const cases::ToolPose probe{state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+    const imaging::NeedlePose needle = needle_of(scene_, state);
+    if (!sight_) {
+      if (!shown.live) return;
+      shown.picture = slice_under_probe(scene_, pose_of(state), needle, moment.displacement);
+      shown.t_s = state.t_s;
+      ++shown.number;
+      return;
+    }
+    if (console_->frozen() == shown.live) console_->set_frozen(!shown.live);
+    if (!console_->frozen()) {
+      const imaging::UltrasoundView view =
+          sight_->polar(probe, needle, seed_, ++pictures_, polar_, moment.displacement);
+      console_->show(state.t_s, pictures_, view, polar_);
+    }
+    develop(shown);
+  }
+
+  // Of what the console holds, as it is set now.
+  void develop(ShownPicture& shown) {
+    const auto cine = console_->shown();
+    if (!cine) return;
+    if (!converter_) converter_.emplace(cine->view, imaging::DisplaySize{});
+    converter_->grey(cine->view, console_->knobs(), cine->picture, shown.picture.grey);
+    shown.picture.width_px = converter_->width_px();
+    shown.picture.height_px = std::min(
+        converter_->height_px(),  // without the empty rows below a wide field
+        static_cast<int>(std::ceil((cine->view.depth_mm - converter_->top_mm()) / converter_->pixel_mm())));
+    shown.picture.grey.resize(static_cast<std::size_t>(shown.picture.height_px) *
+                              static_cast<std::size_t>(shown.picture.width_px));
+    shown.pixel_mm = converter_->pixel_mm();
+    shown.top_mm = converter_->top_mm();
+    shown.t_s = cine->t_s;
+    shown.cine_back = console_->scrolled();
+    ++shown.number;
+  }
+
+ private:
+  const cases::Case& scene_;
+  std::uint64_t seed_;
+  std::optional<UltrasoundSight> sight_;
+  std::optional<imaging::Console> console_;
+  std::optional<imaging::ScanConverter> converter_;
+  imaging::PolarPicture polar_;
+  std::optional<FluoroscopyRoom> room_;
+  std::uint64_t pictures_ = 0;
+};
+
+Monitor::Monitor(const cases::Case& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
+  switch (scene.picture.modality) {
+    case cases::Modality::ultrasound:
+      method_ = "scatterers, CPU";
+      break;
+    case cases::Modality::xray:
+      method_ = "exact projection, CPU";
+      break;
+    case cases::Modality::mpr:
+      method_ = "trilinear, CPU";
+      break;
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+Monitor::~Monitor() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  woken_.notify_all();
+  thread_.join();
+}
+
+void Monitor::show(const Moment& moment) noexcept {
+  moments_.put(moment);
+  if (moment.state.fluoroscopy.frames == pulses_seen_) return;
+  pulses_seen_ = moment.state.fluoroscopy.frames;
+  pulses_.put(moment);
+}
+
+void Monitor::set_console(std::function<void(imaging::Console&)> change) {
+  {
+    const std::lock_guard lock(mutex_);
+    changes_.push_back(std::move(change));
+  }
+  woken_.notify_all();
+}
+
+bool Monitor::take(ShownPicture& shown) {
+  const std::lock_guard lock(mutex_);
+  if (!fresh_) return false;
+  std::swap(shown, newest_);
+  fresh_ = false;
+  return true;
+}
+
+void Monitor::run() {
+  Painter painter(scene_, seed_);
+  const bool xray = scene_.picture.modality == cases::Modality::xray;
+  const auto between = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(xray ? 0.002 : 1.0 / scene_.picture.rate_hz));
+  ShownPicture work;
+  Clock::time_point due = Clock::now(), last_picture = due;
+  double rate_hz = 0.0;
+  bool live = false;
+  std::vector<std::function<void(imaging::Console&)>> changes;
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      woken_.wait_until(lock, due, [&] { return stopping_; });
+      if (stopping_) return;
+      changes.swap(changes_);
+    }
+    due = std::max(due + between, Clock::now());
+    const std::uint64_t before = work.number;
+    const auto begun = Clock::now();
+    const auto newest = moments_.take();
+    const auto pulse = xray ? pulses_.take() : std::nullopt;
+    if (auto* console = painter.console())
+      for (const auto& change : changes) change(*console);
+    if (xray ? pulse.has_value() : newest.has_value())
+      painter.draw(xray ? *pulse : *newest, work);
+    else if (!changes.empty() && painter.console() != nullptr)
+      painter.develop(work);
+    if (xray && newest) work.live = newest->state.fluoroscopy.live;
+    changes.clear();
+    if (work.number == before && work.live == live) continue;
+    live = work.live;
+    if (work.number != before) {
+      work.drawn_in_s = seconds_since(begun);
+      const double now_hz = 1.0 / std::max(1e-3, seconds_since(last_picture));
+      rate_hz = rate_hz > 0.0 ? kRateOver * rate_hz + (1.0 - kRateOver) * now_hz : now_hz;
+      last_picture = Clock::now();
+      work.rate_hz = rate_hz;
+    }
+    if (auto* console = painter.console()) work.cine_pictures = console->cine_pictures();
+    const std::lock_guard lock(mutex_);
+    newest_ = work;
+    fresh_ = true;
+  }
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,246 @@
+#include "app/train/panel_attempt.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/train/panels.h"
+#include "reports/attempt_words.h"
+
+namespace seldinger::app {
+namespace {
+
+using cases::EventKind;
+
+// What can be said, in the order in which it is: a button each, and a key.
+struct Saying {
+  int key;
+  const char* label;
+  EventKind kind;
+};
+constexpr std::array<Saying, 7> kSayings = {{
+    {kF1, "F1  Probe checked", EventKind::probe_checked},
+    {kF1 + 1, "F2  Entry and depth noted", EventKind::note_plan},
+    {kF1 + 2, "F3  Aspirate", EventKind::aspirate},
+    {kF1 + 3, "F4  Anaesthetic", EventKind::anaesthetic},
+    {kF1 + 5, "F6  Nick the skin", EventKind::nick},
+    {kF1 + 6, "F7  Hold your breath", EventKind::breath_hold_request},
+    {kF1 + 7, "F8  Breathe again", EventKind::breathe_again},
+}};
+
+bool asked_for(const Saying& saying, const cases::Case& scene) {
+  if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
+  if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
+  return true;
+}
+
+// The meters' full scale (design): a needle that is stopped by capsule or skin, a probe that is pressed hard.
+constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
+
+void meter(const char* label, double force_n, double most_n) {
+  char words[48];
+  std::snprintf(words, sizeof words, "%s %.1f N", label, std::max(0.0, force_n));
+  const float share = static_cast<float>(std::clamp(force_n / most_n, 0.0, 1.0));
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.30F + 0.6F * share, 0.75F - 0.4F * share, 0.40F, 1.0F));
+  ImGui::ProgressBar(share, {-1.0F, 0.0F}, words);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void AttemptPanel::begin(Trainer& trainer) {
+  if (!trainer.begin(options_.left_handed)) return;
+  const cases::Case& scene = trainer.attempt()->task()->scene;
+  room_.begin(scene, options_.left_handed);
+  monitor_.begin(scene);
+  seen_ = {};
+  told_ = {};
+  told_.fluoroscope.pulse_rate = 1;
+  told_s_ = ImGui::GetTime();
+  decided_ = fired_ = leaving_ = false;
+  said_.clear();
+}
+
+void AttemptPanel::say(PersonAttempt& attempt, EventKind kind, const char* words) {
+  if (attempt.say(kind)) said_ = words;
+}
+
+void AttemptPanel::finish(PersonAttempt& attempt) {
+  attempt.say(EventKind::sign_out);
+  attempt.end();
+}
+
+void AttemptPanel::keep_picture() {
+  const GreyPicture& shown = monitor_.shown().picture;
+  if (shown.width_px > 0) at_fire_.show(shown.width_px, shown.height_px, shown.grey);
+}
+
+void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const cases::Case& scene = attempt.task()->scene;
+  if (decided_)
+    for (const Saying& saying : kSayings)
+      if (asked_for(saying, scene) && keys.pressed(saying.key)) say(attempt, saying.kind, saying.label + 4);
+  if (!decided_ && keys.pressed('Y')) {
+    decided_ = true;
+    say(attempt, EventKind::proceed, "Proceed");
+  } else if (!decided_ && keys.pressed('N')) {
+    decided_ = true;
+    say(attempt, EventKind::defer, "Defer");
+    finish(attempt);
+  }
+  if (keys.pressed(kF9)) finish(attempt);
+  if (keys.pressed(kEscape)) {
+    leaving_ = !leaving_;
+    attempt.pause(leaving_);
+  }
+  for (int view = 0; view < static_cast<int>(imaging::kRoomViewNames.size()); ++view)
+    if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
+  if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
+  if (scene.picture.modality != cases::Modality::xray) return;
+  cases::FluoroscopeInputs& asked = told_.fluoroscope;
+  const auto axis = [&](int more, int less) {
+    return (keys.held(more) ? 1.0 : 0.0) - (keys.held(less) ? 1.0 : 0.0);
+  };
+  asked.lao_speed = axis(kRight, kLeft);
+  asked.cranial_speed = axis(kUp, kDown);
+  asked.pedal = asked.pedal || keys.held('P');
+  if (keys.pressed('H')) asked.hand_away = !asked.hand_away;
+}
+
+void AttemptPanel::draw_top(Trainer& trainer) {
+  const cases::State& state = seen_.moment.state;
+  heading(trainer.chosen().title.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", kTrainingOnly);
+  char words[64];
+  std::snprintf(words, sizeof words, "%d:%02d   %s", static_cast<int>(state.t_s) / 60,
+                static_cast<int>(state.t_s) % 60, trainer.account().login_name.c_str());
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(words).x);
+  ImGui::TextUnformatted(words);
+}
+
+void AttemptPanel::draw_steps(Trainer& trainer) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const cases::Case& scene = attempt.task()->scene;
+  if (!decided_) {
+    ImGui::TextWrapped("You have signed in. Proceed with this puncture, or defer it?");
+    if (ImGui::Button("Proceed (Y)")) {
+      decided_ = true;
+      say(attempt, EventKind::proceed, "Proceed");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Defer (N)")) {
+      decided_ = true;
+      say(attempt, EventKind::defer, "Defer");
+      finish(attempt);
+    }
+    return;
+  }
+  const float room = ImGui::GetContentRegionAvail().x;
+  float used = 0.0F;
+  for (const Saying& saying : kSayings) {
+    if (!asked_for(saying, scene)) continue;
+    const float wide = ImGui::CalcTextSize(saying.label).x + 24.0F;
+    if (used > 0.0F && used + wide < room) ImGui::SameLine();
+    if (used + wide >= room) used = 0.0F;
+    used += wide;
+    if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
+  }
+  if (ImGui::Button("F9  Sign out and finish")) finish(attempt);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
+}
+
+void AttemptPanel::draw_hands(const Task& task) {
+  const Moment& moment = seen_.moment;
+  const bool needle = seen_.held == devices::HeldTool::needle;
+  ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
+  ImGui::SameLine();
+  if (seen_.inserted)
+    ImGui::Text("· %.0f mm of the needle are in", seen_.inserted_mm);
+  else if (moment.state.fire.fired)
+    ImGui::TextUnformatted("· fired");
+  else
+    ImGui::TextUnformatted("· the needle is outside");
+  if (moment.force) {
+    meter("needle", moment.force->needle_axial_n, kMostNeedleN);
+    meter("probe", moment.force->probe_n, kMostProbeN);
+  }
+  quiet(task.scene.instrument.kind == cases::InstrumentKind::core
+            ? "drag: move · right drag: turn · wheel: push · Shift: fine · Space: fire · F: freeze · Alt: camera"
+            : "drag: move · right drag: turn · wheel: push · Shift: fine · Space: I am there · F: freeze · Alt: "
+              "camera");
+}
+
+void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const std::shared_ptr<const Task> kept = attempt.task();
+  const Task& task = *kept;
+  if (const auto seen = attempt.seen()) seen_ = *seen;
+  if (seen_.moment.state.fire.fired && !fired_) {
+    fired_ = true;
+    keep_picture();
+  }
+  const double now_s = ImGui::GetTime(), elapsed_s = now_s - told_s_;
+  const bool running = attempt.phase() == PersonAttempt::Phase::running;
+
+  begin_screen("attempt");
+  draw_top(trainer);
+  const ImVec2 all = ImGui::GetContentRegionAvail();
+  const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
+  ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false,
+                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  devices::HandIntent sum = told_.sum;
+  room_.draw(task.scene, seen_, help_, keys, elapsed_s, sum);
+  if (running && !attempt.paused()) told_.sum = sum;
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false,
+                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  monitor_.draw(attempt, seen_.moment.state, seen_.frozen, told_.fluoroscope);
+  ImGui::EndChild();
+  ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  if (running)
+    draw_steps(trainer);
+  else
+    ImGui::TextUnformatted("The attempt is being stored and graded …");
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("hands", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_hands(task);
+  ImGui::EndChild();
+  end_screen();
+
+  if (!running) {
+    if (!fired_) keep_picture();
+    return;
+  }
+  read_keys(trainer, keys);
+  told_.between_s = elapsed_s;
+  told_s_ = now_s;
+  attempt.tell(told_);
+  if (keys.pressed(kF5)) {
+    trainer.again();
+    return;
+  }
+  if (!leaving_) return;
+  ImGui::OpenPopup("Paused");
+  if (!ImGui::BeginPopupModal("Paused", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::TextUnformatted("No time goes by, and the hands are still.");
+  if (ImGui::Button("Go on (Esc)", {-1.0F, 0.0F})) {
+    leaving_ = false;
+    attempt.pause(false);
+    ImGui::CloseCurrentPopup();
+  }
+  const bool again = ImGui::Button("Begin again (F5)", {-1.0F, 0.0F});
+  const bool stop = ImGui::Button("Stop; what was done is kept", {-1.0F, 0.0F});
+  if (again || stop) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  if (stop) attempt.end();
+  if (again) trainer.again();
+}
+
+}  // namespace seldinger::app

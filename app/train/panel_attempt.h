@@ -1,0 +1,50 @@
+// The attempt: room, guidance, what is said, and how hard it pushes.
+#pragma once
+
+#include <string>
+
+#include "app/train/panel_monitor.h"
+#include "app/train/panel_room.h"
+#include "app/train/trainer.h"
+
+namespace seldinger::app {
+
+struct DeskOptions {
+  bool left_handed = false;
+};
+
+class AttemptPanel {
+ public:
+  AttemptPanel(gpu::Context& context, DeskOptions options)
+      : options_(options), room_(context), monitor_(context), at_fire_(context, gpu::ScreenPicture::Pixels::grey) {}
+
+  // From the briefing: hands are set up and the sign-in is said.
+  void begin(Trainer& trainer);
+  void draw(Trainer& trainer, const Keys& keys);
+  void end() noexcept { room_.end(); }
+
+  // What the guidance showed when the trigger fell, or last.
+  const gpu::ScreenPicture& picture_at_fire() const noexcept { return at_fire_; }
+
+ private:
+  void draw_top(Trainer& trainer);
+  void draw_steps(Trainer& trainer);
+  void draw_hands(const Task& task);
+  void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
+  void read_keys(Trainer& trainer, const Keys& keys);
+  void finish(PersonAttempt& attempt);
+  void keep_picture();
+
+  DeskOptions options_;
+  RoomPanel room_;
+  MonitorPanel monitor_;
+  gpu::ScreenPicture at_fire_;
+  Seen seen_;
+  HandsTold told_;
+  double told_s_ = 0.0;
+  bool decided_ = false, fired_ = false, leaving_ = false;
+  int help_ = 0;
+  std::string said_;  // the last thing that was said, for the screen
+};
+
+}  // namespace seldinger::app

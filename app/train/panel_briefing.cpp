@@ -1,0 +1,100 @@
+#include <imgui.h>
+
+#include <cmath>
+
+#include "app/train/panels.h"
+#include "assessment/grading/debrief.h"
+#include "assessment/metrics/registry.h"
+#include "reports/attempt_words.h"
+#include "reports/metric_words.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr std::array<const char*, 5> kSignIn = {"Identity", "Consent", "Imaging seen", "Allergies",
+                                                "INR and platelets"};
+
+void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
+  ImGui::BulletText("%s: %s%s", what, value ? reports::number_text(*value, digits).c_str() : "not told",
+                    value ? unit : "");
+}
+
+void fact(const char* what, const std::string& value) {
+  ImGui::BulletText("%s: %s", what, value.c_str());
+}
+
+std::string unit_of(const std::string& metric_id) {
+  const assessment::MetricInfo* info = assessment::find_metric(metric_id);
+  return info != nullptr ? info->unit : "";
+}
+
+}  // namespace
+
+bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
+  const casedb::CaseRow& row = trainer.chosen();
+  if (case_id_ != row.case_id) {
+    case_id_ = row.case_id;
+    checked_.fill(false);
+  }
+  begin_screen("briefing");
+  heading(row.title.c_str());
+  quiet(kTrainingOnly);
+  ImGui::Spacing();
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
+  const float high = ImGui::GetContentRegionAvail().y - 60.0F;
+  ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  heading("The task");
+  if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
+  fact("Guidance", modality_words(row.modality));
+  if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
+  fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
+  fact("Patient", casedb::name_of(row.position));
+  if (row.motion.breathing()) fact("Breathing", "the organ moves with every breath");
+  if (row.time_limit_s) fact("Time limit", reports::number_text(*row.time_limit_s, 0) + " s");
+  ImGui::Spacing();
+  heading("To pass");
+  if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
+  for (const assessment::Criterion& criterion : row.rule.criteria)
+    ImGui::BulletText("%s: %s%s", reports::metric_label(criterion.metric).c_str(),
+                      assessment::limit_text(criterion, unit_of(criterion.metric)).c_str(),
+                      criterion.critical ? " (critical)" : "");
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  heading("Sign-in");
+  laboratory("INR", row.clinic.inr, "", 1);
+  laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
+  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
+  ImGui::Spacing();
+  bool all = true;
+  for (std::size_t i = 0; i < kSignIn.size(); ++i) {
+    ImGui::Checkbox(kSignIn[i], &checked_[i]);
+    all = all && checked_[i];
+  }
+  if (ImGui::Button("All checked")) checked_.fill(true);
+  ImGui::Spacing();
+  quiet(
+      "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
+      "is "
+      "decided in the room: proceed or defer.");
+  ImGui::EndChild();
+  const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  if (ImGui::Button("Back")) {
+    trainer.back();
+    end_screen();
+    return false;
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!ready || !all);
+  const bool begin = ImGui::Button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));
+  ImGui::EndDisabled();
+  if (!ready) {
+    ImGui::SameLine();
+    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {220.0F, 0.0F},
+                       "preparing the case …");
+  }
+  end_screen();
+  return begin;
+}
+
+}  // namespace seldinger::app

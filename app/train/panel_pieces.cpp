@@ -1,0 +1,44 @@
+#include <imgui.h>
+
+#include "app/train/panels.h"
+
+namespace seldinger::app {
+
+void begin_screen(const char* name) {
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->WorkPos);
+  ImGui::SetNextWindowSize(viewport->WorkSize);
+  ImGui::Begin(name, nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
+}
+
+void end_screen() {
+  ImGui::End();
+}
+
+void heading(const char* text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.86F, 0.97F, 1.0F));
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+}
+
+void quiet(const char* text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.66F, 0.70F, 1.0F));
+  ImGui::TextWrapped("%s", text);
+  ImGui::PopStyleColor();
+}
+
+std::string modality_words(cases::Modality modality) {
+  switch (modality) {
+    case cases::Modality::mpr:
+      return "CT slices";
+    case cases::Modality::xray:
+      return "Fluoroscopy";
+    case cases::Modality::ultrasound:
+      return "Ultrasound";
+  }
+  return "";
+}
+
+}  // namespace seldinger::app

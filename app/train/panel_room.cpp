@@ -1,0 +1,128 @@
+#include "app/train/panel_room.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "app/train/panels.h"
+
+namespace seldinger::app {
+namespace {
+
+using devices::HandAction;
+
+// Which key does what. The window's other keys are in panel_attempt.
+constexpr std::array<std::pair<int, HandAction>, 19> kHandKeys = {{
+    {kTab, HandAction::swap},        {'G', HandAction::guide},      {kBackspace, HandAction::reset},
+    {kSpace, HandAction::fire},      {'F', HandAction::freeze},     {'D', HandAction::slide_right},
+    {'A', HandAction::slide_left},   {'W', HandAction::slide_up},   {'S', HandAction::slide_down},
+    {'E', HandAction::slide_away},   {'Q', HandAction::slide_near}, {kPageDown, HandAction::advance},
+    {kPageUp, HandAction::withdraw}, {'I', HandAction::tilt_more},  {'K', HandAction::tilt_less},
+    {'L', HandAction::rock_more},    {'J', HandAction::rock_less},  {'O', HandAction::rotate_more},
+    {'U', HandAction::rotate_less},
+}};
+
+devices::HeldActions held_actions(const Keys& keys) {
+  devices::HeldActions actions;
+  const auto set = [&](HandAction action) { actions.set(static_cast<std::size_t>(action)); };
+  for (const auto& [key, action] : kHandKeys)
+    if (keys.held(key)) set(action);
+  if (keys.shift) set(HandAction::fine);
+  if (keys.control) set(HandAction::keep_tilt);
+  return actions;
+}
+
+cases::ToolPose pose_of_held(const Seen& seen) {
+  const cases::State& state = seen.moment.state;
+  if (seen.held == devices::HeldTool::needle) return {state.needle.tip_lps_mm, state.needle.direction, {}};
+  return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+}
+
+constexpr float kDegreesPerPixel = 0.3F;
+
+}  // namespace
+
+void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
+  room_.reset();
+  room_ = std::make_unique<Room>(context_, scene, left_handed);
+  view_ = imaging::RoomView::operator_side;
+}
+
+devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const {
+  const imaging::RoomCamera& camera = room.camera;
+  devices::HandView view;
+  view.away = glm::normalize(camera.target_lps_mm - camera.eye_lps_mm);
+  view.right = glm::normalize(glm::cross(view.away, camera.up));
+  view.up = glm::cross(view.right, view.away);
+  const double far_mm = std::max(50.0, glm::dot(tool.position_lps_mm - camera.eye_lps_mm, view.away));
+  const double half = std::tan(0.5 * camera.height_deg * std::numbers::pi / 180.0);
+  view.mm_per_pixel = 2.0 * far_mm * half / std::max(1.0F, height_px);
+  return view;
+}
+
+// With Alt held, or over nothing else: the right button turns it, the middle one shifts it, the wheel nears it.
+void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys) {
+  if (view_) room.camera = imaging::room_camera(room.scene, scene, state, *view_);
+  view_.reset();
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
+  if (!keys.alt) return;
+  const float height = ImGui::GetItemRectSize().y;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+    imaging::orbit(room.camera, room.scene.frame, -kDegreesPerPixel * io.MouseDelta.x,
+                   kDegreesPerPixel * io.MouseDelta.y);
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
+    imaging::pan(room.camera, -io.MouseDelta.x / height, io.MouseDelta.y / height);
+  if (io.MouseWheel != 0.0F) imaging::zoom(room.camera, std::pow(0.9, io.MouseWheel));
+}
+
+void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, double elapsed_s,
+                     devices::HandIntent& sum) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton(
+      "room", room,
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  if (!room_) return;
+  const cases::State& state = seen.moment.state;
+  move_camera(*room_, scene, state, keys);
+
+  imaging::RoomPicture picture;
+  picture.width_px = std::max(16, static_cast<int>(room.x));
+  picture.height_px = std::max(16, static_cast<int>(room.y));
+  picture.views = stereo_ ? 2 : 1;
+  picture.camera = room_->camera;
+  picture.quality = imaging::room_quality(context_);
+  imaging::RoomOptions options;
+  options.help = help;
+  imaging::make_draw_list(room_->scene, scene, state, options, room_->list);
+  const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name)), corner,
+                 {corner.x + room.x, corner.y + room.y}, {0.0F, 1.0F}, {1.0F, 0.0F});
+
+  const ImGuiIO& io = ImGui::GetIO();
+  devices::MouseEvents events;
+  events.elapsed_s = elapsed_s;
+  events.actions = held_actions(keys);
+  if (!keys.alt) {
+    const bool over = ImGui::IsItemHovered(), dragging = ImGui::IsItemActive();
+    if (dragging) {
+      events.right_px = io.MouseDelta.x;
+      events.down_px = io.MouseDelta.y;
+      events.primary = ImGui::IsMouseDown(ImGuiMouseButton_Left);
+      events.secondary = ImGui::IsMouseDown(ImGuiMouseButton_Right);
+      events.middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+    }
+    if (over || dragging) events.wheel_notches = io.MouseWheel;
+  }
+  const cases::ToolPose held = pose_of_held(seen);
+  devices::add(room_->mouse.intent(events, hand_view(*room_, held, room.y), seen.held, held), sum);
+}
+
+}  // namespace seldinger::app

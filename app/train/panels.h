@@ -1,0 +1,56 @@
+// The screens of the workstation, drawn with Dear ImGui: each shows what the trainer knows and tells it what was
+// pressed. Text is the case's, the grade's and the steps' own; nothing is decided here.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "app/train/trainer.h"
+#include "app/train/window.h"
+#include "sim/gpu/screen_picture.h"
+
+namespace seldinger::app {
+
+// Every screen says so (clinical.md, "First hour").
+inline constexpr const char* kTrainingOnly = "Training only – not for planning a patient's procedure";
+
+class LogInPanel {
+ public:
+  void draw(Trainer& trainer);
+
+ private:
+  std::array<char, 66> name_{};
+  std::array<char, 130> password_{};
+  bool begun_ = false;
+};
+
+class ChoosePanel {
+ public:
+  void draw(Trainer& trainer);
+};
+
+class BriefingPanel {
+ public:
+  // True: the trainee has signed in and wants to begin.
+  bool draw(Trainer& trainer, const Keys& keys);
+
+ private:
+  std::string case_id_;
+  std::array<bool, 5> checked_{};
+};
+
+class DebriefPanel {
+ public:
+  // `picture`: when the trigger fell; may be null.
+  void draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPicture* picture);
+};
+
+// Pieces that several screens have.
+void begin_screen(const char* name);  // the whole window; end_screen ends it
+void end_screen();
+void heading(const char* text);
+void quiet(const char* text);  // smaller in weight: what explains
+std::string modality_words(cases::Modality modality);
+
+}  // namespace seldinger::app

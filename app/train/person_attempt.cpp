@@ -1,0 +1,149 @@
+#include "app/train/person_attempt.h"
+
+#include "sim/base/check.h"
+#include "sim/base/failure.h"
+#include "sim/engine/step.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kAimMm = 60.0;  // any depth: only its direction counts
+
+}  // namespace
+
+PersonAttempt::PersonAttempt(Wanted wanted) : wanted_(std::move(wanted)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+PersonAttempt::~PersonAttempt() {
+  end();
+  {
+    const std::lock_guard lock(mutex_);
+    gone_ = true;
+  }
+  begun_.notify_all();
+  thread_.join();
+}
+
+std::shared_ptr<const Task> PersonAttempt::task() const {
+  CHECK(phase() != Phase::preparing && task_);
+  return task_;
+}
+
+const base::Error& PersonAttempt::error() const {
+  CHECK(phase() == Phase::refused);
+  return *error_;
+}
+
+const StoredAttempt& PersonAttempt::stored() const {
+  CHECK(phase() == Phase::stored);
+  return *stored_;
+}
+
+Monitor& PersonAttempt::monitor() {
+  CHECK(phase() != Phase::preparing && phase() != Phase::ready && monitor_);
+  return *monitor_;
+}
+
+void PersonAttempt::begin(bool left_handed) {
+  CHECK(phase() == Phase::ready);
+  const cases::Case& scene = task_->scene;
+  const assessment::PuncturePlan& plan = task_->plan;
+  devices::HandsSettings settings;
+  settings.needle_length_mm = scene.instrument.length_mm;
+  // Over the entry, but straight down: where the target lies is for the trainee to find.
+  const glm::dvec3 entry_lps_mm = scene.planned_entry_lps_mm.value_or(plan.entry_lps_mm);
+  const cases::Closest near = scene.skin_index.closest_skin(entry_lps_mm);
+  const glm::dvec3 aim_lps_mm = near.point_lps_mm - kAimMm * scene.skin_index.normal(near.triangle);
+  devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
+                                                  scene.approach == cases::Approach::in_plane, left_handed);
+  if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside
+  hands_.emplace(scene.skin_index, start, settings);
+  monitor_ = std::make_unique<Monitor>(task_->scene, 0);
+  phase_.store(Phase::running, std::memory_order_release);
+  {
+    const std::lock_guard lock(mutex_);
+    begin_ = true;
+  }
+  begun_.notify_all();
+}
+
+bool PersonAttempt::say(cases::EventKind kind) noexcept {
+  const std::uint64_t said = said_count_.load(std::memory_order_relaxed);
+  if (said - heard_count_.load(std::memory_order_acquire) >= kMostSaid) return false;
+  said_[said % kMostSaid].store(kind, std::memory_order_relaxed);
+  said_count_.store(said + 1, std::memory_order_release);
+  return true;
+}
+
+// By the servo.
+cases::Inputs PersonAttempt::hands() {
+  if (const auto told = told_.take()) {
+    even_.tell(told->sum, told->between_s);
+    fluoroscope_ = told->fluoroscope;
+  }
+  hands_->advance(even_.advance(engine::kTickSeconds), forces_, engine::kTickSeconds);
+  cases::Inputs inputs;
+  hands_->say(inputs);
+  inputs.fluoroscope = fluoroscope_;
+  const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
+  if (said_count_.load(std::memory_order_acquire) != heard) {
+    inputs.event = said_[heard % kMostSaid].load(std::memory_order_relaxed);
+    heard_count_.store(heard + 1, std::memory_order_release);
+  }
+  return inputs;
+}
+
+void PersonAttempt::watch(const Moment& moment) {
+  if (moment.force) forces_ = {moment.force->needle_axial_n, moment.force->probe_n};
+  Seen seen{moment};
+  seen.held = hands_->held();
+  seen.frozen = hands_->frozen();
+  seen.inserted = hands_->needle_inserted();
+  seen.guided = hands_->guided();
+  seen.in_guide = hands_->in_guide();
+  seen.returning = hands_->returning();
+  seen.inserted_mm = hands_->inserted_mm();
+  seen.press_mm = hands_->press_mm();
+  seen_.put(seen);
+  monitor_->show(moment);
+}
+
+void PersonAttempt::run() {
+  const auto refuse = [this](base::Error error) {
+    error_ = std::move(error);
+    phase_.store(Phase::refused, std::memory_order_release);
+  };
+  try {
+    auto library = casedb::Library::open(wanted_.library);
+    if (!library) return refuse(library.error());
+    task_ = wanted_.task;
+    if (!task_) {
+      auto task = prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality);
+      if (!task) return refuse(task.error());
+      task_ = std::make_shared<const Task>(std::move(*task));
+    }
+    phase_.store(Phase::ready, std::memory_order_release);
+    {
+      std::unique_lock lock(mutex_);
+      begun_.wait(lock, [this] { return begin_ || gone_; });
+      if (!begin_) return;
+    }
+    LiveAttempt live(*library,
+                     head_of(*task_, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
+                     task_->scene);
+    const auto stored =
+        live.run({.hands = [this](const cases::State&, const cases::FrameTruth*) { return hands(); },
+                  .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
+                  .paused = [this] { return paused_.load(); },
+                  .watch = [this](const Moment& moment) { watch(moment); },
+                  .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
+    if (!stored) return refuse(stored.error());
+    stored_ = *stored;
+    phase_.store(Phase::stored, std::memory_order_release);
+  } catch (const base::Failure& failure) {
+    refuse({failure.code(), failure.what()});
+  }
+}
+
+}  // namespace seldinger::app

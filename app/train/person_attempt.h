@@ -1,0 +1,108 @@
+// An attempt of the person at this workstation, from the case that was chosen to the attempt that is stored, beside
+// the window's thread: one thread prepares, runs and stores; the servo's and the monitor's are within it. Whatever
+// happens to the window, what was recorded is stored.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/live_attempt.h"
+#include "app/task.h"
+#include "app/train/monitor.h"
+#include "sim/devices/even_intent.h"
+#include "sim/devices/hands.h"
+
+namespace seldinger::app {
+
+// What the window tells the servo, once a frame.
+struct HandsTold {
+  devices::HandIntent sum;  // running, since the attempt began
+  cases::FluoroscopeInputs fluoroscope;
+  double between_s = 0.0;  // since it was told before
+};
+
+// What the servo tells the window: the newest tick, and how the hands hold their tools.
+struct Seen {
+  Moment moment;
+  devices::HeldTool held = devices::HeldTool::needle;
+  bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
+  double inserted_mm = 0.0, press_mm = 0.0;
+};
+
+class PersonAttempt {
+ public:
+  struct Wanted {
+    std::filesystem::path library;
+    std::string case_id;
+    std::optional<cases::Modality> modality;  // else the case's own
+    std::string person_id;
+    std::shared_ptr<const Task> task{};  // as prepared for an attempt before; else it is prepared
+  };
+  enum class Phase { preparing, ready, running, storing, stored, refused };
+
+  // Begins to prepare at once.
+  explicit PersonAttempt(Wanted wanted);
+  // What runs is stopped and stored, as `end`.
+  ~PersonAttempt();
+  PersonAttempt(const PersonAttempt&) = delete;
+  PersonAttempt& operator=(const PersonAttempt&) = delete;
+
+  Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
+  std::shared_ptr<const Task> task() const;  // from `ready` on (CHECKed)
+  const base::Error& error() const;          // `refused` only (CHECKed)
+  const StoredAttempt& stored() const;       // `stored` only (CHECKed)
+
+  // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
+  void begin(bool left_handed);
+  void tell(const HandsTold& told) noexcept { told_.put(told); }
+  // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
+  bool say(cases::EventKind kind) noexcept;
+  // No time goes by, and hands are still.
+  void pause(bool paused) noexcept { paused_ = paused; }
+  bool paused() const noexcept { return paused_; }
+  // Stops it once all that was said is in; then it is stored.
+  void end() noexcept {
+    ending_ = true;
+    paused_ = false;
+  }
+
+  // The newest since the last call.
+  std::optional<Seen> seen() noexcept { return seen_.take(); }
+  Monitor& monitor();  // from `running` on (CHECKed)
+
+ private:
+  void run();
+  cases::Inputs hands();
+  void watch(const Moment& moment);
+
+  Wanted wanted_;
+  std::atomic<Phase> phase_{Phase::preparing};
+  std::shared_ptr<const Task> task_;
+  std::optional<base::Error> error_;
+  std::optional<StoredAttempt> stored_;
+  std::unique_ptr<Monitor> monitor_;
+  base::Snapshot<HandsTold> told_;
+  base::Snapshot<Seen> seen_;
+  std::optional<devices::Hands> hands_;  // the servo's, from here …
+  devices::EvenIntent even_;
+  devices::AxialForces forces_;
+  cases::FluoroscopeInputs fluoroscope_;
+  static constexpr std::uint64_t kMostSaid = 32;
+  std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo
+  alignas(64) std::atomic<std::uint64_t> said_count_{0};
+  alignas(64) std::atomic<std::uint64_t> heard_count_{0};
+  std::atomic<bool> ending_{false}, paused_{false};
+  std::mutex mutex_;
+  std::condition_variable begun_;
+  bool begin_ = false, gone_ = false;
+  std::thread thread_;  // last: it uses the rest
+};
+
+}  // namespace seldinger::app

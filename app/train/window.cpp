@@ -1,0 +1,180 @@
+#include "app/train/window.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "sim/base/failure.h"
+#include "sim/gpu/window_surface.h"
+
+namespace seldinger::app {
+namespace {
+
+static_assert(kSpace == GLFW_KEY_SPACE && kEscape == GLFW_KEY_ESCAPE && kEnter == GLFW_KEY_ENTER);
+static_assert(kTab == GLFW_KEY_TAB && kBackspace == GLFW_KEY_BACKSPACE && kF1 == GLFW_KEY_F1);
+static_assert(kRight == GLFW_KEY_RIGHT && kLeft == GLFW_KEY_LEFT && kDown == GLFW_KEY_DOWN && kUp == GLFW_KEY_UP);
+static_assert(kPageUp == GLFW_KEY_PAGE_UP && kPageDown == GLFW_KEY_PAGE_DOWN);
+static_assert(kF5 == GLFW_KEY_F5 && kF9 == GLFW_KEY_F9 && kF12 == GLFW_KEY_F12);
+
+// Debian's; without it the font that Dear ImGui brings along, which has no en dash.
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr float kFontPx = 16.0F;
+
+void set_style(float scale) {
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.WindowRounding = 0.0F;
+  style.FrameRounding = 4.0F;
+  style.GrabRounding = 4.0F;
+  style.FramePadding = {8.0F, 5.0F};
+  style.ItemSpacing = {8.0F, 6.0F};
+  style.WindowBorderSize = 0.0F;
+  style.WindowPadding = {12.0F, 10.0F};
+  style.Colors[ImGuiCol_WindowBg] = {0.075F, 0.085F, 0.10F, 1.0F};
+  style.Colors[ImGuiCol_ChildBg] = {0.095F, 0.108F, 0.125F, 1.0F};
+  style.Colors[ImGuiCol_Button] = {0.16F, 0.30F, 0.38F, 1.0F};
+  style.Colors[ImGuiCol_ButtonHovered] = {0.20F, 0.42F, 0.52F, 1.0F};
+  style.Colors[ImGuiCol_ButtonActive] = {0.24F, 0.52F, 0.64F, 1.0F};
+  style.Colors[ImGuiCol_FrameBg] = {0.15F, 0.17F, 0.20F, 1.0F};
+  style.Colors[ImGuiCol_Header] = {0.16F, 0.30F, 0.38F, 0.8F};
+  style.Colors[ImGuiCol_HeaderHovered] = {0.20F, 0.42F, 0.52F, 0.8F};
+  style.Colors[ImGuiCol_SliderGrab] = {0.30F, 0.62F, 0.76F, 1.0F};
+  style.Colors[ImGuiCol_CheckMark] = {0.40F, 0.80F, 0.95F, 1.0F};
+  style.ScaleAllSizes(scale);
+  ImGuiIO& io = ImGui::GetIO();
+  static const ImWchar kLetters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x2010, 0x2044, 0x2070, 0x209F,
+                                     0x2190, 0x21FF, 0x2212, 0x2265, 0x2713, 0x2717, 0};
+  if (std::filesystem::exists(kFont)) io.Fonts->AddFontFromFileTTF(kFont, kFontPx * scale, nullptr, kLetters);
+}
+
+}  // namespace
+
+bool Keys::pressed(int key) const noexcept {
+  return !typing_ && std::find(pressed_.begin(), pressed_.end(), key) != pressed_.end();
+}
+
+bool Keys::held(int key) const noexcept {
+  return pressed(key) || (!typing_ && std::find(down_.begin(), down_.end(), key) != down_.end());
+}
+
+struct Window::Parts {
+  GLFWwindow* window = nullptr;
+  Keys keys;
+  std::vector<int> pressed;  // since the frame began
+  std::optional<gpu::Context> context;
+  float scale = 1.0F;
+};
+
+Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
+  if (glfwInit() != GLFW_TRUE) throw base::Failure("display", "there is no display to open a window on");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  GLFWmonitor* monitor = settings.whole_screen ? glfwGetPrimaryMonitor() : nullptr;
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  parts_->window =
+      glfwCreateWindow(mode != nullptr ? mode->width : settings.width,
+                       mode != nullptr ? mode->height : settings.height, settings.title.c_str(), monitor, nullptr);
+  if (parts_->window == nullptr) {
+    glfwTerminate();
+    throw base::Failure("gl", "no window with OpenGL 4.3 can be had");
+  }
+  glfwMakeContextCurrent(parts_->window);
+  glfwSwapInterval(1);
+  parts_->context.emplace(gpu::Context::of_window());
+  glfwSetWindowUserPointer(parts_->window, parts_.get());
+  // Dear ImGui calls it, too, when it takes the callbacks over.
+  glfwSetKeyCallback(parts_->window, [](GLFWwindow* window, int key, int, int action, int) {
+    auto* parts = static_cast<Parts*>(glfwGetWindowUserPointer(window));
+    std::vector<int>& down = parts->keys.down_;
+    if (action == GLFW_PRESS) {
+      parts->pressed.push_back(key);
+      down.push_back(key);
+    } else if (action == GLFW_RELEASE) {
+      down.erase(std::remove(down.begin(), down.end(), key), down.end());
+    }
+  });
+  float scale_y = 1.0F;
+  glfwGetWindowContentScale(parts_->window, &parts_->scale, &scale_y);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;  // nothing of a person stays at the workstation
+  set_style(parts_->scale);
+  ImGui_ImplGlfw_InitForOpenGL(parts_->window, true);
+  ImGui_ImplOpenGL3_Init("#version 430");
+}
+
+Window::~Window() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  parts_->context.reset();
+  glfwDestroyWindow(parts_->window);
+  glfwTerminate();
+}
+
+gpu::Context& Window::context() noexcept {
+  return *parts_->context;
+}
+bool Window::open() const noexcept {
+  return glfwWindowShouldClose(parts_->window) == 0;
+}
+void Window::close() noexcept {
+  glfwSetWindowShouldClose(parts_->window, GLFW_TRUE);
+}
+double Window::scale() const noexcept {
+  return parts_->scale;
+}
+
+void Window::begin_frame() {
+  parts_->pressed.clear();
+  glfwPollEvents();
+  Keys& keys = parts_->keys;
+  keys.pressed_ = parts_->pressed;
+  const auto either = [&](int left, int right) {
+    return glfwGetKey(parts_->window, left) == GLFW_PRESS || glfwGetKey(parts_->window, right) == GLFW_PRESS;
+  };
+  keys.shift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+  keys.control = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+  keys.alt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  keys.typing_ = ImGui::GetIO().WantTextInput;
+}
+
+void Window::end_frame() {
+  ImGui::Render();
+  gpu::clear_window(*parts_->context, width_px(), height_px());
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(parts_->window);
+}
+
+const Keys& Window::keys() const noexcept {
+  return parts_->keys;
+}
+
+int Window::width_px() const noexcept {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(parts_->window, &width, &height);
+  return width;
+}
+
+int Window::height_px() const noexcept {
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(parts_->window, &width, &height);
+  return height;
+}
+
+std::vector<unsigned char> Window::pixels() const {
+  return gpu::window_pixels(*parts_->context, width_px(), height_px());
+}
+
+}  // namespace seldinger::app

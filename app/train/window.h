@@ -1,0 +1,79 @@
+// The workstation's window: GLFW's window with a GL 4.3 context, and Dear ImGui in it. The door of GLFW, and with
+// app/train/panel_* of Dear ImGui.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/gpu/context.h"
+
+namespace seldinger::app {
+
+// Keys as GLFW numbers them; letters and digits are their capital ASCII.
+enum Key : int {
+  kSpace = 32,
+  kEscape = 256,
+  kEnter = 257,
+  kTab = 258,
+  kBackspace = 259,
+  kRight = 262,
+  kLeft = 263,
+  kDown = 264,
+  kUp = 265,
+  kPageUp = 266,
+  kPageDown = 267,
+  kF1 = 290,
+  kF5 = 294,
+  kF9 = 298,
+  kF12 = 301,
+};
+
+// What the keyboard did since the last frame. A key that went down and up again in between counts as well: a slow
+// frame loses no press.
+class Keys {
+ public:
+  bool pressed(int key) const noexcept;  // went down; none while a text is typed
+  bool held(int key) const noexcept;     // is down, or was
+  bool shift = false, control = false, alt = false;
+
+ private:
+  friend class Window;
+  std::vector<int> pressed_, down_;
+  bool typing_ = false;
+};
+
+class Window {
+ public:
+  struct Settings {
+    std::string title;
+    int width = 1280, height = 800;
+    bool whole_screen = false;
+  };
+  // Throws base::Failure("display") where there is none, or ("gl") where it has no GL 4.3.
+  explicit Window(const Settings& settings);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  gpu::Context& context() noexcept;
+  bool open() const noexcept;  // until it is closed, by its user or by close
+  void close() noexcept;
+  double scale() const noexcept;  // of fonts and distances: 1 on a screen of 96 dots an inch
+
+  // Between these two what is in the window is said to Dear ImGui.
+  void begin_frame();
+  void end_frame();
+  const Keys& keys() const noexcept;  // of this frame
+
+  int width_px() const noexcept;  // of what is drawn on
+  int height_px() const noexcept;
+  // What the last frame showed: red, green, blue, row by row from the upper left.
+  std::vector<unsigned char> pixels() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace seldinger::app
