@@ -81,17 +81,21 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
   assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
   Attempt attempt(scene, scenario);
   const cases::State& state = attempt.state();
+  const auto target = target_of(scene.lesions);
   cases::FrameTruth frame;
+  glm::dvec3 moved_mm(0.0);
   bool new_frame = false;
   long long frames = 0;
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
-    person.hear(attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds)));
+    person.hear(attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds, moved_mm)));
     const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
     new_frame = due >= frames;
     if (!new_frame) continue;
     frames = due + 1;
     frame = truth_of(state, attempt.displacement());
     frame.live = !state.probe.frozen;
+    if (target && tissue::count_sources(attempt.displacement()) > 0)
+      moved_mm = tissue::displaced(attempt.displacement(), *target) - *target;
     attempt.picture(frame);
   }
   return attempt.take();

@@ -52,6 +52,10 @@ void Conduct::begin(Part part) {
     case Part::hold_breath:
       breath_asked_ = add(EventKind::breath_hold_request);
       break;
+    case Part::ask_breath:
+      steps_.push_back(EventKind::breath_hold_request);
+      breath_asked_ = true;
+      break;
     case Part::finish:
       if (breath_asked_) steps_.push_back(EventKind::breathe_again);
       add(EventKind::sign_out);

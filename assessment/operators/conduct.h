@@ -23,7 +23,8 @@ bool forbids(const Brief& brief) noexcept;
 
 class Conduct {
  public:
-  enum class Part { sign_in, prepare, hold_breath, finish };
+  // hold_breath: may be left out; ask_breath: by who has made up his mind.
+  enum class Part { sign_in, prepare, hold_breath, ask_breath, finish };
 
   Conduct(const Skills& skills, const Brief& brief, bool with_probe, std::uint64_t seed);
 

@@ -24,8 +24,11 @@ the marks on its shaft; of the tip no more than whether the picture shows it, an
 defer where INR is over 1.8 or platelets are below 50 · 10⁹/l (SIR 2019, high risk); find the plane, check the probe, note
 the plan, aspirate, anaesthetise, nick; go on only while the tip is seen (jiggle, bring the probe over the needle, go back a
 little, then on by 2 mm); check the aim before the organ's capsule and correct within it; out of plane put the probe 3 mm
-ahead and let the tip follow; ask for a held breath; fire when the tip is seen; take the needle out and sign out. Who has
-less of a skill leaves out more of that.
+ahead and let the tip follow; ask for a held breath; fire when the tip is seen; take the needle out and sign out. Of a patient
+who breathes, skin is numbed as it lies between two breaths, a held breath is asked for before the needle goes in, waited for
+(what breath moves meets a needle that waits inside), asked for again when it is lost; tissue that gave way is aimed at where
+the picture shows the target. Who has less of a skill leaves out more of that. In a still case nobody does anything of it, and
+attempts of the same seed are those of before.
 
 ## A file of one's own
 

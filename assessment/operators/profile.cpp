@@ -73,6 +73,13 @@ constexpr SkillField kFields[] = {
      "probability of proceeding where INR or platelets forbid it", &S::misses_contraindication_share},
     {"stops_in_trouble_share", "share", 0, 1, 0.3, 0.7, 1, true,
      "probability of stopping when the patient coughs, bleeds or loses pressure", &S::stops_in_trouble_share},
+    // Last: people drawn before there were these stay who they are.
+    {"holds_breath_early_share", "share", 0, 1, 0.1, 0.6, 1, true,
+     "probability of asking for a held breath before the needle goes in, not only before the trigger",
+     &S::holds_breath_early_share},
+    {"waits_for_breath_share", "share", 0, 1, 0.2, 0.7, 1, true,
+     "probability of going on only while breath is held, and of asking again when it is lost",
+     &S::waits_for_breath_share},
 };
 static_assert(sizeof(Skills) == std::size(kFields) * sizeof(double), "every skill has its row");
 

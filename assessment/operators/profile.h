@@ -24,6 +24,8 @@ struct Skills {
       beam_while_advancing_share;
   // Around the puncture.
   double step_s, skip_step_share, misses_contraindication_share, stops_in_trouble_share;
+  // At a patient who breathes.
+  double holds_breath_early_share, waits_for_breath_share;
 };
 
 struct SkillField {

@@ -7,6 +7,7 @@
 
 #include "assessment/operators/probe_over.h"
 #include "sim/base/exact_math.h"
+#include "sim/base/hash.h"
 #include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
@@ -26,6 +27,11 @@ constexpr double kPlaneThereMm = 0.5;
 constexpr double kPlaneStepMm = 3.0;  // dynamic tip positioning: the plane goes ahead, the tip follows into it
 constexpr double kJiggleMm = 1.5, kJiggleHz = 2.0, kJiggleSeconds = 1.0;
 constexpr double kLeaveMmS = 60.0;
+constexpr double kGrantSeconds = 4.0;                       // a hold that has not come by then is asked for again
+constexpr double kBreatherSeconds = 3.0;                    // before who could hold it no longer is asked again
+constexpr double kPauseLevel = 0.15;                        // of a breath: between two of them
+constexpr double kPauseMm = 20.0;                           // so far outside it is waited: skin comes and goes, too
+constexpr std::uint64_t kBreathStream = 0x627265617468ULL;  // apart from what the hands draw
 
 }  // namespace
 
@@ -53,6 +59,9 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   hand_ = UnsteadyHand(rng_);
   drift_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
   tilt_ = make_wander(rng_, kDriftLowHz, kDriftHighHz);
+  base::Rng breath(base::hash_combine(seed, kBreathStream));
+  asks_early_ = breath.uniform() < profile.holds_breath_early_share;
+  waits_ = breath.uniform() < profile.waits_for_breath_share;
   inserted_mm_ = -kStartMm;
   plane_at_mm_ = plane_now_mm_ = plan.tip_shows_from_mm + kPlaneStepMm;
   aim();
@@ -70,11 +79,16 @@ void ScriptedOperator::enter(Phase phase) {
 
 // Towards where the target is believed to be; each new aim is better than the last.
 void ScriptedOperator::aim() {
-  const glm::dvec3 wanted = glm::normalize(believed_target_ - entry_);
+  const glm::dvec3 wanted = glm::normalize(target_now() - entry_);
   const auto [u, v] = base::perpendiculars(wanted);
   const double sd_rad = profile_.aim_error_deg * std::numbers::pi / 180.0 / (1 + redirections_);
   const double off_u = rng_.normal() * sd_rad, off_v = rng_.normal() * sd_rad;
   direction_ = glm::normalize(wanted + u * off_u + v * off_v);
+}
+
+// Where it is believed to be in tissue that moved.
+glm::dvec3 ScriptedOperator::target_now() const {
+  return believed_target_ + target_moved_mm_;
 }
 
 bool ScriptedOperator::tip_seen() const noexcept {
@@ -82,7 +96,7 @@ bool ScriptedOperator::tip_seen() const noexcept {
 }
 
 double ScriptedOperator::goal_mm() const noexcept {
-  return glm::dot(believed_target_ - entry_, direction_) - stop_short_mm_;
+  return glm::dot(target_now() - entry_, direction_) - stop_short_mm_;
 }
 
 // A needle whose tip is searched for is moved a little to and fro, never beyond where it was.
@@ -98,7 +112,7 @@ double ScriptedOperator::seen_miss_mm(const cases::State& state) {
   if (!tip_seen()) return 0.0;
   if (picture()->target)
     believed_target_ = plan_.target_lps_mm + (believed_target_ - plan_.target_lps_mm) * profile_.look_error_share;
-  return glm::length(glm::cross(believed_target_ - state.needle.tip_lps_mm, state.needle.direction));
+  return glm::length(glm::cross(target_now() - state.needle.tip_lps_mm, state.needle.direction));
 }
 
 // Back, within the organ once it is entered, and again with a better aim.
@@ -113,10 +127,44 @@ void ScriptedOperator::redirect() {
   enter(Phase::withdraw);
 }
 
+// Whether the patient's belly stands still, seen as late as anything; and whether it pauses between two breaths,
+// which a rhythm tells in time.
+void ScriptedOperator::watch_breath(const cases::PatientBreath& breath) {
+  breathes_ = breath.moves;
+  pauses_ = !breath.moves || std::abs(breath.level) < kPauseLevel;
+  const bool still = breath.moves && breath.state.held >= 1.0 && breath.state.cough_s == 0.0;
+  if (still != still_) still_changed_s_ = t_s_;
+  still_ = still;
+  if (t_s_ - still_changed_s_ >= profile_.reaction_delay_s) seen_still_ = still;
+}
+
+// From the skin on, by who asks for it early: what breath moves meets a needle that waits inside.
+bool ScriptedOperator::wants_breath() const noexcept {
+  return breathes_ && asks_early_ && inserted_mm_ >= -kPauseMm;
+}
+
+void ScriptedOperator::ask_for_breath() {
+  asked_s_ = t_s_;
+  conduct_.begin(Conduct::Part::ask_breath);
+}
+
+bool ScriptedOperator::breath_will_do() const noexcept {
+  return waits_ ? seen_still_ : asked_s_ >= 0.0 && conduct_.over();
+}
+
 void ScriptedOperator::decide(const cases::State& state) {
   const double since_s = t_s_ - phase_since_s_;
   const bool looked = since_s >= 3.0 * profile_.reaction_delay_s;
   const bool may_redirect = redirections_ < static_cast<int>(std::lround(profile_.max_redirections));
+  const bool on_the_way =
+      phase_ == Phase::approach || phase_ == Phase::advance || phase_ == Phase::check || phase_ == Phase::look;
+  if (on_the_way && wants_breath() && !breath_will_do()) {
+    before_breath_ = phase_;
+    const bool again = asked_s_ >= 0.0;
+    enter(Phase::await_breath);
+    if (!again) ask_for_breath();
+    return;
+  }
   switch (phase_) {
     case Phase::sign_in:
       if (conduct_.over()) enter(conduct_.deferred() ? Phase::finish : Phase::scan);
@@ -165,7 +213,7 @@ void ScriptedOperator::decide(const cases::State& state) {
       if (seen_miss_mm(state) > profile_.accept_miss_mm && may_redirect)
         redirect();
       else
-        enter(Phase::hold_breath);
+        enter(breathes_ && asks_early_ ? Phase::fire : Phase::hold_breath);
       break;
     case Phase::withdraw:
       if (inserted_mm_ > withdraw_to_mm_) break;
@@ -178,7 +226,17 @@ void ScriptedOperator::decide(const cases::State& state) {
       put_plane_at(inserted_mm_ + kPlaneStepMm);
       enter(Phase::advance);
       break;
+    case Phase::await_breath:
+      if (breath_will_do())
+        enter(before_breath_);
+      else if (conduct_.over() && since_s >= kBreatherSeconds && t_s_ - asked_s_ >= kGrantSeconds)
+        ask_for_breath();
+      break;
     case Phase::hold_breath:
+      if (breathes_ && waits_ && conduct_.over() && !seen_still_) {
+        if (t_s_ - std::max(asked_s_, phase_since_s_) >= kGrantSeconds) ask_for_breath();
+        break;
+      }
       // Not before the tip is seen again, where it went while the breath was held.
       if (conduct_.over() && (!lost_ || going_blind_ || t_s_ - lost_since_s_ > kPatienceSeconds))
         enter(Phase::fire);
@@ -222,8 +280,12 @@ void ScriptedOperator::judge_sight() {
 }
 
 void ScriptedOperator::move(double dt_s) {
+  // Back to a target that came nearer no hand goes at once; one that is known better is no motion.
+  const double back_mm = target_moved_mm_ == glm::dvec3(0.0) ? -1e300 : inserted_mm_ - profile_.advance_mm_s * dt_s;
   switch (phase_) {
     case Phase::approach:
+      if (waits_ && !asks_early_ && !pauses_ && inserted_mm_ >= -kPauseMm)
+        break;  // the skin is marked as it lies between breaths
       inserted_mm_ = std::min(0.0, inserted_mm_ + profile_.approach_mm_s * dt_s);
       break;
     case Phase::advance:
@@ -231,7 +293,7 @@ void ScriptedOperator::move(double dt_s) {
       if (across_ && tip_seen() && inserted_mm_ >= plane_at_mm_) put_plane_at(inserted_mm_ + kPlaneStepMm);
       if (lost_ ? going_blind_ || inserted_mm_ < creep_to_mm_
                 : !across_ || std::abs(plane_at_mm_ - plane_now_mm_) < kPlaneThereMm)
-        inserted_mm_ = std::min(goal_mm(), inserted_mm_ + profile_.advance_mm_s * dt_s);
+        inserted_mm_ = std::max(std::min(goal_mm(), inserted_mm_ + profile_.advance_mm_s * dt_s), back_mm);
       break;
     case Phase::withdraw:
     case Phase::retreat:
@@ -278,12 +340,17 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
   probe.axis = glm::normalize(probe.axis + normal * tilt_rad);
 }
 
-cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::FrameTruth* frame, double dt_s) {
+cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::FrameTruth* frame, double dt_s,
+                                    const glm::dvec3& target_moved_mm) {
   t_s_ += dt_s;
-  if (frame != nullptr) seen_.push_back(*frame);
-  while (seen_.size() > 1 && seen_[1].t_s <= t_s_ - profile_.reaction_delay_s) seen_.pop_front();
+  if (frame != nullptr) seen_.push_back({*frame, target_moved_mm});
+  while (seen_.size() > 1 && seen_[1].frame.t_s <= t_s_ - profile_.reaction_delay_s) seen_.pop_front();
+  if (picture() != nullptr && picture()->live && picture()->target)
+    target_moved_mm_ = seen_.front().target_moved_mm;
+  watch_breath(state.breath);
   cases::Inputs inputs;
-  inputs.event = conduct_.advance(dt_s);
+  // Skin is marked and numbed as it lies between two breaths.
+  if (!(phase_ == Phase::prepare && waits_ && !pauses_)) inputs.event = conduct_.advance(dt_s);
   decide(state);
   judge_sight();
   if (!conduct_.stopped() || phase_ == Phase::leave) move(dt_s);

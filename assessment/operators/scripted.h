@@ -24,8 +24,10 @@ class ScriptedOperator {
   ScriptedOperator(const OperatorProfile& profile, const PuncturePlan& plan, const cases::Instrument& instrument,
                    std::uint64_t seed);
 
-  // What the hands want in this tick. `frame` is the picture that appeared in it, if one did.
-  cases::Inputs act(const cases::State& state, const cases::FrameTruth* frame, double dt_s);
+  // What the hands want in this tick. `frame` is the picture that appeared in it, if one did; target_moved_mm: how
+  // far from its place at rest it shows the target, if it does.
+  cases::Inputs act(const cases::State& state, const cases::FrameTruth* frame, double dt_s,
+                    const glm::dvec3& target_moved_mm = glm::dvec3(0.0));
 
   // What was said or happened in the last tick: who should stops when the patient is in trouble.
   void hear(cases::EventKind kind) { conduct_.hear(kind); }
@@ -44,6 +46,7 @@ class ScriptedOperator {
     withdraw,
     retreat,  // a little, to find a tip that is not seen
     hold_breath,
+    await_breath,  // asked for and waited for, before it goes on as before
     fire,
     leave,
     finish,
@@ -52,12 +55,21 @@ class ScriptedOperator {
 
   void enter(Phase phase);
   void aim();
-  const cases::FrameTruth* picture() const noexcept { return seen_.empty() ? nullptr : &seen_.front(); }
+  struct Seen {
+    cases::FrameTruth frame;
+    glm::dvec3 target_moved_mm;
+  };
+  const cases::FrameTruth* picture() const noexcept { return seen_.empty() ? nullptr : &seen_.front().frame; }
+  glm::dvec3 target_now() const;
   bool tip_seen() const noexcept;
   glm::dvec3 hands_tip() const { return entry_ + direction_ * inserted_mm_; }
   double seen_miss_mm(const cases::State& state);
   void redirect();
   void decide(const cases::State& state);
+  void watch_breath(const cases::PatientBreath& breath);
+  bool wants_breath() const noexcept;
+  void ask_for_breath();
+  bool breath_will_do() const noexcept;
   void put_plane_at(double inserted_mm);
   void judge_sight();
   void move(double dt_s);
@@ -76,10 +88,16 @@ class ScriptedOperator {
   Phase phase_ = Phase::sign_in;
   double t_s_ = 0.0, phase_since_s_ = 0.0, scan_s_ = 0.0;
   glm::dvec3 believed_target_{0.0}, entry_{0.0}, direction_{0.0};
-  double inserted_mm_ = 0.0;  // the hand's: from the entry along the direction, negative outside
+  glm::dvec3 target_moved_mm_{0.0};  // from its place at rest, when the target was seen last
+  double inserted_mm_ = 0.0;         // the hand's: from the entry along the direction, negative outside
   double withdraw_to_mm_ = 0.0;
   int redirections_ = 0;
   bool checked_ = false;
+  // Of a patient who breathes: what he does about it, and what is seen of the belly.
+  bool breathes_ = false, asks_early_ = false, waits_ = false;
+  bool still_ = false, seen_still_ = false, pauses_ = false;
+  double still_changed_s_ = 0.0, asked_s_ = -1.0;
+  Phase before_breath_ = Phase::advance;
   // A tip that should be seen and is not.
   bool lost_ = false, going_blind_ = false, retreated_ = false;
   double lost_since_s_ = 0.0, creep_to_mm_ = -1.0;
@@ -89,7 +107,7 @@ class ScriptedOperator {
   double plane_at_mm_ = 0.0, plane_now_mm_ = 0.0, plane_error_mm_ = 0.0;
   UnsteadyHand hand_;
   Wander drift_, tilt_;
-  std::deque<cases::FrameTruth> seen_;  // pictures younger than the reaction delay, and the one acted upon
+  std::deque<Seen> seen_;  // pictures younger than the reaction delay, and the one acted upon
 };
 
 }  // namespace seldinger::assessment

@@ -98,6 +98,44 @@ TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
   }
 }
 
+// The real contrast CT's liver, 16 mm down and 15 mm to the front with each breath.
+TEST(Long, ExpertsPassABreathingLiverAndNovicesMostlyDoNot) {
+  const auto scratch = fixtures::fresh_folder("long_breath");
+  const std::string library = " --library " + (scratch / "library").string();
+  const auto made =
+      run(kProgram + " demo --cases --json --ct " + kData + "/ct-abdomen-contrast-dicom" + library, scratch);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  std::string still;
+  const Json cases = Json::parse(made.out).at("cases");
+  for (const Json& one : cases)
+    if (one.at("number") == 2) still = one.at("case_id");
+  ASSERT_EQ(
+      run("printf 'a long password' | " + kProgram + " user add mia --role mentor" + library, scratch).exit_code,
+      0);
+  const auto version = run(kProgram + " case version " + still + " --by mia --json" + library, scratch);
+  ASSERT_EQ(version.exit_code, 0) << version.err;
+  const std::string id = Json::parse(version.out).at("case_id");
+  ASSERT_EQ(
+      run(kProgram + " case setting " + id + " --modality mpr --also none --breath-depth 1" + library, scratch)
+          .exit_code,
+      0);
+  for (const bool expert : {true, false}) {
+    const auto tried = run(kProgram + " simulate --seed 1 --count 30 --no-pictures --json --operator " +
+                               (expert ? "expert" : "novice") + " --case " + id + library,
+                           scratch);
+    ASSERT_EQ(tried.exit_code, 0) << tried.err;
+    int passed = 0;
+    const Json answer = Json::parse(tried.out);
+    for (const Json& attempt : answer.at("attempts"))
+      passed += metric(attempt, "core_in_target") >= 8.0 && metric(attempt, "capsule_punctures") <= 1.0 &&
+                        metric(attempt, "skin_punctures") <= 1.0 && metric(attempt, "blind_advance_max") <= 5.0 &&
+                        metric(attempt, "nogo_length_critical") <= 0.0
+                    ? 1
+                    : 0;
+    EXPECT_TRUE(expert ? passed >= 27 : passed <= 8) << passed;
+  }
+}
+
 TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
   const auto scratch = fixtures::fresh_folder("long_kill");
   const std::string library = " --library " + (scratch / "library").string();

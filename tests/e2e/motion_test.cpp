@@ -89,6 +89,33 @@ TEST_F(MotionTest, TheSameHandsMeetAnotherPlaceInWhoBreathes) {
   EXPECT_GT(std::abs(breathing_mm - still_mm), 0.1);
 }
 
+TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
+  for (const std::string words : {"--breath-depth 1", "--breath-depth 1.5 --tissue yields"}) {
+    const std::string case_id = version(words);
+    for (const bool expert : {true, false}) {
+      const Json made = ask("simulate --seed 1 --count 10 --no-pictures --case " + case_id + " --operator " +
+                            (expert ? "expert" : "novice"));
+      double hits = 0.0, held = 0.0;
+      for (const Json& attempt : made["attempts"]) {
+        hits += fixtures::metric(attempt, "hit").value();
+        held += fixtures::metric(attempt, "fired_breath_held").value();
+        if (expert) {
+          EXPECT_EQ(fixtures::metric(attempt, "advance_breath_held_share"), 1.0) << attempt["seed"];
+          EXPECT_GE(fixtures::metric(attempt, "steps_done").value(), 0.9) << attempt["seed"];
+        }
+      }
+      EXPECT_TRUE(expert ? hits >= 9.0 && held == 10.0 : held <= 8.0) << words << ": " << hits << ", " << held;
+    }
+  }
+  // Of who lies still nothing is said about breath.
+  const Json still = ask("simulate --seed 1 --operator expert --case " + version(""));
+  for (const Json& one : still["attempts"][0]["metrics"])
+    if (one["id"] == "fired_breath_held") {
+      EXPECT_TRUE(one["value"].is_null());
+      EXPECT_EQ(one["reason"], "patient_lies_still");
+    }
+}
+
 TEST_F(MotionTest, WhatDoesNotShowItYetSaysSo) {
   const std::string moving = version("--breath-depth 1");
   const auto shown = [&] {

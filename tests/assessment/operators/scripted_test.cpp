@@ -9,6 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "assessment/operators/probe_over.h"
+#include "sim/base/hash.h"
+#include "sim/engine/step.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -188,6 +190,175 @@ TEST(ScriptedOperator, ACoreNeedleIsTakenOutWhole) {
   ASSERT_FALSE(ticks.empty());
   EXPECT_LT(ticks.back().inserted_mm + core.throw_mm, -5.0) << "its thrown tip too";
   EXPECT_LT(ticks.back().t_s, 60.0);
+}
+
+// What was drawn before operators knew of breath stays: attempts at still cases are those of before.
+TEST(ScriptedOperator, AtAStillPatientActsAsBeforeItKnewOfBreath) {
+  const auto shows = [](const Tick& tick) {
+    return tick.inserted_mm > 2.0 && (tick.inserted_mm < 20.0 || tick.inserted_mm > 26.0) &&
+           std::abs(tick.beyond_plane_mm) < 6.0;
+  };
+  std::vector<std::uint64_t> hashes;
+  for (const bool across : {false, true})
+    for (const char* name : {"novice", "intermediate", "expert"}) {
+      std::uint64_t hash = 0;
+      for (const Tick& tick :
+           ticks_of(*named_profile(name), across ? plan_across() : plan_in_plane(), {}, 11, shows)) {
+        for (const cases::ToolPose* pose : {&tick.inputs.needle, &tick.inputs.probe})
+          for (int axis = 0; axis < 3; ++axis)
+            hash = base::hash_combine(base::hash_combine(hash, pose->position_lps_mm[axis]), pose->axis[axis]);
+        hash = base::hash_combine(hash, static_cast<std::uint64_t>(tick.inputs.event) * 2 + tick.inputs.fire);
+      }
+      hashes.push_back(hash);
+    }
+  const std::vector<std::uint64_t> before = {11573858680163442422ULL, 9241569844906584628ULL,
+                                             16400829000048328202ULL, 17482833977871081420ULL,
+                                             9217564390732547871ULL,  8099544976703744377ULL};
+  EXPECT_EQ(hashes, before);
+}
+
+// Who breathes, and coughs at cough_s; pictures show everything below the skin. Nothing is in his way.
+struct BreathTick {
+  double t_s = 0.0, inserted_mm = 0.0;
+  bool held = false, fires = false;
+  EventKind said = EventKind::none;
+};
+std::vector<BreathTick> at_who_breathes(const OperatorProfile& profile, std::uint64_t seed, double cough_s = 1e9) {
+  const PuncturePlan plan = plan_in_plane();
+  ScriptedOperator person(profile, plan, {}, seed);
+  cases::Case scene;
+  scene.breathing = cases::Breathing{};
+  scene.breathing->seed = seed;
+  cases::State state;
+  cases::FrameTruth frame;
+  frame.target = true;
+  std::vector<BreathTick> ticks;
+  bool coughed = false;
+  for (double next_s = 0.0; !person.done() && state.t_s < 200.0;) {
+    const bool picture = state.t_s >= next_s;
+    if (picture) next_s += kPictureS;
+    frame.t_s = state.t_s;
+    frame.needle_tip = !ticks.empty() && ticks.back().inserted_mm > 1.0;
+    cases::Inputs inputs = person.act(state, picture ? &frame : nullptr, kTickS);
+    const EventKind said = inputs.event;
+    if (!coughed && state.t_s >= cough_s && inputs.event == EventKind::none) {
+      inputs.event = EventKind::cough;
+      coughed = true;
+    }
+    person.hear(inputs.event);
+    engine::step(scene, inputs, kTickS, state);
+    ticks.push_back({state.t_s, glm::dot(state.needle.tip_lps_mm - plan.entry_lps_mm, plan.direction),
+                     state.breath.state.held >= 1.0 && state.breath.state.cough_s == 0.0, inputs.fire, said});
+  }
+  return ticks;
+}
+int times_asked(const std::vector<BreathTick>& ticks) {
+  return static_cast<int>(std::count_if(ticks.begin(), ticks.end(), [](const BreathTick& tick) {
+    return tick.said == EventKind::breath_hold_request;
+  }));
+}
+
+TEST(ScriptedOperator, AnExpertPuncturesInAHeldBreath) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto ticks = at_who_breathes(*named_profile("expert"), seed);
+    EXPECT_EQ(times_asked(ticks), 1) << seed;
+    bool fired = false;
+    for (const BreathTick& tick : ticks) {
+      fired = fired || tick.fires;
+      if (tick.inserted_mm > 2.0 && !fired) {
+        ASSERT_TRUE(tick.held) << seed << " at " << tick.t_s;
+      }
+      if (tick.fires) {
+        ASSERT_TRUE(tick.held) << seed;
+      }
+    }
+    EXPECT_TRUE(fired) << seed;
+  }
+}
+
+TEST(ScriptedOperator, AnExpertWaitsForALostBreathAndAsksAgain) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    // On the way in, as it goes without a cough.
+    const auto undisturbed = at_who_breathes(*named_profile("expert"), seed);
+    double cough_s = 0.0;
+    for (const BreathTick& tick : undisturbed)
+      if (cough_s == 0.0 && tick.inserted_mm > 10.0) cough_s = tick.t_s;
+    const auto ticks = at_who_breathes(*named_profile("expert"), seed, cough_s);
+    EXPECT_EQ(times_asked(ticks), 2) << seed;
+    double deepest_mm = 0.0;
+    bool fired = false;
+    for (const BreathTick& tick : ticks) {
+      fired = fired || tick.fires;
+      if (fired) break;
+      if (tick.held || tick.t_s < cough_s + 1.0)
+        deepest_mm = std::max(deepest_mm, tick.inserted_mm);
+      else
+        EXPECT_LT(tick.inserted_mm, deepest_mm + 1.5) << seed << " went on at " << tick.t_s;  // its sway
+    }
+    EXPECT_TRUE(fired) << seed;
+    const auto at_fire =
+        std::find_if(ticks.begin(), ticks.end(), [](const BreathTick& tick) { return tick.fires; });
+    EXPECT_TRUE(at_fire != ticks.end() && at_fire->held) << seed;
+  }
+}
+
+TEST(ScriptedOperator, HowManyAskEarlyAndWaitIsAsPlanted) {
+  for (const char* name : {"novice", "intermediate"}) {
+    OperatorProfile profile = *named_profile(name);
+    profile.skip_step_share = 0.0;
+    constexpr int kTries = 120;
+    int early = 0, held = 0;
+    for (std::uint64_t seed = 1; seed <= kTries; ++seed) {
+      const auto ticks = at_who_breathes(profile, seed);
+      const auto said_at = std::find_if(ticks.begin(), ticks.end(), [](const BreathTick& tick) {
+        return tick.said == EventKind::breath_hold_request;
+      });
+      const auto fired_at =
+          std::find_if(ticks.begin(), ticks.end(), [](const BreathTick& tick) { return tick.fires; });
+      ASSERT_NE(fired_at, ticks.end()) << seed;
+      early += said_at != ticks.end() && said_at->inserted_mm < 0.0 ? 1 : 0;
+      held += fired_at->held ? 1 : 0;
+    }
+    const auto near = [](int count, double share) {
+      EXPECT_NEAR(count / double{kTries}, share, 4.0 * std::sqrt(share * (1.0 - share) / kTries));
+    };
+    near(early, profile.holds_breath_early_share);
+    // Who waits fires in it; of the others those who asked so early that it was held by then, and did not use it
+    // up.
+    EXPECT_GE(held / double{kTries}, profile.waits_for_breath_share - 4.0 * std::sqrt(0.25 / kTries));
+    EXPECT_LE(held / double{kTries},
+              1.0 - (1.0 - profile.waits_for_breath_share) * (1.0 - profile.holds_breath_early_share) +
+                  4.0 * std::sqrt(0.25 / kTries));
+  }
+}
+
+TEST(ScriptedOperator, AimsAtATargetThatGaveWayWhereThePictureShowsIt) {
+  // It is pushed 6 mm ahead, and 5 mm aside once the needle is in.
+  const PuncturePlan plan = plan_in_plane();
+  const glm::dvec3 moved_mm(5.0, 6.0, 0.0);
+  OperatorProfile profile = *named_profile("expert");
+  profile.target_error_mm = profile.aim_error_deg = profile.sway_mm = profile.tremor_mm = 0.0;
+  for (const bool told : {false, true}) {
+    ScriptedOperator person(profile, plan, {}, 5);
+    cases::State state;
+    cases::FrameTruth frame;
+    frame.target = frame.needle_tip = true;
+    glm::dvec3 end(0.0), before(0.0);
+    while (!person.done() && state.t_s < 100.0) {
+      state.t_s += kTickS;
+      frame.t_s = state.t_s;
+      const bool inside = state.needle.tip_lps_mm.y > -95.0;
+      const cases::Inputs inputs = person.act(state, &frame, kTickS, told && inside ? moved_mm : glm::dvec3(0.0));
+      before = state.needle.tip_lps_mm;
+      state.needle.tip_lps_mm = inputs.needle.position_lps_mm;
+      state.needle.direction = inputs.needle.axis;
+      if (inputs.fire) end = state.needle.tip_lps_mm;
+      if (state.t_s > 0.01) {
+        EXPECT_LT(glm::distance(before, state.needle.tip_lps_mm), 1.0) << "no hand jumps, at " << state.t_s;
+      }
+    }
+    EXPECT_NEAR(glm::distance(end, plan.target_lps_mm + moved_mm), told ? 0.0 : glm::length(moved_mm), 2.0) << told;
+  }
 }
 
 }  // namespace
