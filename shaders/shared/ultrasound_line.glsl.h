@@ -67,6 +67,13 @@ SHARED_CONSTANT real kUsLeastSide = 1e-4;
 SHARED real us_plane_off(real after, real all, real square) {
   return after / (real(2.0 * 0.87) * all / sqrt(real(6.283185307) * square / all));
 }
+// Of an interface in tissue that moved: cosine of the angle between the beam and its normal, from how much of the
+// normal, as it is at rest, lies in the ways at rest along the beam, across it and out of the plane. (A normal is a
+// covector: what it makes of a way does not change as the way is moved.)
+SHARED real us_facing(real along, real across, real out_of_plane) {
+  return abs(along) / max(sqrt(along * along + across * across + out_of_plane * out_of_plane), real(1e-9));
+}
+
 // A plane seen from its side says nothing of where along the beam it is.
 SHARED_CONSTANT real kUsLeastPlaceCosine = 0.3;
 

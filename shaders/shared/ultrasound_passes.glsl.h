@@ -111,6 +111,24 @@ struct UsTile {
   int rows_middle;
   int first_fine;  // fine samples that are the band's
   int end_fine;
+  vec4 column;  // of tissue that moves: the first row's place among the slab's columns, x and y; zw: to the next
+                // row, outer (along x) and middle (along y)
+};
+
+// Of tissue that moves: the slab's nodes (sim/tissue/moved_slab.h), and the beams' paths (motion.h), three vec4 a
+// node: X − x; and how X goes on across the beam and out of the plane, a mm.
+struct UsMotion {
+  vec4 index_x;  // xyz: voxels per mm along LPS' x
+  vec4 index_y;
+  vec4 index_z;
+  int columns;  // of the slab, along x
+  int rows;     // and along y
+  int layers;
+  float low_mm;  // height of the first layer
+  float layers_per_mm;
+  float nodes_per_mm;  // of a path
+  int path_nodes;
+  int first_path;  // where the paths begin in their list
 };
 
 SHARED_CONSTANT int kUsLinesPerBeam = 2;

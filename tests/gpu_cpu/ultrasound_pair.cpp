@@ -8,14 +8,14 @@ namespace seldinger::imaging {
 
 ScreenPair screen_pair(UltrasoundGpu& gpu, const TissueVolume& tissue, const UltrasoundView& view,
                        const Inserted& inserted, std::span<const float> depth_below_skin_mm,
-                       const UltrasoundKnobs& knobs, DisplaySize size) {
+                       const UltrasoundKnobs& knobs, DisplaySize size, const tissue::Displacement& displacement) {
   constexpr std::uint64_t kFrame = 7;
   ScreenPair pair;
   PolarPicture polar;
-  ultrasound_polar(tissue, view, inserted, depth_below_skin_mm, polar);
+  ultrasound_polar(tissue, view, inserted, depth_below_skin_mm, polar, displacement);
   add_receiver_noise(view.seed, kFrame, polar);
   ScanConverter(view, size).grey(view, knobs, polar, pair.cpu);
-  gpu.grey(view, inserted, depth_below_skin_mm, knobs, size, kFrame, pair.gpu);
+  gpu.grey(view, inserted, depth_below_skin_mm, knobs, size, kFrame, pair.gpu, displacement);
   if (pair.cpu.size() != pair.gpu.size()) return pair;
   std::size_t lit = 0, far = 0;
   for (std::size_t i = 0; i < pair.cpu.size(); ++i) {

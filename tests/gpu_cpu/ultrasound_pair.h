@@ -18,7 +18,8 @@ struct ScreenPair {
 
 ScreenPair screen_pair(UltrasoundGpu& gpu, const TissueVolume& tissue, const UltrasoundView& view,
                        const Inserted& inserted = {}, std::span<const float> depth_below_skin_mm = {},
-                       const UltrasoundKnobs& knobs = {}, DisplaySize size = {400, 350});
+                       const UltrasoundKnobs& knobs = {}, DisplaySize size = {400, 350},
+                       const tissue::Displacement& displacement = {});
 
 // At most one grey apart on 99.9 % of what is lit, and lit at all.
 testing::AssertionResult alike(const ScreenPair& pair);

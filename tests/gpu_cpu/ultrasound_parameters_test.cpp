@@ -65,8 +65,18 @@ TEST(UltrasoundParameters, OfScatterersAndTheirTiles) {
       FIELD(UsTile, index_z),    FIELD(UsTile, origin_mm),   FIELD(UsTile, axis_x),      FIELD(UsTile, axis_y),
       FIELD(UsTile, axis_z),     FIELD(UsTile, seed),        FIELD(UsTile, step_outer),  FIELD(UsTile, step_middle),
       FIELD(UsTile, step_inner), FIELD(UsTile, rows_outer),  FIELD(UsTile, rows_middle), FIELD(UsTile, first_fine),
-      FIELD(UsTile, end_fine)};
+      FIELD(UsTile, end_fine),   FIELD(UsTile, column)};
   expect_offsets("ultrasound_scatter.comp", "tiles", tiles, tiles.size());
+}
+
+TEST(UltrasoundParameters, OfWhatMoves) {
+  const Offsets ours{FIELD(UsMotion, index_x),      FIELD(UsMotion, index_y),       FIELD(UsMotion, index_z),
+                     FIELD(UsMotion, columns),      FIELD(UsMotion, rows),          FIELD(UsMotion, layers),
+                     FIELD(UsMotion, low_mm),       FIELD(UsMotion, layers_per_mm), FIELD(UsMotion, path_nodes),
+                     FIELD(UsMotion, nodes_per_mm), FIELD(UsMotion, first_path)};
+  for (const char* name : {"ultrasound_scatter_moved.comp", "ultrasound_lattice_noise_moved.comp",
+                           "ultrasound_lines_moved.comp", "ultrasound_echoes_moved.comp"})
+    expect_offsets(name, "motion", ours, 5);
 }
 
 TEST(UltrasoundParameters, OfTheLattice) {

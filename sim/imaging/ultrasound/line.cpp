@@ -194,13 +194,9 @@ void LineWalker::add_interface(const BeamPath& path, int sample, double before_m
   if (sample > 0) {
     if (!shaders::us_is_heard(reflection)) return;
     // The plane lies in tissue at rest, and the beam there goes along with it.
-    const glm::dvec3 rest = path.at(depth_mm);
-    const Plane plane = plane_at(rest, before_mrayl, after_mrayl);
+    const Plane plane = plane_at(path.at(depth_mm), before_mrayl, after_mrayl);
     const double along = glm::dot(plane.normal, path.along(depth_mm));
-    if (plane.is_told)
-      cosine = std::clamp(
-          std::abs(path.still() ? along : glm::dot(motion_->normal_now(rest, plane.normal), path.direction())), 0.0,
-          1.0);
+    if (plane.is_told) cosine = std::clamp(path.facing(depth_mm, plane.normal), 0.0, 1.0);
     // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
     if (plane.has_place && cosine > shaders::kUsLeastPlaceCosine)
       depth_mm = std::max(0.0, depth_mm + std::clamp(plane.off_mm / along, -most_shift_mm_, most_shift_mm_));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "shaders/shared/ultrasound_cube.glsl.h"
+#include "shaders/shared/ultrasound_line.glsl.h"
 #include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::imaging {
@@ -94,25 +95,41 @@ RestFan::RestFan(const UltrasoundView& view, double spacing_mm, double beside, c
 RestFan::Between RestFan::between(double beam) const noexcept {
   const double at = (beam - first_beam_) * rows_per_beam_;
   const int row = at > 0.0 ? static_cast<int>(std::min(at, rows_ - 2.0)) : 0;
-  const glm::dvec3* low = back_mm_.data() + static_cast<std::ptrdiff_t>(row) * depths_;
-  return {low, low + depths_, at - row};
+  return {row, at - row};
 }
 
 glm::dvec3 RestFan::rest_of(double beam, double depth_mm) const noexcept {
   const Between rows = between(beam);
   const double at = depth_mm * depths_per_mm_;
   const int d = at > 0.0 ? static_cast<int>(std::min(at, depths_ - 2.0)) : 0;
-  const glm::dvec3 upper = rows.low[d] + rows.part * (rows.high[d] - rows.low[d]),
-                   lower = rows.low[d + 1] + rows.part * (rows.high[d + 1] - rows.low[d + 1]);
+  const glm::dvec3* low = back_mm_.data() + static_cast<std::ptrdiff_t>(rows.row) * depths_ + d;
+  const glm::dvec3* high = low + depths_;
+  const glm::dvec3 upper = low[0] + rows.part * (high[0] - low[0]), lower = low[1] + rows.part * (high[1] - low[1]);
   return fan_.start_lps_mm(beam) + depth_mm * fan_.direction(beam) + upper + (at - d) * (lower - upper);
 }
 
-BeamPath RestFan::path(double beam) const {
+std::vector<glm::dvec3> RestFan::back_of(double beam) const {
   const Between rows = between(beam);
+  const glm::dvec3* low = back_mm_.data() + static_cast<std::ptrdiff_t>(rows.row) * depths_;
+  const glm::dvec3* high = low + depths_;
   std::vector<glm::dvec3> back_mm(static_cast<std::size_t>(depths_));
-  for (int d = 0; d < depths_; ++d)
-    back_mm[static_cast<std::size_t>(d)] = rows.low[d] + rows.part * (rows.high[d] - rows.low[d]);
-  return {fan_.start_lps_mm(beam), fan_.direction(beam), std::move(back_mm), depths_per_mm_};
+  for (std::size_t d = 0; d < back_mm.size(); ++d) back_mm[d] = low[d] + rows.part * (high[d] - low[d]);
+  return back_mm;
+}
+
+BeamPath RestFan::path(double beam) const {
+  return {fan_.start_lps_mm(beam), fan_.direction(beam), back_of(beam), {}, depths_per_mm_};
+}
+
+double BeamPath::facing(double depth_mm, const glm::dvec3& normal) const noexcept {
+  if (aside_.empty()) return std::abs(glm::dot(normal, along(depth_mm)));
+  const double nodes = depth_mm * per_mm_;
+  const std::size_t node = node_at(nodes);
+  const double part = nodes - static_cast<double>(node);
+  const Aside &low = aside_[node], &high = aside_[node + 1];
+  return shaders::us_facing(glm::dot(normal, along(depth_mm)),
+                            glm::dot(normal, low.across + part * (high.across - low.across)),
+                            glm::dot(normal, low.out + part * (high.out - low.out)));
 }
 
 PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement)
@@ -120,13 +137,48 @@ PictureMotion::PictureMotion(const UltrasoundView& view, const tissue::Displacem
       fan_(view, spacing_mm(view, kFanNodesADepth), beside_of(view, fan_of(view)),
            [this](const glm::dvec3& at_lps_mm, const glm::dvec3& guess_lps_mm) {
              return slab_.rest_of(at_lps_mm, guess_lps_mm);
-           }) {}
+           }) {
+  const Fan fan = fan_of(view);
+  aside_.reserve(fan_.back_mm().size());
+  for (int row = 0; row < fan_.rows(); ++row) {
+    const double beam = fan_.beam_of(row);
+    const glm::dvec3 start = fan.start_lps_mm(beam), direction = fan.direction(beam);
+    const glm::dvec3 across = glm::cross(fan.elevation, direction);
+    for (int d = 0; d < fan_.depths(); ++d) {
+      const std::size_t node = aside_.size();
+      const glm::dmat3 f = slab_.stretch(start + (d / fan_.depths_per_mm()) * direction + fan_.back_mm()[node]);
+      // ∂X/∂x by Cramer's rule; where tissue is all but folded bounded, as the way back is.
+      const glm::dvec3 yz = glm::cross(f[1], f[2]), zx = glm::cross(f[2], f[0]), xy = glm::cross(f[0], f[1]);
+      const double per_volume = 1.0 / std::max(glm::dot(f[0], yz), 0.05);
+      const auto back = [&](const glm::dvec3& way) {
+        return per_volume * glm::dvec3(glm::dot(way, yz), glm::dot(way, zx), glm::dot(way, xy));
+      };
+      aside_.push_back({back(across), back(fan.elevation)});
+    }
+  }
+}
 
-glm::dvec3 PictureMotion::normal_now(const glm::dvec3& rest_lps_mm,
-                                     const glm::dvec3& normal_at_rest) const noexcept {
-  const glm::dmat3 f = slab_.stretch(rest_lps_mm);
-  return glm::normalize(normal_at_rest.x * glm::cross(f[1], f[2]) + normal_at_rest.y * glm::cross(f[2], f[0]) +
-                        normal_at_rest.z * glm::cross(f[0], f[1]));
+std::vector<BeamPath::Aside> PictureMotion::aside_of(double beam) const {
+  const RestFan::Between rows = fan_.between(beam);
+  const BeamPath::Aside* low = aside_.data() + static_cast<std::ptrdiff_t>(rows.row) * fan_.depths();
+  const BeamPath::Aside* high = low + fan_.depths();
+  std::vector<BeamPath::Aside> aside(static_cast<std::size_t>(fan_.depths()));
+  for (std::size_t d = 0; d < aside.size(); ++d)
+    aside[d] = {low[d].across + rows.part * (high[d].across - low[d].across),
+                low[d].out + rows.part * (high[d].out - low[d].out)};
+  return aside;
+}
+
+BeamPath PictureMotion::path(double beam) const {
+  return {fan_.start_lps_mm(beam), fan_.direction(beam), fan_.back_of(beam), aside_of(beam), fan_.depths_per_mm()};
+}
+
+void PictureMotion::append_path(double beam, std::vector<glm::vec4>& list) const {
+  const std::vector<glm::dvec3> back_mm = fan_.back_of(beam);
+  const std::vector<BeamPath::Aside> aside = aside_of(beam);
+  for (std::size_t d = 0; d < back_mm.size(); ++d)
+    for (const glm::dvec3& value : {back_mm[d], aside[d].across, aside[d].out})
+      list.push_back(glm::vec4(glm::dvec4(value, 0.0)));
 }
 
 std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement) {

@@ -25,7 +25,8 @@ using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
 using shaders::UsTissue;
-static_assert(sizeof(UsTissue) == 800 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 304);
+static_assert(sizeof(UsTissue) == 800 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
+              sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
 static_assert(sizeof(UsLineParameters) == 352 && sizeof(UsBeam) == 272);
@@ -151,7 +152,7 @@ std::vector<UsLatticeDepth> lattice_depths(const UltrasoundView& view, const Lat
 }
 
 std::vector<UsTile> tiles_of(const UltrasoundView& view, const ScattererField& field,
-                             const glm::dmat4& voxel_from_lps) {
+                             const glm::dmat4& voxel_from_lps, const PictureMotion* motion) {
   std::vector<UsTile> tiles;
   const int block = std::clamp(view.beams / kTilesAcross, 1, 32);
   const glm::dmat3 turn(voxel_from_lps);
@@ -205,10 +206,34 @@ std::vector<UsTile> tiles_of(const UltrasoundView& view, const ScattererField& f
       t.rows_middle = std::max(1, last_of(other) - cube[other] + 1);
       t.first_fine = band.first_sample * field.fine();
       t.end_fine = band.end_sample * field.fine();
+      if (motion != nullptr) {
+        const tissue::SlabPart& part = motion->slab().part();
+        t.column = vec4_from({((cube[outer] + 0.5) * s - part.low_mm.x) / part.spacing_mm,
+                              ((cube[other] + 0.5) * s - part.low_mm.y) / part.spacing_mm, s / part.spacing_mm},
+                             s / part.spacing_mm);
+      }
       tiles.push_back(t);
     }
   }
   return tiles;
+}
+
+shaders::UsMotion motion_block(const PictureMotion& motion, const glm::dmat4& voxel_from_lps,
+                               std::size_t first_path) {
+  shaders::UsMotion m{};
+  m.index_x = vec4_from(glm::dvec3(voxel_from_lps[0]));
+  m.index_y = vec4_from(glm::dvec3(voxel_from_lps[1]));
+  m.index_z = vec4_from(glm::dvec3(voxel_from_lps[2]));
+  const tissue::MovedSlab& slab = motion.slab();
+  m.columns = slab.size().x;
+  m.rows = slab.size().y;
+  m.layers = slab.size().z;
+  m.low_mm = static_cast<float>(slab.part().low_mm.z);
+  m.layers_per_mm = static_cast<float>(1.0 / slab.part().layer_mm);
+  m.nodes_per_mm = static_cast<float>(motion.nodes_per_mm());
+  m.path_nodes = motion.path_nodes();
+  m.first_path = static_cast<int>(first_path);
+  return m;
 }
 
 UsLineParameters line_parameters(const TissueVolume& tissue, const UltrasoundView& view, const LineWalker& walker) {

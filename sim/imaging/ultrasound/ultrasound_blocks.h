@@ -21,9 +21,14 @@ std::vector<std::uint16_t> voxels_of(const TissueVolume& tissue);
 shaders::UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted);
 
 shaders::UsScatterParameters scatter_parameters(const UltrasoundView& view, int fine);
-// Each scatterer belongs to one tile; those at the sides of the fan reach beams inside it.
+// Each scatterer belongs to one tile; those at the sides of the fan reach beams inside it. `motion`: as the
+// field's.
 std::vector<shaders::UsTile> tiles_of(const UltrasoundView& view, const ScattererField& field,
-                                      const glm::dmat4& voxel_from_lps);
+                                      const glm::dmat4& voxel_from_lps, const PictureMotion* motion = nullptr);
+
+// Of tissue that moves; the paths begin `first_path` numbers into their list.
+shaders::UsMotion motion_block(const PictureMotion& motion, const glm::dmat4& voxel_from_lps,
+                               std::size_t first_path);
 
 shaders::UsLatticeParameters lattice_parameters(const UltrasoundView& view, const LatticeField& field,
                                                 const glm::dmat4& voxel_from_lps);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "shaders/shared/ultrasound_passes.glsl.h"
@@ -10,6 +11,7 @@
 #include "sim/gpu/buffer.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
+#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/phase.h"
 #include "sim/imaging/ultrasound/ultrasound_blocks.h"
 #include "sim/imaging/ultrasound/view.h"
@@ -50,9 +52,13 @@ class Storage {
     if (buffer_.size() < bytes) buffer_.resize(bytes);
   }
   template <typename T>
+  void write(std::span<const T> values) {
+    need(values.size_bytes());
+    buffer_.write(std::as_bytes(values));
+  }
+  template <typename T>
   void write(const std::vector<T>& values) {
-    need(values.size() * sizeof(T));
-    buffer_.write(std::as_bytes(std::span(values)));
+    write(std::span<const T>(values));
   }
   void bind(int binding) const { buffer_.bind(binding); }
   gpu::Buffer& buffer() noexcept { return buffer_; }
@@ -63,8 +69,23 @@ class Storage {
 
 }  // namespace
 
+// What only tissue that moves asks for.
+struct MovedPrograms {
+  explicit MovedPrograms(gpu::Context& context)
+      : scatter(context, shader("ultrasound_scatter_moved.comp")),
+        lattice_noise(context, shader("ultrasound_lattice_noise_moved.comp")),
+        walk(context, shader("ultrasound_lines_moved.comp")),
+        echo(context, shader("ultrasound_echoes_moved.comp")),
+        block(context, gpu::BufferUse::uniform, sizeof(shaders::UsMotion)),
+        slab(context),
+        paths(context) {}
+  gpu::Program scatter, lattice_noise, walk, echo;
+  gpu::Buffer block;
+  Storage slab, paths;
+};
+
 struct UltrasoundGpu::Parts {
-  Parts(gpu::Context& context, const TissueVolume& the_tissue, LinesBy by)
+  Parts(gpu::Context& context, const TissueVolume& the_tissue, LinesBy by, TissueMoves moves)
       : tissue(the_tissue),
         gpu_walks(by == LinesBy::gpu || (by == LinesBy::machine && !context.software())),
         voxel_from_lps(volume::voxel_from_lps(*the_tissue.volume)),
@@ -107,14 +128,18 @@ struct UltrasoundGpu::Parts {
     std::vector<glm::vec4> turns;
     for (const auto& [re, im] : imaging::phases()) turns.emplace_back(re, im, 0.0F, 0.0F);
     phases.write(std::as_bytes(std::span(turns)));
+    if (moves == TissueMoves::yes) moved.emplace(context);
   }
 
-  void add_scatterers(const UltrasoundView& view, const ScattererField& field);
-  void add_lattice(const UltrasoundView& view, const LatticeField& field);
-  int walk_by_gpu(const UltrasoundView& view, const LineWalker& walker, std::span<const float> depth_below_skin_mm);
+  // `motion`: null where tissue lies still.
+  void add_scatterers(const UltrasoundView& view, const ScattererField& field, const PictureMotion* motion);
+  void add_lattice(const UltrasoundView& view, const LatticeField& field, const PictureMotion* motion);
+  int walk_by_gpu(const UltrasoundView& view, const LineWalker& walker, const PictureMotion* motion,
+                  std::span<const float> depth_below_skin_mm);
   int walk_by_cpu(const UltrasoundView& view, const LineWalker& walker, std::span<const float> depth_below_skin_mm);
   void make_envelope(const UltrasoundView& view, const Inserted& inserted,
-                     std::span<const float> depth_below_skin_mm, const NoiseKey* receiver);
+                     std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement,
+                     const NoiseKey* receiver);
 
   TissueVolume tissue;
   bool gpu_walks;
@@ -125,11 +150,13 @@ struct UltrasoundGpu::Parts {
       grey_parameters, phases;
   Storage tiles, depths, noise, sums, beams, neighbours, loss_db, interfaces, counts, weights, through, shift_mm,
       echo_counts, echoes, laid, envelope, gain, map, picture;
+  std::optional<MovedPrograms> moved;
 };
 
-void UltrasoundGpu::Parts::add_scatterers(const UltrasoundView& view, const ScattererField& field) {
+void UltrasoundGpu::Parts::add_scatterers(const UltrasoundView& view, const ScattererField& field,
+                                          const PictureMotion* motion) {
   const shaders::UsScatterParameters parameters = imaging::scatter_parameters(view, field.fine());
-  const std::vector<shaders::UsTile> all = tiles_of(view, field, voxel_from_lps);
+  const std::vector<shaders::UsTile> all = tiles_of(view, field, voxel_from_lps, motion);
   int most_rows = 1;
   for (const shaders::UsTile& tile : all) most_rows = std::max(most_rows, tile.rows_outer * tile.rows_middle);
   write_block(scatter_parameters, parameters);
@@ -138,10 +165,18 @@ void UltrasoundGpu::Parts::add_scatterers(const UltrasoundView& view, const Scat
   scatter_parameters.bind(0);
   tiles.bind(2);
   sums.bind(3);
-  scatter.dispatch(groups(most_rows, kGroup), static_cast<int>(all.size()), 1);
+  if (motion != nullptr) {
+    write_block(moved->block, motion_block(*motion, voxel_from_lps, 0));
+    moved->slab.write(motion->slab().nodes());
+    moved->block.bind(3);
+    moved->slab.bind(4);
+  }
+  (motion != nullptr ? moved->scatter : scatter)
+      .dispatch(groups(most_rows, kGroup), static_cast<int>(all.size()), 1);
 }
 
-void UltrasoundGpu::Parts::add_lattice(const UltrasoundView& view, const LatticeField& field) {
+void UltrasoundGpu::Parts::add_lattice(const UltrasoundView& view, const LatticeField& field,
+                                       const PictureMotion* motion) {
   const shaders::UsLatticeParameters parameters = imaging::lattice_parameters(view, field, voxel_from_lps);
   write_block(lattice_parameters, parameters);
   depths.write(lattice_depths(view, field));
@@ -150,19 +185,35 @@ void UltrasoundGpu::Parts::add_lattice(const UltrasoundView& view, const Lattice
   lattice_parameters.bind(0);
   depths.bind(2);
   noise.bind(3);
-  lattice_noise.dispatch(groups(parameters.lines, kGroup), view.samples, 1);
+  if (motion != nullptr) {
+    std::vector<glm::vec4> list;
+    for (int line = 0; line < parameters.lines; ++line)
+      motion->append_path(static_cast<double>(line - parameters.lines_before) / LatticeField::kLinesPerBeam, list);
+    write_block(moved->block, motion_block(*motion, voxel_from_lps, 0));
+    moved->paths.write(list);
+    moved->block.bind(3);
+    moved->paths.bind(0);
+  }
+  (motion != nullptr ? moved->lattice_noise : lattice_noise)
+      .dispatch(groups(parameters.lines, kGroup), view.samples, 1);
   sums.bind(4);
   lattice_beams.dispatch(groups(view.beams, kGroup), view.samples, 1);
 }
 
 // Both fill through, shift_mm, echo_counts and echoes, and answer how many echoes a beam has room for.
 int UltrasoundGpu::Parts::walk_by_gpu(const UltrasoundView& view, const LineWalker& walker,
-                                      std::span<const float> depth_below_skin_mm) {
+                                      const PictureMotion* motion, std::span<const float> depth_below_skin_mm) {
   const std::size_t count = static_cast<std::size_t>(view.beams),
                     polar = count * static_cast<std::size_t>(view.samples);
   write_block(line_parameters, imaging::line_parameters(tissue, view, walker));
   beams.write(beams_of(view, walker, voxel_from_lps, depth_below_skin_mm));
-  neighbours.write(neighbours_of(walker));
+  std::vector<glm::vec4> list = neighbours_of(walker);
+  if (motion != nullptr) {
+    write_block(moved->block, motion_block(*motion, voxel_from_lps, list.size()));
+    for (int beam = 0; beam < view.beams; ++beam) motion->append_path(beam, list);
+    moved->block.bind(3);
+  }
+  neighbours.write(list);
   for (Storage* values : {&through, &loss_db, &shift_mm}) values->need(polar * sizeof(float));
   interfaces.need(count * shaders::kUsMostInterfaces * sizeof(glm::ivec4));
   counts.need(count * sizeof(glm::ivec2));
@@ -177,15 +228,15 @@ int UltrasoundGpu::Parts::walk_by_gpu(const UltrasoundView& view, const LineWalk
   shift_mm.bind(5);
   interfaces.bind(6);
   counts.bind(7);
-  walk.dispatch(view.beams, 1, 1);
   neighbours.bind(0);
+  (motion != nullptr ? moved->walk : walk).dispatch(view.beams, 1, 1);
   counts.bind(1);
   loss_db.bind(3);
   shift_mm.bind(4);
   interfaces.bind(5);
   echo_counts.bind(6);
   echoes.bind(7);
-  echo.dispatch(groups(view.beams, kGroup), shaders::kUsMostInterfaces, 1);
+  (motion != nullptr ? moved->echo : echo).dispatch(groups(view.beams, kGroup), shaders::kUsMostInterfaces, 1);
   return shaders::kUsMostEchoes;
 }
 
@@ -200,11 +251,15 @@ int UltrasoundGpu::Parts::walk_by_cpu(const UltrasoundView& view, const LineWalk
 }
 
 void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inserted& inserted,
-                                         std::span<const float> depth_below_skin_mm, const NoiseKey* receiver) {
+                                         std::span<const float> depth_below_skin_mm,
+                                         const tissue::Displacement& displacement, const NoiseKey* receiver) {
   check_view(view, depth_below_skin_mm);
   CHECK(view.method != UltrasoundMethod::thesis);
+  const std::optional<PictureMotion> moving = motion_of(view, displacement);
+  const PictureMotion* motion = moving ? &*moving : nullptr;
+  CHECK(motion == nullptr || moved);
   const TissueAt tissue_at(tissue, inserted);
-  const std::unique_ptr<SpeckleField> field = speckle_field(view, tissue_at, nullptr);
+  const std::unique_ptr<SpeckleField> field = speckle_field(view, tissue_at, motion);
   const int fine = field->fine();
   const std::size_t polar = static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples),
                     fine_polar = polar * static_cast<std::size_t>(fine);
@@ -214,13 +269,13 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   tissue_block.bind(1);
   phases.bind(2);
   if (view.method == UltrasoundMethod::scatterers)
-    add_scatterers(view, static_cast<const ScattererField&>(*field));
+    add_scatterers(view, static_cast<const ScattererField&>(*field), motion);
   else
-    add_lattice(view, static_cast<const LatticeField&>(*field));
+    add_lattice(view, static_cast<const LatticeField&>(*field), motion);
 
-  const LineWalker walker(view, tissue_at, *tissue.volume, inserted);
-  const int most_echoes =
-      gpu_walks ? walk_by_gpu(view, walker, depth_below_skin_mm) : walk_by_cpu(view, walker, depth_below_skin_mm);
+  const LineWalker walker(view, tissue_at, *tissue.volume, inserted, motion);
+  const int most_echoes = gpu_walks ? walk_by_gpu(view, walker, motion, depth_below_skin_mm)
+                                    : walk_by_cpu(view, walker, depth_below_skin_mm);
   write_block(pulse_parameters, imaging::pulse_parameters(view, fine, most_echoes, receiver));
   weights.write(pulse_weights(view, fine));
   envelope.need(polar * sizeof(float));
@@ -242,14 +297,15 @@ void UltrasoundGpu::Parts::make_envelope(const UltrasoundView& view, const Inser
   (view.range_error ? pulse_shifted : pulse).dispatch(groups(view.samples, kGroup * kUsOutputs), view.beams, 1);
 }
 
-UltrasoundGpu::UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by)
-    : parts_(std::make_unique<Parts>(context, tissue, by)) {}
+UltrasoundGpu::UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by, TissueMoves moves)
+    : parts_(std::make_unique<Parts>(context, tissue, by, moves)) {}
 
 UltrasoundGpu::~UltrasoundGpu() = default;
 
 void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
-                          std::span<const float> depth_below_skin_mm, PolarPicture& picture) {
-  parts_->make_envelope(view, inserted, depth_below_skin_mm, nullptr);
+                          std::span<const float> depth_below_skin_mm, PolarPicture& picture,
+                          const tissue::Displacement& displacement) {
+  parts_->make_envelope(view, inserted, depth_below_skin_mm, displacement, nullptr);
   picture.beams = view.beams;
   picture.samples = view.samples;
   picture.envelope.resize(static_cast<std::size_t>(view.beams) * static_cast<std::size_t>(view.samples));
@@ -258,12 +314,13 @@ void UltrasoundGpu::polar(const UltrasoundView& view, const Inserted& inserted,
 
 void UltrasoundGpu::grey(const UltrasoundView& view, const Inserted& inserted,
                          std::span<const float> depth_below_skin_mm, const UltrasoundKnobs& knobs, DisplaySize size,
-                         std::uint64_t frame, std::vector<unsigned char>& grey) {
+                         std::uint64_t frame, std::vector<unsigned char>& grey,
+                         const tissue::Displacement& displacement) {
   CHECK(size.width_px >= 1 && size.height_px >= 1 && view.beams >= 2 && view.samples >= 2);
   CHECK(knobs.dynamic_range_db > 0.0);
   Parts& parts = *parts_;
   const NoiseKey noise = noise_key(view.seed, frame);
-  parts.make_envelope(view, inserted, depth_below_skin_mm, &noise);
+  parts.make_envelope(view, inserted, depth_below_skin_mm, displacement, &noise);
 
   write_block(parts.grey_parameters, imaging::grey_parameters(view, knobs, size));
   std::vector<float> gain(static_cast<std::size_t>(view.samples) + 1);
@@ -304,6 +361,7 @@ std::size_t UltrasoundGpu::buffer_bytes() const noexcept {
                            &p.interfaces, &p.counts, &p.weights, &p.through, &p.shift_mm, &p.echo_counts, &p.echoes,
                            &p.laid, &p.envelope, &p.gain, &p.map, &p.picture})
     bytes += storage->buffer().size();
+  if (p.moved) bytes += p.moved->block.size() + p.moved->slab.buffer().size() + p.moved->paths.buffer().size();
   return bytes;
 }
 

@@ -12,6 +12,9 @@
 
 namespace seldinger::imaging {
 
+// Whether what pictures of a patient who moves need is made.
+enum class TissueMoves { no, yes };
+
 // Who walks along the beams (line.h): on llvmpipe the CPU's own walk of 1 to 3 ms is quicker than the shader's.
 enum class LinesBy { machine, cpu, gpu };  // machine: the GPU where GL has hardware
 
@@ -20,17 +23,19 @@ enum class LinesBy { machine, cpu, gpu };  // machine: the GPU where GL has hard
 // largest texture or memory. Same input, same bits.
 class UltrasoundGpu {
  public:
-  UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by = LinesBy::machine);
+  UltrasoundGpu(gpu::Context& context, const TissueVolume& tissue, LinesBy by = LinesBy::machine,
+                TissueMoves moves = TissueMoves::no);
   ~UltrasoundGpu();
 
-  // As ultrasound_polar.
+  // As ultrasound_polar. A displacement with sources only of tissue that moves (CHECKed).
   void polar(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
-             PolarPicture& picture);
+             PolarPicture& picture, const tissue::Displacement& displacement = {});
 
   // The same, add_receiver_noise(view.seed, frame) and ScanConverter(view, size).grey, and only the grey comes
   // back.
   void grey(const UltrasoundView& view, const Inserted& inserted, std::span<const float> depth_below_skin_mm,
-            const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey);
+            const UltrasoundKnobs& knobs, DisplaySize size, std::uint64_t frame, std::vector<unsigned char>& grey,
+            const tissue::Displacement& displacement = {});
 
   // On the GPU: the buffers, which grow to what a picture needs, and the tissue.
   std::size_t buffer_bytes() const noexcept;
