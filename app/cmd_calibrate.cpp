@@ -53,10 +53,14 @@ int run_haptics_calibrate(const Arguments& arguments) {
     if (!known) return refuse(known.error());
     station = std::move(*known);
   }
-  station[device] = *calibration;
+  StationDevice& kept = station[device];
+  kept.calibration = *calibration;
+  // Which arm it is stays known through a new calibration.
+  kept.ids.arm = arguments.text("--device-id", kept.ids.arm);
+  kept.ids.grip = arguments.text("--grip-id", kept.ids.grip);
   write_file(file, json_of_station(station));
   if (arguments.has("--json"))
-    std::fputs(json_of_station({{device, *calibration}}).c_str(), stdout);
+    std::fputs(json_of_station({{device, kept}}).c_str(), stdout);
   else
     print(device, *calibration);
   return kDone;

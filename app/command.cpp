@@ -213,7 +213,25 @@ constexpr Option kFitOptions[] = {
 constexpr Option kCalibrateOptions[] = {
     {"--device", "left|right", "which of the station's two"},
     {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
+    {"--device-id", "ID", "the arm that stands there, as `device list` names it"},
+    {"--grip-id", "ID", "the stylus on that arm"},
     kJson};
+constexpr Option kHost{"--host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"};
+constexpr Option kPort{"--port", "N", "its port; default 10001"};
+constexpr Option kDeviceListOptions[] = {kHost, kPort, kJson};
+constexpr Option kDeviceProbeOptions[] = {
+    kHost,
+    kPort,
+    {"--seconds", "S", "how long; default 3"},
+    {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
+    kJson};
+constexpr Option kDeviceSimulateOptions[] = {
+    {"--port", "N", "where to listen on loopback; 0 takes any that is free; default 10001"},
+    {"--seconds", "S", "how long; default until it is stopped"},
+    {"--delay-ms", "D", "everything is said so much later"},
+    {"--lose-every", "S", "hangs up every S seconds"},
+    {"--damage-every", "S", "says something broken every S seconds"},
+    {"--swap", nullptr, "tells of the arms in the other order"}};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b",
      "import, mpr, xray, ultrasound, displacement, haptics, step, library, assessment; default all"},
@@ -361,6 +379,13 @@ constexpr Command kCommands[] = {
     {"haptics selftest", "", 0, 0, kSelftestOptions,
      "Runs the 1 kHz servo with two virtual devices on the built-in torso; 1 when it misses too many ticks.",
      &run_haptics_selftest},
+    {"device list", "", 0, 0, kDeviceListOptions,
+     "Lists what hands can use here: arms and grips of a Haply Inverse service, a 3-D mouse.", &run_device_list},
+    {"device probe", "", 0, 0, kDeviceProbeOptions,
+     "Reads both arms for a while, without force: poses, rate, jitter, round trip.", &run_device_probe},
+    {"device simulate", "", 0, 0, kDeviceSimulateOptions,
+     "Is a Haply Inverse service without hardware: two virtual hands on virtual arms, with faults on request.",
+     &run_device_simulate},
     {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
      "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",

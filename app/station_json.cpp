@@ -18,7 +18,8 @@ Json numbers(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
 }
 
-Json json_of(const devices::Calibration& calibration) {
+Json json_of(const StationDevice& device) {
+  const devices::Calibration& calibration = device.calibration;
   Json rotation = Json::array(), points = Json::array();
   const devices::Placement& placement = calibration.template_from_device;
   for (int row = 0; row < 3; ++row)
@@ -27,12 +28,15 @@ Json json_of(const devices::Calibration& calibration) {
     points.push_back({{"point", point.taken.name},
                       {"device_mm", numbers(point.taken.device_mm)},
                       {"residual_mm", point.residual_mm}});
-  return {
+  Json json = {
       {"template_from_device",
        {{"scale", placement.scale}, {"rotation", rotation}, {"translation_mm", numbers(placement.translation_mm)}}},
       {"residual_rms_mm", calibration.residual_rms_mm},
       {"residual_max_mm", calibration.residual_max_mm},
       {"points", points}};
+  if (!device.ids.arm.empty()) json["device_id"] = device.ids.arm;
+  if (!device.ids.grip.empty()) json["grip_id"] = device.ids.grip;
+  return json;
 }
 
 // Throws Json::exception where a field is missing or of another kind.
@@ -84,7 +88,7 @@ base::Result<Station> read_station(const std::filesystem::path& path) {
     sound = json.at("format") == kFormat;
     for (const auto& [name, device] : json.at("devices").items()) {
       sound = sound && (name == "left" || name == "right");
-      station[name] = calibration_of(device, sound);
+      station[name] = {calibration_of(device, sound), {device.value("device_id", ""), device.value("grip_id", "")}};
     }
   } catch (const Json::exception&) {
     return bad;
@@ -95,7 +99,7 @@ base::Result<Station> read_station(const std::filesystem::path& path) {
 
 std::string json_of_station(const Station& station) {
   Json devices = Json::object();
-  for (const auto& [name, calibration] : station) devices[name] = json_of(calibration);
+  for (const auto& [name, device] : station) devices[name] = json_of(device);
   return Json{{"format", kFormat}, {"devices", devices}}.dump(2) + "\n";
 }
 

@@ -15,9 +15,6 @@ namespace seldinger::devices {
 namespace {
 
 constexpr double kMmPerM = 1000.0;
-// The service answers each command; where it does not, it is asked again, so that what it gives can be told to
-// stop.
-constexpr double kAskAgainS = 0.002;
 // A message that cannot be sent for so long will not be: the other end hangs.
 constexpr double kStuckS = 0.1;
 // A grip speaks by radio, and not in every message.
@@ -85,7 +82,7 @@ struct Haply::Connection final : WebSocketPeer {
   void closed() override {
     // What comes after is a new beginning: half of a reading of before is not one.
     for (Arm& arm : arms) arm.has_orientation = false;
-    asked_ns = waiting_since_ns = 0;
+    waiting_since_ns = 0;
     const std::lock_guard lock(mutex);
     status.connected = false;
   }
@@ -107,9 +104,10 @@ struct Haply::Connection final : WebSocketPeer {
 
   void ticked(WebSocketLink* link) override {
     if (link == nullptr) return;
-    if (link->waiting_s() > kStuckS)
-      link->hang_up();
-    else if (asked_ns == 0 || seconds_since(asked_ns) > kAskAgainS)
+    if (link->waiting_s() > kStuckS) link->hang_up();
+    // One command is on its way at a time, so that a round trip can be told; one that is not answered is followed
+    // by those that take the force away.
+    else if (waiting_since_ns == 0 || seconds_since(waiting_since_ns) > kHoldS)
       ask(*link);
   }
 
@@ -192,14 +190,13 @@ struct Haply::Connection final : WebSocketPeer {
     }
     if (forces.empty()) return;
     link.say(text_of(forces));
-    asked_ns = now_ns();
-    if (waiting_since_ns == 0) waiting_since_ns = asked_ns;
+    if (waiting_since_ns == 0) waiting_since_ns = now_ns();
   }
 
   HaplySettings settings;
   std::array<Arm, 2> arms;
   bool given_out = false;
-  std::int64_t asked_ns = 0, waiting_since_ns = 0;  // last asked; first asked without an answer so far
+  std::int64_t waiting_since_ns = 0;  // first asked without an answer so far; 0: nothing is
   mutable std::mutex mutex;
   HaplyStatus status;
   std::unique_ptr<WebSocketClient> client;  // last: its thread uses the rest

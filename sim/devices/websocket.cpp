@@ -106,7 +106,7 @@ class Session final : public WebSocketLink, public std::enable_shared_from_this<
     ended_();
   }
 
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<beast::tcp_stream, false> stream_;  // without compression: nothing here is worth a millisecond
   WebSocketPeer& peer_;
   std::function<void()> ended_;
   beast::flat_buffer buffer_;

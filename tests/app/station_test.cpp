@@ -28,10 +28,12 @@ std::filesystem::path file_with(const std::string& text) {
 TEST(Station, IsReadBackToTheLastBit) {
   const devices::Calibration one = calibration();
   EXPECT_GT(one.residual_max_mm, 0.0);
-  const auto read = read_station(file_with(json_of_station({{"right", one}})));
+  const auto read = read_station(file_with(json_of_station({{"right", {one, {"04BA", "61576"}}}})));
   ASSERT_TRUE(read) << read.error().text;
   ASSERT_EQ(read->size(), 1U);
-  const devices::Calibration& again = read->at("right");
+  EXPECT_EQ(read->at("right").ids.arm, "04BA");
+  EXPECT_EQ(read->at("right").ids.grip, "61576");
+  const devices::Calibration& again = read->at("right").calibration;
   EXPECT_EQ(again.template_from_device.rotation, one.template_from_device.rotation);
   EXPECT_EQ(again.template_from_device.scale, one.template_from_device.scale);
   EXPECT_EQ(again.template_from_device.translation_mm, one.template_from_device.translation_mm);
@@ -46,7 +48,7 @@ TEST(Station, IsReadBackToTheLastBit) {
 }
 
 TEST(Station, RefusesWhatIsNoneOfOurs) {
-  const std::string good = json_of_station({{"left", calibration()}});
+  const std::string good = json_of_station({{"left", {calibration()}}});
   ASSERT_TRUE(read_station(file_with(good)));
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -59,7 +61,8 @@ TEST(Station, RefusesWhatIsNoneOfOurs) {
         with("\"format\": 1", "\"format\": 2"), with("\"left\"", "\"middle\""),
         with("\"scale\": 1.", "\"scale\": 91."), with("\"scale\"", "\"stale\""),
         with("\"rotation\": [", "\"rotation\": [7,"), with("\"residual_max_mm\": ", "\"residual_max_mm\": 2"),
-        with("\"device_mm\": [", "\"device_mm\": [\"1\",")}) {
+        with("\"device_mm\": [", "\"device_mm\": [\"1\","),
+        with("\"residual_rms_mm\"", "\"grip_id\": 7, \"residual_rms_mm\"")}) {
     const auto read = read_station(file_with(text));
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().code, "bad_station");
@@ -67,7 +70,7 @@ TEST(Station, RefusesWhatIsNoneOfOurs) {
   // A reflection is no rotation.
   devices::Calibration mirrored = calibration();
   mirrored.template_from_device.rotation[0] *= -1.0;
-  EXPECT_FALSE(read_station(file_with(json_of_station({{"left", mirrored}}))));
+  EXPECT_FALSE(read_station(file_with(json_of_station({{"left", {mirrored}}}))));
   EXPECT_EQ(read_station("/nowhere/station.json").error().code, "not_found");
 }
 

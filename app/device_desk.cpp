@@ -1,0 +1,77 @@
+#include "app/device_desk.h"
+
+#include <glm/vec4.hpp>
+
+#include "sim/haptics/haptic_device.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr const char* kSides[] = {"left", "right"};
+
+glm::dvec3 middle_of(const volume::Volume& volume) {
+  const glm::dvec3 half = 0.5 * (glm::dvec3(volume.size_voxels) - 1.0);
+  return glm::dvec3(volume.lps_from_voxel * glm::dvec4(half, 1.0));
+}
+
+glm::dvec3 entry_of(const cases::Case& scene) {
+  if (scene.planned_entry_lps_mm) return *scene.planned_entry_lps_mm;
+  if (scene.lesions.empty()) return middle_of(scene.volume);
+  const glm::dvec3 target = scene.lesions.front().center_lps_mm, up = cases::upwards(scene.position);
+  constexpr double kFurthestMm = 1000.0;
+  const auto hit = scene.skin_index.empty() ? std::nullopt : scene.skin_index.first_hit(target, up, kFurthestMm);
+  return hit ? target + up * hit->distance_mm : target;
+}
+
+}  // namespace
+
+std::array<devices::DeviceHand, 2> device_hands(const Station& station, const cases::Case& scene) {
+  const glm::dvec3 entry = entry_of(scene);
+  const devices::Placement patient = devices::patient_from_template(
+      scene.position, devices::side_of(entry, middle_of(scene.volume), scene.position), entry);
+  const auto placement = [&](const char* side) {
+    const auto known = station.find(side);
+    return known == station.end() ? devices::Placement{} : known->second.calibration.template_from_device;
+  };
+  return {devices::DeviceHand(placement(kSides[0]), patient), devices::DeviceHand(placement(kSides[1]), patient)};
+}
+
+devices::HaplySettings haply_settings(const Station& station, const devices::WebSocketPlace& place) {
+  devices::HaplySettings settings;
+  settings.place = place;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (const auto known = station.find(kSides[side]); known != station.end())
+      settings.ids[side] = known->second.ids;
+  return settings;
+}
+
+DeviceDesk::DeviceDesk(const Station& station, const cases::Case& scene, haptics::Handedness handedness,
+                       const devices::WebSocketPlace& place)
+    : handedness_(handedness), hands_(device_hands(station, scene)), haply_(haply_settings(station, place)) {}
+
+void DeviceDesk::read(bool needle_outside, bool probe_off, double elapsed_s, cases::Inputs& inputs,
+                      haptics::HandInputs& hands) noexcept {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const haptics::Tool tool = haptics::tool_of(handedness_, static_cast<haptics::Side>(side));
+    const bool is_needle = tool == haptics::Tool::needle;
+    const devices::DeviceReading reading = haply_.hand(side).poll();
+    const cases::ToolPose& pose = hands_[side].advance(reading, is_needle ? needle_outside : probe_off, elapsed_s);
+    (is_needle ? inputs.needle : inputs.probe) = pose;
+    const bool pressed = reading.healthy && reading.buttons[0];
+    if (is_needle) {
+      inputs.fire = pressed;
+    } else {
+      if (pressed && !freeze_was_down_) frozen_ = !frozen_;
+      freeze_was_down_ = pressed;
+      inputs.freeze = frozen_;
+    }
+    hands[side] = {pose, tool, hands_[side].healthy(), devices::delay_ticks(reading, haptics::kTickS)};
+  }
+}
+
+void DeviceDesk::send(const haptics::HandForces& forces) noexcept {
+  for (std::size_t side = 0; side < 2; ++side)
+    haply_.hand(side).send(hands_[side].device_force(forces[side].motor_n));
+}
+
+}  // namespace seldinger::app

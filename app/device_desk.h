@@ -1,0 +1,45 @@
+// Two force-feedback arms at the desk: what the servo reads of them and says to them, for one case. Readings become
+// poses of needle and probe in the patient, forces go back to the motors.
+#pragma once
+
+#include <array>
+
+#include "app/station.h"
+#include "sim/case/case.h"
+#include "sim/devices/device_hand.h"
+#include "sim/haptics/two_hands.h"
+
+namespace seldinger::app {
+
+// How both arms stand to a case: the template lies in the patient as his position and the planned entry say
+// (without one, the skin above the target; without a lesion, the volume's middle), the user on the entry's side. A
+// side that the station does not know stands as if its arm's axes were the template's.
+std::array<devices::DeviceHand, 2> device_hands(const Station& station, const cases::Case& scene);
+
+devices::HaplySettings haply_settings(const Station& station, const devices::WebSocketPlace& place);
+
+class DeviceDesk {
+ public:
+  // Connects at once, and again whenever it has to.
+  DeviceDesk(const Station& station, const cases::Case& scene, haptics::Handedness handedness,
+             const devices::WebSocketPlace& place = {});
+
+  // By the servo's thread, once a tick; allocates and waits for nothing. Poses and trigger go into `inputs` (an arm
+  // that is lost leaves its tool where it stayed), both hands into `hands` for TwoHands. The needle's first button
+  // fires; the probe's freezes the picture and lets it go. needle_outside, probe_off: so far from the body that a
+  // re-gripped tool may go back to its hand.
+  void read(bool needle_outside, bool probe_off, double elapsed_s, cases::Inputs& inputs,
+            haptics::HandInputs& hands) noexcept;
+  void send(const haptics::HandForces& forces) noexcept;
+
+  bool healthy(haptics::Side side) const noexcept { return hands_[static_cast<std::size_t>(side)].healthy(); }
+  devices::HaplyStatus status() const { return haply_.status(); }  // locks: not for the servo
+
+ private:
+  haptics::Handedness handedness_;
+  std::array<devices::DeviceHand, 2> hands_;
+  bool freeze_was_down_ = false, frozen_ = false;
+  devices::Haply haply_;
+};
+
+}  // namespace seldinger::app
