@@ -83,6 +83,7 @@ struct Haply::Connection final : WebSocketPeer {
     // What comes after is a new beginning: half of a reading of before is not one.
     for (Arm& arm : arms) arm.has_orientation = false;
     waiting_since_ns = 0;
+    running_dry = false;
     const std::lock_guard lock(mutex);
     status.connected = false;
   }
@@ -99,16 +100,24 @@ struct Haply::Connection final : WebSocketPeer {
       for (Arm& arm : arms) read(*message, arm);
       waiting_since_ns = 0;
     }
-    ask(link);
+    // One command is on its way at a time, so that a round trip can be told.
+    if (!running_dry && waiting_since_ns == 0) ask(link);
   }
 
   void ticked(WebSocketLink* link) override {
     if (link == nullptr) return;
-    if (link->waiting_s() > kStuckS) link->hang_up();
-    // One command is on its way at a time, so that a round trip can be told; one that is not answered is followed
-    // by those that take the force away.
-    else if (waiting_since_ns == 0 || seconds_since(waiting_since_ns) > kHoldS)
+    if (link->waiting_s() > kStuckS) return link->hang_up();
+    if (waiting_since_ns != 0) {
+      // Not answered: those that follow take the force away.
+      if (seconds_since(waiting_since_ns) > kHoldS) {
+        ask(*link);
+        running_dry = true;
+      }
+    } else if (!running_dry || seconds_since(asked_ns) > kHoldS) {
+      // An answer that took longer than that comes from an arm that counts as lost: those of before are all here.
+      running_dry = false;
       ask(*link);
+    }
   }
 
   void tell(const HaplyMessage& message) {
@@ -190,13 +199,16 @@ struct Haply::Connection final : WebSocketPeer {
     }
     if (forces.empty()) return;
     link.say(text_of(forces));
-    if (waiting_since_ns == 0) waiting_since_ns = now_ns();
+    asked_ns = now_ns();
+    if (waiting_since_ns == 0) waiting_since_ns = asked_ns;
   }
 
   HaplySettings settings;
   std::array<Arm, 2> arms;
   bool given_out = false;
   std::int64_t waiting_since_ns = 0;  // first asked without an answer so far; 0: nothing is
+  std::int64_t asked_ns = 0;
+  bool running_dry = false;  // what was asked in vain may still be answered
   mutable std::mutex mutex;
   HaplyStatus status;
   std::unique_ptr<WebSocketClient> client;  // last: its thread uses the rest

@@ -1,0 +1,36 @@
+// The last seconds of a force, to be looked at: the least and the most of every kTraceBinS, so that no peak of a
+// millisecond is lost however slowly it is drawn. A plain value: a servo adds to its own and puts it into a
+// base::Snapshot now and then.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace seldinger::devices {
+
+inline constexpr double kTraceBinS = 0.01;
+inline constexpr std::size_t kTraceBins = 512;  // 5 s
+
+class ForceTrace {
+ public:
+  struct Bin {
+    float least_n = 0.0F, most_n = 0.0F;
+    bool filled = false;  // else nothing was told: a gap is drawn, not a zero
+  };
+
+  // Of one tick. No number: a gap.
+  void add(double force_n, double elapsed_s) noexcept;
+
+  // i = 0 is the bin that is being filled, kTraceBins − 1 the oldest.
+  const Bin& bin(std::size_t i) const noexcept { return bins_[(newest_ + kTraceBins - i) % kTraceBins]; }
+  std::uint64_t bins_done() const noexcept { return done_; }  // ever: how far it has scrolled
+
+ private:
+  std::array<Bin, kTraceBins> bins_{};
+  std::size_t newest_ = 0;
+  std::uint64_t done_ = 0;
+  double in_bin_s_ = 0.0;
+};
+
+}  // namespace seldinger::devices
