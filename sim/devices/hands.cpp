@@ -121,6 +121,7 @@ void Hands::press_buttons(const HandIntent& intent) noexcept {
     // A needle in tissue is not brought to another line.
     if (guided_ || !needle_.inserted()) guided_ = !guided_;
     in_guide_ = false;
+    guide_side_ = glm::dot(needle().position_lps_mm - probe().position_lps_mm, probe().side) > 0.0 ? 1.0 : -1.0;
   }
   if (intent.resets > 0) {
     returning_ = true;
@@ -183,9 +184,8 @@ Hands::Line Hands::guide_line() const noexcept {
   }
   const cases::ToolPose& pose = probe();
   const double angle_rad = settings_.probe_guide.angle_deg * (3.14159265358979323846 / 180.0);
-  const double towards = settings_.probe_guide.offset_mm < 0.0 ? 1.0 : -1.0;
-  return {pose.position_lps_mm + pose.side * settings_.probe_guide.offset_mm,
-          glm::normalize(pose.axis * std::cos(angle_rad) + pose.side * (towards * std::sin(angle_rad))),
+  return {pose.position_lps_mm + pose.side * (guide_side_ * settings_.probe_guide.offset_mm),
+          glm::normalize(pose.axis * std::cos(angle_rad) - pose.side * (guide_side_ * std::sin(angle_rad))),
           glm::cross(pose.axis, pose.side)};
 }
 

@@ -41,11 +41,12 @@ inline constexpr double kStartAboveMm = 15.0, kProbeBesideMm = 35.0;
 HandsStart start_over(const cases::MeshIndex& skin, const glm::dvec3& entry_lps_mm, const glm::dvec3& target_lps_mm,
                       bool in_plane, bool mirrored);
 
-// A needle guide. On the probe: in its plane, leaving at offset_mm from the face's centre along the probe's side,
-// at angle_deg to the probe's axis and towards it. In space: from a place on the skin to what is aimed at.
+// A needle guide. On the probe: in its plane, leaving beside the face at offset_mm from its centre, on the side
+// where the needle is when the guide is taken up, at angle_deg to the probe's axis and towards it. In space: from a
+// place on the skin to what is aimed at.
 struct ProbeGuide {
-  double offset_mm = -35.0;  // < 0: on the other side
-  double angle_deg = 40.0;   // 0 < angle < 90
+  double offset_mm = 35.0;  // > 0
+  double angle_deg = 40.0;  // 0 < angle < 90
 };
 struct LineGuide {
   glm::dvec3 entry_lps_mm{0.0}, aim_lps_mm{0.0};
@@ -116,6 +117,7 @@ class Hands {
   bool fire_ = false, frozen_ = false, guided_ = false, in_guide_ = false, returning_ = false, keep_tilt_ = false;
   glm::dvec3 pending_slide_mm_{0.0}, pending_turn_rad_{0.0};
   double pending_advance_mm_ = 0.0;
+  double guide_side_ = -1.0;     // 1: the guide is where the probe's side points
   double along_guide_mm_ = 0.0;  // of the tip, from where the guide's line begins
 };
 

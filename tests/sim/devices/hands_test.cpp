@@ -266,6 +266,28 @@ TEST(Hands, TheProbesGuideKeepsTheNeedleInItsPlane) {
   expect_in_plane();
 }
 
+TEST(Hands, ALeftHandsGuideIsTheMirrorImageOfARights) {
+  // Seen from the front, the needle left of the probe and right of it.
+  HandsStart right = above_flat(), left = right;
+  right.needle.position_lps_mm.x = -10.0;
+  left.needle.position_lps_mm.x = 10.0;
+  right.probe = {{0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 0.0, 0.0}};
+  left.probe = right.probe;
+  std::array<Hands, 2> hands{Hands(flat_skin(), right), Hands(flat_skin(), left)};
+  for (Hands& each : hands) {
+    each.advance(guide(), {}, 0.001);
+    run(each, {}, 2000);
+    ASSERT_TRUE(each.in_guide());
+    run(each, advancing(0.05), 3000);
+    ASSERT_TRUE(each.needle_inserted());
+  }
+  const cases::ToolPose &a = hands[0].needle(), &b = hands[1].needle();
+  EXPECT_NEAR(a.position_lps_mm.x, -b.position_lps_mm.x, 1e-9);
+  EXPECT_NEAR(a.position_lps_mm.z, b.position_lps_mm.z, 1e-9);
+  EXPECT_NEAR(a.axis.x, std::sin(40.0 * kDegree), 1e-9) << "under the probe, from its left";
+  EXPECT_NEAR(b.axis.x, -a.axis.x, 1e-9);
+}
+
 TEST(Hands, AGuideInSpaceLeadsToWhatIsAimedAt) {
   Hands hands(flat_skin(), above_flat());
   const LineGuide line{{20.0, 10.0, 0.0}, {50.0, 20.0, -60.0}};

@@ -150,7 +150,7 @@ TEST(Haply, AServoThatStopsTakesItsForceAlong) {
     return station.service->arm(1).asked_n.y == 2.0;
   }));
   EXPECT_TRUE(soon([&] { return station.service->arm(1).asked_n == glm::dvec3(0.0); }, 0.5));
-  EXPECT_TRUE(station.haply->hand(1).poll().healthy) << "the device itself is well";
+  EXPECT_TRUE(soon([&] { return station.haply->hand(1).poll().healthy; })) << "the device itself is well";
 }
 
 TEST(Haply, ALostHandStaysAndComesBackWithoutAJump) {
