@@ -25,6 +25,7 @@ struct Moment {
   cases::State state;
   tissue::Displacement displacement{};
   std::optional<cases::ForceSample> force{};  // none: nothing is felt in this case
+  double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 
 // The room, tick by tick: the step, the tissue that moves, what it asks of the hands, and how the patient reacts.

@@ -16,7 +16,8 @@ int run_train(const Arguments& arguments) {
   settings.height = static_cast<int>(arguments.whole("--height", 800, 480, 16384));
   settings.whole_screen = arguments.has("--whole-screen");
   Window window(settings);
-  Desk desk(window, trainer, {arguments.has("--left-handed")});
+  Trace trace(arguments.text("--trace"));
+  Desk desk(window, trainer, {arguments.has("--left-handed")}, arguments.text("--pictures", "."), trace);
   while (window.open()) desk.frame();
   trainer.log_out();
   return kDone;

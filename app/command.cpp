@@ -266,6 +266,8 @@ constexpr Option kTrainOptions[] = {
     {"--width", "PIXELS", "of the window; 1280 unless given"},
     {"--height", "PIXELS", "of the window; 800 unless given"},
     {"--whole-screen", nullptr, "without a frame"},
+    {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
+    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
 };
 constexpr Option kServeOptions[] = {kLibrary,
                                     {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},

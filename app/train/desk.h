@@ -1,8 +1,11 @@
 // The workstation: window, screens and trainer together, frame after frame.
 #pragma once
 
+#include <filesystem>
+
 #include "app/train/panel_attempt.h"
 #include "app/train/panels.h"
+#include "app/train/trace.h"
 #include "app/train/trainer.h"
 #include "app/train/window.h"
 
@@ -10,12 +13,16 @@ namespace seldinger::app {
 
 class Desk {
  public:
-  Desk(Window& window, Trainer& trainer, DeskOptions options)
-      : window_(window), trainer_(trainer), attempt_(window.context(), options) {}
+  // F12 keeps a picture of the window in `pictures`. The trace gets four lines a second.
+  Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace);
 
   void frame();
 
  private:
+  void draw_screen();
+  void tell(const std::string& screen);
+  void keep(const std::vector<unsigned char>& pixels);
+
   Window& window_;
   Trainer& trainer_;
   LogInPanel log_in_;
@@ -23,6 +30,11 @@ class Desk {
   BriefingPanel briefing_;
   AttemptPanel attempt_;
   DebriefPanel debrief_;
+  std::filesystem::path pictures_;
+  Trace& trace_;
+  double opened_s_, told_s_, due_s_ = 0.0, between_s_;
+  int frames_ = 0, kept_ = 0;
+  std::string title_;
 };
 
 }  // namespace seldinger::app

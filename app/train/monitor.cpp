@@ -49,6 +49,7 @@ class Monitor::Painter {
   // Of a new moment.
   void draw(const Moment& moment, ShownPicture& shown) {
     const cases::State& state = moment.state;
+    shown.told_s = moment.told_s;
     shown.live = room_ ? state.fluoroscopy.live : !state.probe.frozen;
     if (room_) {
       shown.picture = room_->picture(state, seed_);

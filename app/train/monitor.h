@@ -24,6 +24,7 @@ struct ShownPicture {
   GreyPicture picture;
   double pixel_mm = 0.0, top_mm = 0.0;  // ultrasound: pixel (c, r) is at ((c − (width − 1)/2), top/pixel + r + ½)
   double t_s = 0.0;                     // the attempt's time that it shows
+  double told_s = 0.0;                  // of the moment that it shows (Moment)
   std::uint64_t number = 0;             // rises with each new picture
   bool live = false;                    // neither frozen nor a held last image
   double rate_hz = 0.0;                 // pictures a second, lately

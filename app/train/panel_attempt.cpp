@@ -58,7 +58,10 @@ void AttemptPanel::begin(Trainer& trainer) {
   seen_ = {};
   told_ = {};
   told_.fluoroscope.pulse_rate = 1;
-  told_s_ = ImGui::GetTime();
+  told_s_ = clock_s();
+  method_ = trainer.attempt()->monitor().method();
+  frames_s_ = room_told_s_ = 0.0;
+  pictures_ = pictures_told_ = 0;
   decided_ = fired_ = leaving_ = false;
   said_.clear();
 }
@@ -154,6 +157,36 @@ void AttemptPanel::draw_steps(Trainer& trainer) {
   ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
 }
 
+void AttemptPanel::tell(TraceLine& line) {
+  line.pictures_s =
+      static_cast<double>(pictures_ - pictures_told_);  // of so long; a rate by whoever knows how long
+  pictures_told_ = pictures_;
+  line.method = method_;
+  line.hand_to_force_ms = 1e3 * hand_to_force_s_;
+  line.hand_to_room_ms = 1e3 * hand_to_room_s_;
+  line.hand_to_picture_ms = 1e3 * hand_to_picture_s_;
+  hand_to_force_s_ = hand_to_room_s_ = hand_to_picture_s_ = 0.0;
+  line.held = seen_.held == devices::HeldTool::needle ? "needle" : "probe";
+  line.inserted_mm = seen_.inserted_mm;
+  line.press_mm = seen_.press_mm;
+  line.attempt_s = seen_.moment.state.t_s;
+  line.fired = seen_.moment.state.fire.fired;
+}
+
+// Once a frame: how long after the hands what is shown now was told.
+void AttemptPanel::measure_lags() {
+  const double now_s = clock_s();
+  hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
+  if (seen_.moment.told_s > room_told_s_) {
+    room_told_s_ = seen_.moment.told_s;
+    hand_to_room_s_ = std::max(hand_to_room_s_, now_s - room_told_s_);
+  }
+  const ShownPicture& shown = monitor_.shown();
+  if (shown.number == 0 || shown.number == pictures_) return;
+  pictures_ = shown.number;
+  if (shown.live && shown.told_s > 0.0) hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
+}
+
 void AttemptPanel::draw_hands(const Task& task) {
   const Moment& moment = seen_.moment;
   const bool needle = seen_.held == devices::HeldTool::needle;
@@ -184,7 +217,8 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
     fired_ = true;
     keep_picture();
   }
-  const double now_s = ImGui::GetTime(), elapsed_s = now_s - told_s_;
+  const double now_s = clock_s(), elapsed_s = now_s - told_s_;
+  if (elapsed_s > 0.0) frames_s_ = 0.9 * frames_s_ + 0.1 / elapsed_s;
   const bool running = attempt.phase() == PersonAttempt::Phase::running;
 
   begin_screen("attempt");
@@ -196,6 +230,10 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
   devices::HandIntent sum = told_.sum;
   room_.draw(task.scene, seen_, help_, keys, elapsed_s, sum);
   if (running && !attempt.paused()) told_.sum = sum;
+  char rates[64];
+  std::snprintf(rates, sizeof rates, "%.0f /s", frames_s_);
+  const ImVec2 corner = ImGui::GetWindowPos();
+  ImGui::GetWindowDrawList()->AddText({corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(40, 50, 60, 255), rates);
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false,
@@ -219,8 +257,9 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
     return;
   }
   read_keys(trainer, keys);
+  measure_lags();
   told_.between_s = elapsed_s;
-  told_s_ = now_s;
+  told_.told_s = told_s_ = now_s;
   attempt.tell(told_);
   if (keys.pressed(kF5)) {
     trainer.again();

@@ -5,6 +5,7 @@
 
 #include "app/train/panel_monitor.h"
 #include "app/train/panel_room.h"
+#include "app/train/trace.h"
 #include "app/train/trainer.h"
 
 namespace seldinger::app {
@@ -23,6 +24,9 @@ class AttemptPanel {
   void draw(Trainer& trainer, const Keys& keys);
   void end() noexcept { room_.end(); }
 
+  // What there is to tell since it was told last.
+  void tell(TraceLine& line);
+
   // What the guidance showed when the trigger fell, or last.
   const gpu::ScreenPicture& picture_at_fire() const noexcept { return at_fire_; }
 
@@ -33,6 +37,7 @@ class AttemptPanel {
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
+  void measure_lags();
   void keep_picture();
 
   DeskOptions options_;
@@ -44,6 +49,11 @@ class AttemptPanel {
   double told_s_ = 0.0;
   bool decided_ = false, fired_ = false, leaving_ = false;
   int help_ = 0;
+  double frames_s_ = 0.0;                                                          // the window's rate, lately
+  double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell
+  std::uint64_t pictures_ = 0, pictures_told_ = 0;
+  double room_told_s_ = 0.0;
+  std::string method_;
   std::string said_;  // the last thing that was said, for the screen
 };
 

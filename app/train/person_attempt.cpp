@@ -1,5 +1,7 @@
 #include "app/train/person_attempt.h"
 
+#include <chrono>
+
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
@@ -10,6 +12,10 @@ namespace {
 constexpr double kAimMm = 60.0;  // any depth: only its direction counts
 
 }  // namespace
+
+double clock_s() noexcept {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 PersonAttempt::PersonAttempt(Wanted wanted) : wanted_(std::move(wanted)) {
   thread_ = std::thread([this] { run(); });
@@ -81,6 +87,8 @@ cases::Inputs PersonAttempt::hands() {
   if (const auto told = told_.take()) {
     even_.tell(told->sum, told->between_s);
     fluoroscope_ = told->fluoroscope;
+    told_s_ = told->told_s;
+    hand_to_force_s_ = clock_s() - told_s_;
   }
   hands_->advance(even_.advance(engine::kTickSeconds), forces_, engine::kTickSeconds);
   cases::Inputs inputs;
@@ -94,7 +102,8 @@ cases::Inputs PersonAttempt::hands() {
   return inputs;
 }
 
-void PersonAttempt::watch(const Moment& moment) {
+void PersonAttempt::watch(Moment moment) {
+  moment.told_s = told_s_;
   if (moment.force) forces_ = {moment.force->needle_axial_n, moment.force->probe_n};
   Seen seen{moment};
   seen.held = hands_->held();
@@ -105,6 +114,7 @@ void PersonAttempt::watch(const Moment& moment) {
   seen.returning = hands_->returning();
   seen.inserted_mm = hands_->inserted_mm();
   seen.press_mm = hands_->press_mm();
+  seen.hand_to_force_s = hand_to_force_s_;
   seen_.put(seen);
   monitor_->show(moment);
 }

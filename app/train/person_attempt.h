@@ -21,11 +21,15 @@
 
 namespace seldinger::app {
 
+// Seconds of the machine's steady clock: by it lags from hand to picture are told, across threads.
+double clock_s() noexcept;
+
 // What the window tells the servo, once a frame.
 struct HandsTold {
   devices::HandIntent sum;  // running, since the attempt began
   cases::FluoroscopeInputs fluoroscope;
   double between_s = 0.0;  // since it was told before
+  double told_s = 0.0;     // when, by clock_s
 };
 
 // What the servo tells the window: the newest tick, and how the hands hold their tools.
@@ -34,6 +38,7 @@ struct Seen {
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
   double inserted_mm = 0.0, press_mm = 0.0;
+  double hand_to_force_s = 0.0;  // from a telling to the tick that took it in
 };
 
 class PersonAttempt {
@@ -80,7 +85,7 @@ class PersonAttempt {
  private:
   void run();
   cases::Inputs hands();
-  void watch(const Moment& moment);
+  void watch(Moment moment);
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
@@ -93,6 +98,7 @@ class PersonAttempt {
   std::optional<devices::Hands> hands_;  // the servo's, from here …
   devices::EvenIntent even_;
   devices::AxialForces forces_;
+  double told_s_ = 0.0, hand_to_force_s_ = 0.0;
   cases::FluoroscopeInputs fluoroscope_;
   static constexpr std::uint64_t kMostSaid = 32;
   std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo

@@ -134,8 +134,14 @@ double Window::scale() const noexcept {
 }
 
 void Window::begin_frame() {
+  // Dear ImGui 1.86 sees what is down when a frame begins; a short press is down for the whole of its frame.
+  bool* down = ImGui::GetIO().KeysDown;
+  for (const int key : parts_->pressed)
+    if (key >= 0 && glfwGetKey(parts_->window, key) == GLFW_RELEASE) down[key] = false;
   parts_->pressed.clear();
   glfwPollEvents();
+  for (const int key : parts_->pressed)
+    if (key >= 0) down[key] = true;
   Keys& keys = parts_->keys;
   keys.pressed_ = parts_->pressed;
   const auto either = [&](int left, int right) {
@@ -150,11 +156,16 @@ void Window::begin_frame() {
   keys.typing_ = ImGui::GetIO().WantTextInput;
 }
 
-void Window::end_frame() {
+void Window::end_frame(std::vector<unsigned char>* pixels) {
   ImGui::Render();
   gpu::clear_window(*parts_->context, width_px(), height_px());
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (pixels != nullptr) *pixels = gpu::window_pixels(*parts_->context, width_px(), height_px());
   glfwSwapBuffers(parts_->window);
+}
+
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(parts_->window, title.c_str());
 }
 
 const Keys& Window::keys() const noexcept {
@@ -171,10 +182,6 @@ int Window::height_px() const noexcept {
   int width = 0, height = 0;
   glfwGetFramebufferSize(parts_->window, &width, &height);
   return height;
-}
-
-std::vector<unsigned char> Window::pixels() const {
-  return gpu::window_pixels(*parts_->context, width_px(), height_px());
 }
 
 }  // namespace seldinger::app

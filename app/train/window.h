@@ -63,13 +63,13 @@ class Window {
 
   // Between these two what is in the window is said to Dear ImGui.
   void begin_frame();
-  void end_frame();
+  // `pixels`: what it shows, red, green, blue, row by row from the upper left.
+  void end_frame(std::vector<unsigned char>* pixels = nullptr);
   const Keys& keys() const noexcept;  // of this frame
+  void set_title(const std::string& title);
 
   int width_px() const noexcept;  // of what is drawn on
   int height_px() const noexcept;
-  // What the last frame showed: red, green, blue, row by row from the upper left.
-  std::vector<unsigned char> pixels() const;
 
  private:
   struct Parts;

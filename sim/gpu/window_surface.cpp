@@ -23,11 +23,9 @@ std::vector<unsigned char> window_pixels(Context& context, int width_px, int hei
   const auto row = 3 * static_cast<std::size_t>(width_px);
   std::vector<unsigned char> pixels(row * static_cast<std::size_t>(height_px));
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glReadBuffer(GL_FRONT);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_px, height_px, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glReadBuffer(GL_BACK);
   context.handles()->check_errors("reading the window");
   for (std::size_t upper = 0, lower = static_cast<std::size_t>(height_px) - 1; upper < lower; ++upper, --lower)
     std::swap_ranges(pixels.begin() + static_cast<std::ptrdiff_t>(upper * row),

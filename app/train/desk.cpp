@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "app/file.h"
+#include "app/png.h"
+#include "app/train/desk.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kTellEveryS = 0.25;
+// A window that is drawn in software leaves the processor to servo and pictures.
+constexpr double kMostFramesS = 60.0, kMostFramesInSoftwareS = 25.0;
+
+std::string name_of(Trainer& trainer) {
+  PersonAttempt* attempt = trainer.attempt();
+  switch (trainer.screen()) {
+    case TrainerScreen::log_in:
+      return "log_in";
+    case TrainerScreen::choose:
+      return "choose";
+    case TrainerScreen::briefing:
+      return attempt != nullptr && attempt->phase() == PersonAttempt::Phase::ready ? "ready" : "briefing";
+    case TrainerScreen::attempt:
+      return attempt != nullptr && attempt->phase() == PersonAttempt::Phase::running ? "attempt" : "storing";
+    case TrainerScreen::debrief:
+      return "debrief";
+  }
+  return "";
+}
+
+}  // namespace
+
+Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace)
+    : window_(window),
+      trainer_(trainer),
+      attempt_(window.context(), options),
+      pictures_(std::move(pictures)),
+      trace_(trace),
+      opened_s_(clock_s()),
+      told_s_(opened_s_),
+      between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {}
+
+void Desk::draw_screen() {
+  const Keys& keys = window_.keys();
+  switch (trainer_.screen()) {
+    case TrainerScreen::log_in:
+      log_in_.draw(trainer_);
+      break;
+    case TrainerScreen::choose:
+      choose_.draw(trainer_);
+      break;
+    case TrainerScreen::briefing:
+      if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);
+      break;
+    case TrainerScreen::attempt:
+      attempt_.draw(trainer_, keys);
+      break;
+    case TrainerScreen::debrief:
+      attempt_.end();
+      debrief_.draw(trainer_, keys, &attempt_.picture_at_fire());
+      break;
+  }
+}
+
+void Desk::tell(const std::string& screen) {
+  const double now_s = clock_s(), passed_s = now_s - told_s_;
+  ++frames_;
+  if (passed_s < kTellEveryS && screen == title_) return;
+  TraceLine line;
+  line.t_s = now_s - opened_s_;
+  line.screen = screen;
+  line.frames_s = frames_ / std::max(1e-3, passed_s);
+  if (screen == "attempt") {
+    attempt_.tell(line);
+    line.pictures_s /= std::max(1e-3, passed_s);
+  }
+  trace_.write(line);
+  told_s_ = now_s;
+  frames_ = 0;
+}
+
+void Desk::keep(const std::vector<unsigned char>& rgb) {
+  const std::vector<std::byte> png = png_from_rgb(rgb, window_.width_px(), window_.height_px());
+  std::string name;
+  do {
+    name = "seldinger-" + std::to_string(++kept_) + ".png";
+  } while (std::filesystem::exists(pictures_ / name));
+  write_file(pictures_ / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+void Desk::frame() {
+  std::this_thread::sleep_for(std::chrono::duration<double>(due_s_ - clock_s()));
+  due_s_ = std::max(due_s_ + between_s_, clock_s());
+  window_.begin_frame();
+  trainer_.look();
+  draw_screen();
+  std::vector<unsigned char> pixels;
+  const bool keeps = window_.keys().pressed(kF12);
+  window_.end_frame(keeps ? &pixels : nullptr);
+  if (keeps) keep(pixels);
+  const std::string screen = name_of(trainer_);
+  tell(screen);
+  if (screen != title_) window_.set_title("Seldinger – " + screen);
+  title_ = screen;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,38 @@
+// What the workstation does, a line of JSON now and then, for whoever looks after it or tests it: which screen is
+// up, how fast pictures come, and how long they lag behind the hands. Nothing of a person.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+// Since the line before.
+struct TraceLine {
+  double t_s = 0.0;         // since the window opened
+  std::string screen;       // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief"
+  double frames_s = 0.0;    // the window's
+  double pictures_s = 0.0;  // the guidance's
+  std::string method;       // how these are made
+  double hand_to_force_ms = 0.0, hand_to_room_ms = 0.0, hand_to_picture_ms = 0.0;  // the longest
+  std::string held;  // "needle" or "probe"; outside an attempt empty, as the rest
+  double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
+  bool fired = false;
+};
+
+std::string json_of(const TraceLine& line);
+
+class Trace {
+ public:
+  // Without a path nothing is written. Throws base::Failure("disk") when the file cannot be.
+  explicit Trace(const std::filesystem::path& path);
+  void write(const TraceLine& line);
+
+ private:
+  std::ofstream file_;
+};
+
+}  // namespace seldinger::app

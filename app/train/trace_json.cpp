@@ -1,0 +1,34 @@
+#include <nlohmann/json.hpp>
+
+#include "app/train/trace.h"
+#include "sim/base/failure.h"
+
+namespace seldinger::app {
+
+std::string json_of(const TraceLine& line) {
+  nlohmann::ordered_json json = {{"t_s", line.t_s}, {"screen", line.screen}, {"frames_s", line.frames_s}};
+  if (!line.held.empty())
+    json.update({{"pictures_s", line.pictures_s},
+                 {"method", line.method},
+                 {"hand_to_force_ms", line.hand_to_force_ms},
+                 {"hand_to_room_ms", line.hand_to_room_ms},
+                 {"hand_to_picture_ms", line.hand_to_picture_ms},
+                 {"held", line.held},
+                 {"inserted_mm", line.inserted_mm},
+                 {"press_mm", line.press_mm},
+                 {"attempt_s", line.attempt_s},
+                 {"fired", line.fired}});
+  return json.dump();
+}
+
+Trace::Trace(const std::filesystem::path& path) {
+  if (path.empty()) return;
+  file_.open(path, std::ios::binary | std::ios::trunc);
+  if (!file_) throw base::Failure("disk", "the trace cannot be written");
+}
+
+void Trace::write(const TraceLine& line) {
+  if (file_.is_open()) file_ << json_of(line) << std::endl;
+}
+
+}  // namespace seldinger::app
