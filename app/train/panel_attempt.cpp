@@ -83,9 +83,6 @@ void AttemptPanel::keep_picture() {
 void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
   PersonAttempt& attempt = *trainer.attempt();
   const cases::Case& scene = attempt.task()->scene;
-  if (decided_)
-    for (const Saying& saying : kSayings)
-      if (asked_for(saying, scene) && keys.pressed(saying.key)) say(attempt, saying.kind, saying.label + 4);
   if (!decided_ && keys.pressed('Y')) {
     decided_ = true;
     say(attempt, EventKind::proceed, "Proceed");
@@ -94,6 +91,9 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
     say(attempt, EventKind::defer, "Defer");
     finish(attempt);
   }
+  if (decided_)
+    for (const Saying& saying : kSayings)
+      if (asked_for(saying, scene) && keys.pressed(saying.key)) say(attempt, saying.kind, saying.label + 4);
   if (keys.pressed(kF9)) finish(attempt);
   if (keys.pressed(kEscape)) {
     leaving_ = !leaving_;

@@ -60,7 +60,9 @@ void PersonAttempt::begin(bool left_handed) {
   // Over the entry, but straight down: where the target lies is for the trainee to find.
   const glm::dvec3 entry_lps_mm = scene.planned_entry_lps_mm.value_or(plan.entry_lps_mm);
   const cases::Closest near = scene.skin_index.closest_skin(entry_lps_mm);
-  const glm::dvec3 aim_lps_mm = near.point_lps_mm - kAimMm * scene.skin_index.normal(near.triangle);
+  const glm::dvec3 aim_lps_mm =
+      near.point_lps_mm - kAimMm * devices::face_normal(scene.skin_index, near.point_lps_mm,
+                                                        scene.skin_index.normal(near.triangle), near.triangle);
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
   if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside

@@ -1,0 +1,228 @@
+// The trainer's window as a trainee uses it: a real window on a screen without a monitor, mouse and keys through
+// the X server, from logging in to a stored and graded attempt. Pictures of each screen stay in the test's folder.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "casedb/store.h"
+#include "sim/case/mesh_index.h"
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/png_picture.h"
+#include "tests/fixtures/process.h"
+#include "tests/fixtures/screen.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+constexpr const char* kPassword = "a password";
+
+class TrainTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scratch_ = fixtures::fresh_folder("train");
+    library_ = (scratch_ / "library").string();
+    const auto made = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json answer = Json::parse(made.out);
+    case_id_ = answer["case_id"];
+    for (const char* user : {"mona --role mentor", "tina --role trainee"}) done("user add " + std::string(user));
+    case_id_ = ask("case version " + case_id_ + " --by mona")["case_id"];  // the demo's has attempts
+    // The entry above the target, where straight down leads to it.
+    auto library = casedb::Library::open(library_);
+    ASSERT_TRUE(library.has_value());
+    const auto row = casedb::find_case(*library, case_id_);
+    const cases::MeshIndex skin(casedb::load_skin(*library, *row).value());
+    const glm::dvec3 target = casedb::list_lesions(*library, case_id_).front().lesion.center_lps_mm;
+    const cases::Closest entry = skin.closest_skin(target);
+    depth_mm_ = glm::length(target - entry.point_lps_mm);
+    char place[96];
+    std::snprintf(place, sizeof place, "%.3f,%.3f,%.3f", entry.point_lps_mm.x, entry.point_lps_mm.y,
+                  entry.point_lps_mm.z);
+    done("case setting " + case_id_ + " --entry-mm " + place +
+         " --inr 1.1 --platelets 210 --pass 'hit >= 1' --pass 'skin_punctures <= 1'");
+    done("case publish " + case_id_ + " --by mona --own-cohort");
+  }
+  static void done(const std::string& words) {
+    const auto ran =
+        run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " " + words + " --library " + library_,
+            scratch_);
+    ASSERT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+  }
+  static Json ask(const std::string& words) {
+    const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+    return Json::parse(ran.out, nullptr, false);
+  }
+
+  void SetUp() override {
+    folder_ = scratch_ / testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+    screen_ = std::make_unique<fixtures::Screen>(folder_);
+    program_ = std::make_unique<fixtures::Process>(
+        std::vector<std::string>{kProgram, "train", "--library", library_, "--trace", trace().string(),
+                                 "--pictures", folder_.string()},
+        folder_ / "train.txt", screen_->display());
+    ASSERT_TRUE(reaches("log_in", 30.0));
+  }
+  std::filesystem::path trace() const { return folder_ / "trace.jsonl"; }
+  Json now() const { return fixtures::newest(trace()); }
+  bool reaches(const std::string& screen, double most_s) {
+    return fixtures::until([&] { return now().value("screen", "") == screen || program_->ended(); }, most_s) &&
+           now().value("screen", "") == screen;
+  }
+  // A picture of the window.
+  fixtures::RgbPicture look() {
+    const auto path = folder_ / ("seldinger-" + std::to_string(++pictures_) + ".png");
+    screen_->press("F12");
+    EXPECT_TRUE(fixtures::until(
+        [&] { return std::filesystem::exists(path) && std::filesystem::file_size(path) > 1000; }, 10.0));
+    return fixtures::read_png(path);
+  }
+  void log_in() {
+    screen_->click(630, 335);
+    screen_->type("tina");
+    screen_->press("Tab");
+    screen_->type(kPassword);
+    screen_->press("Return");
+    ASSERT_TRUE(reaches("choose", 20.0));
+  }
+  void open_case() {
+    screen_->click(1200, 131);
+    ASSERT_TRUE(reaches("ready", 60.0)) << now();
+  }
+  void enter_room() {
+    screen_->click(687, 335);  // all checked
+    screen_->press("Return");
+    ASSERT_TRUE(reaches("attempt", 20.0));
+  }
+  // Until the needle is in so far: a force may hold notches back.
+  void push_to(double inserted_mm) {
+    for (int i = 0; i < 80; ++i) {
+      const double left_mm = inserted_mm - now().value("inserted_mm", 0.0);
+      if (left_mm < 0.5) return;
+      screen_->wheel(left_mm > 15.0 ? 8 : left_mm > 4.0 ? 2 : 1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(600));  // until the trace tells of it
+    }
+  }
+
+  static inline std::filesystem::path scratch_;
+  static inline std::string library_, case_id_;
+  static inline double depth_mm_ = 0.0;
+  std::filesystem::path folder_;
+  std::unique_ptr<fixtures::Screen> screen_;
+  std::unique_ptr<fixtures::Process> program_;
+  int pictures_ = 0;
+};
+
+// Share of a part of the window for which `holds` is true of red, green, blue.
+template <typename Holds>
+double share(const fixtures::RgbPicture& picture, int left, int top, int right, int bottom, const Holds& holds) {
+  int count = 0;
+  for (int row = top; row < bottom; ++row)
+    for (int column = left; column < right; ++column) {
+      const unsigned char* p = picture.at(column, row);
+      if (holds(p[0], p[1], p[2])) ++count;
+    }
+  return count / static_cast<double>((right - left) * (bottom - top));
+}
+
+bool grey(int red, int green, int blue) {
+  return red == green && green == blue && red > 20;
+}
+bool skin(int red, int green, int blue) {
+  return red > green + 15 && green > blue;
+}
+
+TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
+  ASSERT_NO_FATAL_FAILURE(log_in());
+  EXPECT_GT(look().width_px, 1000);
+  ASSERT_NO_FATAL_FAILURE(open_case());
+  look();
+  ASSERT_NO_FATAL_FAILURE(enter_room());
+  for (const char* key : {"y", "F1", "F2", "F3", "F4"}) {
+    screen_->press(key);
+  }
+  // The probe is pressed on, until there is a picture.
+  screen_->press("Tab");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("held", "") == "probe"; }, 10.0));
+  screen_->point(350, 300);
+  screen_->wheel(16);
+  ASSERT_TRUE(fixtures::until([&] { return now().value("press_mm", 0.0) > 2.0; }, 10.0)) << now();
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const auto scanning = look();
+  EXPECT_GT(share(scanning, 741, 30, 1272, 500, grey), 0.20) << "speckle on the monitor";
+  EXPECT_GT(share(scanning, 8, 30, 730, 640, skin), 0.15) << "a patient in the room";
+  screen_->press("Tab");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("held", "") == "needle"; }, 10.0));
+  push_to(depth_mm_);
+  EXPECT_NEAR(now().value("inserted_mm", 0.0), depth_mm_, 2.0);
+  look();
+  screen_->press("space");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("fired", false); }, 10.0));
+  screen_->press("F9");
+  ASSERT_TRUE(reaches("debrief", 30.0));
+  look();
+
+  const Json listed = ask("attempt list");
+  const Json* mine = nullptr;
+  for (const Json& attempt : listed["attempts"])
+    if (!attempt["synthetic"].get<bool>()) mine = &attempt;
+  ASSERT_NE(mine, nullptr);
+  const Json shown = ask("attempt show " + mine->at("attempt_id").get<std::string>());
+  EXPECT_EQ(shown["end"], "fired");
+  EXPECT_EQ(fixtures::metric(shown, "hit"), 1.0);
+  EXPECT_EQ(fixtures::metric(shown, "skin_punctures"), 1.0);
+  EXPECT_EQ(shown["grade"]["verdict"], "passed") << shown["grade"];
+  std::set<std::string> done_steps;
+  for (const Json& step : shown["steps"])
+    if (step["state"] == "done") done_steps.insert(step["id"].get<std::string>());
+  for (const char* step : {"sign_in", "decide", "check_probe", "note_depth", "anaesthetise", "insert", "sign_out"})
+    EXPECT_TRUE(done_steps.contains(step)) << step;
+  EXPECT_EQ(ask("replay " + mine->at("attempt_id").get<std::string>() + " --verify")["verified"], true);
+}
+
+TEST_F(TrainTest, WhoIsNotKnownDoesNotGetIn) {
+  screen_->click(630, 335);
+  screen_->type("tina");
+  screen_->press("Tab");
+  screen_->type("another password");
+  screen_->press("Return");
+  EXPECT_FALSE(reaches("choose", 4.0));
+  EXPECT_EQ(now()["screen"], "log_in");
+}
+
+// Restart is one key; a pause stops the clock; and a window that is closed in the middle loses nothing.
+TEST_F(TrainTest, RestartPauseAndAClosedWindowLoseNothing) {
+  const std::size_t before = ask("attempt list")["attempts"].size();
+  ASSERT_NO_FATAL_FAILURE(log_in());
+  ASSERT_NO_FATAL_FAILURE(open_case());
+  ASSERT_NO_FATAL_FAILURE(enter_room());
+  ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.5; }, 20.0));
+  screen_->press("F5");
+  ASSERT_TRUE(fixtures::until(
+      [&] { return now().value("screen", "") == "attempt" && now().value("attempt_s", 9.0) < 1.0; }, 30.0));
+  ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.0; }, 20.0));
+  screen_->press("Escape");
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  const double paused_s = now().value("attempt_s", -1.0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_NEAR(now().value("attempt_s", -2.0), paused_s, 0.02);
+  look();
+  program_->signal(SIGTERM);
+  ASSERT_TRUE(fixtures::until([&] { return program_->ended(); }, 20.0));
+  EXPECT_EQ(program_->exit_code(), 0);
+  const Json listed = ask("attempt list");
+  EXPECT_EQ(listed["attempts"].size(), before + 2);
+  EXPECT_TRUE(listed["running"].empty()) << listed["running"];
+}
+
+}  // namespace
+}  // namespace seldinger
