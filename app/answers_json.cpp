@@ -230,6 +230,13 @@ std::string json_of_users(const std::vector<casedb::Account>& accounts) {
   return text({{"users", list}});
 }
 
+std::string json_of_room(const ColourPicture& picture) {
+  return text({{"backend", "gpu"},
+               {"renderer", picture.renderer},
+               {"size_px", Json::array({picture.width_px, picture.height_px})},
+               {"triangles", picture.triangles}});
+}
+
 std::string json_of_picture(const ScenePicture& picture, double min, double max) {
   Json json = {{"backend", picture.backend},
                {"size_px", Json::array({picture.plane.width_px, picture.plane.height_px})},

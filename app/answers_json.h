@@ -76,6 +76,7 @@ std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
                            const std::string& reason);
 std::string json_of_users(const std::vector<casedb::Account>& accounts);
+std::string json_of_room(const ColourPicture& picture);
 std::string json_of_picture(const ScenePicture& picture, double min, double max);
 std::string json_of_facts(const DoctorAnswer& doctor);
 std::string json_of_demo(const DemoAnswer& demo);

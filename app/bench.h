@@ -45,6 +45,9 @@ void bench_touch(bool quick, std::vector<BenchRow>& rows);
 // tissue is to where it was, by their steps.
 void bench_displacement(bool quick, std::vector<BenchRow>& rows);
 
+// Stage room: the patient's picture by quality, size, one eye or two; `--ct SOURCE` in place of the torso.
+base::Result<void> bench_room(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
+
 // Stage library: lists, checks, backups and bundles of 5,000 small cases and 20,000 attempts (quick: a tenth).
 base::Result<void> bench_library(bool quick, std::vector<BenchRow>& rows);
 

@@ -22,6 +22,20 @@ int run_render(const Arguments& arguments) {
   std::vector<std::string> notes;
   const auto scene = read_scene(arguments.positional(0), notes);
   if (!scene) return refuse(scene.error());
+  if (scene->room) {
+    if (out.extension() != ".png") throw UsageError("--out of a room must end in .png");
+    if (backend == "cpu" || backend == "reference") throw UsageError("a room is drawn by --backend gpu alone");
+    const auto room = paint_room(*scene, arguments.text("--library"));
+    if (!room) return refuse(room.error());
+    casedb::write_durably(out, png_from_rgb(room->rgb, room->width_px, room->height_px));
+    for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    if (arguments.has("--json"))
+      std::fputs(json_of_room(*room).c_str(), stdout);
+    else
+      std::printf("%d x %d pixels, %zu triangles, by %s\n", room->width_px, room->height_px, room->triangles,
+                  room->renderer.c_str());
+    return kDone;
+  }
   if (!scene->view) return refuse({"bad_scene", "scene.view is missing"});
   auto painter = ScenePainter::of(*scene, arguments.text("--library"));
   if (!painter) return refuse(painter.error());

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/room_view.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/imaging/mpr/mpr.h"
@@ -51,6 +52,7 @@ struct Scene {
   std::optional<glm::dvec3> planned_entry_lps_mm;
   std::vector<cases::Structure> structures;
   std::optional<View> view;
+  std::optional<RoomSceneView> room;  // in its place: no picture of the volume, but of what stands around
 };
 
 // All problems at once (`bad_scene`). Relative

@@ -1,6 +1,7 @@
 // Reading the objects of a scene file: fields with their ranges; every fault is noted, none throws.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -151,6 +152,7 @@ class SceneReader {
   std::set<std::string> asked_;
 };
 
+RoomSceneView read_room(const Json& json, base::Error& error, std::vector<std::string>& unused);
 UltrasoundSceneView read_ultrasound(const Json& json, bool echogenic_needle, base::Error& error,
                                     std::vector<std::string>& unused);
 

@@ -246,6 +246,8 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
       scene.view = read_mpr(view, error, unused);
     else if (kind == "xray")
       scene.view = read_xray(view, error, unused);
+    else if (kind == "room")
+      scene.room = read_room(view, error, unused);
     else if (kind == "ultrasound") {
       const bool echogenic = root.has("needle") && root["needle"].is_object() &&
                              root["needle"].value("surface", Json()) == Json("echogenic");

@@ -267,6 +267,10 @@ void Raster::blend(bool on) {
   glDepthMask(on ? GL_FALSE : GL_TRUE);
 }
 
+void Raster::depth_test(bool on) {
+  turn(GL_DEPTH_TEST, on);
+}
+
 void Raster::both_sides(bool on) {
   turn(GL_CULL_FACE, !on);
 }
@@ -278,6 +282,10 @@ void Raster::depth_offset(float by_slope, float constant) {
 
 void Raster::clip(bool on) {
   turn(GL_CLIP_DISTANCE0, on);
+}
+
+void Raster::finish() const {
+  glFinish();
 }
 
 void Raster::check(const char* doing) const {

@@ -82,9 +82,11 @@ class Raster {
 
   void part(int left_px, int bottom_px, int width_px, int height_px);  // draw into this part only
   void blend(bool on);       // over what is there, by alpha; depth is then read, not written
+  void depth_test(bool on);  // off: hidden by nothing
   void both_sides(bool on);  // also triangles seen from behind
   void depth_offset(float by_slope, float constant);  // pushes back what is drawn (0, 0: not)
   void clip(bool on);                                 // gl_ClipDistance[0]
+  void finish() const;                                // waits for everything
   void check(const char* doing) const;                // throws base::Failure("gl") on any pending GL error
 
  private:

@@ -3,97 +3,264 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sim/case/c_arm.h"
+
 namespace seldinger::imaging {
 namespace {
 
 const glm::vec4 kSkin(0.56F, 0.32F, 0.23F, 1.0F), kDrape(0.06F, 0.21F, 0.26F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
+const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.72F, 0.66F, 0.52F, 1.0F);
+const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
+const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F, 0.10F, 0.55F);
+const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
+constexpr double kGuideMm = 150.0, kLineRadiusMm = 0.6, kEntryRadiusMm = 3.0;
 
 glm::dmat4 pose(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin) {
   return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(origin, 1.0));
 }
 
+glm::dmat4 ball_pose(const glm::dvec3& center, double radius_mm) {
+  return pose({radius_mm, 0.0, 0.0}, {0.0, radius_mm, 0.0}, {0.0, 0.0, radius_mm}, center);
+}
+
+// Any frame about an axis.
+struct Axes {
+  glm::dvec3 x, y;
+};
+Axes across(const glm::dvec3& z, const RoomFrame& frame) {
+  const glm::dvec3 aside = std::abs(glm::dot(z, frame.up)) < 0.99 ? frame.up : frame.head;
+  const glm::dvec3 x = glm::normalize(glm::cross(z, aside));
+  return {x, glm::cross(z, x)};
+}
+
+glm::vec4 colour_of(cases::StructureRule rule) {
+  switch (rule) {
+    case cases::StructureRule::critical:
+      return {0.70F, 0.05F, 0.04F, 1.0F};
+    case cases::StructureRule::major:
+      return {0.75F, 0.30F, 0.05F, 1.0F};
+    case cases::StructureRule::organ:
+      return {0.42F, 0.16F, 0.12F, 0.5F};
+    case cases::StructureRule::must_cross:
+      return {0.70F, 0.60F, 0.12F, 0.5F};
+    case cases::StructureRule::target:
+      return {0.10F, 0.65F, 0.18F, 0.5F};
+    case cases::StructureRule::advisory:
+      break;
+  }
+  return {0.40F, 0.42F, 0.45F, 0.5F};
+}
+
+class Maker {
+ public:
+  Maker(const RoomScene& room, const cases::Case& scene, const cases::State& state, const RoomOptions& options,
+        DrawList& list)
+      : room_(room), scene_(scene), state_(state), options_(options), list_(list) {}
+
+  void patient() {
+    RoomItem skin;
+    skin.part = RoomPart::skin;
+    skin.mesh = room_.skin;
+    skin.colour = kSkin;
+    skin.roughness = 0.52F;
+    skin.light_under_skin = {0.35F, 0.16F, 0.10F};
+    skin.casts = Casts::still;
+    skin.displaced = scene_.yields || scene_.breathing.has_value();
+    skin.cut = skin.both_sides = options_.mentor;
+    add(skin);
+    RoomItem ends = skin;
+    ends.part = RoomPart::cut_end;
+    ends.mesh = room_.cut_ends;
+    ends.colour = options_.mentor ? kInside : kDrape;
+    ends.roughness = 0.9F;
+    ends.light_under_skin = glm::vec3(0.0F);
+    add(ends);
+    if (options_.mentor) return;  // he looks at the body
+    RoomItem drape = ends;
+    drape.part = RoomPart::drape;
+    drape.mesh = room_.drapes;
+    drape.both_sides = true;
+    add(drape);
+  }
+
+  // A thrown core needle has gone on, its handle has not.
+  void needle() {
+    const glm::dvec3 z = state_.needle.direction, tip = state_.needle.tip_lps_mm;
+    const Axes axes = across(z, room_.frame);
+    RoomItem shaft;
+    shaft.part = RoomPart::needle_shaft;
+    shaft.mesh = room_.shaft;
+    shaft.lps_from_mesh = pose(room_.shaft_radius_mm * axes.x, room_.shaft_radius_mm * axes.y, z, tip);
+    shaft.roughness = 0.28F;
+    shaft.metal = 0.9F;
+    shaft.casts = Casts::tools;
+    shaft.least_half_px = 0.75;
+    add(shaft);
+    RoomItem hub;
+    hub.part = RoomPart::needle_hub;
+    hub.mesh = room_.hub;
+    hub.lps_from_mesh = pose(axes.x, axes.y, z, tip - z * (state_.fire.fired ? room_.throw_mm : 0.0));
+    hub.roughness = 0.4F;
+    hub.casts = Casts::tools;
+    add(hub);
+  }
+
+  void probe() {
+    RoomItem probe;
+    probe.part = RoomPart::probe;
+    probe.mesh = room_.probe;
+    probe.lps_from_mesh = probe_pose();
+    probe.roughness = 0.45F;
+    probe.casts = Casts::tools;
+    add(probe);
+  }
+
+  void c_arm() {
+    if (room_.c_arm_tube == kNoMesh) return;
+    // Before the first tick the machine stands as the case says.
+    const cases::CArm& arm = state_.fluoroscopy.in_use ? state_.fluoroscopy.arm : scene_.fluoroscope.start;
+    const cases::BeamFrame beam = cases::beam_frame(scene_.fluoroscope, arm, scene_.position);
+    RoomItem tube;
+    tube.part = RoomPart::tube;
+    tube.mesh = room_.c_arm_tube;
+    tube.lps_from_mesh = pose(beam.u, -beam.v, beam.direction, arm.isocentre_lps_mm);
+    tube.roughness = 0.5F;
+    add(tube);
+    RoomItem detector = tube;
+    detector.part = RoomPart::detector;
+    detector.mesh = room_.c_arm_detector;
+    detector.lps_from_mesh = pose(beam.u, -beam.v, beam.direction, beam.detector_center_lps_mm);
+    add(detector);
+  }
+
+  void surroundings() {
+    RoomItem table;
+    table.part = RoomPart::table;
+    table.mesh = room_.table;
+    table.roughness = 0.7F;
+    table.casts = Casts::still;
+    add(table);
+    RoomItem floor;
+    floor.part = RoomPart::floor;
+    floor.mesh = room_.floor;
+    floor.colour = kFloor;
+    floor.shadowed = false;
+    add(floor);
+    RoomItem walls = floor;
+    walls.part = RoomPart::walls;
+    walls.mesh = room_.walls;
+    walls.colour = kWalls;
+    add(walls);
+  }
+
+  void inside() {
+    const glm::dvec3 through =
+        scene_.lesions.empty() ? room_.frame.middle_lps_mm() : scene_.lesions[0].center_lps_mm;
+    // The half on the operator's side is gone.
+    const glm::dvec3 normal = room_.frame.across * operator_side(room_, scene_, state_);
+    list_.cut = CutPlane{normal, glm::dot(normal, through)};
+    RoomItem bone;
+    bone.part = RoomPart::bone;
+    bone.mesh = room_.bone;
+    bone.colour = kBone;
+    bone.roughness = 0.7F;
+    add(bone);
+    if (!scene_.lesions.empty()) {
+      RoomItem target;
+      target.part = RoomPart::target;
+      target.mesh = room_.ball;
+      target.lps_from_mesh = ball_pose(scene_.lesions[0].center_lps_mm, scene_.lesions[0].radius_mm);
+      target.colour = kTarget;
+      add(target);
+    }
+    for (std::size_t i = 0; i < room_.structures.size() && i < scene_.structures.size(); ++i) {
+      RoomItem structure;
+      structure.part = RoomPart::structure;
+      structure.mesh = room_.structures[i];
+      structure.colour = colour_of(scene_.structures[i].rule);
+      structure.roughness = 0.5F;
+      add(structure);
+    }
+  }
+
+  void help() {
+    if (options_.help >= 1 && options_.probe)
+      overlay(RoomPart::scan_plane, room_.scan_plane, probe_pose(), kPlaneLine);
+    if (options_.help >= 2) {
+      if (scene_.planned_entry_lps_mm)
+        overlay(RoomPart::planned_entry, room_.ball, ball_pose(*scene_.planned_entry_lps_mm, kEntryRadiusMm),
+                kPlanLine);
+      if (options_.needle)
+        line(RoomPart::guide_line, state_.needle.tip_lps_mm,
+             state_.needle.tip_lps_mm + state_.needle.direction * kGuideMm, kNeedleLine);
+    }
+    if (options_.help >= 3 && !scene_.lesions.empty()) {
+      const cases::Lesion& target = scene_.lesions[0];
+      if (!options_.mentor)
+        overlay(RoomPart::target, room_.ball, ball_pose(target.center_lps_mm, target.radius_mm), kPlanLine);
+      if (scene_.planned_entry_lps_mm)
+        line(RoomPart::planned_path, *scene_.planned_entry_lps_mm, target.center_lps_mm, kPlanLine);
+    }
+  }
+
+ private:
+  void add(const RoomItem& item) {
+    if (item.mesh == kNoMesh) return;
+    list_.items.push_back(item);
+    list_.needs_displacement = list_.needs_displacement || item.displaced;
+  }
+  void overlay(RoomPart part, MeshHandle mesh, const glm::dmat4& lps_from_mesh, const glm::vec4& colour) {
+    RoomItem item;
+    item.part = part;
+    item.mesh = mesh;
+    item.lps_from_mesh = lps_from_mesh;
+    item.colour = colour;
+    item.shadowed = false;
+    item.over_all = true;
+    add(item);
+  }
+  void line(RoomPart part, const glm::dvec3& from, const glm::dvec3& to, const glm::vec4& colour) {
+    const double length_mm = glm::distance(from, to);
+    if (!(length_mm > 1e-6)) return;
+    const glm::dvec3 z = (to - from) / length_mm;
+    const Axes axes = across(z, room_.frame);
+    overlay(part, room_.rod, pose(kLineRadiusMm * axes.x, kLineRadiusMm * axes.y, length_mm * z, from), colour);
+    if (!list_.items.empty()) list_.items.back().least_half_px = 0.75;
+  }
+  glm::dmat4 probe_pose() const {
+    const cases::ProbeState& probe = state_.probe;
+    return pose(probe.lateral, glm::cross(probe.axial, probe.lateral), probe.axial, probe.origin_lps_mm);
+  }
+
+  const RoomScene& room_;
+  const cases::Case& scene_;
+  const cases::State& state_;
+  const RoomOptions& options_;
+  DrawList& list_;
+};
+
 }  // namespace
+
+double operator_side(const RoomScene& room, const cases::Case& scene, const cases::State& state) noexcept {
+  constexpr double kMiddleMm = 20.0;
+  const glm::dvec3 site = scene.planned_entry_lps_mm ? *scene.planned_entry_lps_mm : state.needle.tip_lps_mm;
+  return glm::dot(site - room.frame.middle_lps_mm(), room.frame.across) > kMiddleMm ? 1.0 : -1.0;
+}
 
 void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
                     const RoomOptions& options, DrawList& list) {
   list.items.clear();
   list.cut.reset();
   list.needs_displacement = false;
-  const auto add = [&](const RoomItem& item) {
-    if (item.mesh == kNoMesh) return;
-    list.items.push_back(item);
-    list.needs_displacement = list.needs_displacement || item.displaced;
-  };
-  const bool moves = scene.yields || scene.breathing.has_value();
-
-  RoomItem skin;
-  skin.part = RoomPart::skin;
-  skin.mesh = room.skin;
-  skin.colour = kSkin;
-  skin.roughness = 0.52F;
-  skin.light_under_skin = {0.35F, 0.16F, 0.10F};
-  skin.casts = Casts::still;
-  skin.displaced = moves;
-  skin.cut = skin.both_sides = options.mentor;
-  add(skin);
-  RoomItem ends = skin;
-  ends.part = RoomPart::cut_end;
-  ends.mesh = room.cut_ends;
-  ends.colour = kDrape;
-  ends.roughness = 0.9F;
-  ends.light_under_skin = glm::vec3(0.0F);
-  add(ends);
-
-  // Hands hold them: pose of State. A thrown core needle has gone on, its handle has not.
-  const cases::NeedleState& needle = state.needle;
-  const glm::dvec3 z = needle.direction;
-  const glm::dvec3 aside = std::abs(glm::dot(z, room.frame.up)) < 0.99 ? room.frame.up : room.frame.head;
-  const glm::dvec3 x = glm::normalize(glm::cross(z, aside)), y = glm::cross(z, x);
-  RoomItem shaft;
-  shaft.part = RoomPart::needle_shaft;
-  shaft.mesh = room.shaft;
-  shaft.lps_from_mesh = pose(room.shaft_radius_mm * x, room.shaft_radius_mm * y, z, needle.tip_lps_mm);
-  shaft.roughness = 0.28F;
-  shaft.metal = 0.9F;
-  shaft.casts = Casts::tools;
-  shaft.least_half_px = 0.75;
-  add(shaft);
-  RoomItem hub;
-  hub.part = RoomPart::needle_hub;
-  hub.mesh = room.hub;
-  hub.lps_from_mesh = pose(x, y, z, needle.tip_lps_mm - z * (state.fire.fired ? room.throw_mm : 0.0));
-  hub.roughness = 0.4F;
-  hub.casts = Casts::tools;
-  add(hub);
-  RoomItem probe;
-  probe.part = RoomPart::probe;
-  probe.mesh = room.probe;
-  probe.lps_from_mesh = pose(state.probe.lateral, glm::cross(state.probe.axial, state.probe.lateral),
-                             state.probe.axial, state.probe.origin_lps_mm);
-  probe.roughness = 0.45F;
-  probe.casts = Casts::tools;
-  add(probe);
-
-  RoomItem table;
-  table.part = RoomPart::table;
-  table.mesh = room.table;
-  table.roughness = 0.7F;
-  table.casts = Casts::still;
-  add(table);
-  RoomItem floor;
-  floor.part = RoomPart::floor;
-  floor.mesh = room.floor;
-  floor.colour = kFloor;
-  floor.roughness = 0.6F;
-  add(floor);
-  RoomItem walls;
-  walls.part = RoomPart::walls;
-  walls.mesh = room.walls;
-  walls.colour = kWalls;
-  walls.roughness = 0.95F;
-  walls.shadowed = false;
-  add(walls);
+  Maker make(room, scene, state, options, list);
+  make.patient();
+  if (options.needle) make.needle();
+  if (options.probe) make.probe();
+  make.c_arm();
+  make.surroundings();
+  if (options.mentor) make.inside();
+  make.help();
 }
 
 }  // namespace seldinger::imaging

@@ -18,6 +18,7 @@ namespace seldinger::imaging {
 enum class RoomPart : std::uint8_t {
   skin,
   cut_end,  // where the CT ends
+  drape,
   table,
   floor,
   walls,
@@ -31,9 +32,8 @@ enum class RoomPart : std::uint8_t {
   planned_entry,
   scan_plane,
   guide_line,  // where the needle would go on
-  tube,        // of the C-arm
-  detector,
-  arm
+  tube,        // of the C-arm, with the arc that carries it
+  detector
 };
 
 // Which light map a thing casts into.
@@ -51,6 +51,7 @@ struct RoomItem {
   bool displaced = false;  // moves with the tissue
   bool cut = false;        // by DrawList::cut
   bool both_sides = false;
+  bool over_all = false;  // drawn last, hidden by nothing
   double least_half_px = 0.0;  // x and y of the mesh are a radius, drawn at least as many pixels wide
 };
 
@@ -67,12 +68,17 @@ struct DrawList {
 };
 
 struct RoomOptions {
-  // 0: as in reality. 1: the scan plane's outline. 2: also the needle's own line. 3: also the target through the
-  // skin and the planned path.
+  // 0: as in reality. 1: the scan plane's outline. 2: also the planned entry, and the line on which the needle would
+  // go on. 3: also the target through the skin, and the planned path.
   int help = 0;
   // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
   bool mentor = false;
+  bool needle = true, probe = true;  // what hands hold
 };
+
+// Where the operator stands along RoomFrame::across: on the side where the way in is, else on the patient's right
+// (−1 for one who lies on his back).
+double operator_side(const RoomScene& room, const cases::Case& scene, const cases::State& state) noexcept;
 
 // Of a state: the tools where hands hold them. `list` is emptied first.
 void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,

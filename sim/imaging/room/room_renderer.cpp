@@ -75,7 +75,7 @@ LightFrame light_frame(const glm::dvec3& towards_light, const Ball& ball) {
 struct RoomRenderer::Parts {
   Parts(gpu::Context& made_with, const RoomScene& scene)
       : context(made_with),
-        shade(made_with, shader("room.vert"), shader("room_shade.frag")),
+        plain(made_with, shader("room.vert"), shader("room_plain.frag")),
         depth(made_with, shader("room.vert"), shader("room_depth.frag")),
         picture(made_with),
         views(made_with, gpu::BufferUse::uniform, kMostViews * kViewStride),
@@ -99,15 +99,26 @@ struct RoomRenderer::Parts {
     still_ball = {frame.middle_lps_mm(), glm::length(patient) + 120.0};
   }
 
-  void draw_items(const DrawList& list, gpu::Raster& raster, bool transparent);
+  enum class Turn { opaque, transparent, over_all };
+  void draw_items(const DrawList& list, gpu::Raster& raster, Turn turn);
   void draw_item(const RoomItem& item, std::size_t at, gpu::RasterProgram& still, gpu::RasterProgram* displaced);
   void draw_casters(const DrawList& list, gpu::Raster& raster, Casts casts);
   std::optional<Ball> tools_ball(const DrawList& list) const;
   void upload(const DrawList& list, const RoomPicture& asked);
 
   gpu::Context& context;
-  gpu::RasterProgram shade, depth;
-  std::optional<gpu::RasterProgram> shade_displaced, depth_displaced;  // made when tissue first moves
+  // Made when first asked for: few quality settings are used in a session, and most patients lie still.
+  gpu::RasterProgram& shade_program(bool displaced) {
+    std::optional<gpu::RasterProgram>& program = shades[soft ? 1 : 0][displaced ? 1 : 0];
+    if (!program)
+      program.emplace(context, shader(displaced ? "room_displaced.vert" : "room.vert"),
+                      shader(soft ? "room_shade.frag" : "room_shade_fast.frag"));
+    return *program;
+  }
+
+  gpu::RasterProgram plain, depth;
+  std::optional<gpu::RasterProgram> shades[2][2], depth_displaced;
+  bool soft = true;  // in this picture
   std::optional<gpu::Buffer> sources;
   std::optional<gpu::DepthMap> still_map, tools_map;
   gpu::Picture picture;
@@ -124,7 +135,7 @@ struct RoomRenderer::Parts {
 };
 
 RoomQuality room_quality(const gpu::Context& context) noexcept {
-  return context.software() ? RoomQuality{1, 1024, 512} : RoomQuality{};
+  return context.software() ? kFastRoom : RoomQuality{};
 }
 
 RoomRenderer::RoomRenderer(gpu::Context& context, const RoomScene& scene)
@@ -137,6 +148,10 @@ int RoomRenderer::displacement_uploads() const noexcept {
 }
 int RoomRenderer::still_shadow_draws() const noexcept {
   return parts_->still_draws;
+}
+
+void RoomRenderer::wait() const {
+  gpu::Raster(parts_->context).finish();
 }
 
 std::vector<std::uint8_t> RoomRenderer::read_rgba() const {
@@ -153,16 +168,20 @@ void RoomRenderer::Parts::draw_item(const RoomItem& item, std::size_t at, gpu::R
   meshes[item.mesh]->draw();
 }
 
-void RoomRenderer::Parts::draw_items(const DrawList& list, gpu::Raster& raster, bool transparent) {
-  raster.blend(transparent);
+void RoomRenderer::Parts::draw_items(const DrawList& list, gpu::Raster& raster, Turn turn) {
+  raster.blend(turn != Turn::opaque);
+  raster.depth_test(turn != Turn::over_all);
   for (std::size_t i = 0; i < list.items.size(); ++i) {
     const RoomItem& item = list.items[i];
-    if ((item.colour.a < 1.0F) != transparent) continue;
+    const Turn its = item.over_all ? Turn::over_all : item.colour.a < 1.0F ? Turn::transparent : Turn::opaque;
+    if (its != turn) continue;
     raster.both_sides(item.both_sides);
     raster.clip(item.cut && list.cut);
-    draw_item(item, i, shade, moving ? &*shade_displaced : nullptr);
+    gpu::RasterProgram* displaced = moving && item.displaced ? &shade_program(true) : nullptr;
+    draw_item(item, i, item.shadowed ? shade_program(false) : plain, displaced);
   }
   raster.blend(false);
+  raster.depth_test(true);
 }
 
 void RoomRenderer::Parts::draw_casters(const DrawList& list, gpu::Raster& raster, Casts casts) {
@@ -201,11 +220,11 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
   }
   if (!p.tools_map || p.tools_map->side_px() != asked.quality.tools_shadow_px)
     p.tools_map.emplace(p.context, asked.quality.tools_shadow_px);
+  p.soft = asked.quality.soft_shadows;
   const bool moved_before = p.moving;
   p.moving = list.needs_displacement && tissue::count_sources(displacement) > 0;
   if (p.moving) {
-    if (!p.shade_displaced) {
-      p.shade_displaced.emplace(p.context, shader("room_displaced.vert"), shader("room_shade.frag"));
+    if (!p.depth_displaced) {
       p.depth_displaced.emplace(p.context, shader("room_displaced.vert"), shader("room_depth.frag"));
       p.sources.emplace(p.context, gpu::BufferUse::uniform, sizeof(tissue::Displacement));
     }
@@ -239,8 +258,8 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
   for (int eye = 0; eye < asked.views; ++eye) {
     p.views.bind_part(kViewBinding, static_cast<std::size_t>(2 + eye) * kViewStride, sizeof(shaders::RoomView));
     raster.part(eye * width_px, 0, width_px, asked.height_px);
-    p.draw_items(list, raster, false);
-    p.draw_items(list, raster, true);
+    for (const Parts::Turn turn : {Parts::Turn::opaque, Parts::Turn::transparent, Parts::Turn::over_all})
+      p.draw_items(list, raster, turn);
   }
   p.picture.finish();
   raster.check("drawing the room");

@@ -18,7 +18,9 @@ struct RoomQuality {
   int samples = 4;             // of a pixel; 1: edges are steps
   int still_shadow_px = 2048;  // sides of the shadow maps
   int tools_shadow_px = 1024;
+  bool soft_shadows = true;  // four looks into each map in place of one
 };
+constexpr RoomQuality kFastRoom = {1, 1024, 512, false};
 RoomQuality room_quality(const gpu::Context& context) noexcept;  // less on software GL
 
 struct RoomPicture {
@@ -42,6 +44,8 @@ class RoomRenderer {
 
   // The last picture: width · height · 4 bytes, the first row the highest. Waits for it.
   std::vector<std::uint8_t> read_rgba() const;
+
+  void wait() const;  // until it is drawn
 
   // For tests: how often so far a displacement was uploaded, and the still things' shadows were drawn.
   int displacement_uploads() const noexcept;

@@ -1,9 +1,15 @@
 #include "sim/imaging/room/room_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include "sim/imaging/room/c_arm_forms.h"
+#include "sim/imaging/room/field_surface.h"
+#include "sim/imaging/room/patient_forms.h"
 #include "sim/imaging/room/tool_forms.h"
 
 namespace seldinger::imaging {
@@ -13,6 +19,9 @@ constexpr double kTableHeightMm = 850.0;  // a usual working height
 constexpr double kTableHalfWidthMm = 260.0, kMattressMm = 50.0, kTopMm = 35.0;
 constexpr double kBeyondMm = 350.0;  // what of the table is seen beyond the patient's ends
 constexpr double kWallMm = 2600.0, kCeilingMm = 1900.0;
+
+constexpr double kBoneSpacingMm = 3.0;
+constexpr float kBoneHu = 220.0F;
 
 const RoomColour kMattress(0.09F, 0.12F, 0.16F), kSteel(0.62F, 0.63F, 0.65F);
 
@@ -33,8 +42,9 @@ RoomMesh table_of(const RoomFrame& f) {
           mesh);
   put_box(f, {middle - half - 15.0, foot - 15.0, f.table_mm - kMattressMm - kTopMm},
           {middle + half + 15.0, head + 15.0, f.table_mm - kMattressMm}, 8.0, kSteel, mesh);
-  put_box(f, {middle - 170.0, 0.5 * (foot + head) - 260.0, f.floor_mm},
-          {middle + 170.0, 0.5 * (foot + head) + 260.0, f.table_mm - kMattressMm - kTopMm}, 20.0, kSteel, mesh);
+  // It stands at the foot end: under the patient is room for a tube.
+  put_box(f, {middle - 170.0, foot + 20.0, f.floor_mm},
+          {middle + 170.0, foot + 320.0, f.table_mm - kMattressMm - kTopMm}, 20.0, kSteel, mesh);
   return mesh;
 }
 
@@ -80,23 +90,30 @@ RoomMesh walls_of(const RoomFrame& f) {
   return mesh;
 }
 
-// The part of a mesh whose triangles are cut, or are not.
-RoomMesh part_of(const cases::Mesh& mesh, bool cut) {
-  constexpr auto kNew = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> here(mesh.vertices_lps_mm.size(), kNew);
-  RoomMesh part;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if ((mesh.cut[t] != 0) != cut) continue;
-    glm::uvec3 corners{0U};
-    for (int i = 0; i < 3; ++i) {
-      const std::uint32_t from = mesh.triangles[t][i];
-      if (here[from] == kNew) here[from] = part.add(glm::dvec3(mesh.vertices_lps_mm[from]), {0.0, 0.0, 1.0});
-      corners[i] = here[from];
-    }
-    part.triangles.push_back(corners);
+// The picture's border in the probe's frame: x lateral, z axial.
+RoomMesh scan_plane_of(const cases::Picture& picture, const Probe* probe) {
+  std::vector<glm::dvec3> border;
+  const double depth_mm = picture.depth_mm;
+  if (picture.modality == cases::Modality::ultrasound && probe != nullptr && probe->radius_mm > 0.0) {
+    const double half = 0.5 * probe->elements * probe->pitch_mm / probe->radius_mm;
+    const auto at = [&](double angle, double depth) {
+      const double r = probe->radius_mm + depth;
+      return glm::dvec3(r * std::sin(angle), 0.0, r * std::cos(angle) - probe->radius_mm);
+    };
+    constexpr int kSteps = 24;
+    for (int i = 0; i <= kSteps; ++i) border.push_back(at(half * (2.0 * i / kSteps - 1.0), depth_mm));
+    for (int i = 0; i <= kSteps; ++i) border.push_back(at(half * (1.0 - 2.0 * i / kSteps), 0.0));
+  } else {
+    const bool of_probe = picture.modality == cases::Modality::ultrasound && probe != nullptr;
+    const double half = 0.5 * (of_probe ? probe->elements * probe->pitch_mm : picture.width_mm);
+    border = {{-half, 0.0, depth_mm}, {half, 0.0, depth_mm}, {half, 0.0, 0.0}, {-half, 0.0, 0.0}};
   }
-  make_smooth(part);
-  return part;
+  border.push_back(border.front());
+  // Pieces by themselves: a swept tube would flatten at sharp corners.
+  RoomMesh mesh;
+  for (std::size_t i = 0; i + 1 < border.size(); ++i)
+    mesh.append(swept(std::span(border).subspan(i, 2), 0.5, 6), glm::dmat4(1.0));
+  return mesh;
 }
 
 }  // namespace
@@ -123,7 +140,7 @@ RoomFrame room_frame_of(const cases::Case& scene) {
   return f;
 }
 
-RoomScene make_room_scene(const cases::Case& scene) {
+RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish) {
   RoomScene room;
   room.frame = room_frame_of(scene);
   const auto add = [&](RoomMesh mesh) {
@@ -131,8 +148,10 @@ RoomScene make_room_scene(const cases::Case& scene) {
     room.meshes.push_back(std::move(mesh));
     return static_cast<MeshHandle>(room.meshes.size() - 1);
   };
-  room.skin = add(part_of(scene.skin, false));
-  room.cut_ends = add(part_of(scene.skin, true));
+  PatientForms patient = patient_forms(scene, room.frame, wish.skin_triangles);
+  room.skin = add(std::move(patient.skin));
+  room.cut_ends = add(std::move(patient.cut_ends));
+  room.drapes = add(std::move(patient.drapes));
   room.table = add(table_of(room.frame));
   room.floor = add(floor_of(room.frame));
   room.walls = add(walls_of(room.frame));
@@ -144,8 +163,19 @@ RoomScene make_room_scene(const cases::Case& scene) {
   if (scene.picture.modality != cases::Modality::xray) {
     const Probe* probe = probe_named(scene.picture.probe);
     room.probe = add(probe_form(probe != nullptr ? *probe : kC52v));
+    room.scan_plane = add(scan_plane_of(scene.picture, probe));
+  } else {
+    room.c_arm_tube = add(c_arm_tube_form(scene.fluoroscope));
+    room.c_arm_detector = add(c_arm_detector_form(scene.fluoroscope));
   }
   room.ball = add(unit_sphere(12));
+  room.rod = add(turned(
+      std::vector<TurnedPart>{{{0.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {1.0, 1.0}}, {{1.0, 1.0}, {0.0, 1.0}}}, 10));
+  if (wish.mentor) {
+    room.bone = add(field_surface(hu_field(scene.volume, kBoneSpacingMm), kBoneHu));
+    for (const cases::Structure& structure : scene.structures)
+      room.structures.push_back(add(form_of(structure.shape)));
+  }
   return room;
 }
 

@@ -32,21 +32,34 @@ struct RoomFrame {
 };
 RoomFrame room_frame_of(const cases::Case& scene);
 
+// What is made; what a session never shows is not.
+struct RoomWish {
+  std::size_t skin_triangles = 20'000;  // at most; the case's own skin has more
+  bool mentor = false;                  // structures and bone, for a look inside
+};
+
 struct RoomScene {
   RoomFrame frame;
   std::vector<RoomMesh> meshes;
   // In LPS.
-  MeshHandle skin = kNoMesh, cut_ends = kNoMesh;
+  MeshHandle skin = kNoMesh, cut_ends = kNoMesh, drapes = kNoMesh;
   MeshHandle table = kNoMesh, floor = kNoMesh, walls = kNoMesh;
   // The tip at the origin, hub → tip along z. Of the shaft x and y are in radii, z is in mm.
   MeshHandle shaft = kNoMesh, hub = kNoMesh;
   double shaft_radius_mm = 0.36, throw_mm = 0.0;
   // The middle of the face at the origin, x lateral, z axial; none where no probe is used.
   MeshHandle probe = kNoMesh;
-  MeshHandle ball = kNoMesh;  // radius 1
+  MeshHandle scan_plane = kNoMesh;  // outline of the picture, in the probe's frame
+  MeshHandle ball = kNoMesh;        // radius 1
+  MeshHandle rod = kNoMesh;         // radius 1 about z from 0 to 1
+  // By RoomWish::mentor, LPS: bone; structures in the case's order.
+  MeshHandle bone = kNoMesh;
+  std::vector<MeshHandle> structures;
+  // Under xray (c_arm_forms.h).
+  MeshHandle c_arm_tube = kNoMesh, c_arm_detector = kNoMesh;
 };
 
 // Without skin the room is empty of a patient; it stands about the volume then.
-RoomScene make_room_scene(const cases::Case& scene);
+RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish = {});
 
 }  // namespace seldinger::imaging

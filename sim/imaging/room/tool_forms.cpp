@@ -161,11 +161,11 @@ RoomMesh probe_form(const Probe& probe) {
               glm::dmat4(1.0));
   // The cable hangs to the side −y.
   std::vector<glm::dvec3> cable;
-  for (int i = 0; i <= 14; ++i) {
-    const double t = i / 14.0;
-    cable.push_back({0.0, -140.0 * t * t, -147.0 - 190.0 * t + 110.0 * t * t});
+  for (int i = 0; i <= 10; ++i) {
+    const double t = i / 10.0;
+    cable.push_back({0.0, -40.0 * t * t, -147.0 - 90.0 * t + 25.0 * t * t});
   }
-  mesh.append(swept(cable, 3.5, 12, kCable), glm::dmat4(1.0));
+  mesh.append(swept(cable, 3.0, 10, kCable), glm::dmat4(1.0));
   return mesh;
 }
 

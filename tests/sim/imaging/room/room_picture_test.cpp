@@ -19,7 +19,7 @@ class RoomPictures : public ::testing::Test {
     const std::size_t i = static_cast<std::size_t>(4 * (y * asked.width_px + x));
     return {rgba.at(i), rgba.at(i + 1), rgba.at(i + 2)};
   }
-  static bool is_skin(const Rgb& c) { return c.r > c.b + 25; }
+  static bool is_skin(const Rgb& c) { return 100 * c.r > 125 * c.b; }
 
   std::vector<std::uint8_t> draw(RoomRenderer& renderer, const RoomScene& room) {
     make_draw_list(room, scene, state, options, list);
