@@ -51,7 +51,7 @@ struct RoomItem {
   bool displaced = false;  // moves with the tissue
   bool cut = false;        // by DrawList::cut
   bool both_sides = false;
-  bool over_all = false;  // drawn last, hidden by nothing
+  bool over_all = false;       // drawn last, hidden by nothing
   double least_half_px = 0.0;  // x and y of the mesh are a radius, drawn at least as many pixels wide
 };
 
@@ -68,8 +68,8 @@ struct DrawList {
 };
 
 struct RoomOptions {
-  // 0: as in reality. 1: the scan plane's outline. 2: also the planned entry, and the line on which the needle would
-  // go on. 3: also the target through the skin, and the planned path.
+  // 0: as in reality. 1: the scan plane's outline. 2: also the planned entry, and the line on which the needle
+  // would go on. 3: also the target through the skin, and the planned path.
   int help = 0;
   // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
   bool mentor = false;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 #include "sim/base/check.h"
+#include "sim/imaging/room/draw_list.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -38,8 +40,7 @@ RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const ca
   const glm::dvec3 needle = state.needle.direction, tip = state.needle.tip_lps_mm;
   glm::dvec3 site = scene.planned_entry_lps_mm ? *scene.planned_entry_lps_mm : tip;
   if (state.needle.skin.in_body) site = state.needle.skin.entry_lps_mm;
-  // The operator stands on the side where the way in is; right of the patient when it is in the middle.
-  const double side = glm::dot(site - f.middle_lps_mm(), f.across) > 20.0 ? 1.0 : -1.0;
+  const double side = operator_side(room, scene, state);
   camera.target_lps_mm = site;
   const auto from = [&](double across, double head, double up, double distance_mm) {
     camera.eye_lps_mm =
@@ -72,6 +73,46 @@ RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const ca
   }
   const glm::dvec3 back = camera.eye_lps_mm - camera.target_lps_mm;
   if (glm::length(glm::cross(camera.up, back)) < 0.05 * glm::length(back)) camera.up = f.head;
+  const glm::dvec3 in_view[] = {site, tip - needle * (scene.instrument.length_mm + 30.0)};
+  stay_clear(camera, f, scene.skin_index, in_view, 1.0);
+  return camera;
+}
+
+void stay_clear(RoomCamera& camera, const RoomFrame& frame, const cases::MeshIndex& skin,
+                std::span<const glm::dvec3> in_view, double width_per_height) {
+  constexpr double kFromSkinMm = 60.0, kFromFloorMm = 150.0, kFarthestMm = 2400.0, kInside = 0.9, kStep = 1.04;
+  const auto too_low_mm = [&] { return frame.floor_mm + kFromFloorMm - glm::dot(camera.eye_lps_mm, frame.up); };
+  if (too_low_mm() > 0.0) camera.eye_lps_mm += frame.up * too_low_mm();
+  const auto distance_mm = [&] { return glm::distance(camera.eye_lps_mm, camera.target_lps_mm); };
+  const auto blocked = [&] {
+    if (!skin.empty() && skin.closest(camera.eye_lps_mm).distance_mm < kFromSkinMm) return true;
+    const RoomProjection projection = projection_of(camera, 0, width_per_height);
+    return std::any_of(in_view.begin(), in_view.end(), [&](const glm::dvec3& place) {
+      const glm::dvec4 clip = projection.clip_from_eye * (projection.eye_from_lps * glm::dvec4(place, 1.0));
+      return !(std::abs(clip.x) <= kInside * clip.w && std::abs(clip.y) <= kInside * clip.w);
+    });
+  };
+  while (distance_mm() * kStep < kFarthestMm && blocked()) {
+    zoom(camera, kStep);
+    if (too_low_mm() > 0.0) camera.eye_lps_mm += frame.up * too_low_mm();
+  }
+}
+
+RoomCamera between(const RoomCamera& from, const RoomCamera& to, double share) {
+  const double t = std::clamp(share, 0.0, 1.0), eased = t * t * (3.0 - 2.0 * t);
+  if (eased == 0.0) return from;
+  if (eased == 1.0) return to;
+  const glm::dvec3 a = from.eye_lps_mm - from.target_lps_mm, b = to.eye_lps_mm - to.target_lps_mm;
+  const glm::dmat3 axes_a = axes_of(from), axes_b = axes_of(to);
+  const glm::dquat turn = glm::slerp(glm::quat_cast(axes_a), glm::quat_cast(axes_b), eased);
+  RoomCamera camera = from;
+  camera.target_lps_mm = glm::mix(from.target_lps_mm, to.target_lps_mm, eased);
+  camera.eye_lps_mm = camera.target_lps_mm + turn * glm::dvec3(0.0, 0.0, 1.0) *
+                                                 std::pow(glm::length(a), 1.0 - eased) *
+                                                 std::pow(glm::length(b), eased);
+  camera.up = turn * glm::dvec3(0.0, 1.0, 0.0);
+  camera.height_deg = glm::mix(from.height_deg, to.height_deg, eased);
+  camera.eye_separation_mm = glm::mix(from.eye_separation_mm, to.eye_separation_mm, eased);
   return camera;
 }
 

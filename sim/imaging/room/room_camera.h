@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "sim/case/case.h"
@@ -28,8 +29,16 @@ struct RoomCamera {
   double eye_separation_mm = 63.0;  // of a pair: people's mean
 };
 
-// A preset. `state` tells where needle and probe are.
+// A preset. `state` tells where needle and probe are; needle hub and way in are in view (stay_clear).
 RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const cases::State& state, RoomView view);
+
+// So that it does not stand in the way of its own sight: back from the target until the eye is outside the skin by
+// some centimetres and every place of `in_view` is in the picture (as far as the walls allow); up, above the floor.
+void stay_clear(RoomCamera& camera, const RoomFrame& frame, const cases::MeshIndex& skin,
+                std::span<const glm::dvec3> in_view, double width_per_height);
+
+// On the way between two: 0 the one, 1 the other, slow at both ends; the eye turns about what is looked at.
+RoomCamera between(const RoomCamera& from, const RoomCamera& to, double share);
 
 // About the target: to the right and up, in degrees; never over the top.
 void orbit(RoomCamera& camera, const RoomFrame& frame, double right_deg, double up_deg);

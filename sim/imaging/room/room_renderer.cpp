@@ -150,6 +150,10 @@ int RoomRenderer::still_shadow_draws() const noexcept {
   return parts_->still_draws;
 }
 
+const glm::dvec3& RoomRenderer::key_light() const noexcept {
+  return parts_->key;
+}
+
 void RoomRenderer::wait() const {
   gpu::Raster(parts_->context).finish();
 }

@@ -47,6 +47,8 @@ class RoomRenderer {
 
   void wait() const;  // until it is drawn
 
+  const glm::dvec3& key_light() const noexcept;  // unit, towards it (LPS)
+
   // For tests: how often so far a displacement was uploaded, and the still things' shadows were drawn.
   int displacement_uploads() const noexcept;
   int still_shadow_draws() const noexcept;

@@ -1,7 +1,11 @@
 // Pictures of the room, on whatever GL there is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "sim/imaging/room/room_renderer.h"
 #include "tests/sim/imaging/room/room_fixture.h"
@@ -65,6 +69,199 @@ TEST_F(RoomPictures, TheSkinIsWhereItsOutlineIsProjected) {
     ++seen;
   }
   EXPECT_GT(seen, 30);
+}
+
+// Pixels that differ by more than `grey` in some colour, within [left, right).
+std::vector<glm::ivec2> changed(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
+                                int width_px, int left, int right, int grey) {
+  std::vector<glm::ivec2> pixels;
+  const int height_px = static_cast<int>(a.size()) / 4 / width_px;
+  for (int y = 0; y < height_px; ++y)
+    for (int x = left; x < right; ++x) {
+      int most = 0;
+      for (int c = 0; c < 3; ++c) {
+        const auto i = static_cast<std::size_t>(4 * (y * width_px + x) + c);
+        most = std::max(most, std::abs(a.at(i) - b.at(i)));
+      }
+      if (most > grey) pixels.emplace_back(x, y);
+    }
+  return pixels;
+}
+
+// The depth cue: a needle's shadow meets its tip where it touches, and is as far away as light says where it does
+// not. The needle is upright and is seen above its tip; its shadow falls towards the eye.
+TEST_F(RoomPictures, TheShadowMeetsTheTipWhereTheNeedleTouches) {
+  scene.instrument.radius_mm = 0.83;
+  const RoomScene room = make_room_scene(scene);
+  RoomRenderer renderer(context, room);
+  asked.width_px = asked.height_px = 500;
+  const RoomFrame& f = room.frame;
+  asked.camera.target_lps_mm = f.up * kBallMm;
+  asked.camera.eye_lps_mm = asked.camera.target_lps_mm - 450.0 * f.across - 350.0 * f.head + 420.0 * f.up;
+  asked.camera.up = f.up;
+  asked.camera.height_deg = 16.0;
+  const RoomProjection projection = projection_of(asked.camera, 0, 1.0);
+  for (const RoomQuality& quality : {kFastRoom, RoomQuality{}}) {
+    asked.quality = quality;
+    for (const double height_mm : {0.0, 20.0}) {
+      SCOPED_TRACE(std::to_string(quality.samples) + " samples, " + std::to_string(height_mm) + " mm above");
+      const glm::dvec3 tip = f.up * (kBallMm + height_mm);
+      state.needle.tip_lps_mm = tip;
+      state.needle.direction = -f.up;
+      options.probe = false;
+      options.needle = false;
+      const auto without = draw(renderer, room);
+      options.needle = true;
+      const auto with = draw(renderer, room);
+      // Where the light past the tip meets the ball.
+      const glm::dvec3 light = renderer.key_light();
+      const double b = glm::dot(tip, light), c = glm::dot(tip, tip) - kBallMm * kBallMm;
+      const glm::dvec3 shadow = tip - light * (b - std::sqrt(std::max(0.0, b * b - c)));
+      const glm::dvec2 shadow_px = *pixel_of(projection, shadow, asked.width_px, asked.height_px);
+      const glm::dvec2 tip_px = *pixel_of(projection, tip, asked.width_px, asked.height_px);
+      double nearest_px = 1e9, expected_px = glm::distance(shadow_px, tip_px), at_shadow_px = 1e9;
+      for (const glm::ivec2& pixel : changed(with, without, asked.width_px, 0, asked.width_px, 20)) {
+        const glm::dvec2 middle = glm::dvec2(pixel) + 0.5;
+        if (middle.y < tip_px.y + 2.0) continue;  // the needle itself
+        nearest_px = std::min(nearest_px, glm::distance(middle, tip_px));
+        at_shadow_px = std::min(at_shadow_px, glm::distance(middle, shadow_px));
+      }
+      EXPECT_LT(at_shadow_px, 4.0);
+      EXPECT_NEAR(nearest_px, expected_px, 5.0);
+      if (height_mm > 0.0) {
+        EXPECT_GT(expected_px, 25.0);
+      }
+    }
+  }
+}
+
+TEST_F(RoomPictures, APairIsApartAsTheTwoEyesSee) {
+  scene.planned_entry_lps_mm = glm::dvec3(20.0, -kBallMm, 30.0);
+  const RoomScene room = make_room_scene(scene);
+  RoomRenderer renderer(context, room);
+  asked.width_px = 800;
+  asked.height_px = 400;
+  asked.views = 2;
+  asked.quality = kFastRoom;
+  for (const double nearer_mm : {150.0, 0.0, -150.0}) {
+    asked.camera = room_camera(room, scene, state, RoomView::top);
+    asked.camera.target_lps_mm =
+        *scene.planned_entry_lps_mm - glm::dvec3(20.0, 0.0, 30.0) - room.frame.up * nearer_mm;
+    asked.camera.eye_lps_mm = asked.camera.target_lps_mm + room.frame.up * 800.0;
+    options.needle = options.probe = false;
+    options.help = 0;
+    const auto without = draw(renderer, room);
+    options.help = 2;  // the planned entry alone: no tools are held
+    const auto with = draw(renderer, room);
+    double x[2] = {0.0, 0.0};
+    for (int eye = 0; eye < 2; ++eye) {
+      const auto pixels = changed(with, without, asked.width_px, 400 * eye, 400 * (eye + 1), 8);
+      ASSERT_FALSE(pixels.empty());
+      for (const glm::ivec2& pixel : pixels)
+        x[eye] += (pixel.x + 0.5 - 400.0 * eye) / static_cast<double>(pixels.size());
+      const auto expected =
+          pixel_of(projection_of(asked.camera, 2 * eye - 1, 1.0), *scene.planned_entry_lps_mm, 400, 400);
+      EXPECT_NEAR(x[eye], expected->x, 0.8) << nearer_mm;
+    }
+    if (nearer_mm > 0.0) {
+      EXPECT_LT(x[1], x[0] - 5.0);  // nearer than the screen: crossed
+    } else if (nearer_mm < 0.0) {
+      EXPECT_GT(x[1], x[0] + 3.0);
+    } else {
+      EXPECT_NEAR(x[1], x[0], 0.8);
+    }
+  }
+}
+
+TEST_F(RoomPictures, SkinThatIsPressedIsDrawnWhereItIs) {
+  scene.yields = true;
+  const RoomScene room = make_room_scene(scene);
+  RoomRenderer renderer(context, room);
+  asked.width_px = asked.height_px = 300;
+  asked.quality = kFastRoom;
+  asked.camera.target_lps_mm = {0.0, -kBallMm, 0.0};
+  asked.camera.eye_lps_mm = {0.0, -kBallMm, -700.0};
+  asked.camera.up = {0.0, -1.0, 0.0};
+  asked.camera.height_deg = 12.0;
+  options.needle = options.probe = false;
+  const tissue::SkinPress press{{0.0, -kBallMm, 0.0}, {0.0, 1.0, 0.0}, 40.0, 12.0, 0.0};
+  const tissue::Displacement displacement = tissue::displacement_of({{&press, 1}, {}, {}, {}});
+  make_draw_list(room, scene, state, options, list);
+  // Height of the outline over a place at rest, mm below the ball's top.
+  const auto outline_mm = [&](const tissue::Displacement& by, double across_mm) {
+    renderer.draw(list, asked, by);
+    const auto rgba = renderer.read_rgba();
+    const RoomProjection p = projection_of(asked.camera, 0, 1.0);
+    for (double down = -10.0; down < 40.0; down += 0.25) {
+      const auto pixel = *pixel_of(p, {across_mm, -kBallMm + down, 0.0}, 300, 300);
+      if (is_skin(at(rgba, static_cast<int>(pixel.x), static_cast<int>(pixel.y)))) return down;
+    }
+    return 1e9;
+  };
+  for (const double across_mm : {0.0, 30.0, -45.0}) {
+    const double rest = kBallMm - std::sqrt(kBallMm * kBallMm - across_mm * across_mm);
+    EXPECT_NEAR(outline_mm({}, across_mm), rest, 1.2);
+    // Looking along z, the outline is the highest of what lies behind one another: at a dent's middle that is its
+    // rim, where the ball itself has fallen away by as much.
+    double expected = 1e9;
+    for (double z = -100.0; z <= 100.0; z += 1.0)
+      for (double x = across_mm - 6.0; x <= across_mm + 6.0; x += 0.25) {
+        const double y_2 = kBallMm * kBallMm - x * x - z * z;
+        if (y_2 <= 0.0) continue;
+        const glm::dvec3 moved = tissue::displaced(displacement, {x, -std::sqrt(y_2), z});
+        if (std::abs(moved.x - across_mm) < 0.3) expected = std::min(expected, moved.y + kBallMm);
+      }
+    EXPECT_NEAR(outline_mm(displacement, across_mm), expected, 1.5) << across_mm;
+  }
+  EXPECT_GT(outline_mm(displacement, 0.0), 3.0);
+}
+
+TEST_F(RoomPictures, AStillPatientCostsNoDisplacementAndNoNewShadowMap) {
+  const RoomScene room = make_room_scene(scene);
+  RoomRenderer renderer(context, room);
+  asked.width_px = asked.height_px = 64;
+  asked.camera = room_camera(room, scene, state, RoomView::operator_side);
+  const tissue::SkinPress press{{0.0, -kBallMm, 0.0}, {0.0, 1.0, 0.0}, 40.0, 12.0, 0.0};
+  const tissue::Displacement pressed = tissue::displacement_of({{&press, 1}, {}, {}, {}});
+  make_draw_list(room, scene, state, options, list);
+  for (int i = 0; i < 5; ++i) renderer.draw(list, asked, pressed);  // the case lies still: nothing asks for it
+  EXPECT_EQ(renderer.displacement_uploads(), 0);
+  EXPECT_EQ(renderer.still_shadow_draws(), 1);
+  scene.yields = true;
+  make_draw_list(room, scene, state, options, list);
+  for (int i = 0; i < 3; ++i) renderer.draw(list, asked, tissue::Displacement{});  // not touched yet
+  EXPECT_EQ(renderer.displacement_uploads(), 0);
+  EXPECT_EQ(renderer.still_shadow_draws(), 1);
+  renderer.draw(list, asked, pressed);
+  EXPECT_EQ(renderer.displacement_uploads(), 1);
+  EXPECT_EQ(renderer.still_shadow_draws(), 2);
+  renderer.draw(list, asked, tissue::Displacement{});  // let go: shadows as at rest, once more
+  renderer.draw(list, asked, tissue::Displacement{});
+  EXPECT_EQ(renderer.still_shadow_draws(), 3);
+}
+
+TEST_F(RoomPictures, EverySettingDrawsAllOfIt) {
+  scene.structures.push_back({"organ", {}, cases::StructureRule::organ, cases::Sphere{{0, 0, 0}, 30.0}});
+  for (const auto modality : {cases::Modality::ultrasound, cases::Modality::xray, cases::Modality::mpr}) {
+    scene.picture.modality = modality;
+    const RoomScene room = make_room_scene(scene, {5'000, true});
+    RoomRenderer renderer(context, room);
+    asked.width_px = 120;
+    asked.height_px = 90;
+    options.help = 3;
+    for (const bool mentor : {false, true})
+      for (const int views : {1, 2})
+        for (const RoomQuality& quality : {kFastRoom, RoomQuality{}}) {
+          options.mentor = mentor;
+          asked.views = views;
+          asked.quality = quality;
+          asked.camera = room_camera(room, scene, state, RoomView::operator_side);
+          const auto rgba = draw(renderer, room);  // throws on any GL error
+          int opaque = 0;
+          for (std::size_t i = 3; i < rgba.size(); i += 4) opaque += rgba[i] == 255 ? 1 : 0;
+          EXPECT_EQ(opaque, 120 * 90);
+        }
+  }
 }
 
 TEST_F(RoomPictures, AreTheSameTwice) {
