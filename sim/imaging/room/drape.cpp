@@ -13,8 +13,8 @@ namespace {
 constexpr double kOverMm = 8.0;      // onto the skin
 constexpr double kBeyondMm = 330.0;  // over the table
 constexpr double kStepMm = 8.0, kClothMm = 2.5;
-constexpr double kAsideMm = 300.0;     // from the middle of the table to its sides
-constexpr double kFallsMmPerMm = 2.6;  // cloth does not hang steeper
+constexpr double kAsideMm = 252.0;     // from the middle of the table, to before its sides
+constexpr double kFallsMmPerMm = 5.0;  // cloth does not hang steeper
 constexpr double kLeastCutMm2 = 900.0;
 
 // Heights above the table along `across`, mm; 0 where no body is.
@@ -37,7 +37,7 @@ void spread(Profile& heights) {
 RoomMesh drape_over(const cases::Mesh& skin, const RoomFrame& f, double end) {
   const double at_mm = end > 0.0 ? f.high_mm.y : f.low_mm.y;
   const double middle_mm = 0.5 * (f.low_mm.x + f.high_mm.x);
-  const double half_mm = std::max(kAsideMm, 0.5 * (f.high_mm.x - f.low_mm.x) + 60.0);
+  const double half_mm = std::max(kAsideMm, 0.5 * (f.high_mm.x - f.low_mm.x) + 30.0);
   const auto columns = static_cast<std::size_t>(2.0 * half_mm / kStepMm) + 1;
   const double first_mm = middle_mm - 0.5 * kStepMm * static_cast<double>(columns - 1);
   double cut_mm2 = 0.0;

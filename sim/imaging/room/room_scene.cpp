@@ -90,6 +90,23 @@ RoomMesh walls_of(const RoomFrame& f) {
   return mesh;
 }
 
+// Of the patient alone: a couch or a cushion can be as dense.
+RoomMesh bone_of(const cases::Case& scene) {
+  Field field = hu_field(scene.volume, kBoneSpacingMm);
+  std::uint32_t near = 0;
+  std::size_t at = 0;
+  for (int k = 0; k < field.size.z; ++k)
+    for (int j = 0; j < field.size.y; ++j)
+      for (int i = 0; i < field.size.x; ++i, ++at) {
+        if (!(field.values[at] > kBoneHu) || scene.skin_index.empty()) continue;
+        const glm::dvec3 place(field.lps_from_node * glm::dvec4(i, j, k, 1.0));
+        const cases::Closest skin = scene.skin_index.closest(place, near);
+        near = skin.triangle;
+        if (skin.distance_mm > 0.0) field.values[at] = static_cast<float>(volume::kAirHu);
+      }
+  return field_surface(field, kBoneHu);
+}
+
 // The picture's border in the probe's frame: x lateral, z axial.
 RoomMesh scan_plane_of(const cases::Picture& picture, const Probe* probe) {
   std::vector<glm::dvec3> border;
@@ -172,7 +189,7 @@ RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish) {
   room.rod = add(turned(
       std::vector<TurnedPart>{{{0.0, 0.0}, {1.0, 0.0}}, {{1.0, 0.0}, {1.0, 1.0}}, {{1.0, 1.0}, {0.0, 1.0}}}, 10));
   if (wish.mentor) {
-    room.bone = add(field_surface(hu_field(scene.volume, kBoneSpacingMm), kBoneHu));
+    room.bone = add(bone_of(scene));
     for (const cases::Structure& structure : scene.structures)
       room.structures.push_back(add(form_of(structure.shape)));
   }
