@@ -64,7 +64,7 @@ class Maker {
     skin.mesh = room_.skin;
     skin.colour = kSkin;
     skin.roughness = 0.52F;
-    skin.light_under_skin = {0.35F, 0.16F, 0.10F};
+    skin.light_under_skin = {0.16F, 0.08F, 0.05F};
     skin.casts = Casts::still;
     skin.displaced = scene_.yields || scene_.breathing.has_value();
     skin.cut = skin.both_sides = options_.mentor;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <unordered_map>
+#include <utility>
 
 #include "sim/imaging/room/drape.h"
 #include "sim/imaging/room/room_scene.h"
@@ -151,6 +152,12 @@ PatientForms patient_forms(const cases::Case& scene, const RoomFrame& frame, std
       }
       corners[i] = here[part][v];
     }
+    // Where clusters fold over, the back would look out.
+    const gpu::Vertex *p = &mesh.vertices[corners.x], *q = &mesh.vertices[corners.y],
+                      *r = &mesh.vertices[corners.z];
+    if (glm::dot(glm::cross(q->place_mm - p->place_mm, r->place_mm - p->place_mm),
+                 p->normal + q->normal + r->normal) < 0.0F)
+      std::swap(corners.y, corners.z);
     mesh.triangles.push_back(corners);
   }
   for (const double end : {-1.0, 1.0}) {
