@@ -27,6 +27,8 @@ std::string name_of(Trainer& trainer) {
       return attempt != nullptr && attempt->phase() == PersonAttempt::Phase::running ? "attempt" : "storing";
     case TrainerScreen::debrief:
       return "debrief";
+    case TrainerScreen::watch:
+      return "watch";
   }
   return "";
 }
@@ -37,6 +39,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
     : window_(window),
       trainer_(trainer),
       attempt_(window.context(), options),
+      watch_(window.context()),
       pictures_(std::move(pictures)),
       trace_(trace),
       opened_s_(clock_s()),
@@ -61,6 +64,9 @@ void Desk::draw_screen() {
     case TrainerScreen::debrief:
       attempt_.end();
       debrief_.draw(trainer_, keys, &attempt_.picture_at_fire());
+      break;
+    case TrainerScreen::watch:
+      watch_.draw(trainer_, keys);
       break;
   }
 }

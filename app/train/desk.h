@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/train/panel_attempt.h"
+#include "app/train/panel_watch.h"
 #include "app/train/panels.h"
 #include "app/train/trace.h"
 #include "app/train/trainer.h"
@@ -30,6 +31,7 @@ class Desk {
   BriefingPanel briefing_;
   AttemptPanel attempt_;
   DebriefPanel debrief_;
+  WatchPanel watch_;
   std::filesystem::path pictures_;
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;

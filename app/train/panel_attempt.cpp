@@ -200,7 +200,7 @@ void AttemptPanel::draw_hands(const Task& task) {
     ImGui::TextUnformatted("· the needle is outside");
   if (moment.force) {
     meter("needle", moment.force->needle_axial_n, kMostNeedleN);
-    meter("probe", moment.force->probe_n, kMostProbeN);
+    if (task.scene.picture.modality != cases::Modality::xray) meter("probe", moment.force->probe_n, kMostProbeN);
   }
   quiet(task.scene.instrument.kind == cases::InstrumentKind::core
             ? "drag: move · right drag: turn · wheel: push · Shift: fine · Space: fire · F: freeze · Alt: camera"
@@ -238,7 +238,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::SameLine();
   ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-  monitor_.draw(attempt, seen_.moment.state, seen_.frozen, told_.fluoroscope);
+  monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, told_.fluoroscope);
   ImGui::EndChild();
   ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (running)

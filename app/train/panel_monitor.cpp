@@ -36,7 +36,7 @@ void MonitorPanel::measure(const std::array<float, 2>& at_px) {
   calipers_px_.push_back(at_px);
 }
 
-void MonitorPanel::draw_picture(PersonAttempt& attempt, float width, float height) {
+void MonitorPanel::draw_picture(const Monitor& monitor, float width, float height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", {width, height});
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -67,7 +67,10 @@ void MonitorPanel::draw_picture(PersonAttempt& attempt, float width, float heigh
   char words[160];
   std::snprintf(words, sizeof words, "%s  %.0f /s  (%s, %.0f ms)",
                 shown_.live ? "LIVE" : (kind_.modality == cases::Modality::xray ? "LAST IMAGE" : "FROZEN"),
-                shown_.rate_hz, attempt.monitor().method().c_str(), 1e3 * shown_.drawn_in_s);
+                shown_.rate_hz, monitor.method().c_str(), 1e3 * shown_.drawn_in_s);
+  const ImVec2 size = ImGui::CalcTextSize(words);
+  draw->AddRectFilled({corner.x, corner.y + height - 26.0F}, {corner.x + size.x + 20.0F, corner.y + height},
+                      IM_COL32(0, 0, 0, 190));
   draw->AddText({corner.x + 10.0F, corner.y + height - 22.0F}, kWords, words);
   if (ImGui::IsItemClicked() && measuring_) {
     const ImVec2 mouse = ImGui::GetMousePos();
@@ -87,7 +90,7 @@ void MonitorPanel::draw_picture(PersonAttempt& attempt, float width, float heigh
   }
 }
 
-void MonitorPanel::draw_ultrasound(PersonAttempt& attempt, bool frozen) {
+void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen) {
   const float wide = ImGui::GetContentRegionAvail().x;
   bool turned =
       knob("##gain", knobs_.gain_db, -imaging::kMostGainDb, imaging::kMostGainDb, "gain %.0f dB", 0.32F * wide);
@@ -115,7 +118,7 @@ void MonitorPanel::draw_ultrasound(PersonAttempt& attempt, bool frozen) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("time gain, from the skin to the depth");
   }
   if (turned)
-    attempt.monitor().set_console([knobs = knobs_](imaging::Console& console) {
+    monitor.set_console([knobs = knobs_](imaging::Console& console) {
       console.set_gain_db(knobs.gain_db);
       console.set_dynamic_range_db(knobs.dynamic_range_db);
       console.set_grey_map(knobs.grey_map);
@@ -126,7 +129,7 @@ void MonitorPanel::draw_ultrasound(PersonAttempt& attempt, bool frozen) {
   int back = -shown_.cine_back;
   ImGui::SetNextItemWidth(0.45F * wide);
   if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
-    attempt.monitor().set_console([back](imaging::Console& console) { console.scroll(-back); });
+    monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
   ImGui::EndDisabled();
   ImGui::SameLine();
   if (ImGui::Button(measuring_ ? "Done" : "Calipers")) {
@@ -171,14 +174,14 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, cases::Fluoroscop
               machine.dap_mgy_cm2);
 }
 
-void MonitorPanel::draw(PersonAttempt& attempt, const cases::State& state, bool frozen,
+void MonitorPanel::draw(Monitor& monitor, const cases::State& state, bool frozen,
                         cases::FluoroscopeInputs& fluoroscope) {
-  if (attempt.monitor().take(shown_) && shown_.picture.width_px > 0)
+  if (monitor.take(shown_) && shown_.picture.width_px > 0)
     picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float console = kind_.modality == cases::Modality::mpr ? 4.0F : 116.0F;
-  draw_picture(attempt, room.x, room.y - console);
-  if (kind_.modality == cases::Modality::ultrasound) draw_ultrasound(attempt, frozen);
+  draw_picture(monitor, room.x, room.y - console);
+  if (kind_.modality == cases::Modality::ultrasound) draw_ultrasound(monitor, frozen);
   if (kind_.modality == cases::Modality::xray) draw_fluoroscope(state, fluoroscope);
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/train/person_attempt.h"
+#include "app/train/monitor.h"
 #include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
@@ -19,14 +19,14 @@ class MonitorPanel {
   void begin(const cases::Case& scene);
 
   // In what room there is. `fluoroscope` is what the machine's console asks for; other cases do not touch it.
-  void draw(PersonAttempt& attempt, const cases::State& state, bool frozen, cases::FluoroscopeInputs& fluoroscope);
+  void draw(Monitor& monitor, const cases::State& state, bool frozen, cases::FluoroscopeInputs& fluoroscope);
 
   const ShownPicture& shown() const noexcept { return shown_; }
   const gpu::ScreenPicture& picture() const noexcept { return picture_; }
 
  private:
-  void draw_picture(PersonAttempt& attempt, float width, float height);
-  void draw_ultrasound(PersonAttempt& attempt, bool frozen);
+  void draw_picture(const Monitor& monitor, float width, float height);
+  void draw_ultrasound(Monitor& monitor, bool frozen);
   void draw_fluoroscope(const cases::State& state, cases::FluoroscopeInputs& fluoroscope);
   void measure(const std::array<float, 2>& at_px);
   void save() const;

@@ -35,6 +35,7 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
 }
 
 void Trainer::log_out() {
+  watched_.reset();
   attempt_.reset();
   debrief_.reset();
   choices_.clear();
@@ -110,7 +111,7 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
 }
 
 void Trainer::back() {
-  if (screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::attempt) return;
+  if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   attempt_.reset();
   debrief_.reset();
   list_choices();
@@ -134,7 +135,24 @@ bool Trainer::begin(bool left_handed) {
   return true;
 }
 
+void Trainer::watch(const std::string& attempt_id) {
+  if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
+  refusal_.clear();
+  watched_from_ = screen_;
+  watched_ = std::make_unique<WatchedAttempt>(library_.folder(), attempt_id);
+  screen_ = TrainerScreen::watch;
+}
+
+void Trainer::stop_watching() {
+  if (screen_ == TrainerScreen::watch) screen_ = watched_from_;
+}
+
 void Trainer::look() {
+  if (watched_ && screen_ != TrainerScreen::watch) watched_.reset();
+  if (watched_ && watched_->phase() == WatchedAttempt::Phase::refused) {
+    refusal_ = watched_->error().text;
+    stop_watching();
+  }
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();
   if (phase == PersonAttempt::Phase::refused) {
@@ -142,7 +160,7 @@ void Trainer::look() {
     attempt_.reset();
     list_choices();
     screen_ = TrainerScreen::choose;
-  } else if (phase == PersonAttempt::Phase::stored && !debrief_) {
+  } else if (phase == PersonAttempt::Phase::stored && !debrief_ && screen_ == TrainerScreen::attempt) {
     const std::string id = attempt_->stored().attempt_id;
     const auto row = casedb::find_attempt(library_, id);
     if (!row) {

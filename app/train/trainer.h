@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "app/train/person_attempt.h"
+#include "app/train/watched_attempt.h"
 #include "casedb/curriculum.h"
 #include "casedb/grading.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {
 
-enum class TrainerScreen { log_in, choose, briefing, attempt, debrief };
+enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch };
 
 // A case that can be chosen, as a line of the list.
 struct Choice {
@@ -62,6 +63,11 @@ class Trainer {
   // Nothing before a case was chosen, and none after a refusal.
   PersonAttempt* attempt() noexcept { return attempt_.get(); }
 
+  // A stored attempt is watched, from briefing or debrief, and back to there. The trainee's own, or an expert's.
+  void watch(const std::string& attempt_id);
+  void stop_watching();
+  WatchedAttempt* watched() noexcept { return watched_.get(); }
+
   // Looks whether threads have got on; once a frame.
   void look();
   const Debrief* debrief() const noexcept { return debrief_ ? &*debrief_ : nullptr; }
@@ -78,6 +84,8 @@ class Trainer {
   casedb::CaseRow chosen_;
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
+  std::unique_ptr<WatchedAttempt> watched_;
+  TrainerScreen watched_from_ = TrainerScreen::debrief;
   bool restarting_ = false;
 };
 

@@ -1,0 +1,89 @@
+#include "app/train/panel_watch.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/train/panels.h"
+#include "reports/attempt_words.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr int kHelp = 3;  // who watches sees where it goes
+constexpr std::array<double, 3> kSpeeds = {1.0, 2.0, 4.0};
+
+// What was said or happened last, for a few seconds.
+std::string said_at(const cases::Recording& recording, double t_s) {
+  constexpr double kShownS = 3.0;
+  std::string said;
+  for (const cases::Event& event : recording.events.value_or(std::vector<cases::Event>{}))
+    if (event.t_s <= t_s && t_s < event.t_s + kShownS)
+      if (const cases::EventInfo* info = cases::find_event(event.kind)) said = info->words;
+  return said;
+}
+
+}  // namespace
+
+void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
+  WatchedAttempt& watched = *trainer.watched();
+  const double t_s = seen_.moment.state.t_s, all_s = std::max(0.1, watched.duration_s());
+  char words[64];
+  std::snprintf(words, sizeof words, "%.0f of %.0f s", t_s, all_s);
+  ImGui::ProgressBar(static_cast<float>(std::min(1.0, t_s / all_s)), {-1.0F, 0.0F}, words);
+  const bool standing = watched.speed() <= 0.0;
+  if (ImGui::Button(standing ? "Go on (Space)" : "Stop (Space)") || keys.pressed(kSpace))
+    watched.set_speed(standing ? 1.0 : 0.0);
+  for (const double speed : kSpeeds) {
+    ImGui::SameLine();
+    std::snprintf(words, sizeof words, "%.0f ×", speed);
+    if (ImGui::Button(words)) watched.set_speed(speed);
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("From the beginning")) watched.begin_again();
+  const std::string said = said_at(watched.recording(), t_s);
+  ImGui::TextDisabled("%s", said.empty() ? " " : said.c_str());
+}
+
+void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
+  begin_screen("watch");
+  WatchedAttempt& watched = *trainer.watched();
+  if (watched.phase() == WatchedAttempt::Phase::preparing) {
+    heading("The attempt is being prepared …");
+    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {220.0F, 0.0F}, "");
+  } else {
+    const casedb::AttemptRow& attempt = watched.attempt();
+    if (shown_ != attempt.attempt_id) {
+      room_.begin(watched.scene(), false);
+      monitor_.begin(watched.scene());
+      seen_ = {};
+      shown_ = attempt.attempt_id;
+    }
+    if (const auto moment = watched.moment()) seen_.moment = *moment;
+    seen_.frozen = seen_.moment.state.probe.frozen;
+    heading((attempt.case_title + " – " +
+             (attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again"))
+                .c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", kTrainingOnly);
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
+    constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false, kStill);
+    devices::HandIntent nobodys;
+    room_.draw(watched.scene(), seen_, kHelp, keys, 0.0, nobodys);
+    ImGui::EndChild();
+    ImGui::SameLine();
+    ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false, kStill);
+    cases::FluoroscopeInputs nobody_asks;
+    monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, nobody_asks);
+    ImGui::EndChild();
+    draw_course(trainer, keys);
+  }
+  if (ImGui::Button("Back (Esc)") || keys.pressed(kEscape)) trainer.stop_watching();
+  end_screen();
+}
+
+}  // namespace seldinger::app

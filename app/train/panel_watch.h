@@ -1,0 +1,31 @@
+// An attempt that is watched: the room and the guidance as they were, what was said, and how fast it goes.
+#pragma once
+
+#include <memory>
+
+#include "app/train/panel_monitor.h"
+#include "app/train/panel_room.h"
+#include "app/train/trainer.h"
+
+namespace seldinger::app {
+
+class WatchPanel {
+ public:
+  explicit WatchPanel(gpu::Context& context) : room_(context), monitor_(context) {}
+
+  void draw(Trainer& trainer, const Keys& keys);
+  void end() noexcept {
+    room_.end();
+    shown_.clear();
+  }
+
+ private:
+  void draw_course(Trainer& trainer, const Keys& keys);
+
+  RoomPanel room_;
+  MonitorPanel monitor_;
+  std::string shown_;  // the attempt whose room is drawn
+  Seen seen_;
+};
+
+}  // namespace seldinger::app

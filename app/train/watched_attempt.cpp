@@ -1,0 +1,114 @@
+#include "app/train/watched_attempt.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/case_build.h"
+#include "sim/base/check.h"
+#include "sim/base/failure.h"
+
+namespace seldinger::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+// So often it looks at the clock.
+constexpr double kPieceS = 0.005;
+
+}  // namespace
+
+WatchedAttempt::WatchedAttempt(std::filesystem::path library, std::string attempt_id)
+    : library_(std::move(library)), attempt_id_(std::move(attempt_id)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+WatchedAttempt::~WatchedAttempt() {
+  ending_ = true;
+  thread_.join();
+}
+
+const base::Error& WatchedAttempt::error() const {
+  CHECK(phase() == Phase::refused);
+  return *error_;
+}
+
+const casedb::AttemptRow& WatchedAttempt::attempt() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *attempt_;
+}
+
+const cases::Case& WatchedAttempt::scene() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *scene_;
+}
+
+const cases::Recording& WatchedAttempt::recording() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return recording_;
+}
+
+Monitor& WatchedAttempt::monitor() {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *monitor_;
+}
+
+double WatchedAttempt::duration_s() const {
+  return static_cast<double>(recording().inputs.size()) * recording_.dt_s;
+}
+
+bool WatchedAttempt::play() {
+  Room room(*scene_);
+  again_ = false;
+  auto due = Clock::now();
+  const auto ticks = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
+  for (std::size_t tick = 0; tick < recording_.inputs.size() && !again_;) {
+    if (ending_) return false;
+    const double speed = speed_;
+    if (speed > 0.0) {
+      const std::size_t end = std::min(recording_.inputs.size(), tick + ticks);
+      for (; tick < end; ++tick) {
+        room.advance(recording_.inputs[tick], recording_.dt_s);
+        if (room.state().fluoroscopy.frame_due) monitor_->show(room.moment());
+      }
+      const Moment moment = room.moment();
+      moments_.put(moment);
+      monitor_->show(moment);
+    }
+    // A machine that cannot keep up shows it slower, and does not leap.
+    due = std::max(due, Clock::now() - std::chrono::milliseconds(50)) +
+          std::chrono::duration_cast<Clock::duration>(
+              std::chrono::duration<double>(speed > 0.0 ? kPieceS / speed : kPieceS));
+    std::this_thread::sleep_until(due);
+  }
+  return true;
+}
+
+void WatchedAttempt::run() {
+  const auto refuse = [this](base::Error error) {
+    error_ = std::move(error);
+    phase_.store(Phase::refused, std::memory_order_release);
+  };
+  try {
+    auto library = casedb::Library::open(library_);
+    if (!library) return refuse(library.error());
+    auto attempt = casedb::find_attempt(*library, attempt_id_);
+    if (!attempt) return refuse(attempt.error());
+    auto recording = casedb::load_recording(*library, attempt_id_);
+    if (!recording) return refuse(recording.error());
+    auto scene = build_case_of(*library, *attempt, needs_of(attempt->picture.modality));
+    if (!scene) return refuse(scene.error());
+    attempt_ = std::move(*attempt);
+    recording_ = std::move(*recording);
+    scene_.emplace(std::move(*scene));
+    monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed);
+  } catch (const base::Failure& failure) {
+    return refuse({failure.code(), failure.what()});
+  }
+  do {
+    phase_.store(Phase::playing, std::memory_order_release);
+    if (!play()) return;
+    if (!again_) phase_.store(Phase::over, std::memory_order_release);
+    while (!again_ && !ending_) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  } while (!ending_);
+}
+
+}  // namespace seldinger::app

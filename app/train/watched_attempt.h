@@ -1,0 +1,59 @@
+// A stored attempt to be watched as it was made: its inputs go through the same step again, at the wall's pace or
+// faster, and room and monitor show what comes. Nothing is recorded.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/train/monitor.h"
+#include "casedb/store.h"
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+class WatchedAttempt {
+ public:
+  enum class Phase { preparing, playing, over, refused };
+
+  // Begins at once.
+  WatchedAttempt(std::filesystem::path library, std::string attempt_id);
+  ~WatchedAttempt();
+  WatchedAttempt(const WatchedAttempt&) = delete;
+  WatchedAttempt& operator=(const WatchedAttempt&) = delete;
+
+  Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
+  const base::Error& error() const;  // `refused` only (CHECKed), as this all from `playing` on:
+  const casedb::AttemptRow& attempt() const;
+  const cases::Case& scene() const;
+  const cases::Recording& recording() const;
+  Monitor& monitor();
+
+  std::optional<Moment> moment() noexcept { return moments_.take(); }  // the newest since the last call
+  double duration_s() const;
+  void set_speed(double times) noexcept { speed_ = times; }  // 0: it stands
+  double speed() const noexcept { return speed_; }
+  void begin_again() noexcept { again_ = true; }
+
+ private:
+  void run();
+  bool play();  // false: it is to end
+
+  std::filesystem::path library_;
+  std::string attempt_id_;
+  std::atomic<Phase> phase_{Phase::preparing};
+  std::optional<base::Error> error_;
+  std::optional<casedb::AttemptRow> attempt_;
+  std::optional<cases::Case> scene_;
+  cases::Recording recording_;
+  std::unique_ptr<Monitor> monitor_;
+  base::Snapshot<Moment> moments_;
+  std::atomic<double> speed_{1.0};
+  std::atomic<bool> again_{false}, ending_{false};
+  std::thread thread_;  // last: it uses the rest
+};
+
+}  // namespace seldinger::app
