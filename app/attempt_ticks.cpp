@@ -58,6 +58,10 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   hash_ = cases::state_hash(state_, hash_);
   tick.hash = static_cast<std::uint32_t>(hash_);
   tick.reaction = patient_.advance(inputs, state_);
+  if (tick.reaction != cases::EventKind::none) {
+    reaction_ = tick.reaction;
+    reaction_t_s_ = state_.t_s;
+  }
   force_ = feel(dt_s);
   // Before a core needle's throw, in the same tick, drags what the trigger found.
   if (state_.fire.fired && !fired)

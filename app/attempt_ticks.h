@@ -24,7 +24,9 @@ cases::PoseSample pose_of(const cases::State& state);
 struct Moment {
   cases::State state;
   tissue::Displacement displacement{};
-  std::optional<cases::ForceSample> force{};  // none: nothing is felt in this case
+  std::optional<cases::ForceSample> force{};           // none: nothing is felt in this case
+  cases::EventKind reaction = cases::EventKind::none;  // the patient's last
+  double reaction_t_s = 0.0;
   double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 
@@ -37,7 +39,7 @@ class Room {
   const cases::State& state() const noexcept { return state_; }
   // Of the tick that was done: where what pictures show is.
   const tissue::Displacement& displacement() const noexcept { return displacement_; }
-  Moment moment() const noexcept { return {state_, displacement_, force_}; }
+  Moment moment() const noexcept { return {state_, displacement_, force_, reaction_, reaction_t_s_}; }
 
   // One tick, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& inputs, double dt_s) noexcept;
@@ -53,6 +55,8 @@ class Room {
   engine::Patient patient_;
   tissue::Displacement displacement_{};
   std::optional<cases::ForceSample> force_;
+  cases::EventKind reaction_ = cases::EventKind::none;
+  double reaction_t_s_ = 0.0;
   cases::State state_;
   std::uint64_t hash_ = 0;
 };

@@ -125,6 +125,22 @@ void AttemptPanel::draw_top(Trainer& trainer) {
   ImGui::TextUnformatted(words);
 }
 
+// What the patient does, over the room, as long as one would hear it.
+void AttemptPanel::draw_reaction() {
+  constexpr double kShownS = 2.5;
+  const Moment& moment = seen_.moment;
+  if (moment.reaction == EventKind::none || moment.state.t_s > moment.reaction_t_s + kShownS) return;
+  const cases::EventInfo* info = cases::find_event(moment.reaction);
+  if (info == nullptr) return;
+  const std::string words = std::string("Patient: ") + info->words;
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words.c_str());
+  const ImVec2 at{corner.x + 0.5F * (ImGui::GetWindowSize().x - size.x), corner.y + 14.0F};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({at.x - 12.0F, at.y - 6.0F}, {at.x + size.x + 12.0F, at.y + size.y + 6.0F},
+                      IM_COL32(120, 40, 30, 220), 6.0F);
+  draw->AddText(at, IM_COL32(255, 240, 230, 255), words.c_str());
+}
+
 void AttemptPanel::draw_steps(Trainer& trainer) {
   PersonAttempt& attempt = *trainer.attempt();
   const cases::Case& scene = attempt.task()->scene;
@@ -230,6 +246,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
   devices::HandIntent sum = told_.sum;
   room_.draw(task.scene, seen_, help_, keys, elapsed_s, sum);
   if (running && !attempt.paused()) told_.sum = sum;
+  draw_reaction();
   char rates[64];
   std::snprintf(rates, sizeof rates, "%.0f /s", frames_s_);
   const ImVec2 corner = ImGui::GetWindowPos();

@@ -32,6 +32,7 @@ class AttemptPanel {
 
  private:
   void draw_top(Trainer& trainer);
+  void draw_reaction();
   void draw_steps(Trainer& trainer);
   void draw_hands(const Task& task);
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
