@@ -10,7 +10,7 @@ namespace {
 
 const glm::vec4 kSkin(0.56F, 0.32F, 0.23F, 1.0F), kDrape(0.06F, 0.21F, 0.26F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
-const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.72F, 0.66F, 0.52F, 1.0F);
+const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1.0F);
 const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
 const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F, 0.10F, 0.55F);
 const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
@@ -158,7 +158,7 @@ class Maker {
     const glm::dvec3 through =
         scene_.lesions.empty() ? room_.frame.middle_lps_mm() : scene_.lesions[0].center_lps_mm;
     // The half on the operator's side is gone.
-    const glm::dvec3 normal = room_.frame.across * operator_side(room_, scene_, state_);
+    const glm::dvec3 normal = room_.frame.across * operator_side(room_.frame, scene_);
     list_.cut = CutPlane{normal, glm::dot(normal, through)};
     RoomItem bone;
     bone.part = RoomPart::bone;
@@ -241,12 +241,6 @@ class Maker {
 };
 
 }  // namespace
-
-double operator_side(const RoomScene& room, const cases::Case& scene, const cases::State& state) noexcept {
-  constexpr double kMiddleMm = 20.0;
-  const glm::dvec3 site = scene.planned_entry_lps_mm ? *scene.planned_entry_lps_mm : state.needle.tip_lps_mm;
-  return glm::dot(site - room.frame.middle_lps_mm(), room.frame.across) > kMiddleMm ? 1.0 : -1.0;
-}
 
 void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
                     const RoomOptions& options, DrawList& list) {

@@ -76,10 +76,6 @@ struct RoomOptions {
   bool needle = true, probe = true;  // what hands hold
 };
 
-// Where the operator stands along RoomFrame::across: on the side where the way in is, else on the patient's right
-// (−1 for one who lies on his back).
-double operator_side(const RoomScene& room, const cases::Case& scene, const cases::State& state) noexcept;
-
 // Of a state: the tools where hands hold them. `list` is emptied first.
 void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
                     const RoomOptions& options, DrawList& list);

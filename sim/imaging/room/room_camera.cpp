@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "sim/base/check.h"
-#include "sim/imaging/room/draw_list.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -40,7 +39,7 @@ RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const ca
   const glm::dvec3 needle = state.needle.direction, tip = state.needle.tip_lps_mm;
   glm::dvec3 site = scene.planned_entry_lps_mm ? *scene.planned_entry_lps_mm : tip;
   if (state.needle.skin.in_body) site = state.needle.skin.entry_lps_mm;
-  const double side = operator_side(room, scene, state);
+  const double side = operator_side(f, scene);
   camera.target_lps_mm = site;
   const auto from = [&](double across, double head, double up, double distance_mm) {
     camera.eye_lps_mm =

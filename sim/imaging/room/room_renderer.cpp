@@ -95,7 +95,7 @@ struct RoomRenderer::Parts {
       balls.push_back(ball);
     }
     const glm::dvec3 patient = 0.5 * (frame.high_mm - frame.low_mm);
-    key = glm::normalize(frame.up + 0.35 * frame.head + 0.45 * frame.across);
+    key = scene.key_light;
     still_ball = {frame.middle_lps_mm(), glm::length(patient) + 120.0};
   }
 

@@ -157,9 +157,22 @@ RoomFrame room_frame_of(const cases::Case& scene) {
   return f;
 }
 
+double operator_side(const RoomFrame& frame, const cases::Case& scene) noexcept {
+  constexpr double kMiddleMm = 20.0;
+  glm::dvec3 site = frame.middle_lps_mm();
+  if (scene.planned_entry_lps_mm)
+    site = *scene.planned_entry_lps_mm;
+  else if (!scene.lesions.empty())
+    site = scene.lesions[0].center_lps_mm;
+  return glm::dot(site - frame.middle_lps_mm(), frame.across) > kMiddleMm ? 1.0 : -1.0;
+}
+
 RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish) {
   RoomScene room;
   room.frame = room_frame_of(scene);
+  // From the head, so that shadows fall beside the tools and not behind them.
+  const double side = operator_side(room.frame, scene);
+  room.key_light = glm::normalize(room.frame.up + 0.45 * room.frame.head + 0.25 * side * room.frame.across);
   const auto add = [&](RoomMesh mesh) {
     if (mesh.triangles.empty()) return kNoMesh;
     room.meshes.push_back(std::move(mesh));

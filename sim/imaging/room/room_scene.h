@@ -32,6 +32,10 @@ struct RoomFrame {
 };
 RoomFrame room_frame_of(const cases::Case& scene);
 
+// Where the operator stands along RoomFrame::across, 1 or −1: on the side where the way in is planned, else where
+// the target is, else on the right of a patient who lies on his back.
+double operator_side(const RoomFrame& frame, const cases::Case& scene) noexcept;
+
 // What is made; what a session never shows is not.
 struct RoomWish {
   std::size_t skin_triangles = 20'000;  // at most; the case's own skin has more
@@ -40,6 +44,7 @@ struct RoomWish {
 
 struct RoomScene {
   RoomFrame frame;
+  glm::dvec3 key_light{0.0, -1.0, 0.0};  // unit, towards it: a lamp over the table, on the operator's side
   std::vector<RoomMesh> meshes;
   // In LPS.
   MeshHandle skin = kNoMesh, cut_ends = kNoMesh, drapes = kNoMesh;

@@ -168,6 +168,20 @@ TEST(RoomScene, PutsTheTableUnderThePatientHoweverHeLies) {
   }
 }
 
+TEST(RoomScene, LampAndOperatorAreOnTheSideOfTheWayIn) {
+  cases::Case scene = ball_case();
+  const RoomFrame frame = room_frame_of(scene);
+  EXPECT_EQ(operator_side(frame, scene), -1.0);
+  scene.lesions[0].center_lps_mm.x = 50.0;
+  EXPECT_EQ(operator_side(frame, scene), -1.0);  // the plan says otherwise
+  scene.planned_entry_lps_mm.reset();
+  EXPECT_EQ(operator_side(frame, scene), 1.0);
+  const glm::dvec3 light = make_room_scene(scene).key_light;
+  EXPECT_GT(glm::dot(light, frame.across), 0.1);
+  EXPECT_GT(glm::dot(light, frame.up), 0.8);
+  EXPECT_NEAR(glm::length(light), 1.0, 1e-12);
+}
+
 TEST(RoomScene, ShowsFewerTrianglesNearTheSkinTheyStandFor) {
   cases::Case scene = ball_case();
   const RoomScene room = make_room_scene(scene, {2'000, false});

@@ -97,7 +97,7 @@ TEST_F(RoomPictures, TheShadowMeetsTheTipWhereTheNeedleTouches) {
   asked.width_px = asked.height_px = 500;
   const RoomFrame& f = room.frame;
   asked.camera.target_lps_mm = f.up * kBallMm;
-  asked.camera.eye_lps_mm = asked.camera.target_lps_mm - 450.0 * f.across - 350.0 * f.head + 420.0 * f.up;
+  asked.camera.eye_lps_mm = asked.camera.target_lps_mm - 100.0 * f.across - 560.0 * f.head + 420.0 * f.up;
   asked.camera.up = f.up;
   asked.camera.height_deg = 16.0;
   const RoomProjection projection = projection_of(asked.camera, 0, 1.0);
