@@ -31,7 +31,7 @@ class HandDevice {
 
 // A device that has been silent for kHoldS is lost: it is not followed, and its force goes to nothing evenly, by
 // kGoneS. With a cycle of the link it is gone in 20 ms (haptics.md §3.4, S16).
-inline constexpr double kHoldS = 0.008, kGoneS = 0.017;
+inline constexpr double kHoldS = 0.008, kGoneS = 0.016;
 inline double share_of_force(double silent_s) noexcept {
   if (silent_s <= kHoldS) return 1.0;
   return silent_s < kGoneS ? (kGoneS - silent_s) / (kGoneS - kHoldS) : 0.0;

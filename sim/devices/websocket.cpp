@@ -1,5 +1,9 @@
 #include "sim/devices/websocket.h"
 
+#include <pthread.h>
+#include <sched.h>
+#include <sys/prctl.h>
+
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -22,6 +26,15 @@ using Clock = std::chrono::steady_clock;
 
 std::chrono::nanoseconds nanoseconds(double s) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(s * 1e9));
+}
+
+// A device's link is as urgent as the servo that waits for it, and below it (80, engine/servo_loop). Where the
+// system does not allow that, the finest timer slack.
+constexpr int kPriority = 70;
+void be_prompt() {
+  sched_param wanted{};
+  wanted.sched_priority = kPriority;
+  if (::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wanted) != 0) ::prctl(PR_SET_TIMERSLACK, 1UL);  // ns
 }
 
 // Both ends after TCP is there.
@@ -123,7 +136,10 @@ struct Loop {
   void run() {
     due = Clock::now();
     wait();
-    thread = std::thread([this] { io.run(); });
+    thread = std::thread([this] {
+      be_prompt();
+      io.run();
+    });
   }
   void stop() {
     io.stop();
