@@ -174,6 +174,11 @@ TEST(Haply, ALostHandStaysAndComesBackWithoutAJump) {
     SimulatedFaults away;
     away.away = true;
     station.service->set(away);
+    // A stall of this machine looks like a loss as well: only once the line is down does no reading follow.
+    ASSERT_TRUE(soon([&] {
+      tick();
+      return !station.haply->status().connected;
+    }));
     ASSERT_TRUE(soon([&] {
       tick();
       return !hand.healthy();
