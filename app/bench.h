@@ -44,6 +44,8 @@ void bench_touch(bool quick, std::vector<BenchRow>& rows);
 // Stage displacement: what moves tissue under a probe, by model against Hertz' full field, and ways back from where
 // tissue is to where it was, by their steps.
 void bench_displacement(bool quick, std::vector<BenchRow>& rows);
+// Also of stage displacement: ultrasound of the torso, moving beside still, and how far its grids are off.
+void bench_moving_ultrasound(bool quick, std::vector<BenchRow>& rows);
 
 // Stage room: the patient's picture by quality, size, one eye or two; `--ct SOURCE` in place of the torso.
 base::Result<void> bench_room(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);

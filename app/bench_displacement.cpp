@@ -241,6 +241,7 @@ void bench_displacement(bool quick, std::vector<BenchRow>& rows) {
     measure_inverse(depth_mm, quick, rows);
   }
   measure_pictures(quick, rows);
+  bench_moving_ultrasound(quick, rows);
 }
 
 }  // namespace seldinger::app

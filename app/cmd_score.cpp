@@ -81,6 +81,8 @@ base::Result<Scored> score_poses(const std::string& poses, const std::string& sc
                                  const std::string& library, std::vector<std::string>& notes) {
   const auto scene = read_scene(scene_path, notes);
   if (!scene) return scene.error();
+  if (scene->motion)
+    return base::Error{"bad_scene", "poses are scored in a patient who lies still: scene.motion", {}};
   const auto text = read_text(poses);
   if (!text) return text.error();
   auto recording = recording_from_csv(*text);

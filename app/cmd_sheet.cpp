@@ -1,5 +1,6 @@
 // sheet: scenes side by side on one page.
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "app/command.h"
@@ -23,15 +24,23 @@ int run_sheet(const Arguments& arguments) {
   std::optional<ScenePainter> painter;
   for (const Sheet::Row& row : sheet->rows) {
     pictures.push_back({row.name, {}, {}});
-    for (const auto& [scene, told] : row.pictures) {
+    for (const auto& [scene, told, minus] : row.pictures) {
       if (!painter || told != volume_told) {
         auto made = ScenePainter::of(scene, library);
         if (!made) return refuse(made.error());
         painter = std::move(*made);
         volume_told = told;
       }
-      const auto picture = painter->paint(scene, arguments.text("--backend"));
+      auto picture = painter->paint(scene, arguments.text("--backend"));
       if (!picture) return refuse(picture.error());
+      if (minus) {
+        const auto other = painter->paint(*minus, arguments.text("--backend"));
+        if (!other) return refuse(other.error());
+        if (other->grey.size() != picture->grey.size())
+          return refuse({"bad_sheet", "a picture and its minus differ in size", {}});
+        for (std::size_t i = 0; i < picture->grey.size(); ++i)
+          picture->grey[i] = static_cast<unsigned char>(std::abs(int{picture->grey[i]} - int{other->grey[i]}));
+      }
       pictures.back().png.push_back(
           png_from_grey(picture->grey, picture->plane.width_px, picture->plane.height_px));
       pictures.back().captions.push_back(picture->backend);

@@ -43,6 +43,15 @@ struct UltrasoundSceneView {
 };
 using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
 
+// What moves the patient of a scene, now.
+struct SceneMotion {
+  double breath_level = 0.0;  // 0 breathed out, 1 breathed in
+  std::optional<glm::dvec3>
+      breath_mm{};        // at 1, where it is most: to the right, to the front, downwards; as cases have it
+  double press_mm = 0.0;  // how deep the probe's head stands in the skin at rest, along its axis; ultrasound only
+  double drag_mm = 0.0;   // how far the needle's shaft takes tissue along; < 0 on the way out
+};
+
 struct Scene {
   std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume> volume;
   imaging::Inserted inserted;
@@ -51,6 +60,7 @@ struct Scene {
   // What a score holds the needle's way against; pictures do not draw them.
   std::optional<glm::dvec3> planned_entry_lps_mm;
   std::vector<cases::Structure> structures;
+  std::optional<SceneMotion> motion;  // nothing: the patient lies still
   std::optional<View> view;
   std::optional<RoomSceneView> room;  // in its place: no picture of the volume, but of what stands around
 };

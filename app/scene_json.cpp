@@ -210,6 +210,17 @@ XrayView read_xray(const Json& json, base::Error& error, std::vector<std::string
   return view;
 }
 
+SceneMotion read_motion(const Json& json, base::Error& error, std::vector<std::string>& unused) {
+  SceneReader reader(json, "motion", error);
+  SceneMotion motion;
+  motion.breath_level = reader.number("breath_level", -1.0, 2.0, 0.0);
+  if (reader.has("breath_mm")) motion.breath_mm = reader.point("breath_mm", -50.0, 50.0);
+  motion.press_mm = reader.number("press_mm", 0.0, 50.0, 0.0);
+  motion.drag_mm = reader.number("drag_mm", -10.0, 10.0, 0.0);
+  reader.unused(unused);
+  return motion;
+}
+
 }  // namespace
 
 base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
@@ -238,6 +249,11 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
   if (root.has("structures")) read_structures(root, scene, error, unused);
   if (root.choice("approach", {"in_plane", "out_of_plane"}, "in_plane") == "out_of_plane")
     scene.approach = cases::Approach::out_of_plane;
+  if (root.has("motion")) {
+    scene.motion = read_motion(root["motion"], error, unused);
+    if (scene.motion->drag_mm != 0.0 && !scene.inserted.needle)
+      root.bad("motion", "drags a needle that is not there");
+  }
   if (root.has("view")) {
     const Json& view = root["view"];
     const std::string kind =
@@ -254,6 +270,9 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
       scene.view = read_ultrasound(view, echogenic, error, unused);
     } else
       root.bad("view", "has no known kind");
+    if (scene.motion && kind == "xray") root.bad("motion", "is not shown by xray yet");
+    if (scene.motion && scene.motion->press_mm > 0.0 && kind != "ultrasound")
+      root.bad("motion", "presses a probe that is not there");
   }
   root.unused(unused);
   if (error.findings.empty()) return scene;

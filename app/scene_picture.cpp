@@ -43,20 +43,26 @@ auto on_best(std::string& backend, const OnGpu& on_gpu, const OnCpu& on_cpu) {
 }
 
 void render_mpr(const volume::Volume& volume, const imaging::MprView& view, const imaging::Inserted& inserted,
-                ScenePicture& picture) {
+                const tissue::Displacement& displacement, ScenePicture& picture) {
   picture.plane = {view.center_lps_mm, view.u, view.v, view.pixel_mm, view.width_px, view.height_px};
   picture.unit = "HU";
   if (picture.backend == "reference")
-    picture.values = imaging::mpr_reference(volume, view, inserted);
+    picture.values = imaging::mpr_reference(volume, view, inserted, displacement);
   else if (picture.backend == "cpu")
-    picture.values = imaging::mpr_cpu(volume, view, inserted);
+    picture.values = imaging::mpr_cpu(volume, view, inserted, displacement);
   else
     picture.values = on_best(
         picture.backend,
-        [&](gpu::Context& context) { return imaging::MprGpu(context, volume).render(view, inserted); },
-        [&] { return imaging::mpr_cpu(volume, view, inserted); });
+        [&](gpu::Context& context) {
+          const auto way_back =
+              tissue::count_sources(displacement) > 0 ? imaging::way_back_for(context) : imaging::WayBack::none;
+          return imaging::MprGpu(context, volume, way_back).render(view, inserted, displacement);
+        },
+        [&] { return imaging::mpr_cpu(volume, view, inserted, displacement); });
   picture.grey = imaging::grey_from_hu(picture.values, kWindowCenterHu, kWindowWidthHu);
-  picture.visible = imaging::mpr_visible(view, inserted.needle, target_of(inserted.lesions));
+  auto target = target_of(inserted.lesions);
+  if (target) target = tissue::displaced(displacement, *target);
+  picture.visible = imaging::mpr_visible(view, inserted.needle, target);
 }
 
 imaging::PathLengths path_lengths(const volume::Volume& volume, const imaging::XrayGeometry& geometry,
@@ -116,15 +122,15 @@ unsigned char grey_of_db(float db) {
 }  // namespace
 
 void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
-                                    ScenePicture& picture) const {
+                                    const tissue::Displacement& displacement, ScenePicture& picture) const {
   const imaging::UltrasoundView& view = scene.view;
-  const std::vector<float> below_skin_mm = element_depths(tissue_->skin, view);
+  const std::vector<float> below_skin_mm = element_depths(tissue_->skin, view, 1, displacement);
   const imaging::TissueVolume tissue{&volume_, tissue_->classes, tissue_->echogenicity};
   const bool on_screen = scene.output == UltrasoundOutput::display;
   constexpr std::uint64_t kFrame = 1;
   imaging::PolarPicture polar;
   const auto on_cpu = [&] {
-    imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar);
+    imaging::ultrasound_polar(tissue, view, inserted, below_skin_mm, polar, displacement);
     if (on_screen) {
       imaging::add_receiver_noise(view.seed, kFrame, polar);
       imaging::ScanConverter(view, scene.size).grey(view, scene.knobs, polar, picture.grey);
@@ -132,11 +138,13 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
     return true;
   };
   const auto on_gpu = [&](gpu::Context& context) {
-    imaging::UltrasoundGpu gpu(context, tissue);
+    const auto moves =
+        tissue::count_sources(displacement) > 0 ? imaging::TissueMoves::yes : imaging::TissueMoves::no;
+    imaging::UltrasoundGpu gpu(context, tissue, imaging::LinesBy::machine, moves);
     if (on_screen)
-      gpu.grey(view, inserted, below_skin_mm, scene.knobs, scene.size, kFrame, picture.grey);
+      gpu.grey(view, inserted, below_skin_mm, scene.knobs, scene.size, kFrame, picture.grey, displacement);
     else
-      gpu.polar(view, inserted, below_skin_mm, polar);
+      gpu.polar(view, inserted, below_skin_mm, polar, displacement);
     return true;
   };
   const bool thesis = view.method == imaging::UltrasoundMethod::thesis;
@@ -148,7 +156,7 @@ void ScenePainter::paint_ultrasound(const UltrasoundSceneView& scene, const imag
   } else {
     on_best(picture.backend, on_gpu, on_cpu);
   }
-  picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm).visible;
+  picture.visible = imaging::ultrasound_visible(tissue, view, inserted, below_skin_mm, displacement).visible;
   picture.frame_rate_hz = imaging::frame_rate_hz(view.depth_mm, view.beams);
   if (scene.output == UltrasoundOutput::polar_db) {
     // A row a depth, a column a beam: no place in space, one unit a pixel.
@@ -182,23 +190,63 @@ base::Result<ScenePainter> ScenePainter::of(const Scene& scene, const std::strin
   return ScenePainter(std::move(*volume), library);
 }
 
+base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
+  if (tissue_) return {};
+  auto classes = classes_of(scene, volume_, library_);
+  if (!classes) return classes.error();
+  std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume_, *classes);
+  auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
+  std::optional<tissue::BreathRegion> trunk;
+  cases::MeshIndex index;
+  if (skin) {
+    index = cases::MeshIndex(*skin);
+    cases::Case patient;
+    patient.volume = volume_;
+    patient.classes = *classes;
+    patient.skin = std::move(*skin);
+    trunk = tissue::breath_region(patient);
+  }
+  tissue_ = Tissue{std::move(*classes), std::move(echogenicity), std::move(index), trunk};
+  return {};
+}
+
+tissue::Displacement ScenePainter::displacement_of(const Scene& scene) const {
+  if (!scene.motion) return {};
+  const SceneMotion& motion = *scene.motion;
+  tissue::Causes causes;
+  if (tissue_->trunk && motion.breath_level != 0.0)
+    causes.breath = tissue::Breath{
+        *tissue_->trunk, motion.breath_level * motion.breath_mm.value_or(cases::Breathing{}.amplitude_mm)};
+  tissue::SkinPress press;
+  if (const auto* view = std::get_if<UltrasoundSceneView>(&*scene.view); view != nullptr && motion.press_mm > 0.0) {
+    press.at_lps_mm = view->view.origin_lps_mm - motion.press_mm * view->view.axial;
+    press.inward = view->view.axial;
+    press.depth_mm = motion.press_mm;
+    causes.presses = {&press, 1};
+  }
+  if (const auto& needle = scene.inserted.needle; needle && motion.drag_mm != 0.0)
+    if (const auto entry = tissue_->skin.first_hit(needle->tip_lps_mm, -needle->direction, needle->length_mm))
+      causes.needle =
+          tissue::NeedleDrag{.entry_lps_mm = needle->tip_lps_mm - entry->distance_mm * needle->direction,
+                             .direction = needle->direction,
+                             .radius_mm = needle->radius_mm,
+                             .cut_mm = entry->distance_mm,
+                             .shaft_mm = motion.drag_mm};
+  return tissue::displacement_of(causes);
+}
+
 base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::string& backend) {
   ScenePicture picture;
   picture.backend = backend;
-  if (const auto* mpr = std::get_if<imaging::MprView>(&*scene.view)) {
-    render_mpr(volume_, *mpr, scene.inserted, picture);
+  const auto* mpr = std::get_if<imaging::MprView>(&*scene.view);
+  if (scene.motion || std::holds_alternative<UltrasoundSceneView>(*scene.view))
+    if (const auto found = find_tissue(scene); !found) return found.error();
+  if (mpr != nullptr) {
+    render_mpr(volume_, *mpr, scene.inserted, displacement_of(scene), picture);
   } else if (const auto* xray = std::get_if<XrayView>(&*scene.view)) {
     render_xray(volume_, *xray, scene.inserted, picture);
   } else {
-    if (!tissue_) {
-      auto classes = classes_of(scene, volume_, library_);
-      if (!classes) return classes.error();
-      std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume_, *classes);
-      const auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
-      tissue_ =
-          Tissue{std::move(*classes), std::move(echogenicity), skin ? cases::MeshIndex(*skin) : cases::MeshIndex()};
-    }
-    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), scene.inserted, picture);
+    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), scene.inserted, displacement_of(scene), picture);
   }
   return picture;
 }

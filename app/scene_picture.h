@@ -11,6 +11,7 @@
 #include "app/scene.h"
 #include "sim/case/mesh_index.h"
 #include "sim/imaging/mpr/visibility.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 
@@ -40,15 +41,18 @@ class ScenePainter {
     std::vector<volume::TissueClass> classes;
     std::vector<std::uint8_t> echogenicity;
     cases::MeshIndex skin;
+    std::optional<tissue::BreathRegion> trunk;  // nothing without a body
   };
   ScenePainter(volume::Volume volume, std::string library)
       : volume_(std::move(volume)), library_(std::move(library)) {}
+  base::Result<void> find_tissue(const Scene& scene);
+  tissue::Displacement displacement_of(const Scene& scene) const;
   void paint_ultrasound(const UltrasoundSceneView& scene, const imaging::Inserted& inserted,
-                        ScenePicture& picture) const;
+                        const tissue::Displacement& displacement, ScenePicture& picture) const;
 
   volume::Volume volume_;
   std::string library_;
-  std::optional<Tissue> tissue_;  // for ultrasound
+  std::optional<Tissue> tissue_;  // for ultrasound, and for what moves
 };
 
 }  // namespace seldinger::app

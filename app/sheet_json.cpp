@@ -12,7 +12,7 @@ constexpr std::size_t kMostPictures = 400;
 struct Place {
   std::string name;
   std::filesystem::path scene;  // rows only
-  Json set;
+  Json set, minus;              // minus: null where there is none
 };
 
 base::Error bad(const std::string& what) {
@@ -30,7 +30,9 @@ base::Result<std::vector<Place>> places(const Json& sheet, const char* field, bo
         (with_scene && (!one.contains("scene") || !one["scene"].is_string())))
       return bad(std::string("an item of ") + field + (with_scene ? " has no name and scene" : " has no name"));
     const std::filesystem::path scene = with_scene ? one["scene"].get<std::string>() : std::string();
-    list.push_back({one["name"], scene.is_absolute() ? scene : folder / scene, set});
+    const Json minus = one.contains("minus") ? one["minus"] : Json();
+    if (!minus.is_null() && !minus.is_object()) return bad("a minus is not an object");
+    list.push_back({one["name"], scene.is_absolute() ? scene : folder / scene, set, minus});
   }
   return list;
 }
@@ -65,12 +67,22 @@ base::Result<Sheet> read_sheet(const std::filesystem::path& path) {
     for (const Place& column : *columns) {
       Json merged = *of_row;
       merged.merge_patch(column.set);
-      std::vector<std::string> unused;
-      auto scene = scene_from_json(merged.dump(), row.scene.parent_path(), unused);
+      const auto read = [&row](const Json& told) -> base::Result<Scene> {
+        std::vector<std::string> unused;
+        auto scene = scene_from_json(told.dump(), row.scene.parent_path(), unused);
+        if (scene && !scene->view) return base::Error{"bad_scene", "scene.view is missing", {}};
+        return scene;
+      };
+      auto scene = read(merged);
       if (!scene) return scene.error();
-      if (!scene->view) return base::Error{"bad_scene", "scene.view is missing", {}};
       sheet.rows.back().pictures.push_back(
-          {std::move(*scene), row.scene.parent_path().string() + merged["volume"].dump()});
+          {std::move(*scene), row.scene.parent_path().string() + merged["volume"].dump(), std::nullopt});
+      if (row.minus.is_null() && column.minus.is_null()) continue;
+      if (!row.minus.is_null()) merged.merge_patch(row.minus);
+      if (!column.minus.is_null()) merged.merge_patch(column.minus);
+      auto minus = read(merged);
+      if (!minus) return minus.error();
+      sheet.rows.back().pictures.back().minus = std::move(*minus);
     }
   }
   return sheet;

@@ -174,6 +174,29 @@ TEST(RenderUltrasound, ProbesOfTheScenesOwnAndPresets) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
 }
 
+TEST(RenderUltrasound, OfAPatientWhoMoves) {
+  const auto scratch = fixtures::fresh_folder("render_ultrasound_motion");
+  Json scene = ball();
+  const auto png = [&](const Json& motion) {
+    scene["motion"] = motion;
+    const auto ran = render(scene, scratch, "m.png");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return fixtures::whole_file(scratch / "m.png");
+  };
+  const auto still = png({{"breath_level", 0.0}});
+  scene.erase("motion");
+  EXPECT_EQ(render(scene, scratch, "s.png").exit_code, 0);
+  EXPECT_EQ(fixtures::whole_file(scratch / "s.png"), still);
+  EXPECT_NE(png({{"press_mm", 6.0}}), still);
+  scene["motion"] = {{"drag_mm", 1.0}};  // without a needle
+  scene.erase("needle");
+  EXPECT_NE(render(scene, scratch, "q.png").err.find("motion"), std::string::npos);
+  scene["motion"] = {{"press_mm", 6.0}};
+  scene["view"] = {{"kind", "xray"}};
+  EXPECT_NE(render(scene, scratch, "q.png").err.find("not shown by xray"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
+}
+
 TEST(Sheet, PutsScenesSideBySide) {
   const auto scratch = fixtures::fresh_folder("sheet");
   Json scene = ball();
@@ -202,6 +225,18 @@ TEST(Sheet, PutsScenesSideBySide) {
     EXPECT_EQ(picture.rfind("iVBORw0KGgo", 0), 0U);  // how every PNG begins
     EXPECT_EQ(picture.size() % 4, 0U);
   }
+  // A picture less itself is black, and whoever is not moved at all is still.
+  sheet["columns"][1] = {{"name", "change"}, {"minus", {{"motion", {{"breath_level", 0.0}}}}}};
+  sheet["rows"][0]["minus"] = "none";
+  EXPECT_EQ(run("t.html").err.rfind("error: bad_sheet: ", 0), 0U);
+  sheet["rows"][0].erase("minus");
+  ASSERT_EQ(run("u.html").exit_code, 0);
+  sheet["columns"][1]["set"] = {{"motion", {{"press_mm", 5.0}}}};
+  sheet["columns"][1]["minus"]["motion"]["press_mm"] = 0.0;
+  ASSERT_EQ(run("v.html").exit_code, 0);
+  const std::string none = fixtures::whole_file(scratch / "u.html"),
+                    some = fixtures::whole_file(scratch / "v.html");
+  EXPECT_GT(some.size(), none.size() + 200) << "black packs smaller than change";
   sheet["rows"][0]["scene"] = "none.json";
   EXPECT_EQ(run("t.html").exit_code, 3);
   sheet.erase("columns");

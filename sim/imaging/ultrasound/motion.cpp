@@ -13,8 +13,8 @@ namespace seldinger::imaging {
 namespace {
 
 // Of a picture's depth; errors of both are measured by `bench --stage ultrasound` (docs/decisions/0025).
-constexpr double kNodesADepth = 40.0, kFanNodesADepth = 50.0;
-constexpr double kLeastSpacingMm = 1.0;
+constexpr double kNodesADepth = 35.0, kFanNodesADepth = 50.0;
+constexpr double kLeastSpacingMm = 2.0;
 constexpr double kBesideMm = 2.0;  // of the grid, around the places that were looked at
 constexpr int kLooks = 8;          // along and across the picture, for what of the tissue at rest it shows
 constexpr tissue::InverseSteps kLook{.fixed_point = 4, .newton = 0};

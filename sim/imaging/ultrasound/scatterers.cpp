@@ -52,12 +52,14 @@ struct Chunk {
   // Of tissue that moves, too: `y` is where the scatterer is now, x, at_y and z where it is at rest. Its row's
   // columns of the slab tell the difference, along the tile's axes, layer by layer.
   float at_y[kChunk];
-  std::int32_t column[kChunk];  // where that of its row begins
+  std::int32_t column[kChunk];  // where that of its row begins, and then the layer below
+  float part[kChunk];           // of the way to the layer above
+  float moved_x[kChunk], moved_y[kChunk], moved_z[kChunk];
 };
 struct Columns {
-  static constexpr int kRoom = 8192;
+  static constexpr int kRoom = 4096;
   int count = 0;
-  float x[kRoom], y[kRoom], z[kRoom];
+  float mm[kRoom][4];                  // xyz
   float low_mm = 0.0F, per_mm = 0.0F;  // height of the first layer; layers a mm
   int layers = 0;                      // ≥ 2
 };
@@ -69,58 +71,86 @@ struct TileFrame {
 };
 
 // Where the scatterer of each cube is: plain loops, which the compiler runs eight at a time.
-template <bool curved, bool moving>
-[[gnu::always_inline]] inline void place(const TileFrame& f, const Columns* columns, Chunk& chunk) noexcept {
+[[gnu::always_inline]] inline void rest(const TileFrame& f, std::uint32_t bits, float& x, float& y, float& z) {
+  const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
+  x = x + u * f.a[0] + v * f.b[0] + w * f.c[0];
+  y = y + u * f.a[1] + v * f.b[1] + w * f.c[1];
+  z = z + u * f.a[2] + v * f.b[2] + w * f.c[2];
+}
+template <bool curved>
+[[gnu::always_inline]] inline void see(const TileFrame& f, int n, float x, float y, float z, Chunk& chunk) {
+  float depth = z, beam = 0.0F;
+  if constexpr (curved) {
+    const float from_center = z + f.radius;
+    depth = std::sqrt(x * x + from_center * from_center) - f.radius;
+    const float angle = shaders::us_narrow_angle(x / from_center);
+    beam = f.beam_middle + angle * f.per_radian;
+  } else {
+    beam = f.beam_middle + x * f.per_radian;
+  }
+  chunk.depth[n] = depth;
+  chunk.beam[n] = beam;
+  chunk.inside[n] =
+      static_cast<std::uint32_t>((depth >= f.from) & (depth < f.to) & (std::abs(y) < f.half_thickness) &
+                                 (beam > f.first_beam) & (beam < f.end_beam));
+}
+template <bool curved>
+[[gnu::always_inline]] inline void place(const TileFrame& f, Chunk& chunk) noexcept {
   for (int n = 0; n < chunk.count; ++n) {
     const std::uint32_t bits = shaders::us_lattice_bits(chunk.seed[n]);
-    const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
-    float x = chunk.x[n] + u * f.a[0] + v * f.b[0] + w * f.c[0];
-    float y = chunk.y[n] + u * f.a[1] + v * f.b[1] + w * f.c[1];
-    float z = chunk.z[n] + u * f.a[2] + v * f.b[2] + w * f.c[2];
+    float x = chunk.x[n], y = chunk.y[n], z = chunk.z[n];
+    rest(f, bits, x, y, z);
     chunk.x[n] = x;
-    chunk.z[n] = z;
-    if constexpr (moving) {
-      chunk.at_y[n] = y;
-      const float most = static_cast<float>(columns->layers - 1);
-      const float layer = std::min(std::max((y - columns->low_mm) * columns->per_mm, 0.0F), most);
-      const int below = std::min(static_cast<int>(layer), columns->layers - 2);
-      const float part = layer - static_cast<float>(below);
-      const int at = chunk.column[n] + below;
-      x += columns->x[at] + part * (columns->x[at + 1] - columns->x[at]);
-      y += columns->y[at] + part * (columns->y[at + 1] - columns->y[at]);
-      z += columns->z[at] + part * (columns->z[at + 1] - columns->z[at]);
-    }
     chunk.y[n] = y;
-    float depth = z, beam = 0.0F;
-    if constexpr (curved) {
-      const float from_center = z + f.radius;
-      depth = std::sqrt(x * x + from_center * from_center) - f.radius;
-      const float angle = shaders::us_narrow_angle(x / from_center);
-      beam = f.beam_middle + angle * f.per_radian;
-    } else {
-      beam = f.beam_middle + x * f.per_radian;
-    }
-    chunk.depth[n] = depth;
-    chunk.beam[n] = beam;
+    chunk.z[n] = z;
     chunk.phase[n] = shaders::us_lattice_turned(bits) * (kPhases / 2);
-    chunk.inside[n] =
-        static_cast<std::uint32_t>((depth >= f.from) & (depth < f.to) & (std::abs(y) < f.half_thickness) &
-                                   (beam > f.first_beam) & (beam < f.end_beam));
+    see<curved>(f, n, x, y, z, chunk);
+  }
+}
+// In three loops: the one in the middle looks columns up, one scatterer at a time.
+template <bool curved>
+[[gnu::always_inline]] inline void place_moving(const TileFrame& f, const Columns& columns, Chunk& chunk) noexcept {
+  const float low_mm = columns.low_mm, per_mm = columns.per_mm;
+  const int last = columns.layers - 2;
+  for (int n = 0; n < chunk.count; ++n) {
+    const std::uint32_t bits = shaders::us_lattice_bits(chunk.seed[n]);
+    float x = chunk.x[n], y = chunk.y[n], z = chunk.z[n];
+    rest(f, bits, x, y, z);
+    chunk.x[n] = x;
+    chunk.at_y[n] = y;
+    chunk.z[n] = z;
+    chunk.phase[n] = shaders::us_lattice_turned(bits) * (kPhases / 2);
+    const float layer = std::min(std::max((y - low_mm) * per_mm, 0.0F), static_cast<float>(last + 1));
+    const int below = std::min(static_cast<int>(layer), last);
+    chunk.part[n] = layer - static_cast<float>(below);
+    chunk.column[n] += below;
+  }
+  for (int n = 0; n < chunk.count; ++n) {
+    const float *low = columns.mm[chunk.column[n]], *high = low + 4;
+    const float part = chunk.part[n];
+    chunk.moved_x[n] = low[0] + part * (high[0] - low[0]);
+    chunk.moved_y[n] = low[1] + part * (high[1] - low[1]);
+    chunk.moved_z[n] = low[2] + part * (high[2] - low[2]);
+  }
+  for (int n = 0; n < chunk.count; ++n) {
+    const float y = chunk.at_y[n] + chunk.moved_y[n];
+    chunk.y[n] = y;
+    see<curved>(f, n, chunk.x[n] + chunk.moved_x[n], y, chunk.z[n] + chunk.moved_z[n], chunk);
   }
 }
 [[gnu::target_clones("avx2", "default")]] void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
-  place<true, false>(f, nullptr, chunk);
+  place<true>(f, chunk);
 }
 [[gnu::target_clones("avx2", "default")]] void place_straight(const TileFrame& f, Chunk& chunk) noexcept {
-  place<false, false>(f, nullptr, chunk);
+  place<false>(f, chunk);
 }
 [[gnu::target_clones("avx2", "default")]] void place_moving_curved(const TileFrame& f, const Columns& columns,
                                                                    Chunk& chunk) noexcept {
-  place<true, true>(f, &columns, chunk);
+  place_moving<true>(f, columns, chunk);
 }
 [[gnu::target_clones("avx2", "default")]] void place_moving_straight(const TileFrame& f, const Columns& columns,
                                                                      Chunk& chunk) noexcept {
-  place<false, true>(f, &columns, chunk);
+  place_moving<false>(f, columns, chunk);
 }
 
 }  // namespace
@@ -352,10 +382,10 @@ void ScattererField::add_band(const Band& band, int first, int end, std::vector<
     const glm::vec3 x(x_axis), y(y_axis), z(z_axis);
     for (int l = 0; l < columns.layers; ++l) {
       const glm::vec3 u = at.at(first_layer + l);
-      const int n = columns.count++;
-      columns.x[n] = glm::dot(u, x);
-      columns.y[n] = glm::dot(u, y);
-      columns.z[n] = glm::dot(u, z);
+      float* mm = columns.mm[columns.count++];
+      mm[0] = glm::dot(u, x);
+      mm[1] = glm::dot(u, y);
+      mm[2] = glm::dot(u, z);
     }
   };
 
