@@ -56,7 +56,7 @@ void set_style(float scale) {
 }  // namespace
 
 bool Keys::pressed(int key) const noexcept {
-  return !typing_ && std::find(pressed_.begin(), pressed_.end(), key) != pressed_.end();
+  return (!typing_ || key >= kF1) && std::find(pressed_.begin(), pressed_.end(), key) != pressed_.end();
 }
 
 bool Keys::held(int key) const noexcept {

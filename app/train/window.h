@@ -33,7 +33,7 @@ enum Key : int {
 // frame loses no press.
 class Keys {
  public:
-  bool pressed(int key) const noexcept;  // went down; none while a text is typed
+  bool pressed(int key) const noexcept;  // went down; while a text is typed, F keys only
   bool held(int key) const noexcept;     // is down, or was
   bool shift = false, control = false, alt = false;
 

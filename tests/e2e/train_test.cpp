@@ -11,9 +11,8 @@
 #include "casedb/store.h"
 #include "sim/case/mesh_index.h"
 #include "tests/fixtures/answers.h"
-#include "tests/fixtures/png_picture.h"
 #include "tests/fixtures/process.h"
-#include "tests/fixtures/screen.h"
+#include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
@@ -65,61 +64,17 @@ class TrainTest : public testing::Test {
   void SetUp() override {
     folder_ = scratch_ / testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
-    screen_ = std::make_unique<fixtures::Screen>(folder_);
-    program_ = std::make_unique<fixtures::Process>(
-        std::vector<std::string>{kProgram, "train", "--library", library_, "--trace", trace().string(),
-                                 "--pictures", folder_.string()},
-        folder_ / "train.txt", screen_->display());
-    ASSERT_TRUE(reaches("log_in", 30.0));
+    trainee_ = std::make_unique<fixtures::Trainee>(kProgram, library_, folder_);
+    ASSERT_FALSE(HasFailure());
   }
-  std::filesystem::path trace() const { return folder_ / "trace.jsonl"; }
-  Json now() const { return fixtures::newest(trace()); }
-  bool reaches(const std::string& screen, double most_s) {
-    return fixtures::until([&] { return now().value("screen", "") == screen || program_->ended(); }, most_s) &&
-           now().value("screen", "") == screen;
-  }
-  // A picture of the window.
-  fixtures::RgbPicture look() {
-    const auto path = folder_ / ("seldinger-" + std::to_string(++pictures_) + ".png");
-    screen_->press("F12");
-    EXPECT_TRUE(fixtures::until(
-        [&] { return std::filesystem::exists(path) && std::filesystem::file_size(path) > 1000; }, 10.0));
-    return fixtures::read_png(path);
-  }
-  void log_in() {
-    screen_->click(630, 335);
-    screen_->type("tina");
-    screen_->press("Tab");
-    screen_->type(kPassword);
-    screen_->press("Return");
-    ASSERT_TRUE(reaches("choose", 20.0));
-  }
-  void open_case() {
-    screen_->click(1200, 131);
-    ASSERT_TRUE(reaches("ready", 60.0)) << now();
-  }
-  void enter_room() {
-    screen_->click(687, 335);  // all checked
-    screen_->press("Return");
-    ASSERT_TRUE(reaches("attempt", 20.0));
-  }
-  // Until the needle is in so far: a force may hold notches back.
-  void push_to(double inserted_mm) {
-    for (int i = 0; i < 80; ++i) {
-      const double left_mm = inserted_mm - now().value("inserted_mm", 0.0);
-      if (left_mm < 0.5) return;
-      screen_->wheel(left_mm > 15.0 ? 8 : left_mm > 4.0 ? 2 : 1);
-      std::this_thread::sleep_for(std::chrono::milliseconds(600));  // until the trace tells of it
-    }
-  }
+  Json now() const { return trainee_->now(); }
+  fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
   static inline std::filesystem::path scratch_;
   static inline std::string library_, case_id_;
   static inline double depth_mm_ = 0.0;
   std::filesystem::path folder_;
-  std::unique_ptr<fixtures::Screen> screen_;
-  std::unique_ptr<fixtures::Process> program_;
-  int pictures_ = 0;
+  std::unique_ptr<fixtures::Trainee> trainee_;
 };
 
 // Share of a part of the window for which `holds` is true of red, green, blue.
@@ -142,34 +97,28 @@ bool skin(int red, int green, int blue) {
 }
 
 TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
-  ASSERT_NO_FATAL_FAILURE(log_in());
-  EXPECT_GT(look().width_px, 1000);
-  ASSERT_NO_FATAL_FAILURE(open_case());
+  ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
+  EXPECT_EQ(look().width_px, 1280);
+  ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
   look();
-  ASSERT_NO_FATAL_FAILURE(enter_room());
-  for (const char* key : {"y", "F1", "F2", "F3", "F4"}) {
-    screen_->press(key);
-  }
-  // The probe is pressed on, until there is a picture.
-  screen_->press("Tab");
-  ASSERT_TRUE(fixtures::until([&] { return now().value("held", "") == "probe"; }, 10.0));
-  screen_->point(350, 300);
-  screen_->wheel(16);
-  ASSERT_TRUE(fixtures::until([&] { return now().value("press_mm", 0.0) > 2.0; }, 10.0)) << now();
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
+  trainee_->prepare();
+  ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
   const auto scanning = look();
   EXPECT_GT(share(scanning, 741, 30, 1272, 500, grey), 0.20) << "speckle on the monitor";
-  EXPECT_GT(share(scanning, 8, 30, 730, 640, skin), 0.15) << "a patient in the room";
-  screen_->press("Tab");
-  ASSERT_TRUE(fixtures::until([&] { return now().value("held", "") == "needle"; }, 10.0));
-  push_to(depth_mm_);
+  EXPECT_GT(share(scanning, 8, 30, 730, 640, skin), 0.10) << "a patient in the room";
+  ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(depth_mm_));
   EXPECT_NEAR(now().value("inserted_mm", 0.0), depth_mm_, 2.0);
   look();
-  screen_->press("space");
-  ASSERT_TRUE(fixtures::until([&] { return now().value("fired", false); }, 10.0));
-  screen_->press("F9");
-  ASSERT_TRUE(reaches("debrief", 30.0));
+  ASSERT_NO_FATAL_FAILURE(trainee_->fire());
+  ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
+  trainee_->screen().press("w");
+  ASSERT_TRUE(trainee_->reaches("watch", 10.0));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  EXPECT_GT(share(look(), 741, 30, 1272, 500, grey), 0.05) << "the attempt is shown again";
+  trainee_->screen().press("Escape");
+  ASSERT_TRUE(trainee_->reaches("debrief", 10.0));
 
   const Json listed = ask("attempt list");
   const Json* mine = nullptr;
@@ -190,35 +139,36 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
 }
 
 TEST_F(TrainTest, WhoIsNotKnownDoesNotGetIn) {
-  screen_->click(630, 335);
-  screen_->type("tina");
-  screen_->press("Tab");
-  screen_->type("another password");
-  screen_->press("Return");
-  EXPECT_FALSE(reaches("choose", 4.0));
+  const fixtures::Screen& screen = trainee_->screen();
+  screen.click(630, 335);
+  screen.type("tina");
+  screen.press("Tab");
+  screen.type("another password");
+  screen.press("Return");
+  EXPECT_FALSE(trainee_->reaches("choose", 4.0));
   EXPECT_EQ(now()["screen"], "log_in");
 }
 
 // Restart is one key; a pause stops the clock; and a window that is closed in the middle loses nothing.
 TEST_F(TrainTest, RestartPauseAndAClosedWindowLoseNothing) {
   const std::size_t before = ask("attempt list")["attempts"].size();
-  ASSERT_NO_FATAL_FAILURE(log_in());
-  ASSERT_NO_FATAL_FAILURE(open_case());
-  ASSERT_NO_FATAL_FAILURE(enter_room());
+  ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
+  ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
   ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.5; }, 20.0));
-  screen_->press("F5");
+  trainee_->screen().press("F5");
   ASSERT_TRUE(fixtures::until(
       [&] { return now().value("screen", "") == "attempt" && now().value("attempt_s", 9.0) < 1.0; }, 30.0));
   ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.0; }, 20.0));
-  screen_->press("Escape");
+  trainee_->screen().press("Escape");
   std::this_thread::sleep_for(std::chrono::milliseconds(700));
   const double paused_s = now().value("attempt_s", -1.0);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   EXPECT_NEAR(now().value("attempt_s", -2.0), paused_s, 0.02);
   look();
-  program_->signal(SIGTERM);
-  ASSERT_TRUE(fixtures::until([&] { return program_->ended(); }, 20.0));
-  EXPECT_EQ(program_->exit_code(), 0);
+  trainee_->program().signal(SIGTERM);
+  ASSERT_TRUE(fixtures::until([&] { return trainee_->program().ended(); }, 20.0));
+  EXPECT_EQ(trainee_->program().exit_code(), 0);
   const Json listed = ask("attempt list");
   EXPECT_EQ(listed["attempts"].size(), before + 2);
   EXPECT_TRUE(listed["running"].empty()) << listed["running"];

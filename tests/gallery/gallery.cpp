@@ -1,0 +1,89 @@
+// Makes docs/gallery: pictures of the workstation as a trainee sees it, by somebody at its mouse and keys. Run by
+// hand (`gallery` is a target of the build, no test): gallery PROGRAM FOLDER.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/fixtures/process.h"
+#include "tests/fixtures/trainee.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+std::string program, folder;
+constexpr const char* kPassword = "a password";
+
+class Gallery : public testing::Test {
+ protected:
+  // A library with the demo's case by this guidance, and a mentor who may try it as it is.
+  std::string library(const std::string& modality) {
+    const fs::path scratch = fixtures::fresh_folder("gallery_" + modality);
+    scratch_ = scratch;
+    std::string made = (scratch / "library").string();
+    EXPECT_EQ(fixtures::run(program + " demo --no-serve --modality " + modality + " --library " + made, scratch)
+                  .exit_code,
+              0);
+    EXPECT_EQ(fixtures::run(std::string("printf '") + kPassword + "\\n' | " + program +
+                                " user add mona --role mentor --library " + made,
+                            scratch)
+                  .exit_code,
+              0);
+    return made;
+  }
+  static void keep(fixtures::Trainee& trainee, const std::string& name) {
+    fs::copy_file(trainee.keep_picture(), fs::path(folder) / (name + ".png"), fs::copy_options::overwrite_existing);
+  }
+  fs::path scratch_;
+};
+
+TEST_F(Gallery, Ultrasound) {
+  const std::string made = library("ultrasound");
+  fixtures::Trainee trainee(program, made, scratch_);
+  keep(trainee, "log-in");
+  ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
+  keep(trainee, "briefing");
+  ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
+  trainee.prepare();
+  ASSERT_NO_FATAL_FAILURE(trainee.press_probe_on());
+  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(45.0));
+  keep(trainee, "ultrasound");
+  trainee.screen().press("F11");
+  keep(trainee, "stereo");
+  trainee.screen().press("F11");
+  ASSERT_NO_FATAL_FAILURE(trainee.fire());
+  ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
+  keep(trainee, "debrief");
+}
+
+TEST_F(Gallery, Fluoroscopy) {
+  const std::string made = library("xray");
+  fixtures::Trainee trainee(program, made, scratch_);
+  ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
+  ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
+  trainee.prepare();
+  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(25.0));
+  trainee.screen().hold("p", 2.0);
+  keep(trainee, "fluoroscopy");
+}
+
+}  // namespace
+}  // namespace seldinger
+
+int main(int count, char** words) {
+  testing::InitGoogleTest(&count, words);
+  if (count != 3) {
+    std::fputs("usage: gallery PROGRAM FOLDER\n", stderr);
+    return 2;
+  }
+  seldinger::program = words[1];
+  seldinger::folder = words[2];
+  std::filesystem::create_directories(seldinger::folder);
+  return RUN_ALL_TESTS();
+}
