@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 
+#include "app/attempt_ticks.h"
 #include "app/bench.h"
 #include "app/servo_trial.h"
 
@@ -65,6 +66,38 @@ base::Result<void> bench_pair(const ServoScene& torso, const haptics::TwoHands& 
   return {};
 }
 
+// All that a servo does in a tick of an attempt: step, displacement, both hands, hashes.
+void bench_room(const ServoScene& torso, const char* name, bool quick, std::vector<BenchRow>& rows) {
+  HandsAtWork work(torso.plan, haptics::Handedness::right, {haptics::Tool::needle, haptics::Tool::probe});
+  std::vector<cases::Inputs> recording;
+  for (int tick = 0; tick < (quick ? kQuickTicks : kTicks); ++tick) {
+    cases::Inputs& inputs = recording.emplace_back();
+    for (const haptics::HandInput& hand : work.next())
+      (hand.tool == haptics::Tool::needle ? inputs.needle : inputs.probe) = hand.pose;
+  }
+  std::vector<double> least_ms(recording.size(), std::numeric_limits<double>::infinity()), all_ms;
+  for (int replay = 0; replay < kReplays; ++replay) {
+    Room room(torso.scene);
+    for (std::size_t tick = 0; tick < recording.size(); ++tick) {
+      const auto start = std::chrono::steady_clock::now();
+      room.advance(recording[tick], haptics::kTickS);
+      all_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      least_ms[tick] = std::min(least_ms[tick], all_ms.back());
+    }
+  }
+  for (auto& [what, times_ms] :
+       {std::pair{"least of replays", std::move(least_ms)}, std::pair{"all replays", std::move(all_ms)}}) {
+    std::vector<double> sorted_ms = times_ms;
+    std::sort(sorted_ms.begin(), sorted_ms.end());
+    for (const auto& [quantile, share, goal_ms] : {std::tuple{"p50", 0.5, 0.015}, std::tuple{"p99.9", 0.999, 0.05}})
+      rows.push_back({"haptics", std::string("tick of an attempt, ") + name,
+                      std::string(quantile) + " of a tick's time, " + what, "cpu", "1 thread",
+                      bench_size(torso.scene.volume), static_cast<int>(sorted_ms.size()),
+                      quantile_ms(sorted_ms, share), sorted_ms.front(), sorted_ms.back(), "", "",
+                      "goal " + bench_number(goal_ms) + " ms"});
+  }
+}
+
 }  // namespace
 
 base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
@@ -81,6 +114,11 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
        {Pair{"needle and probe", {needle, probe}}, Pair{"pointer and finger", {pointer, finger}}})
     if (auto measured = bench_pair(*torso, hands, pair.name, pair.tools, quick, rows); !measured)
       return measured.error();
+  bench_room(*torso, "still", quick, rows);
+  torso->scene.yields = true;
+  bench_room(*torso, "yielding", quick, rows);
+  torso->scene.breathing.emplace();
+  bench_room(*torso, "breathing and yielding", quick, rows);
   return {};
 }
 

@@ -32,6 +32,22 @@ std::string json_of_checks(const std::string& case_id, const CaseCheck& check) {
       {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
 }
 
+std::string json_of_needs(const std::string& case_id, const CaseNeeds& needs) {
+  Json held = Json::array(), sources = Json::array();
+  for (const SceneNeed& one : needs.held) held.push_back({{"what", one.what}, {"bytes", one.bytes}});
+  for (const MotionSource& one : needs.sources)
+    sources.push_back({{"kind", one.kind}, {"name", one.name}, {"bytes", one.bytes}});
+  return text({{"case_id", case_id},
+               {"held", held},
+               {"displacement",
+                {{"sources", sources},
+                 {"count", needs.sources.size()},
+                 {"most", kMostMotionSources},
+                 {"bytes", needs.displacement_bytes},
+                 {"there_ns", needs.there_ns},
+                 {"back_ns", needs.back_ns}}}});
+}
+
 std::string json_of_version(const casedb::CaseRow& row) {
   return text(
       {{"case_id", row.case_id}, {"family_id", row.family_id}, {"version", row.version}, {"state", row.state}});

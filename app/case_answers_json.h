@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/case_check.h"
+#include "app/case_needs.h"
 
 namespace seldinger::app {
 
@@ -17,6 +18,7 @@ struct LabelCount {
 std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
 std::string json_of_checks(const std::string& case_id, const CaseCheck& check);
+std::string json_of_needs(const std::string& case_id, const CaseNeeds& needs);
 std::string json_of_version(const casedb::CaseRow& row);
 
 }  // namespace seldinger::app

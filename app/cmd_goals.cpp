@@ -4,10 +4,14 @@
 
 #include "app/command.h"
 #include "app/goals_answer.h"
+#include "app/servo_trial.h"
+#include "sim/base/vectors.h"
+#include "sim/engine/motion_trials.h"
 
 namespace seldinger::app {
 namespace {
 
+constexpr double kSkinDecimation = 0.7;
 constexpr int kProxyTicks = 100000;  // a second or two; the long tests take a million
 
 }  // namespace
@@ -56,6 +60,16 @@ int run_goals_haptics(const Arguments& arguments) {
   for (const auto& more :
        {haptics::proxy_readings(kProxyTicks), haptics::stability_readings(haptics::survey_stability())})
     readings.insert(readings.end(), more.begin(), more.end());
+  // A needle into the torso's liver, the probe 30 mm beside it.
+  const auto torso = torso_under_hands(kSkinDecimation);
+  if (!torso) return refuse(torso.error());
+  engine::TrialPlace place{torso->plan.entry_lps_mm, torso->plan.direction, torso->plan.depth_mm};
+  const glm::dvec3 beside = place.entry_lps_mm + 30.0 * base::perpendiculars(place.direction).u;
+  const cases::Closest skin = torso->scene.skin_index.closest_skin(beside);
+  place.probe_lps_mm = skin.point_lps_mm;
+  place.probe_axis = place.direction;
+  const auto moving = engine::motion_readings(torso->scene, place);
+  readings.insert(readings.end(), moving.begin(), moving.end());
   std::fputs((arguments.has("--json") ? json_of_goals(readings) : goals_table(readings)).c_str(), stdout);
   const bool holds =
       std::all_of(readings.begin(), readings.end(), [](const haptics::ForceReading& one) { return one.holds(); });

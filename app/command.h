@@ -43,6 +43,7 @@ int run_import(const Arguments& arguments);
 int run_sample(const Arguments& arguments);
 int run_case_list(const Arguments& arguments);
 int run_case_show(const Arguments& arguments);
+int run_case_explain(const Arguments& arguments);
 int run_case_lesion(const Arguments& arguments);
 int run_case_confirm(const Arguments& arguments);
 int run_case_mesh(const Arguments& arguments);

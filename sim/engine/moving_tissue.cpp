@@ -8,6 +8,7 @@ namespace seldinger::engine {
 
 MovingTissue::MovingTissue(const cases::Case& scene) : scene_(scene) {
   if (scene.breathing) region_ = tissue::breath_region(scene);
+  if (scene.yields) veins_ = tissue::compressible_veins(scene);
 }
 
 tissue::Displacement MovingTissue::of(const cases::State& state, const haptics::HandStates* presses,
@@ -21,6 +22,17 @@ tissue::Displacement MovingTissue::of(const cases::State& state, const haptics::
       if (hand.tool == haptics::Tool::probe && hand.probe.press.depth_mm > 0.0 && count < pressed.size())
         pressed[count++] = hand.probe.press;
   causes.presses = {pressed.data(), count};
+  std::array<tissue::SqueezedVein, tissue::kMostVeins> closing;
+  std::size_t closed = 0;
+  for (const tissue::CompressibleVein& vein : veins_) {
+    std::optional<tissue::SqueezedVein> most;  // by what presses it most
+    for (const tissue::SkinPress& press : causes.presses)
+      if (const auto by = tissue::squeezed(vein, press, haptics::SoftContact{}.shear_n_mm2);
+          by && (!most || by->area_share < most->area_share))
+        most = by;
+    if (most) closing[closed++] = *most;
+  }
+  causes.veins = {closing.data(), closed};
   if (scene_.yields && drags != nullptr)
     for (const haptics::HandState& hand : *drags)
       if (hand.tool == haptics::Tool::needle) causes.needle = hand.needle.drag;

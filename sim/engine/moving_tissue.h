@@ -3,11 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sim/case/case.h"
 #include "sim/case/state.h"
 #include "sim/haptics/two_hands.h"
 #include "sim/tissue/displacement.h"
+#include "sim/tissue/veins.h"
 
 namespace seldinger::engine {
 
@@ -18,6 +20,9 @@ class MovingTissue {
 
   // Whether anything can move at all.
   bool moves() const noexcept { return region_.has_value() || scene_.yields; }
+  bool breathes() const noexcept { return region_.has_value(); }
+  // Those that give way to a probe; none where tissue does not yield.
+  const std::vector<tissue::CompressibleVein>& veins() const noexcept { return veins_; }
 
   // What a hand finds: displaced by breath and by what the other hand holds. Hands by Side; of what is in hand.
   tissue::Displacement felt_by_needle(const cases::State& state, const haptics::HandStates& hands) const noexcept;
@@ -31,6 +36,7 @@ class MovingTissue {
 
   const cases::Case& scene_;
   std::optional<tissue::BreathRegion> region_;  // where it breathes
+  std::vector<tissue::CompressibleVein> veins_;
 };
 
 // A tool's pose as it is to the tissue at rest: its tip there, and a point `behind_mm` up the shaft, too.

@@ -35,8 +35,9 @@ constexpr double kNeedleShearNMm2 = 0.0045;
 constexpr double kLeastMm = 1e-4;
 
 // A vein never closes altogether: its wall has a thickness.
-constexpr double kLeastVeinArea = 0.1;
-constexpr double kVeinCollapseNMm2 = 1.5e-4;  // K, 0.15 kPa (design)
+constexpr double kLeastVeinArea = 0.03;
+// K of a thin wall, E (h/r)³ / (12 (1 − ν²)): 0.5 Pa, of 0.3 MPa and a wall of 0.025 radii (design).
+constexpr double kVeinCollapseNMm2 = 5e-7;
 
 vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {
   return vec4(glm::dvec4(xyz, w));

@@ -89,6 +89,28 @@ TEST_F(MotionTest, TheSameHandsMeetAnotherPlaceInWhoBreathes) {
   EXPECT_GT(std::abs(breathing_mm - still_mm), 0.1);
 }
 
+TEST_F(MotionTest, ExplainListsWhatCanMoveTheTissueAndNothingElse) {
+  const auto kinds = [](const Json& explained) {
+    std::vector<std::string> list;
+    for (const Json& one : explained["displacement"]["sources"]) list.push_back(one["kind"]);
+    return list;
+  };
+  const Json still = ask("case explain " + version(""));
+  EXPECT_TRUE(kinds(still).empty());
+  EXPECT_EQ(still["displacement"]["bytes"], 0);
+  EXPECT_EQ(still["displacement"]["there_ns"], 0.0);
+  EXPECT_GT(still["held"].size(), 2U);
+  const Json breathing = ask("case explain " + version("--breath-depth 1"));
+  EXPECT_EQ(kinds(breathing), std::vector<std::string>({"breath"}));
+  EXPECT_GT(breathing["displacement"]["there_ns"], 0.0);
+  const std::string id = version("--tissue yields");
+  EXPECT_EQ(kinds(ask("case explain " + id)), std::vector<std::string>({"press", "needle tip", "needle shaft"}));
+  const Json both = ask("case explain " + version("--tissue yields --breath-depth 1"));
+  EXPECT_EQ(both["displacement"]["count"], 4);
+  EXPECT_EQ(both["displacement"]["most"], 16);
+  EXPECT_GT(both["displacement"]["back_ns"], both["displacement"]["there_ns"]);
+}
+
 TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
   for (const std::string words : {"--breath-depth 1", "--breath-depth 1.5 --tissue yields"}) {
     const std::string case_id = version(words);

@@ -32,6 +32,28 @@ TEST(MovingTissue, OfAStillSceneHasNoSource) {
   EXPECT_EQ(at_rest({}, pose, 20.0).position_lps_mm, pose.position_lps_mm);
 }
 
+TEST(MovingTissue, AProbeClosesTheScenesVeinsWhereTissueYields) {
+  cases::Case scene = body();
+  for (const char* name : {"jugular_vein", "carotid"})
+    scene.structures.push_back({name, volume::TissueClass::vessel, cases::StructureRule::critical,
+                                cases::Tube{{{-60, -78, 0}, {60, -78, 0}}, 5.0}});
+  haptics::HandStates hands{};
+  hands[0].tool = haptics::Tool::probe;
+  hands[0].probe.press = {.at_lps_mm = {0, -100, 0}, .inward = {0, 1, 0}, .radius_mm = 20.0, .depth_mm = 6.0};
+  const cases::State state;
+  EXPECT_TRUE(MovingTissue(scene).veins().empty()) << "a still scene has none";
+  scene.yields = true;
+  const MovingTissue tissue(scene);
+  ASSERT_EQ(tissue.veins().size(), 1U);
+  EXPECT_EQ(tissue.veins()[0].name, "jugular_vein");
+  const tissue::Displacement seen = tissue.seen(state, hands);
+  EXPECT_EQ(tissue::count_sources(seen), 2) << "the press and one vein";
+  const double ap_mm = tissue::displaced(seen, {0, -73, 0}).y - tissue::displaced(seen, {0, -83, 0}).y;
+  EXPECT_LT(ap_mm, 2.0) << "of 10";
+  EXPECT_EQ(tissue::count_sources(tissue.felt_by_needle(state, hands)), 2);
+  EXPECT_EQ(tissue::count_sources(tissue.felt_by_probe(state)), 0);
+}
+
 TEST(MovingTissue, EachHandFindsWhatTheOthersDo) {
   cases::Case scene = body();
   scene.yields = true;

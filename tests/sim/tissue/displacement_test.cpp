@@ -193,11 +193,11 @@ TEST(Vein, GivesWayOnceThePressureOutsideIsHigher) {
   EXPECT_EQ(vein_area_share(0.0, 0.001), 1.0);
   EXPECT_EQ(vein_area_share(0.001, 0.001), 1.0);
   double last = 1.0;
-  for (double outside = 0.00101; outside < 0.005; outside += 1e-5) {
+  for (double outside = 0.001; outside < 0.0013; outside += 2e-8) {
     const double share = vein_area_share(outside, 0.001);
     EXPECT_LE(share, last);
     EXPECT_LT(last - share, 0.05) << "and no step";
-    EXPECT_GE(share, 0.1);
+    EXPECT_GE(share, 0.03) << "its wall has a thickness";
     last = share;
   }
   // 10 mmHg of blood (1.33 kPa) under a probe pressed 8 mm in, 15 mm deep: nearly closed; untouched: open.

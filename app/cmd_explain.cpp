@@ -1,0 +1,42 @@
+// case explain: what a case's scene holds, what moves its tissue, and what that costs.
+#include <cstdio>
+
+#include "app/case_answers_json.h"
+#include "app/case_build.h"
+#include "app/command.h"
+#include "casedb/authoring.h"
+
+namespace seldinger::app {
+
+int run_case_explain(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const std::string case_id = arguments.positional(0);
+  const auto row = casedb::find_case(*library, case_id);
+  if (!row) return refuse(row.error());
+  std::optional<cases::LesionForm> target;
+  for (const casedb::LesionRow& lesion : casedb::list_lesions(*library, case_id))
+    if (!target) target = lesion.form;
+  cases::Picture picture;
+  picture.modality = row->modality;
+  const auto scene = build_case(*library, *row, target, picture, needs_of(row->modality));
+  if (!scene) return refuse(scene.error());
+  const CaseNeeds needs = needs_of_case(*scene);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_needs(case_id, needs).c_str(), stdout);
+    return kDone;
+  }
+  for (const SceneNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
+  if (needs.displacement_bytes == 0) {
+    std::puts("moving tissue    none: no source, nothing is asked");
+    return kDone;
+  }
+  std::printf("moving tissue    %12zu bytes, %zu of at most %d sources\n", needs.displacement_bytes,
+              needs.sources.size(), kMostMotionSources);
+  for (const MotionSource& one : needs.sources)
+    std::printf("  %-14s %12zu bytes  %s\n", one.kind.c_str(), one.bytes, one.name.c_str());
+  std::printf("  a point, all at work: %.0f ns, back to rest %.0f ns\n", needs.there_ns, needs.back_ns);
+  return kDone;
+}
+
+}  // namespace seldinger::app
