@@ -1,0 +1,194 @@
+// The workstation without its window: from logging in to the debrief, with hands that are told what to want.
+#include "app/train/trainer.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::app {
+namespace {
+
+using Phase = PersonAttempt::Phase;
+constexpr const char* kPassword = "a long password";
+
+bool until(const std::function<bool()>& holds, double most_s = 60.0) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
+  while (!holds()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+class TrainerTest : public testing::Test {
+ protected:
+  // A ball of soft tissue, practised by slices; its target 25 mm below the skin.
+  static constexpr double kDepthMm = 25.0;
+  std::filesystem::path folder_ = [] {
+    const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "trainer" /
+                        testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(folder);
+    return folder;
+  }();
+  std::string case_id_;
+
+  void SetUp() override {
+    casedb::Library library = std::move(casedb::Library::open_or_create(folder_).value());
+    volume::AnalyticVolume analytic;
+    analytic.size_voxels = {60, 60, 60};
+    analytic.spacing_mm = {2, 2, 2};
+    analytic.origin_mm = {-59, -59, -59};
+    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 50.0}, 50.0, ""});
+    casedb::NewCase made;
+    made.title = "Ball";
+    made.origin = "import";
+    made.volume = volume::rasterize(analytic);
+    made.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
+    made.planned_entry_lps_mm = glm::dvec3(0.0, -50.0, 0.0);
+    assessment::Criterion hit;
+    hit.metric = "hit";
+    hit.value = 1.0;
+    made.rule.criteria = {hit};
+    case_id_ = casedb::add_case(library, made);
+    cases::Lesion lesion;
+    lesion.center_lps_mm = {0.0, kDepthMm - 50.0, 0.0};
+    lesion.radius_mm = 6.0;
+    lesion.hu = 20.0;
+    ASSERT_TRUE(casedb::add_lesion(library, case_id_, lesion));
+    ASSERT_TRUE(casedb::add_user(library, "mona", casedb::Role::mentor, kPassword));
+    ASSERT_TRUE(casedb::add_user(library, "tina", casedb::Role::trainee, kPassword));
+  }
+  casedb::Library open() { return std::move(casedb::Library::open(folder_).value()); }
+  bool looks_until(Trainer& trainer, TrainerScreen screen) {
+    return until([&] {
+      trainer.look();
+      return trainer.screen() == screen;
+    });
+  }
+  bool ready(Trainer& trainer) {
+    return until([&] {
+      trainer.look();
+      return trainer.attempt() != nullptr && trainer.attempt()->phase() == Phase::ready;
+    });
+  }
+  // Tells the hands of one wish, and waits until they have done it.
+  void advance(PersonAttempt& attempt, HandsTold& told, double to_mm) {
+    Seen seen;
+    EXPECT_TRUE(until([&] {
+      if (const auto newest = attempt.seen()) seen = *newest;
+      const double left_mm = to_mm - seen.inserted_mm;
+      if (std::abs(left_mm) < 1.0) return true;
+      told.sum.advance_mm += seen.inserted ? 0.1 * left_mm : 0.5;
+      told.between_s = 0.02;
+      attempt.tell(told);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return false;
+    })) << seen.inserted_mm;
+  }
+};
+
+TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
+  Trainer trainer(open());
+  trainer.log_in("mona", "another password");
+  EXPECT_EQ(trainer.screen(), TrainerScreen::log_in);
+  EXPECT_FALSE(trainer.refusal().empty());
+  trainer.log_in("tina", kPassword);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose);
+  EXPECT_TRUE(trainer.choices().empty()) << "the case is a draft";
+  trainer.choose(case_id_);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "what cannot be chosen is not";
+  trainer.log_out();
+  trainer.log_in("mona", kPassword);
+  ASSERT_EQ(trainer.choices().size(), 1U);
+  EXPECT_EQ(trainer.choices()[0].title, "Ball");
+}
+
+TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
+  Trainer trainer(open());
+  trainer.log_in("mona", kPassword);
+  trainer.choose(case_id_);
+  ASSERT_EQ(trainer.screen(), TrainerScreen::briefing);
+  EXPECT_FALSE(trainer.begin(false)) << "not prepared yet";
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  ASSERT_TRUE(trainer.begin(false));
+  PersonAttempt& attempt = *trainer.attempt();
+  for (const cases::EventKind kind :
+       {cases::EventKind::proceed, cases::EventKind::aspirate, cases::EventKind::anaesthetic})
+    EXPECT_TRUE(attempt.say(kind));
+  HandsTold told;
+  advance(attempt, told, kDepthMm);
+  told.sum.fire = true;
+  attempt.tell(told);
+  ASSERT_TRUE(until([&] {
+    const auto seen = attempt.seen();
+    return seen && seen->moment.state.fire.fired;
+  }));
+  ShownPicture shown;
+  EXPECT_TRUE(until([&] { return attempt.monitor().take(shown) && shown.picture.width_px > 0; })) << "a picture";
+  attempt.say(cases::EventKind::sign_out);
+  attempt.end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  const Debrief& debrief = *trainer.debrief();
+  EXPECT_EQ(debrief.grade.grade.verdict, assessment::Verdict::passed);
+  EXPECT_FALSE(debrief.attempt.synthetic());
+  EXPECT_EQ(debrief.attempt.person_id, trainer.account().person_id);
+  EXPECT_EQ(debrief.attempt.end, casedb::AttemptEnd::fired);
+  EXPECT_FALSE(debrief.grade.debrief.empty());
+  for (const assessment::StepResult& step : debrief.steps) {
+    const bool said =
+        step.id == "sign_in" || step.id == "decide" || step.id == "anaesthetise" || step.id == "sign_out";
+    EXPECT_TRUE(!said || step.state == assessment::StepState::done) << step.id;
+  }
+
+  trainer.watch(debrief.attempt.attempt_id);
+  ASSERT_EQ(trainer.screen(), TrainerScreen::watch);
+  WatchedAttempt& watched = *trainer.watched();
+  watched.set_speed(50.0);
+  ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
+  std::optional<Moment> last;
+  while (const auto moment = watched.moment()) last = moment;
+  ASSERT_TRUE(last);
+  EXPECT_TRUE(last->state.fire.fired);
+  EXPECT_EQ(last->state.fire.tip_lps_mm, watched.recording().endpoint->tip_lps_mm) << "the very same";
+  trainer.stop_watching();
+  EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
+  trainer.back();
+  ASSERT_EQ(trainer.choices().size(), 1U);
+  EXPECT_EQ(trainer.choices()[0].attempts, 1);
+  EXPECT_EQ(trainer.choices()[0].passes, 1);
+}
+
+TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
+  {
+    Trainer trainer(open());
+    trainer.log_in("mona", kPassword);
+    trainer.choose(case_id_);
+    ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+    ASSERT_TRUE(trainer.begin(true));
+    ASSERT_TRUE(until([&] { return trainer.attempt()->seen().has_value(); }));
+    const auto task = trainer.attempt()->task();
+    trainer.again();
+    EXPECT_TRUE(trainer.restarting());
+    ASSERT_TRUE(ready(trainer));
+    EXPECT_EQ(trainer.attempt()->task(), task) << "nothing is loaded twice";
+    ASSERT_TRUE(trainer.begin(true));
+    ASSERT_TRUE(until([&] { return trainer.attempt()->seen().has_value(); }));
+  }  // and a workstation that goes away in the middle
+  auto library = open();
+  const auto attempts = casedb::list_attempts(library);
+  ASSERT_EQ(attempts.size(), 2U);
+  for (const casedb::AttemptRow& attempt : attempts) {
+    EXPECT_EQ(attempt.end, casedb::AttemptEnd::stopped);
+    EXPECT_GT(attempt.duration_s, 0.0);
+  }
+  EXPECT_TRUE(casedb::list_open_attempts(library).empty());
+}
+
+}  // namespace
+}  // namespace seldinger::app
