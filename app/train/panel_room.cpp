@@ -44,6 +44,8 @@ cases::ToolPose pose_of_held(const Seen& seen) {
 }
 
 constexpr float kDegreesPerPixel = 0.3F;
+// Of its width and height a room is drawn so large in software, where it costs by the pixel, and then stretched.
+constexpr float kSoftwareShare = 0.8F;
 
 }  // namespace
 
@@ -51,6 +53,7 @@ void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
   room_.reset();
   room_ = std::make_unique<Room>(context_, scene, left_handed);
   view_ = imaging::RoomView::operator_side;
+  begun_ = false;
 }
 
 devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const {
@@ -65,20 +68,33 @@ devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& 
   return view;
 }
 
-// With Alt held, or over nothing else: the right button turns it, the middle one shifts it, the wheel nears it.
-void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys) {
-  if (view_) room.camera = imaging::room_camera(room.scene, scene, state, *view_);
-  view_.reset();
+// A view that is asked for comes in a moment. With Alt held the left button turns it, the others shift it, and the
+// wheel brings it nearer.
+void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
+                            double elapsed_s) {
+  constexpr double kViewS = 0.6;
+  if (view_) {
+    room.from = room.camera;
+    room.to = imaging::room_camera(room.scene, scene, state, *view_);
+    room.on_way = begun_ ? 0.0 : 1.0;
+    if (!begun_) room.camera = room.to;
+    begun_ = true;
+    view_.reset();
+  }
+  if (room.on_way < 1.0) {
+    room.on_way = std::min(1.0, room.on_way + elapsed_s / kViewS);
+    room.camera = imaging::between(room.from, room.to, room.on_way);
+  }
   const ImGuiIO& io = ImGui::GetIO();
-  if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
-  if (!keys.alt) return;
-  const float height = ImGui::GetItemRectSize().y;
+  if (!keys.alt || (!ImGui::IsItemHovered() && !ImGui::IsItemActive())) return;
+  const ImVec2 size = ImGui::GetItemRectSize();
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
     imaging::orbit(room.camera, room.scene.frame, -kDegreesPerPixel * io.MouseDelta.x,
                    kDegreesPerPixel * io.MouseDelta.y);
   if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
-    imaging::pan(room.camera, -io.MouseDelta.x / height, io.MouseDelta.y / height);
+    imaging::pan(room.camera, -io.MouseDelta.x / size.y, io.MouseDelta.y / size.y);
   if (io.MouseWheel != 0.0F) imaging::zoom(room.camera, std::pow(0.9, io.MouseWheel));
+  imaging::stay_clear(room.camera, room.scene.frame, scene.skin_index, {}, size.x / std::max(1.0F, size.y));
 }
 
 void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, double elapsed_s,
@@ -90,11 +106,12 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   if (!room_) return;
   const cases::State& state = seen.moment.state;
-  move_camera(*room_, scene, state, keys);
+  move_camera(*room_, scene, state, keys, elapsed_s);
 
   imaging::RoomPicture picture;
-  picture.width_px = std::max(16, static_cast<int>(room.x));
-  picture.height_px = std::max(16, static_cast<int>(room.y));
+  const float share = context_.software() ? kSoftwareShare : 1.0F;
+  picture.width_px = std::max(16, static_cast<int>(share * room.x));
+  picture.height_px = std::max(16, static_cast<int>(share * room.y));
   picture.views = stereo_ ? 2 : 1;
   picture.camera = room_->camera;
   picture.quality = imaging::room_quality(context_);

@@ -34,16 +34,19 @@ class RoomPanel {
     imaging::RoomScene scene;
     imaging::RoomRenderer renderer;
     imaging::RoomCamera camera;
+    imaging::RoomCamera from, to;  // of a view that is on its way
+    double on_way = 1.0;           // 0 … 1
     imaging::DrawList list;
     devices::MouseHands mouse;
   };
-  void move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys);
+  void move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
+                   double elapsed_s);
   devices::HandView hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const;
 
   gpu::Context& context_;
   std::unique_ptr<Room> room_;
   std::optional<imaging::RoomView> view_;  // asked for
-  bool stereo_ = false;
+  bool stereo_ = false, begun_ = false;
 };
 
 }  // namespace seldinger::app

@@ -73,7 +73,9 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false, kStill);
     devices::HandIntent nobodys;
-    room_.draw(watched.scene(), seen_, kHelp, keys, 0.0, nobodys);
+    const double now_s = clock_s();
+    room_.draw(watched.scene(), seen_, kHelp, keys, std::min(0.1, now_s - drawn_s_), nobodys);
+    drawn_s_ = now_s;
     ImGui::EndChild();
     ImGui::SameLine();
     ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false, kStill);

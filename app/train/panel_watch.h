@@ -26,6 +26,7 @@ class WatchPanel {
   MonitorPanel monitor_;
   std::string shown_;  // the attempt whose room is drawn
   Seen seen_;
+  double drawn_s_ = 0.0;
 };
 
 }  // namespace seldinger::app
