@@ -168,6 +168,13 @@ void AttemptPanel::draw_steps(Trainer& trainer) {
     used += wide;
     if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
   }
+  if (trainer.account().role == casedb::Role::mentor)
+    for (const cases::EventInfo& event : cases::event_kinds()) {
+      if (event.source != cases::EventSource::mentor) continue;
+      if (ImGui::Button(event.words)) say(attempt, event.kind, event.words);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
+      ImGui::SameLine();
+    }
   if (ImGui::Button("F9  Sign out and finish")) finish(attempt);
   ImGui::SameLine();
   ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
@@ -244,7 +251,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   devices::HandIntent sum = told_.sum;
-  room_.draw(task.scene, seen_, help_, keys, elapsed_s, sum);
+  room_.draw(task.scene, seen_, trainer.help(), keys, elapsed_s, sum);
   if (running && !attempt.paused()) told_.sum = sum;
   draw_reaction();
   char rates[64];

@@ -49,7 +49,6 @@ class AttemptPanel {
   HandsTold told_;
   double told_s_ = 0.0;
   bool decided_ = false, fired_ = false, leaving_ = false;
-  int help_ = 0;
   double frames_s_ = 0.0;                                                          // the window's rate, lately
   double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell
   std::uint64_t pictures_ = 0, pictures_told_ = 0;

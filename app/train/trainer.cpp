@@ -5,6 +5,8 @@
 namespace seldinger::app {
 namespace {
 
+constexpr int kMostHelp = 2;
+
 std::size_t passes_among(casedb::Grader& grader, const std::vector<casedb::AttemptRow>& attempts,
                          const std::string& case_id, int& made) {
   std::size_t passes = 0;
@@ -97,6 +99,7 @@ void Trainer::choose(const std::string& case_id) {
     return;
   }
   chosen_ = *row;
+  help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
   restarting_ = false;
   prepare(nullptr);
 }

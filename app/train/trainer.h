@@ -53,6 +53,9 @@ class Trainer {
   const std::vector<Choice>& choices() const noexcept { return choices_; }
   void choose(const std::string& case_id);  // of the choices; else nothing happens
   const casedb::CaseRow& chosen() const noexcept { return chosen_; }
+  // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
+  // and less with each pass; where the target lies is never told.
+  int help() const noexcept { return help_; }
   void back();  // from briefing or debrief to the choice
 
   // From briefing to attempt, once it is prepared; the sign-in is said with it. False: not yet.
@@ -87,6 +90,7 @@ class Trainer {
   std::unique_ptr<WatchedAttempt> watched_;
   TrainerScreen watched_from_ = TrainerScreen::debrief;
   bool restarting_ = false;
+  int help_ = 0;
 };
 
 }  // namespace seldinger::app

@@ -50,6 +50,7 @@ class TrainerTest : public testing::Test {
     made.origin = "import";
     made.volume = volume::rasterize(analytic);
     made.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
+    made.difficulty = casedb::Difficulty::easy;
     made.planned_entry_lps_mm = glm::dvec3(0.0, -50.0, 0.0);
     assessment::Criterion hit;
     hit.metric = "hit";
@@ -115,6 +116,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   trainer.choose(case_id_);
   ASSERT_EQ(trainer.screen(), TrainerScreen::briefing);
   EXPECT_FALSE(trainer.begin(false)) << "not prepared yet";
+  EXPECT_EQ(trainer.help(), 2) << "an easy case that was not passed yet";
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
   ASSERT_TRUE(trainer.begin(false));
   PersonAttempt& attempt = *trainer.attempt();
@@ -162,6 +164,8 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   ASSERT_EQ(trainer.choices().size(), 1U);
   EXPECT_EQ(trainer.choices()[0].attempts, 1);
   EXPECT_EQ(trainer.choices()[0].passes, 1);
+  trainer.choose(case_id_);
+  EXPECT_EQ(trainer.help(), 1) << "help fades";
 }
 
 TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
