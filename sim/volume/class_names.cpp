@@ -45,6 +45,7 @@ constexpr std::pair<std::string_view, TissueClass> kNames[] = {
     {"diaphragm", TissueClass::muscle},
     {"disc", TissueClass::connective},
     {"gallbladder", TissueClass::fluid},
+    {"gel", TissueClass::soft_tissue},
     {"heart", TissueClass::muscle},
     {"hepatic_vein", TissueClass::vessel},
     {"intercostal_bundle", TissueClass::vessel},

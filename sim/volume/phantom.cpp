@@ -78,17 +78,21 @@ AnalyticVolume phantom_shapes(const PhantomOptions& options) {
   return analytic;
 }
 
-Phantom make_phantom(const PhantomOptions& options) {
+void add_ct_noise(double sd_hu, std::uint64_t seed, Phantom& phantom) {
   constexpr double kNoiseInAir = 0.5;  // of the body's: far from the −1024 floor, so that its mean stays unbiased
-  Phantom made;
-  made.volume = rasterize(phantom_shapes(options), made.labels);
-  if (options.noise_sd_hu == 0.0) return made;
-  for (std::size_t at = 0; at < made.volume.hu.size(); ++at) {
-    const double sd_hu = options.noise_sd_hu * (made.labels.label[at] == 0 ? kNoiseInAir : 1.0);
-    const double hu = made.volume.hu[at] + sd_hu * base::normal_at(options.seed, at);
-    made.volume.hu[at] =
+  if (sd_hu == 0.0) return;
+  for (std::size_t at = 0; at < phantom.volume.hu.size(); ++at) {
+    const double here_hu = sd_hu * (phantom.labels.label[at] == 0 ? kNoiseInAir : 1.0);
+    const double hu = phantom.volume.hu[at] + here_hu * base::normal_at(seed, at);
+    phantom.volume.hu[at] =
         static_cast<std::int16_t>(std::clamp(std::round(hu), static_cast<double>(kAirHu), 32767.0));
   }
+}
+
+Phantom make_phantom(const PhantomOptions& options) {
+  Phantom made;
+  made.volume = rasterize(phantom_shapes(options), made.labels);
+  add_ct_noise(options.noise_sd_hu, options.seed, made);
   return made;
 }
 

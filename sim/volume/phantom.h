@@ -30,4 +30,7 @@ struct Phantom {
 AnalyticVolume phantom_shapes(const PhantomOptions& options = {});
 Phantom make_phantom(const PhantomOptions& options = {});
 
+// A scanner's noise, 1 σ in the body, half of it in air: the same for the same seed.
+void add_ct_noise(double sd_hu, std::uint64_t seed, Phantom& phantom);
+
 }  // namespace seldinger::volume
