@@ -21,6 +21,9 @@ constexpr double kProbeMinMm = 20.0, kProbeMaxApartMm = 70.0;  // between probe'
 constexpr double kProbeMaxDepthMm = 120.0;
 // Out of plane a needle enters beside the middle of the probe's long side, which is this far from its plane.
 constexpr double kHalfCaseMm = 8.0, kAcrossMaxApartMm = 45.0;
+// Across the way a probe leans no further from upright on the skin at the target: laid flat it would show the tip
+// early, but half of its face would be in air and the picture no section that anybody is taught to read (design).
+constexpr double kMostLeanDeg = 30.0;
 // What a plan under ultrasound costs: so much for a mm of way before the tip shows, a mm of needle that is not seen
 // at the target, a dB of shadow on the target, a mm from skin to target, and a degree by which a probe across a
 // vessel is askew (design). Advance that nobody sees is the commonest error, and no more than 5 mm of it are let
@@ -57,6 +60,7 @@ struct Stand {
   glm::dvec3 origin{0.0}, outward{0.0}, upright{0.0};  // on the skin; from the target to it; into the body
   glm::dvec3 across{0.0};                              // normal of the plane that holds way and origin
   double distance_mm = 0.0;                            // from the target
+  std::uint32_t triangle = 0;                          // of the skin, where it stands
 };
 
 // Where to look from: about the way, off the way, and how far the probe is rocked in its plane (heel and toe: one
@@ -84,6 +88,7 @@ std::optional<Stand> stand_at(const cases::MeshIndex& skin, const PathLimits& li
   if (apart_mm < (across ? kHalfCaseMm : kProbeMinMm)) return std::nullopt;
   if (apart_mm > (across ? kAcrossMaxApartMm : kProbeMaxApartMm)) return std::nullopt;
   stand.across = glm::normalize(glm::cross(stand.outward, back));
+  stand.triangle = hit->triangle;
   const glm::dvec3 inward = -skin.normal(hit->triangle);
   const glm::dvec3 upright = inward - stand.across * glm::dot(inward, stand.across);
   if (!(glm::length(upright) > 0.3)) return std::nullopt;  // the plane would lie on the skin
@@ -103,14 +108,16 @@ void stand_along(const Stand& stand, const glm::dvec3& axis, PuncturePlan& plan)
 // leaves room.
 bool stand_across(const cases::MeshIndex& skin, const Stand& stand, PuncturePlan& plan) {
   plan.probe = {stand.origin, -stand.outward, stand.across};
+  const glm::dvec3 inward = -skin.normal(stand.triangle);
+  if (glm::dot(plan.probe.axis, inward) < base::exact_cos(kMostLeanDeg * kRadPerDeg)) return false;
   const glm::dvec3 entry_from = plan.entry_lps_mm - stand.origin;
   const double off_mm = std::abs(glm::dot(entry_from, plane_normal(plan.probe)));
   if (off_mm < kHalfCaseMm) return false;
   const auto first = skin.closest_skin(stand.origin + entry_from * (1.0 - kHalfCaseMm / off_mm));
   plan.probe_first = plan.probe;
   plan.probe_first.position_lps_mm = first.point_lps_mm;
-  const glm::dvec3 inward = -skin.normal(first.triangle);
-  const glm::dvec3 upright = inward - stand.across * glm::dot(inward, stand.across);
+  const glm::dvec3 first_inward = -skin.normal(first.triangle);
+  const glm::dvec3 upright = first_inward - stand.across * glm::dot(first_inward, stand.across);
   if (!(glm::length(upright) > 0.5)) return false;
   plan.probe_first.axis = glm::normalize(upright);
   return true;
