@@ -170,7 +170,7 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
 }  // namespace
 
 int run_demo(const Arguments& arguments) {
-  if (arguments.has("--cases")) return run_demo_cases(arguments);
+  if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
   const std::filesystem::path folder =
       arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library();
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));

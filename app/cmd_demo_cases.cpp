@@ -1,4 +1,5 @@
-// demo --cases: the graded cases from what is at hand, published, each hit once by a simulated expert.
+// demo --cases and --drills: drills and graded cases from what is at hand, published, each passed once by a
+// simulated expert, and the curricula that lead through them.
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include "app/import_case.h"
 #include "app/simulation.h"
 #include "assessment/metrics/registry.h"
+#include "casedb/curriculum.h"
+#include "casedb/grading.h"
 #include "casedb/versions.h"
 
 namespace seldinger::app {
@@ -20,22 +23,10 @@ namespace {
 constexpr std::uint64_t kMostSeeds = 8;  // an expert of these profiles hits in half of his attempts or more
 constexpr const char* kAuthor = "mentor";
 constexpr const char* kReviewer = "reviewer";
+constexpr const char* kDirector = "director";
 
 void progress(const char* what, const char* title) {
   if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s: %s …\n", title, what);
-}
-
-std::optional<volume::Calyces> calyces_of(DemoSource source) {
-  switch (source) {
-    case DemoSource::torso:
-      return volume::Calyces::normal;
-    case DemoSource::torso_dilated:
-      return volume::Calyces::dilated;
-    case DemoSource::torso_opacified:
-      return volume::Calyces::opacified;
-    default:
-      return std::nullopt;
-  }
 }
 
 // Criteria are of the newest version of their metric.
@@ -77,15 +68,19 @@ base::Result<void> check(casedb::Library& library, const std::string& case_id) {
   return error;
 }
 
-// An attempt of a simulated expert that hits; those there are count.
-base::Result<void> hit(casedb::Library& library, DemoCaseAnswer& answer) {
-  const auto is_hit = [](const std::vector<assessment::MetricValue>& metrics) {
-    return std::any_of(metrics.begin(), metrics.end(), [](const assessment::MetricValue& one) {
-      return one.id == "hit" && one.value && *one.value == 1.0;
-    });
+// An attempt of a simulated expert that passes and hits, the replay to watch; one that is there counts. `hits`: the
+// metric that says so.
+base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, const char* hits,
+                        DemoCaseAnswer& answer) {
+  const auto is_pass = [&](const std::string& attempt_id) {
+    const auto attempt = casedb::find_attempt(library, attempt_id);
+    return attempt && casedb::grade_of(*attempt, row).verdict == assessment::Verdict::passed &&
+           std::any_of(attempt->metrics.begin(), attempt->metrics.end(), [&](const assessment::MetricValue& one) {
+             return one.id == hits && one.value && *one.value == 1.0;
+           });
   };
-  for (const casedb::AttemptRow& attempt : casedb::list_attempts(library))
-    if (attempt.case_id == answer.case_id && attempt.operator_name == "expert" && is_hit(attempt.metrics)) {
+  for (const casedb::AttemptRow& attempt : casedb::list_attempts_on(library, answer.case_id))
+    if (attempt.operator_name == "expert" && is_pass(attempt.attempt_id)) {
       answer.attempt_id = attempt.attempt_id;
       answer.seed = attempt.seed;
       return {};
@@ -99,12 +94,12 @@ base::Result<void> hit(casedb::Library& library, DemoCaseAnswer& answer) {
   for (std::uint64_t seed = 1; seed <= kMostSeeds; ++seed) {
     const auto attempt = simulation->attempt(*assessment::named_profile("expert"), seed, std::nullopt);
     if (!attempt) return attempt.error();
-    if (!is_hit(attempt->metrics)) continue;
+    if (!is_pass(attempt->attempt_id)) continue;
     answer.attempt_id = attempt->attempt_id;
     answer.seed = seed;
     return {};
   }
-  return base::Error{"never_hit", "a simulated expert does not hit: " + answer.title};
+  return base::Error{"never_passed", "a simulated expert does not pass: " + answer.title};
 }
 
 base::Result<void> publish(casedb::Library& library, const std::string& case_id) {
@@ -113,7 +108,8 @@ base::Result<void> publish(casedb::Library& library, const std::string& case_id)
   return casedb::publish_case(library, case_id, kAuthor, false);
 }
 
-base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source) {
+base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
+                                  const char* hits) {
   DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0};
   for (const casedb::CaseRow& row : casedb::list_cases(library))
     if (row.title == wanted.title && row.origin == source.origin) answer.case_id = row.case_id;
@@ -133,7 +129,7 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
     if (const auto fit = check(library, answer.case_id); !fit) return fit.error();
   progress("attempted", wanted.title.c_str());
   if (!answer.defer)
-    if (const auto done = hit(library, answer); !done) return done.error();
+    if (const auto done = pass(library, *row, hits, answer); !done) return done.error();
   if (row->state == "draft")
     if (const auto done = publish(library, answer.case_id); !done) return done.error();
   const auto now = casedb::find_case(library, answer.case_id);
@@ -142,32 +138,96 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
   return answer;
 }
 
-void print(const std::vector<DemoCaseAnswer>& made, const std::vector<int>& not_made, const Passwords& passwords) {
-  std::printf("Training only, not for planning a patient's procedure.\n\n");
+// The published one of that title that leads through these cases, each open when the one before it is passed; one
+// of other cases (a CT has come) makes room for it. Attempts belong to cases and count in either.
+base::Result<DemoCurriculum> lead_through(casedb::Library& library, const char* title,
+                                          const std::vector<DemoCaseAnswer>& made) {
+  std::vector<std::string> families;
+  for (const DemoCaseAnswer& one : made) {
+    const auto row = casedb::find_case(library, one.case_id);
+    if (!row) return row.error();
+    families.push_back(row->family_id);
+  }
+  for (const casedb::Curriculum& known : casedb::list_curricula(library)) {
+    if (known.title != title || known.state != "published") continue;
+    std::vector<std::string> its;
+    for (const casedb::CurriculumItem& item : known.items) its.push_back(item.family_id);
+    if (its == families) return DemoCurriculum{title, known.curriculum_id, its.size()};
+    if (const auto done = casedb::remove_curriculum(library, known.curriculum_id, kDirector); !done)
+      return done.error();
+  }
+  const auto curriculum_id = casedb::add_curriculum(library, title, kAuthor);
+  if (!curriculum_id) return curriculum_id.error();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    std::vector<assessment::Gate> gates;
+    if (i > 0) gates.push_back({i - 1, assessment::Proficiency::passed});
+    const auto added = casedb::add_curriculum_item(library, *curriculum_id, made[i].case_id, {}, gates, kAuthor);
+    if (!added) return added.error();
+  }
+  if (const auto done = casedb::publish_curriculum(library, *curriculum_id, kDirector); !done) return done.error();
+  return DemoCurriculum{title, *curriculum_id, made.size()};
+}
+
+using Sources = std::map<DemoSource, casedb::NewCase>;
+
+// Of those whose source is at hand, in their order.
+base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, const std::vector<DemoCase>& wanted,
+                                                   Sources& sources, const char* hits, std::vector<int>& not_made) {
+  std::vector<DemoCaseAnswer> made;
+  for (const DemoCase& one : wanted) {
+    if (!sources.contains(one.source))
+      if (auto read = built_in(one.source)) {
+        if (!*read) return read->error();
+        sources.emplace(one.source, std::move(**read));
+      }
+    const auto source = sources.find(one.source);
+    if (source == sources.end()) {
+      not_made.push_back(one.number);
+      continue;
+    }
+    auto answer = make(library, one, source->second, hits);
+    if (!answer) return answer.error();
+    made.push_back(std::move(*answer));
+  }
+  return made;
+}
+
+void print(const std::vector<DemoCaseAnswer>& made) {
   for (const DemoCaseAnswer& one : made) {
     std::printf("%s  %-10s %s\n", one.case_id.c_str(), one.state.c_str(), one.title.c_str());
     if (one.defer)
       std::puts("    the right decision is to defer");
     else
-      std::printf("    hit by attempt %s of a simulated expert, seed %llu\n", one.attempt_id.c_str(),
+      std::printf("    passed in attempt %s of a simulated expert, seed %llu\n", one.attempt_id.c_str(),
                   static_cast<unsigned long long>(one.seed));
   }
-  if (!not_made.empty()) {
+}
+
+void print(const DemoCasesAnswer& answer) {
+  std::printf("Training only, not for planning a patient's procedure.\n\n");
+  print(answer.drills);
+  print(answer.cases);
+  if (!answer.not_made.empty()) {
     std::printf("\nThese need a CT (--ct):");
-    for (const int number : not_made) std::printf(" %d", number);
+    for (const int number : answer.not_made) std::printf(" %d", number);
     std::puts("");
   }
+  std::puts("");
+  for (const DemoCurriculum& one : answer.curricula)
+    std::printf("%s  curriculum of %zu: %s\n", one.curriculum_id.c_str(), one.items, one.title.c_str());
   std::printf("\nThe operators are simulated: they test the software and say nothing about validity.\n");
-  if (!passwords.empty()) std::printf("\nAccounts, shown once:\n");
-  for (const auto& [name, password] : passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
+  if (!answer.passwords.empty()) std::printf("\nAccounts, shown once:\n");
+  for (const auto& [name, password] : answer.passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
 }
 
 }  // namespace
 
 int run_demo_cases(const Arguments& arguments) {
+  const bool graded = arguments.has("--cases");
   if (arguments.has("--calyces") || arguments.has("--modality"))
-    throw UsageError("--calyces and --modality are not of the graded cases");
-  std::map<DemoSource, casedb::NewCase> sources;
+    throw UsageError("--calyces and --modality are not of drills or graded cases");
+  if (!graded && arguments.has("--ct")) throw UsageError("--ct is not of the drills: they are built in");
+  Sources sources;
   for (const std::string& path : arguments.all("--ct")) {
     auto read = import_case(path, {}, {}, "import");
     if (!read) return refuse(read.error());
@@ -178,31 +238,32 @@ int run_demo_cases(const Arguments& arguments) {
   auto library = casedb::Library::open_or_create(
       arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library());
   if (!library) return refuse(library.error());
-  const auto passwords =
-      add_missing_accounts(*library, {{kAuthor, casedb::Role::mentor}, {kReviewer, casedb::Role::mentor}});
+  DemoCasesAnswer answer;
+  auto passwords = add_missing_accounts(
+      *library,
+      {{kAuthor, casedb::Role::mentor}, {kReviewer, casedb::Role::mentor}, {kDirector, casedb::Role::director}});
   if (!passwords) return refuse(passwords.error());
-  std::vector<DemoCaseAnswer> made;
-  std::vector<int> not_made;
-  for (const DemoCase& wanted : demo_cases()) {
-    const auto calyces = calyces_of(wanted.source);
-    if (calyces && !sources.contains(wanted.source)) {
-      auto read = import_phantom(*calyces);
-      if (!read) return refuse(read.error());
-      sources.emplace(wanted.source, std::move(*read));
-    }
-    const auto source = sources.find(wanted.source);
-    if (source == sources.end()) {
-      not_made.push_back(wanted.number);
-      continue;
-    }
-    auto answer = make(*library, wanted, source->second);
-    if (!answer) return refuse(answer.error());
-    made.push_back(std::move(*answer));
-  }
+  answer.passwords = std::move(*passwords);
+  const auto add = [&](const std::vector<DemoCase>& wanted, const char* title, const char* hits,
+                       std::vector<DemoCaseAnswer>& made) -> base::Result<void> {
+    auto all = make_all(*library, wanted, sources, hits, answer.not_made);
+    if (!all) return all.error();
+    made = std::move(*all);
+    auto curriculum = lead_through(*library, title, made);
+    if (!curriculum) return curriculum.error();
+    answer.curricula.push_back(std::move(*curriculum));
+    return {};
+  };
+  // What a beginner watches first shows no second try.
+  if (const auto done = add(drills(), "First hour", "first_pass_success", answer.drills); !done)
+    return refuse(done.error());
+  if (graded)
+    if (const auto done = add(demo_cases(), "Graded cases", "hit", answer.cases); !done)
+      return refuse(done.error());
   if (arguments.has("--json"))
-    std::fputs(json_of_demo_cases(made, not_made, *passwords).c_str(), stdout);
+    std::fputs(json_of_demo_cases(answer).c_str(), stdout);
   else
-    print(made, not_made, *passwords);
+    print(answer);
   return kDone;
 }
 

@@ -250,10 +250,12 @@ constexpr Option kGoalsOptions[] = {
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--drills", nullptr,
+     "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
+     "replay "
+     "is to be watched, and the curriculum that leads through them; takes seconds"},
     {"--cases", nullptr,
-     "the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; each published, and hit "
-     "once by "
-     "a simulated expert"},
+     "the drills, then the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; likewise"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},

@@ -2,6 +2,7 @@
 
 #include "sim/base/check.h"
 #include "sim/case/gauge.h"
+#include "sim/volume/gel_block.h"
 
 namespace seldinger::app {
 namespace {
@@ -70,6 +71,54 @@ assessment::PassRule rule(std::initializer_list<const char*> pass, std::initiali
       criterion->critical = is_critical;
       made.criteria.push_back(std::move(*criterion));
     }
+  return made;
+}
+
+// A drill is about one thing, on gel: its rule asks for that and for a hit through one hole, for nothing that is
+// done around a patient. The ball is where the block has it: pictures take it from the volume.
+// `x_mm`, `z_mm`: the planned entry on its top, from where a straight way of 45 to 55° leads to the ball.
+DemoCase drill(int number, const char* title, const char* task, DemoSource source, volume::GelBlock block,
+               double x_mm, double z_mm) {
+  DemoCase made{number, title, source, {}, {}, {}};
+  made.setting.modality = cases::Modality::ultrasound;
+  made.setting.instrument = access(18);
+  made.setting.difficulty = casedb::Difficulty::easy;
+  made.setting.clinic.indication =
+      std::string("A block of gel, no patient: no anaesthetic, no held breath. ") + task;
+  const volume::Sphere ball = volume::gel_ball(block);
+  cases::LesionForm form = sphere(ball.center_mm, ball.radius_mm, 0.0);
+  form.adds = true;
+  made.lesions = {form};
+  made.setting.planned_entry_lps_mm = glm::dvec3(x_mm, 0.0, z_mm);
+  return made;
+}
+
+DemoCase find_the_plane() {
+  DemoCase made = drill(
+      1, "Drill 1: find the plane",
+      "Find the ball of water, turn the probe until the needle's way and the ball lie in one picture, then hit it.",
+      DemoSource::gel_plane, volume::GelBlock::find_the_plane, -15.0, 29.0);
+  made.setting.rule = rule({"hit >= 1", "vis_joint >= 0.5", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
+  return made;
+}
+
+DemoCase keep_the_tip() {
+  DemoCase made = drill(
+      2, "Drill 2: keep the tip in view",
+      "The ball is 45 mm deep. Go on only while the picture shows the tip; where you lose it, stop and find it.",
+      DemoSource::gel_tip, volume::GelBlock::keep_the_tip, -22.0, -14.0);
+  made.setting.rule =
+      rule({"hit >= 1", "advance_visible_share >= 0.8", "blind_advance_max <= 5", "skin_punctures <= 1"}, {});
+  return made;
+}
+
+DemoCase depth_out_of_plane() {
+  DemoCase made = drill(3, "Drill 3: reach depth out of plane",
+                        "The needle crosses the picture. Put the probe ahead of the tip, let the tip come into it, "
+                        "and so on down to the ball at 30 mm.",
+                        DemoSource::gel_across, volume::GelBlock::out_of_plane, 8.0, 29.0);
+  made.setting.approach = cases::Approach::out_of_plane;
+  made.setting.rule = rule({"hit >= 1", "advance_beyond_plane <= 0", "skin_punctures <= 1"}, {});
   return made;
 }
 
@@ -238,6 +287,11 @@ DemoCase to_be_deferred() {
 }
 
 }  // namespace
+
+const std::vector<DemoCase>& drills() {
+  static const std::vector<DemoCase> all = {find_the_plane(), keep_the_tip(), depth_out_of_plane()};
+  return all;
+}
 
 const std::vector<DemoCase>& demo_cases() {
   static const std::vector<DemoCase> all = {torso_liver(),   contrast_liver(),  kidney_cortex(), jugular_vein(),

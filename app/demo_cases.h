@@ -1,5 +1,5 @@
-// The graded cases that the program brings along (clinical.md, "Cases to ship first"): one table, no code of their
-// own. Training only.
+// The drills and graded cases that the program brings along (clinical.md, "First hour" and "Cases to ship first"):
+// one table, no code of their own. Training only.
 #pragma once
 
 #include <span>
@@ -14,7 +14,17 @@ namespace seldinger::app {
 class Arguments;
 
 // What a case is made of.
-enum class DemoSource { torso, torso_dilated, torso_opacified, contrast_liver, abdomen_pelvis, thorax_inlet };
+enum class DemoSource {
+  gel_plane,
+  gel_tip,
+  gel_across,
+  torso,
+  torso_dilated,
+  torso_opacified,
+  contrast_liver,
+  abdomen_pelvis,
+  thorax_inlet
+};
 
 struct DemoStructure {
   casedb::StructureRow row;  // without its ids
@@ -30,7 +40,8 @@ struct DemoCase {
   std::vector<DemoStructure> structures;
 };
 
-// In the order of their numbers.
+// In the order of their numbers, each from 1: what comes before patients, and what then is graded.
+const std::vector<DemoCase>& drills();
 const std::vector<DemoCase>& demo_cases();
 
 // A CT is known by what lies where: mean HU of 7 × 7 mm at points that its readers named.
@@ -41,6 +52,8 @@ struct Landmark {
 std::span<const Landmark> landmarks_of(DemoSource source);  // none: built in
 // Which of the sources a volume is; nothing when none fits.
 std::optional<DemoSource> source_of(const volume::Volume& volume);
+// Made here; nothing for those that need a CT.
+std::optional<base::Result<casedb::NewCase>> built_in(DemoSource source);
 
 int run_demo_cases(const Arguments& arguments);
 
@@ -48,10 +61,19 @@ struct DemoCaseAnswer {
   int number = 0;
   std::string title, case_id, state;
   bool defer = false;      // the right decision; nothing to hit
-  std::string attempt_id;  // the expert's that hit
+  std::string attempt_id;  // the expert's that hit and passed
   std::uint64_t seed = 0;
 };
-std::string json_of_demo_cases(const std::vector<DemoCaseAnswer>& made, const std::vector<int>& not_made,
-                               const std::vector<std::pair<std::string, std::string>>& passwords);
+struct DemoCurriculum {
+  std::string title, curriculum_id;
+  std::size_t items = 0;
+};
+struct DemoCasesAnswer {
+  std::vector<DemoCaseAnswer> drills, cases;
+  std::vector<int> not_made;
+  std::vector<DemoCurriculum> curricula;
+  std::vector<std::pair<std::string, std::string>> passwords;
+};
+std::string json_of_demo_cases(const DemoCasesAnswer& answer);
 
 }  // namespace seldinger::app

@@ -1,8 +1,9 @@
-// Which CT a graded case is made of.
+// What a drill or a graded case is made of: built in, or which CT.
 #include <array>
 #include <glm/mat4x4.hpp>
 
 #include "app/demo_cases.h"
+#include "app/import_case.h"
 
 namespace seldinger::app {
 namespace {
@@ -46,12 +47,28 @@ std::span<const Landmark> landmarks_of(DemoSource source) {
       return kAbdomenPelvis;
     case DemoSource::thorax_inlet:
       return kThoraxInlet;
-    case DemoSource::torso:
-    case DemoSource::torso_dilated:
-    case DemoSource::torso_opacified:
-      break;
+    default:
+      return {};
   }
-  return {};
+}
+
+std::optional<base::Result<casedb::NewCase>> built_in(DemoSource source) {
+  switch (source) {
+    case DemoSource::gel_plane:
+      return import_gel_block(volume::GelBlock::find_the_plane);
+    case DemoSource::gel_tip:
+      return import_gel_block(volume::GelBlock::keep_the_tip);
+    case DemoSource::gel_across:
+      return import_gel_block(volume::GelBlock::out_of_plane);
+    case DemoSource::torso:
+      return import_phantom(volume::Calyces::normal);
+    case DemoSource::torso_dilated:
+      return import_phantom(volume::Calyces::dilated);
+    case DemoSource::torso_opacified:
+      return import_phantom(volume::Calyces::opacified);
+    default:
+      return std::nullopt;
+  }
 }
 
 std::optional<DemoSource> source_of(const volume::Volume& volume) {

@@ -40,6 +40,18 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// By way of DICOM, so that what we made goes where a patient's CT goes.
+base::Result<casedb::NewCase> import_built_in(volume::Phantom phantom, const std::string& description,
+                                              const std::string& title, const std::string& origin) {
+  const TemporaryFolder folder;
+  const auto written = casedb::write_dicom_series(phantom.volume, {description}, folder.path());
+  if (!written) return written.error();
+  auto imported = import_case(folder.path(), {}, title, origin);
+  if (imported) imported->labels = std::move(phantom.labels);
+  if (imported) imported->no_burned_in_text = true;  // we made every voxel
+  return imported;
+}
+
 }  // namespace
 
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
@@ -84,18 +96,24 @@ base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces) {
   progress("making the built-in torso");
   volume::PhantomOptions options;
   options.calyces = calyces;
-  volume::Phantom phantom = volume::make_phantom(options);
-  const TemporaryFolder folder;
-  const auto written =
-      casedb::write_dicom_series(phantom.volume, {"Seldinger built-in torso phantom"}, folder.path());
-  if (!written) return written.error();
   const std::string title = calyces == volume::Calyces::dilated     ? "Built-in torso, dilated calyces"
                             : calyces == volume::Calyces::opacified ? "Built-in torso, opacified calyces"
                                                                     : "Built-in torso";
-  auto imported = import_case(folder.path(), {}, title, phantom_origin(calyces));
-  if (imported) imported->labels = std::move(phantom.labels);
-  if (imported) imported->no_burned_in_text = true;  // we made every voxel
-  return imported;
+  return import_built_in(volume::make_phantom(options), "Seldinger built-in torso phantom", title,
+                         phantom_origin(calyces));
+}
+
+std::string gel_block_origin(volume::GelBlock block) {
+  const char* which = block == volume::GelBlock::find_the_plane ? ":find_the_plane"
+                      : block == volume::GelBlock::keep_the_tip ? ":keep_the_tip"
+                                                                : ":out_of_plane";
+  return std::string("phantom:gel_block:") + volume::kGelBlockVersion + which;
+}
+
+base::Result<casedb::NewCase> import_gel_block(volume::GelBlock block) {
+  progress("making a block of gel");
+  return import_built_in(volume::make_gel_block(block), "Seldinger built-in gel block", "Gel block",
+                         gel_block_origin(block));
 }
 
 }  // namespace seldinger::app

@@ -8,6 +8,7 @@
 #include "casedb/import/face.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
+#include "sim/volume/gel_block.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
@@ -23,5 +24,9 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
 base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);
 // What a case of it has as its origin: one for each version of the phantom and each kind of calyces.
 std::string phantom_origin(volume::Calyces calyces);
+
+// A block of gel, likewise.
+base::Result<casedb::NewCase> import_gel_block(volume::GelBlock block);
+std::string gel_block_origin(volume::GelBlock block);
 
 }  // namespace seldinger::app

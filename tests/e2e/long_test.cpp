@@ -28,6 +28,16 @@ double metric(const Json& attempt, const std::string& id) {
   return std::nan("");
 }
 
+bool passes(const Json& attempt, const Json& criteria) {
+  for (const Json& criterion : criteria) {
+    const double value = metric(attempt, criterion.at("metric")), wanted = criterion.at("value");
+    const std::string comparison = criterion.at("comparison");
+    if (!(comparison == "<=" ? value <= wanted : comparison == ">=" ? value >= wanted : value == wanted))
+      return false;
+  }
+  return true;
+}
+
 TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
   for (const std::string source : {"ct-abdomen-contrast-dicom", "ct-abdomen-pelvis/abdomen_pelvis.nii.gz"}) {
     SCOPED_TRACE(source);
@@ -80,15 +90,7 @@ TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
       const Json answer = Json::parse(tried.out);
       int passed = 0;
       for (const Json& attempt : answer.at("attempts")) {
-        bool all = true;
-        for (const Json& criterion : criteria) {
-          const double value = metric(attempt, criterion.at("metric")), wanted = criterion.at("value");
-          const std::string comparison = criterion.at("comparison");
-          all = all && (comparison == "<="   ? value <= wanted
-                        : comparison == ">=" ? value >= wanted
-                                             : value == wanted);
-        }
-        passed += all ? 1 : 0;
+        passed += passes(attempt, criteria) ? 1 : 0;
       }
       if (expert)
         EXPECT_GE(passed, 24) << one.at("title");
@@ -133,6 +135,33 @@ TEST(Long, ExpertsPassABreathingLiverAndNovicesMostlyDoNot) {
                     ? 1
                     : 0;
     EXPECT_TRUE(expert ? passed >= 27 : passed <= 8) << passed;
+  }
+}
+
+TEST(Long, ExpertsPassTheDrillsAndNovicesRarelyDo) {
+  const auto scratch = fixtures::fresh_folder("long_drills");
+  const std::string library = " --library " + (scratch / "library").string();
+  const auto ran = run(kProgram + " demo --drills --json" + library, scratch);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json made = Json::parse(ran.out);
+  for (const Json& one : made.at("drills")) {
+    const std::string id = one.at("case_id");
+    const auto shown = run(kProgram + " case show " + id + " --json" + library, scratch);
+    const Json criteria = Json::parse(shown.out).at("rule");
+    ASSERT_FALSE(criteria.empty());
+    for (const bool expert : {true, false}) {
+      const auto tried = run(kProgram + " simulate --count 40 --seed 100 --no-pictures --json --operator " +
+                                 (expert ? "expert" : "novice") + " --case " + id + library,
+                             scratch);
+      ASSERT_EQ(tried.exit_code, 0) << tried.err;
+      int passed = 0;
+      const Json answer = Json::parse(tried.out);
+      for (const Json& attempt : answer.at("attempts")) passed += passes(attempt, criteria) ? 1 : 0;
+      if (expert)
+        EXPECT_GE(passed, 36) << one.at("title");
+      else
+        EXPECT_LE(passed, 6) << one.at("title");
+    }
   }
 }
 
