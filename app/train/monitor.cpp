@@ -67,6 +67,7 @@ class Monitor::Painter {
       return;
     }
     if (console_->frozen() == shown.live) console_->set_frozen(!shown.live);
+    if (console_->frozen() && shown.number > 0) return;  // it stands, until the console is changed
     if (!console_->frozen()) {
       const imaging::UltrasoundView view =
           sight_->polar(probe, needle, seed_, ++pictures_, polar_, moment.displacement);
@@ -178,8 +179,7 @@ void Monitor::run() {
       for (const auto& change : changes) change(*console);
     if (xray ? pulse.has_value() : newest.has_value())
       painter.draw(xray ? *pulse : *newest, work);
-    else if (!changes.empty() && painter.console() != nullptr)
-      painter.develop(work);
+    if (!changes.empty() && painter.console() != nullptr && painter.console()->frozen()) painter.develop(work);
     if (xray && newest) work.live = newest->state.fluoroscopy.live;
     changes.clear();
     if (work.number == before && work.live == live) continue;

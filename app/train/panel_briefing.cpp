@@ -84,6 +84,14 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     end_screen();
     return false;
   }
+  if (!trainer.expert_attempt().empty()) {
+    ImGui::SameLine();
+    if (ImGui::Button("Watch an expert (E)") || keys.pressed('E')) {
+      trainer.watch(trainer.expert_attempt());
+      end_screen();
+      return false;
+    }
+  }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);
   const bool begin = ImGui::Button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "casedb/expert_replay.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -99,6 +101,7 @@ void Trainer::choose(const std::string& case_id) {
     return;
   }
   chosen_ = *row;
+  expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
   help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
   restarting_ = false;
   prepare(nullptr);

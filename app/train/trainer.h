@@ -53,6 +53,8 @@ class Trainer {
   const std::vector<Choice>& choices() const noexcept { return choices_; }
   void choose(const std::string& case_id);  // of the choices; else nothing happens
   const casedb::CaseRow& chosen() const noexcept { return chosen_; }
+  // An attempt at it that an expert passed, to watch before one's own; empty: there is none.
+  const std::string& expert_attempt() const noexcept { return expert_; }
   // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
   // and less with each pass; where the target lies is never told.
   int help() const noexcept { return help_; }
@@ -85,6 +87,7 @@ class Trainer {
   casedb::Account account_;
   std::vector<Choice> choices_;
   casedb::CaseRow chosen_;
+  std::string expert_;
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
   std::unique_ptr<WatchedAttempt> watched_;
