@@ -177,8 +177,7 @@ void Monitor::run() {
     const auto pulse = xray ? pulses_.take() : std::nullopt;
     if (auto* console = painter.console())
       for (const auto& change : changes) change(*console);
-    if (xray ? pulse.has_value() : newest.has_value())
-      painter.draw(xray ? *pulse : *newest, work);
+    if (xray ? pulse.has_value() : newest.has_value()) painter.draw(xray ? *pulse : *newest, work);
     if (!changes.empty() && painter.console() != nullptr && painter.console()->frozen()) painter.develop(work);
     if (xray && newest) work.live = newest->state.fluoroscopy.live;
     changes.clear();
