@@ -116,7 +116,7 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
     person.hear(attempt.tick(hands));
     new_frame = state.fluoroscopy.frame_due;
     if (new_frame) {
-      exposed = room.expose(state);
+      exposed = room.expose(state, attempt.displacement());
       attempt.picture(exposed.truth);
     } else if (live && !state.fluoroscopy.live) {
       cases::FrameTruth held = exposed.truth;  // the last image stays, and shows nothing that happens
@@ -204,16 +204,27 @@ std::vector<std::byte> png_of(const GreyPicture& picture) {
   return png_from_grey(picture.grey, picture.width_px, picture.height_px);
 }
 
-// The last image before the trigger: the inputs, stepped through again until its pulse.
+// The last image before the trigger: the inputs, stepped through again until its pulse. Only what moves tissue asks
+// for more than the step.
 std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
-  cases::State state, exposed;
-  for (const cases::Inputs& inputs : recording.inputs) {
-    if (state.fire.fired) break;
-    engine::step(scene, inputs, recording.dt_s, state);
-    if (state.fluoroscopy.frame_due) exposed = state;
+  Moment exposed;
+  if (scene.breathing || scene.yields) {
+    Room room(scene);
+    for (const cases::Inputs& inputs : recording.inputs) {
+      if (room.state().fire.fired) break;
+      room.advance(inputs, recording.dt_s);
+      if (room.state().fluoroscopy.frame_due) exposed = room.moment();
+    }
+  } else {
+    cases::State state;
+    for (const cases::Inputs& inputs : recording.inputs) {
+      if (state.fire.fired) break;
+      engine::step(scene, inputs, recording.dt_s, state);
+      if (state.fluoroscopy.frame_due) exposed.state = state;
+    }
   }
-  if (!exposed.fluoroscopy.frame_due) return {};
-  return png_of(FluoroscopyRoom(scene).picture(exposed, recording.hashes.back()));
+  if (!exposed.state.fluoroscopy.frame_due) return {};
+  return png_of(FluoroscopyRoom(scene).picture(exposed.state, recording.hashes.back(), exposed.displacement));
 }
 
 // When the trigger fell, or last.

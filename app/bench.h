@@ -27,6 +27,9 @@ void time_into(BenchRow& row, int n, const std::function<void()>& work);
 
 // Stage xray: projectors, the fluoroscopy chain; on `--volume FILE` or the projector phantom, and on `--ct SOURCE`.
 base::Result<void> bench_xray(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
+// Stage breathing: what tissue that moves adds to a fluoroscope's pulse, and how far that is from the truth; on
+// `--ct SOURCE`, else the torso.
+base::Result<void> bench_breathing(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);
 // Stage ultrasound: methods, beams, samples and densities on the built-in torso, and timed on `--ct SOURCE`. The
 // error is the worst of the goals that a setting can change, over its tolerance (fast column, few frames).
 base::Result<void> bench_ultrasound(const Arguments& arguments, bool quick, std::vector<BenchRow>& rows);

@@ -106,14 +106,6 @@ base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseR
     checks.push_back(
         {"entry_on_skin", off_mm <= kEntryNearSkinMm, "the planned entry is " + mm(off_mm) + " from it"});
   }
-  if (scene->breathing || scene->yields) {
-    const bool shown =
-        row.modality != cases::Modality::xray &&
-        std::count(row.further_modalities.begin(), row.further_modalities.end(), cases::Modality::xray) == 0;
-    checks.push_back({"motion_shown", shown,
-                      shown ? "every picture shows how the patient moves"
-                            : "fluoroscopy does not show yet how a patient moves: mpr and ultrasound do"});
-  }
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(scene->volume);
   const auto inside = [&](const glm::dvec3& p) {
     return volume::inside(scene->volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));

@@ -284,8 +284,8 @@ int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
   std::vector<std::string> stages;
-  std::string list =
-      arguments.text("--stage", "import,mpr,xray,ultrasound,room,displacement,haptics,step,library,assessment");
+  std::string list = arguments.text(
+      "--stage", "import,mpr,xray,breathing,ultrasound,room,displacement,haptics,step,library,assessment");
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     stages.push_back(list.substr(begin, comma - begin));
@@ -294,9 +294,10 @@ int run_bench(const Arguments& arguments) {
   for (const std::string& stage : stages)
     if (stage != "import" && stage != "mpr" && stage != "xray" && stage != "ultrasound" && stage != "haptics" &&
         stage != "step" && stage != "library" && stage != "assessment" && stage != "displacement" &&
-        stage != "room")
+        stage != "room" && stage != "breathing")
       throw UsageError(
-          "--stage knows import, mpr, xray, ultrasound, room, displacement, haptics, step, library and assessment");
+          "--stage knows import, mpr, xray, breathing, ultrasound, room, displacement, haptics, step, library and "
+          "assessment");
   std::vector<Row> rows;
   for (const std::string& stage : stages) {
     std::fprintf(stderr, "bench %s …\n", stage.c_str());
@@ -304,6 +305,7 @@ int run_bench(const Arguments& arguments) {
     if (stage == "import") done = bench_import(arguments, quick, rows);
     if (stage == "mpr") bench_mpr(quick, rows);
     if (stage == "xray") done = bench_xray(arguments, quick, rows);
+    if (stage == "breathing") done = bench_breathing(arguments, quick, rows);
     if (stage == "ultrasound") done = bench_ultrasound(arguments, quick, rows);
     if (stage == "room") done = bench_room(arguments, quick, rows);
     if (stage == "displacement") bench_displacement(quick, rows);

@@ -234,7 +234,8 @@ constexpr Option kDeviceSimulateOptions[] = {
     {"--swap", nullptr, "tells of the arms in the other order"}};
 constexpr Option kBenchOptions[] = {
     {"--stage", "a,b",
-     "import, mpr, xray, ultrasound, room, displacement, haptics, step, library, assessment; default all"},
+     "import, mpr, xray, breathing, ultrasound, room, displacement, haptics, step, library, assessment; default "
+     "all"},
     {"--quick", nullptr, "fewer repetitions"},
     {"--ct", "SOURCE", "what import reads, and a patient for xray, ultrasound and room; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
@@ -332,7 +333,8 @@ constexpr Command kCommands[] = {
     {"check", "", 0, 0, kCheckOptions,
      "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not hold.",
      &run_check},
-    {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound, room).", &run_render},
+    {"render", "SCENE.json", 1, 1, kRenderOptions, "Renders a scene's view (mpr, xray, ultrasound, room).",
+     &run_render},
     {"sheet", "SHEET.json", 1, 1, kSheetOptions, "Renders scenes side by side into one page of pictures.",
      &run_sheet},
     {"simulate", "", 0, 0, kSimulateOptions, "Lets a simulated operator make attempts, recorded and scored.",

@@ -11,6 +11,7 @@
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
 #include "sim/case/state.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 
@@ -25,12 +26,12 @@ class FluoroscopyRoom {
     cases::FrameTruth truth;     // with the beam
     assessment::PictureFix fix;  // where a person would see tip and target
   };
-  // Of the pulse that `state` has due. Metered on a small picture of its own, so that it does not depend on the one
-  // that is displayed, if any is.
-  Exposed expose(const cases::State& state);
+  // Of the pulse that `state` has due, its tissue displaced so. Metered on a small picture of its own, so that it
+  // does not depend on the one that is displayed, if any is.
+  Exposed expose(const cases::State& state, const tissue::Displacement& displacement = {});
 
   // The picture that the pulse of `state` gave. `seed` is the noise's: another attempt's is another's.
-  GreyPicture picture(const cases::State& state, std::uint64_t seed);
+  GreyPicture picture(const cases::State& state, std::uint64_t seed, const tissue::Displacement& displacement = {});
 
  private:
   struct Parts;

@@ -32,7 +32,7 @@ const GreyPicture& GuidanceScreen::picture() {
   if (drawn_) return picture_;
   drawn_ = true;
   if (room_) {
-    picture_ = room_->picture(shown_, seed_);
+    picture_ = room_->picture(shown_, seed_, shown_displacement_);
     return picture_;
   }
   const cases::PoseSample pose = pose_of(shown_);

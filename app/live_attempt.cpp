@@ -47,7 +47,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
 
   AttemptTicks ticks(scene_);
   base::Snapshot<Moment> moments;
-  base::Snapshot<cases::State> pulses;
+  base::Snapshot<Moment> pulses;
   base::Snapshot<cases::FrameTruth> frames;
   base::Snapshot<cases::ExposureReport> reports;
   std::atomic<bool> over{false};
@@ -65,7 +65,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
       cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
       const bool kept = recorder.tick(ticks.advance(inputs));
-      if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.state());
+      if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.moment());
       if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
     }
     const Moment moment = ticks.moment();
@@ -82,7 +82,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     const auto moment = moments.take();
     if (room) {
       if (const auto pulse = pulses.take()) {
-        const FluoroscopyRoom::Exposed exposed = room->expose(*pulse);
+        const FluoroscopyRoom::Exposed exposed = room->expose(pulse->state, pulse->displacement);
         reports.put(exposed.report);
         recorder.frame(exposed.truth);
         last = exposed.truth;

@@ -29,9 +29,6 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
     return base::Error{"other_modality", "the case is not practised with this modality"};
   auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
   if (!scene) return scene.error();
-  if ((scene->breathing || scene->yields) && picture.modality == cases::Modality::xray)
-    return base::Error{"motion_not_shown",
-                       "fluoroscopy does not show yet how a patient moves: mpr and ultrasound do"};
   scene->instrument.kind = kind.value_or(row->instrument.kind);
   assessment::PathLimits limits = assessment::path_limits(*scene);
   if (picture.modality == cases::Modality::ultrasound)

@@ -21,7 +21,7 @@ struct Task {
 
 // An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the
 // modality is the case's unless given. Refused: `no_case`, `no_lesion`, `no_path`, `other_modality` (not one of the
-// case's), `motion_not_shown`, damaged assets.
+// case's), damaged assets.
 base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
                                 std::optional<cases::InstrumentKind> kind = std::nullopt,
                                 std::optional<cases::Modality> modality = std::nullopt);

@@ -52,7 +52,7 @@ class Monitor::Painter {
     shown.told_s = moment.told_s;
     shown.live = room_ ? state.fluoroscopy.live : !state.probe.frozen;
     if (room_) {
-      shown.picture = room_->picture(state, seed_);
+      shown.picture = room_->picture(state, seed_, moment.displacement);
       shown.t_s = state.t_s;
       ++shown.number;
       return;

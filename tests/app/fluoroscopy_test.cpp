@@ -10,6 +10,7 @@
 #include "app/attempt_loop.h"
 #include "assessment/operators/plan.h"
 #include "sim/engine/step.h"
+#include "sim/tissue/breathing.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 
@@ -132,6 +133,62 @@ TEST(FluoroscopyRoom, SeesTheHandUnlessItIsAway) {
   cases::FluoroscopeInputs away;
   away.hand_away = true;
   EXPECT_FALSE(room.expose(pulse(ball(), kAway, down, away)).report.hand_in_beam);
+}
+
+// As ball(), but it breathes: its dome is at its upper end.
+const cases::Case& breathing_ball() {
+  static const cases::Case kBreathing = [] {
+    cases::Case scene = ball();
+    scene.breathing.emplace();
+    return scene;
+  }();
+  return kBreathing;
+}
+
+tissue::Displacement breathed_in(const cases::Case& scene, double level = 1.0) {
+  return tissue::displacement_of(
+      {.breath = tissue::Breath{*tissue::breath_region(scene), tissue::breath_amount_mm(*scene.breathing, level)}});
+}
+
+TEST(FluoroscopyRoom, ShowsTheTargetWhereTissueTookIt) {
+  const cases::Case& scene = breathing_ball();
+  const tissue::Displacement in = breathed_in(scene);
+  const glm::dvec3 target = tissue::displaced(in, scene.lesions[0].center_lps_mm);
+  ASSERT_GT(glm::length(target - scene.lesions[0].center_lps_mm), 5.0);
+  FluoroscopyRoom room(scene);
+  const auto state = pulse(scene, kAway, kAcross);
+  const auto still = room.expose(state), moved = room.expose(state, in);
+  EXPECT_EQ(moved.fix.tip_mm, still.fix.tip_mm) << "the needle is where the hand is";
+  // 785 mm from the source to the middle: places are magnified by depth.
+  const double magnified = 1100.0 / (785.0 - target.y);
+  EXPECT_NEAR(moved.fix.target_mm.x, target.x * magnified, 1e-9);
+  EXPECT_NEAR(moved.fix.target_mm.y, -target.z * magnified, 1e-9);
+  EXPECT_TRUE(moved.truth.target);
+  // Out of a field that holds it at rest.
+  cases::FluoroscopeInputs narrow;
+  narrow.collimator.open_u = 1.0;
+  narrow.collimator.open_v = 2.0 * (std::abs(still.fix.target_mm.y) + 2.0) / 300.0;
+  const auto shut = pulse(scene, kAway, kAcross, narrow);
+  EXPECT_TRUE(room.expose(shut).truth.target);
+  EXPECT_FALSE(room.expose(shut, in).truth.target);
+}
+
+TEST(FluoroscopyRoom, OfWhoLiesStillIsWhatItAlwaysWas) {
+  const cases::Case& scene = breathing_ball();
+  const auto state = pulse(scene, {0, -40, 0}, kAcross);
+  FluoroscopyRoom used(scene), fresh(ball());
+  const GreyPicture still = fresh.picture(state, 7);
+  const auto exposed = fresh.expose(state);
+  const GreyPicture in = used.picture(state, 7, breathed_in(scene));
+  EXPECT_NE(used.expose(state, breathed_in(scene)).report, exposed.report) << "metered through other tissue";
+  EXPECT_NE(in.grey, still.grey);
+  EXPECT_EQ(used.picture(state, 7, {}).grey, still.grey);
+  EXPECT_EQ(used.expose(state, {}).report, exposed.report);
+  EXPECT_EQ(used.expose(state, {}).truth.beam, exposed.truth.beam);
+  EXPECT_EQ(used.expose(state, {}).fix.target_mm, exposed.fix.target_mm);
+  EXPECT_EQ(used.picture(state, 7, breathed_in(scene)).grey, in.grey);
+  EXPECT_EQ(used.expose(state, breathed_in(scene)).report,
+            FluoroscopyRoom(scene).expose(state, breathed_in(scene)).report);
 }
 
 TEST(FluoroscopyRoom, AutomaticExposureSettlesThroughStep) {

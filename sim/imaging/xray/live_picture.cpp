@@ -13,15 +13,15 @@ const FluoroscopyPicture& LivePicture::expose(const XrayGeometry& geometry, bool
     const CpuOptions options{.threads = settings.threads};
     patient_ =
         arm_moves
-            ? enlarged(projector_.project(coarser(geometry, kMovingCoarseness), ProjectionMethod::exact, options),
+            ? enlarged(projector_->project(coarser(geometry, kMovingCoarseness), ProjectionMethod::exact, options),
                        kMovingCoarseness)
-            : projector_.project(geometry, ProjectionMethod::exact, options);
+            : projector_->project(geometry, ProjectionMethod::exact, options);
     geometry_ = geometry;
     coarse_ = arm_moves;
     ++integrations_;
   }
   lengths_ = patient_;
-  overlay_instruments(volume_, geometry, inserted, ProjectionMethod::exact, lengths_);
+  overlay_instruments(*volume_, geometry, inserted, ProjectionMethod::exact, lengths_);
   render_picture(beam, detector, field_side_mm, pulse, lengths_, settings, picture_);
   return picture_;
 }

@@ -1,7 +1,7 @@
 // The picture on a fluoroscope's screen, pulse by pulse. The patient is integrated again only when the geometry has
-// changed: tube, window, noise, collimator and needle are passes over the same path lengths. While the arm moves
-// the patient is integrated at half the resolution (docs/decisions/0011: on every backend measured here that is the
-// faster way, not another method); at rest exactly. Between pulses the last image is held.
+// changed, or the patient: tube, window, noise, collimator and needle are passes over the same path lengths. While
+// the arm moves the patient is integrated at half the resolution (docs/decisions/0011: on every backend measured
+// here that is the faster way, not another method); at rest exactly. Between pulses the last image is held.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,14 @@ class LivePicture {
   static constexpr int kMovingCoarseness = 2;
 
   // Both must outlive it.
-  LivePicture(const volume::Volume& volume, const XrayCpu& projector) : volume_(volume), projector_(projector) {}
+  LivePicture(const volume::Volume& volume, const XrayCpu& projector) : volume_(&volume), projector_(&projector) {}
+
+  // From now on these: the patient has moved, and is integrated anew.
+  void take_patient(const volume::Volume& volume, const XrayCpu& projector) noexcept {
+    volume_ = &volume;
+    projector_ = &projector;
+    geometry_.reset();
+  }
 
   // The picture of one pulse. `geometry` covers the pulse's whole field of field_side_mm, in order
   // (check_geometry), with width_px and height_px multiples of kMovingCoarseness.
@@ -32,8 +39,8 @@ class LivePicture {
   int integrations() const noexcept { return integrations_; }
 
  private:
-  const volume::Volume& volume_;
-  const XrayCpu& projector_;
+  const volume::Volume* volume_;
+  const XrayCpu* projector_;
   std::optional<XrayGeometry> geometry_;  // of patient_
   bool coarse_ = false;
   PathLengths patient_;  // without instruments
