@@ -77,6 +77,7 @@ void Trainer::list_choices() {
       choice.open = item.progress.open && choice.attempts_left.value_or(1) > 0;
       choice.due = item.progress.due;
       choice.reached = assessment::name_of(item.progress.reached);
+      std::replace(choice.reached.begin(), choice.reached.end(), '_', ' ');
     }
   }
   for (const casedb::CaseRow& row : rows) {
