@@ -24,6 +24,15 @@ Room::Room(const cases::Case& scene) : scene_(scene), tissue_(scene), patient_(s
   if (!scene.classes.empty()) hands_.emplace(scene, two_virtual_devices());
 }
 
+void Room::bring_to_rest(haptics::HandInput& hand) const noexcept {
+  if (!tissue_.moves()) return;
+  if (hand.tool == haptics::Tool::needle)
+    hand.pose = engine::at_rest(tissue_.felt_by_needle(state_, hand_states_), hand.pose,
+                                std::max(kShortestMm, state_.needle.inserted_mm));
+  else if (hand.tool == haptics::Tool::probe)
+    hand.pose.position_lps_mm = tissue::rest_of(tissue_.felt_by_probe(state_), hand.pose.position_lps_mm);
+}
+
 std::optional<cases::ForceSample> Room::feel(double elapsed_s) noexcept {
   if (!hands_) return std::nullopt;
   haptics::HandInput needle, probe;
@@ -32,11 +41,8 @@ std::optional<cases::ForceSample> Room::feel(double elapsed_s) noexcept {
   needle.pose.axis = state_.needle.direction;
   probe.tool = haptics::Tool::probe;
   probe.pose = {state_.probe.origin_lps_mm, state_.probe.axial, state_.probe.lateral};
-  if (tissue_.moves()) {
-    needle.pose = engine::at_rest(tissue_.felt_by_needle(state_, hand_states_), needle.pose,
-                                  std::max(kShortestMm, state_.needle.inserted_mm));
-    probe.pose.position_lps_mm = tissue::rest_of(tissue_.felt_by_probe(state_), probe.pose.position_lps_mm);
-  }
+  bring_to_rest(needle);
+  bring_to_rest(probe);
   const haptics::HandForces forces = hands_->advance({probe, needle}, elapsed_s, hand_states_);
   const glm::dvec3& needle_n = forces[1].wanted_n;
   const double axial_n = -glm::dot(needle_n, needle.pose.axis);

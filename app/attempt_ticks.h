@@ -40,6 +40,8 @@ class Room {
   // Of the tick that was done: where what pictures show is.
   const tissue::Displacement& displacement() const noexcept { return displacement_; }
   Moment moment() const noexcept { return {state_, displacement_, force_, reaction_, reaction_t_s_}; }
+  // From where a hand holds its tool to where that is in tissue at rest, by which forces are told.
+  void bring_to_rest(haptics::HandInput& hand) const noexcept;
 
   // One tick, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& inputs, double dt_s) noexcept;
@@ -84,6 +86,7 @@ class AttemptTicks {
   const cases::State& state() const noexcept { return room_.state(); }
   const tissue::Displacement& displacement() const noexcept { return room_.displacement(); }
   Moment moment() const noexcept { return room_.moment(); }
+  const Room& room() const noexcept { return room_; }
 
   // One tick of where hands want to be, and what it leaves behind. Allocates nothing.
   assessment::RecordedTick advance(const cases::Inputs& hands) noexcept;

@@ -13,13 +13,35 @@ void on_signal(int) {
   told_to_end = 1;
 }
 
+// Without --device haply: none. Throws UsageError.
+base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
+  const std::string device = arguments.text("--device", "mouse");
+  if (device != "mouse" && device != "haply") throw UsageError("--device is mouse or haply");
+  if (device == "mouse") {
+    for (const char* option : {"--device-host", "--device-port", "--station"})
+      if (arguments.has(option)) throw UsageError(std::string(option) + " is for --device haply");
+    return std::optional<Arms>();
+  }
+  Arms arms;
+  arms.place.host = arguments.text("--device-host", arms.place.host);
+  arms.place.port = static_cast<int>(arguments.whole("--device-port", arms.place.port, 1, 65535));
+  if (arguments.has("--station")) {
+    auto known = read_station(arguments.text("--station"));
+    if (!known) return known.error();
+    arms.station = std::move(*known);
+  }
+  return std::optional<Arms>(std::move(arms));
+}
+
 }  // namespace
 
 int run_train(const Arguments& arguments) {
   const std::string folder = arguments.has("--library") ? arguments.text("--library") : demo_library().string();
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  Trainer trainer(std::move(*library));
+  auto arms = arms_of(arguments);
+  if (!arms) return refuse(arms.error());
+  Trainer trainer(std::move(*library), std::move(*arms));
   Window::Settings settings;
   settings.title = "Seldinger";
   settings.width = static_cast<int>(arguments.whole("--width", 1280, 640, 16384));

@@ -265,6 +265,12 @@ constexpr Option kDemoOptions[] = {
     kJson};
 constexpr Option kTrainOptions[] = {
     {"--library", "DIR", "the library; else the demo's"},
+    {"--device", "mouse|haply",
+     "what holds the tools: mouse, keys, gamepad and 3-D mouse, or two arms of a Haply Inverse service, and these "
+     "for what an arm does not hold; default mouse"},
+    {"--device-host", "ADDRESS", "where that service is; default 127.0.0.1"},
+    {"--device-port", "N", "its port; default 10001"},
+    {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--width", "PIXELS", "of the window; 1280 unless given"},
     {"--height", "PIXELS", "of the window; 800 unless given"},
@@ -406,7 +412,8 @@ constexpr Command kCommands[] = {
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},
     {"train", "", 0, 0, kTrainOptions,
-     "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys, and be told how it "
+     "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys or two arms, and be "
+     "told how it "
      "went.",
      &run_train},
     {"serve", "", 0, 0, kServeOptions, "Serves the library's pages on this machine.", &run_serve},

@@ -18,6 +18,12 @@ std::array<devices::DeviceHand, 2> device_hands(const Station& station, const ca
 
 devices::HaplySettings haply_settings(const Station& station, const devices::WebSocketPlace& place);
 
+// Which arms there are, and where their service is.
+struct Arms {
+  Station station{};
+  devices::WebSocketPlace place{};
+};
+
 class DeviceDesk {
  public:
   // Connects at once, and again whenever it has to.
@@ -31,6 +37,15 @@ class DeviceDesk {
   void read(bool needle_outside, bool probe_off, double elapsed_s, cases::Inputs& inputs,
             haptics::HandInputs& hands) noexcept;
   void send(const haptics::HandForces& forces) noexcept;
+
+  // By the servo's thread, too: a lost arm's tool is held by something else, and is here.
+  void leave_at(haptics::Side side, const cases::ToolPose& pose) noexcept {
+    hands_[static_cast<std::size_t>(side)].leave_at(pose);
+  }
+  // No time goes by: whatever the arms do meanwhile, the tools stay, and are re-gripped afterwards.
+  void let_go() noexcept {
+    for (devices::DeviceHand& hand : hands_) hand.let_go();
+  }
 
   bool healthy(haptics::Side side) const noexcept { return hands_[static_cast<std::size_t>(side)].healthy(); }
   devices::HaplyStatus status() const { return haply_.status(); }  // locks: not for the servo

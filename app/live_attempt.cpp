@@ -65,6 +65,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
       cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
       const bool kept = recorder.tick(ticks.advance(inputs));
+      if (with.feel) with.feel(ticks.room());
       if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.moment());
       if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
     }

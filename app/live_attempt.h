@@ -29,6 +29,7 @@ class LiveAttempt {
   // Who takes part. All but `ended` are asked by the servo: they must not allocate, lock or wait.
   struct With {
     Hands hands;
+    std::function<void(const Room&)> feel{};     // after each tick: what hands feel in it
     std::function<bool()> done;                  // after each tick
     std::function<bool()> paused{};              // while it says so, no time goes by
     std::function<void(const Moment&)> watch{};  // what else there is to do with a tick

@@ -44,7 +44,16 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       trace_(trace),
       opened_s_(clock_s()),
       told_s_(opened_s_),
-      between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {}
+      between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {
+  if (auto found = devices::SpaceMouse::open()) space_mouse_.emplace(std::move(*found));
+}
+
+OtherHands Desk::other_hands() {
+  OtherHands other;
+  other.gamepad = window_.gamepad();
+  if (space_mouse_) other.space_mouse = space_mouse_->poll();
+  return other;
+}
 
 void Desk::draw_screen() {
   const Keys& keys = window_.keys();
@@ -59,7 +68,7 @@ void Desk::draw_screen() {
       if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);
       break;
     case TrainerScreen::attempt:
-      attempt_.draw(trainer_, keys);
+      attempt_.draw(trainer_, keys, other_hands());
       break;
     case TrainerScreen::debrief:
       attempt_.end();

@@ -21,6 +21,7 @@ class Desk {
 
  private:
   void draw_screen();
+  OtherHands other_hands();
   void tell(const std::string& screen);
   void keep(const std::vector<unsigned char>& pixels);
 
@@ -32,6 +33,7 @@ class Desk {
   AttemptPanel attempt_;
   DebriefPanel debrief_;
   WatchPanel watch_;
+  std::optional<devices::SpaceMouse> space_mouse_;  // if one was there at the start
   std::filesystem::path pictures_;
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;

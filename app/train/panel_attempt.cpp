@@ -194,6 +194,10 @@ void AttemptPanel::tell(TraceLine& line) {
   line.press_mm = seen_.press_mm;
   line.attempt_s = seen_.moment.state.t_s;
   line.fired = seen_.moment.state.fire.fired;
+  line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
+  line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;
+  if (seen_.arms.used)
+    for (const bool lost : seen_.arms.lost) line.arms.emplace_back(lost ? "lost" : "ok");
 }
 
 // Once a frame: how long after the hands what is shown now was told.
@@ -210,7 +214,23 @@ void AttemptPanel::measure_lags() {
   if (shown.live && shown.told_s > 0.0) hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
 }
 
+void AttemptPanel::draw_arms() {
+  const ImVec4 warning{1.0F, 0.62F, 0.35F, 1.0F};
+  const ArmsHeld& arms = seen_.arms;
+  const auto tool = [&](std::size_t side) {
+    return arms.tools[side] == haptics::Tool::needle ? "needle" : "probe";
+  };
+  if (arms.lost[0] && arms.lost[1])
+    ImGui::TextColored(warning, "both arms lost: their tools stay, mouse and keys move them (Tab)");
+  else if (arms.lost[0] || arms.lost[1])
+    ImGui::TextColored(warning, "%s arm lost: the %s stays, mouse and keys move it (Tab)",
+                       arms.lost[0] ? "left" : "right", tool(arms.lost[0] ? 0 : 1));
+  else
+    ImGui::TextDisabled("left arm: %s · right arm: %s", tool(0), tool(1));
+}
+
 void AttemptPanel::draw_hands(const Task& task) {
+  if (seen_.arms.used) draw_arms();
   const Moment& moment = seen_.moment;
   const bool needle = seen_.held == devices::HeldTool::needle;
   ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
@@ -231,7 +251,7 @@ void AttemptPanel::draw_hands(const Task& task) {
               "camera");
 }
 
-void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
+void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& other) {
   PersonAttempt& attempt = *trainer.attempt();
   const std::shared_ptr<const Task> kept = attempt.task();
   const Task& task = *kept;
@@ -251,7 +271,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   devices::HandIntent sum = told_.sum;
-  room_.draw(task.scene, seen_, trainer.help(), keys, elapsed_s, sum);
+  room_.draw(task.scene, seen_, trainer.help(), keys, other, elapsed_s, sum);
   if (running && !attempt.paused()) told_.sum = sum;
   draw_reaction();
   char rates[64];

@@ -21,7 +21,7 @@ class AttemptPanel {
 
   // From the briefing: hands are set up and the sign-in is said.
   void begin(Trainer& trainer);
-  void draw(Trainer& trainer, const Keys& keys);
+  void draw(Trainer& trainer, const Keys& keys, const OtherHands& other);
   void end() noexcept { room_.end(); }
 
   // What there is to tell since it was told last.
@@ -35,6 +35,7 @@ class AttemptPanel {
   void draw_reaction();
   void draw_steps(Trainer& trainer);
   void draw_hands(const Task& task);
+  void draw_arms();
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);

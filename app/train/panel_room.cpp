@@ -97,8 +97,8 @@ void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::S
   imaging::stay_clear(room.camera, room.scene.frame, scene.skin_index, {}, size.x / std::max(1.0F, size.y));
 }
 
-void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, double elapsed_s,
-                     devices::HandIntent& sum) {
+void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys,
+                     const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(
@@ -139,7 +139,11 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const
     if (over || dragging) events.wheel_notches = io.MouseWheel;
   }
   const cases::ToolPose held = pose_of_held(seen);
-  devices::add(room_->mouse.intent(events, hand_view(*room_, held, room.y), seen.held, held), sum);
+  const devices::HandView view = hand_view(*room_, held, room.y);
+  devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
+  if (other.gamepad) devices::join(room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s), intent);
+  if (other.space_mouse) devices::join(room_->space_mouse.intent(*other.space_mouse, view, elapsed_s), intent);
+  devices::add(intent, sum);
 }
 
 }  // namespace seldinger::app

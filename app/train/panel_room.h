@@ -6,10 +6,18 @@
 
 #include "app/train/person_attempt.h"
 #include "app/train/window.h"
+#include "sim/devices/gamepad_hands.h"
 #include "sim/devices/mouse_hands.h"
+#include "sim/devices/space_mouse.h"
 #include "sim/imaging/room/room_renderer.h"
 
 namespace seldinger::app {
+
+// What else there is for hands beside mouse and keys, as it is now.
+struct OtherHands {
+  std::optional<devices::GamepadReading> gamepad;
+  std::optional<devices::SpaceMouseReading> space_mouse;
+};
 
 class RoomPanel {
  public:
@@ -19,9 +27,9 @@ class RoomPanel {
   void begin(const cases::Case& scene, bool left_handed);
   void end() noexcept { room_.reset(); }
 
-  // In what room there is; what mouse and keys want is added to `sum`.
-  void draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, double elapsed_s,
-            devices::HandIntent& sum);
+  // In what room there is; what mouse, keys and `other` want is added to `sum`.
+  void draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, const OtherHands& other,
+            double elapsed_s, devices::HandIntent& sum);
 
   bool stereo() const noexcept { return stereo_; }
   void set_stereo(bool stereo) noexcept { stereo_ = stereo; }
@@ -30,7 +38,10 @@ class RoomPanel {
  private:
   struct Room {
     Room(gpu::Context& context, const cases::Case& drawn, bool left_handed)
-        : scene(imaging::make_room_scene(drawn)), renderer(context, scene), mouse(left_handed) {}
+        : scene(imaging::make_room_scene(drawn)),
+          renderer(context, scene),
+          mouse(left_handed),
+          gamepad(left_handed) {}
     imaging::RoomScene scene;
     imaging::RoomRenderer renderer;
     imaging::RoomCamera camera;
@@ -38,6 +49,8 @@ class RoomPanel {
     double on_way = 1.0;           // 0 … 1
     imaging::DrawList list;
     devices::MouseHands mouse;
+    devices::GamepadHands gamepad;
+    devices::SpaceMouseHands space_mouse;
   };
   void move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
                    double elapsed_s);

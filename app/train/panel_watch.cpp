@@ -74,7 +74,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false, kStill);
     devices::HandIntent nobodys;
     const double now_s = clock_s();
-    room_.draw(watched.scene(), seen_, kHelp, keys, std::min(0.1, now_s - drawn_s_), nobodys);
+    room_.draw(watched.scene(), seen_, kHelp, keys, {}, std::min(0.1, now_s - drawn_s_), nobodys);
     drawn_s_ = now_s;
     ImGui::EndChild();
     ImGui::SameLine();

@@ -66,7 +66,8 @@ void PersonAttempt::begin(bool left_handed) {
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
   if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside
-  hands_.emplace(scene.skin_index, start, settings);
+  hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
+                 wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<Monitor>(task_->scene, 0);
   phase_.store(Phase::running, std::memory_order_release);
   {
@@ -85,16 +86,15 @@ bool PersonAttempt::say(cases::EventKind kind) noexcept {
 }
 
 // By the servo.
-cases::Inputs PersonAttempt::hands() {
+cases::Inputs PersonAttempt::hands(const cases::State& state) {
   if (const auto told = told_.take()) {
     even_.tell(told->sum, told->between_s);
     fluoroscope_ = told->fluoroscope;
     told_s_ = told->told_s;
     hand_to_force_s_ = clock_s() - told_s_;
   }
-  hands_->advance(even_.advance(engine::kTickSeconds), forces_, engine::kTickSeconds);
   cases::Inputs inputs;
-  hands_->say(inputs);
+  hands_->advance(even_.advance(engine::kTickSeconds), state, forces_, engine::kTickSeconds, inputs);
   inputs.fluoroscope = fluoroscope_;
   const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
   if (said_count_.load(std::memory_order_acquire) != heard) {
@@ -108,14 +108,18 @@ void PersonAttempt::watch(Moment moment) {
   moment.told_s = told_s_;
   if (moment.force) forces_ = {moment.force->needle_axial_n, moment.force->probe_n};
   Seen seen{moment};
-  seen.held = hands_->held();
+  const devices::Hands& mouse = hands_->mouse();
+  seen.held = mouse.held();
   seen.frozen = hands_->frozen();
-  seen.inserted = hands_->needle_inserted();
-  seen.guided = hands_->guided();
-  seen.in_guide = hands_->in_guide();
-  seen.returning = hands_->returning();
-  seen.inserted_mm = hands_->inserted_mm();
-  seen.press_mm = hands_->press_mm();
+  seen.guided = mouse.guided();
+  seen.in_guide = mouse.in_guide();
+  seen.returning = mouse.returning();
+  // What an arm led is where it is; mouse and keys know what they asked for.
+  const bool by_mouse = hands_->mouse_leads(haptics::Tool::needle);
+  seen.inserted_mm = by_mouse ? mouse.inserted_mm() : moment.state.needle.inserted_mm;
+  seen.inserted = by_mouse ? mouse.needle_inserted() : seen.inserted_mm > 0.0;
+  seen.press_mm = hands_->mouse_leads(haptics::Tool::probe) ? mouse.press_mm() : 0.0;
+  seen.arms = hands_->arms();
   seen.hand_to_force_s = hand_to_force_s_;
   seen_.put(seen);
   monitor_->show(moment);
@@ -145,9 +149,15 @@ void PersonAttempt::run() {
                      head_of(*task_, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
                      task_->scene);
     const auto stored =
-        live.run({.hands = [this](const cases::State&, const cases::FrameTruth*) { return hands(); },
+        live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
+                  .feel = [this](const Room& room) { hands_->feel(room, engine::kTickSeconds); },
                   .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
-                  .paused = [this] { return paused_.load(); },
+                  .paused =
+                      [this] {
+                        if (!paused_.load()) return false;
+                        hands_->let_go();
+                        return true;
+                      },
                   .watch = [this](const Moment& moment) { watch(moment); },
                   .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
     if (!stored) return refuse(stored.error());

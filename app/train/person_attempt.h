@@ -15,6 +15,7 @@
 
 #include "app/live_attempt.h"
 #include "app/task.h"
+#include "app/train/desk_hands.h"
 #include "app/train/monitor.h"
 #include "sim/devices/even_intent.h"
 #include "sim/devices/hands.h"
@@ -37,8 +38,9 @@ struct Seen {
   Moment moment;
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
-  double inserted_mm = 0.0, press_mm = 0.0;
-  double hand_to_force_s = 0.0;  // from a telling to the tick that took it in
+  double inserted_mm = 0.0, press_mm = 0.0;  // press: of a probe that mouse or keys lead
+  double hand_to_force_s = 0.0;              // from a telling to the tick that took it in
+  ArmsHeld arms{};
 };
 
 class PersonAttempt {
@@ -49,6 +51,7 @@ class PersonAttempt {
     std::optional<cases::Modality> modality;  // else the case's own
     std::string person_id;
     std::shared_ptr<const Task> task{};  // as prepared for an attempt before; else it is prepared
+    std::optional<Arms> arms{};
   };
   enum class Phase { preparing, ready, running, storing, stored, refused };
 
@@ -84,7 +87,7 @@ class PersonAttempt {
 
  private:
   void run();
-  cases::Inputs hands();
+  cases::Inputs hands(const cases::State& state);
   void watch(Moment moment);
 
   Wanted wanted_;
@@ -95,7 +98,7 @@ class PersonAttempt {
   std::unique_ptr<Monitor> monitor_;
   base::Snapshot<HandsTold> told_;
   base::Snapshot<Seen> seen_;
-  std::optional<devices::Hands> hands_;  // the servo's, from here …
+  std::optional<DeskHands> hands_;  // the servo's, from here …
   devices::EvenIntent even_;
   devices::AxialForces forces_;
   double told_s_ = 0.0, hand_to_force_s_ = 0.0;

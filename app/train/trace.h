@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <glm/vec3.hpp>
 #include <string>
+#include <vector>
 
 #include "sim/base/result.h"
 
@@ -21,6 +23,8 @@ struct TraceLine {
   std::string held;  // "needle" or "probe"; outside an attempt empty, as the rest
   double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
   bool fired = false;
+  glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face
+  std::vector<std::string> arms;                     // left, right: "ok" or "lost"; empty: none are used
 };
 
 std::string json_of(const TraceLine& line);

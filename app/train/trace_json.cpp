@@ -17,7 +17,10 @@ std::string json_of(const TraceLine& line) {
                  {"inserted_mm", line.inserted_mm},
                  {"press_mm", line.press_mm},
                  {"attempt_s", line.attempt_s},
-                 {"fired", line.fired}});
+                 {"fired", line.fired},
+                 {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
+                 {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});
+  if (!line.arms.empty()) json["arms"] = line.arms;
   return json.dump();
 }
 

@@ -22,7 +22,8 @@ std::size_t passes_among(casedb::Grader& grader, const std::vector<casedb::Attem
 
 }  // namespace
 
-Trainer::Trainer(casedb::Library library) : library_(std::move(library)) {
+Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
+    : library_(std::move(library)), arms_(std::move(arms)) {
   close_interrupted_attempts(library_);
 }
 
@@ -112,8 +113,8 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
-  attempt_ = std::make_unique<PersonAttempt>(
-      PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task)});
+  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt,
+                                                                   account_.person_id, std::move(task), arms_});
   screen_ = TrainerScreen::briefing;
 }
 

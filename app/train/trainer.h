@@ -39,7 +39,8 @@ struct Debrief {
 
 class Trainer {
  public:
-  explicit Trainer(casedb::Library library);
+  // Without arms, mouse and keys and what is like them are the hands.
+  explicit Trainer(casedb::Library library, std::optional<Arms> arms = std::nullopt);
 
   TrainerScreen screen() const noexcept { return screen_; }
   // The last thing that was refused, in words for the screen; empty: nothing was.
@@ -82,6 +83,7 @@ class Trainer {
   void prepare(std::shared_ptr<const Task> task);
 
   casedb::Library library_;
+  std::optional<Arms> arms_;
   TrainerScreen screen_ = TrainerScreen::log_in;
   std::string refusal_;
   casedb::Account account_;

@@ -22,6 +22,9 @@ static_assert(kRight == GLFW_KEY_RIGHT && kLeft == GLFW_KEY_LEFT && kDown == GLF
 static_assert(kPageUp == GLFW_KEY_PAGE_UP && kPageDown == GLFW_KEY_PAGE_DOWN);
 static_assert(kF5 == GLFW_KEY_F5 && kF9 == GLFW_KEY_F9 && kF12 == GLFW_KEY_F12);
 
+static_assert(devices::GamepadReading::kAxes == GLFW_GAMEPAD_AXIS_LAST + 1);
+static_assert(devices::GamepadReading::kButtons == GLFW_GAMEPAD_BUTTON_LAST + 1);
+
 // Debian's; without it the font that Dear ImGui brings along, which has no en dash.
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontPx = 16.0F;
@@ -162,6 +165,19 @@ void Window::end_frame(std::vector<unsigned char>* pixels) {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (pixels != nullptr) *pixels = gpu::window_pixels(*parts_->context, width_px(), height_px());
   glfwSwapBuffers(parts_->window);
+}
+
+std::optional<devices::GamepadReading> Window::gamepad() const {
+  for (int place = GLFW_JOYSTICK_1; place <= GLFW_JOYSTICK_LAST; ++place) {
+    GLFWgamepadstate now;
+    if (glfwJoystickIsGamepad(place) != GLFW_TRUE || glfwGetGamepadState(place, &now) != GLFW_TRUE) continue;
+    devices::GamepadReading reading;
+    std::copy(std::begin(now.axes), std::end(now.axes), reading.axes.begin());
+    std::transform(std::begin(now.buttons), std::end(now.buttons), reading.buttons.begin(),
+                   [](unsigned char button) { return button == GLFW_PRESS; });
+    return reading;
+  }
+  return std::nullopt;
 }
 
 void Window::set_title(const std::string& title) {

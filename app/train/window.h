@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/devices/gamepad_hands.h"
 #include "sim/gpu/context.h"
 
 namespace seldinger::app {
@@ -66,6 +68,8 @@ class Window {
   // `pixels`: what it shows, red, green, blue, row by row from the upper left.
   void end_frame(std::vector<unsigned char>* pixels = nullptr);
   const Keys& keys() const noexcept;  // of this frame
+  // The first that GLFW has a mapping for, as it is now; nothing: there is none.
+  std::optional<devices::GamepadReading> gamepad() const;
   void set_title(const std::string& title);
 
   int width_px() const noexcept;  // of what is drawn on

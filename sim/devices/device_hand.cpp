@@ -77,6 +77,12 @@ const cases::ToolPose& DeviceHand::advance(const DeviceReading& reading, bool fr
   return pose_;
 }
 
+void DeviceHand::leave_at(const cases::ToolPose& pose) noexcept {
+  if (healthy_) return;
+  pose_ = pose;
+  begun_ = true;
+}
+
 double DeviceHand::offset_mm() const noexcept {
   return glm::length(offset_lps_mm_);
 }

@@ -40,6 +40,10 @@ class DeviceHand {
   // that disturbs nothing).
   const cases::ToolPose& advance(const DeviceReading& reading, bool free, double elapsed_s) noexcept;
   bool healthy() const noexcept { return healthy_; }
+  // Of a hand that is not healthy: something else holds its tool, here; from here it goes on.
+  void leave_at(const cases::ToolPose& pose) noexcept;
+  // Not followed until the next reading, which is a re-grip: so after a pause.
+  void let_go() noexcept { healthy_ = false; }
   // Between hand and tool; 0 but for a re-grip.
   double offset_mm() const noexcept;
 

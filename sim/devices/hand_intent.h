@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace seldinger::devices {
@@ -33,6 +34,22 @@ inline void add(const HandIntent& more, HandIntent& sum) noexcept {
   sum.freezes += before.freezes;
   sum.guides += before.guides;
   sum.resets += before.resets;
+}
+
+// Devices that one hand uses at once: a level holds where any has it up, and whose slide is longer says how it is
+// meant.
+inline void join(const HandIntent& other, HandIntent& one) noexcept {
+  HandIntent both = one;
+  both.fire = one.fire || other.fire;
+  both.keep_tilt = one.keep_tilt || other.keep_tilt;
+  if (glm::dot(other.slide_lps_mm, other.slide_lps_mm) > glm::dot(one.slide_lps_mm, one.slide_lps_mm))
+    both.in_space = other.in_space;
+  const HandIntent levels = both;
+  add(other, both);
+  both.fire = levels.fire;
+  both.keep_tilt = levels.keep_tilt;
+  both.in_space = levels.in_space;
+  one = both;
 }
 
 // What came between two readings of one running sum.

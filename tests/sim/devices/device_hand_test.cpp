@@ -119,6 +119,25 @@ TEST(DeviceHand, ComesBackWithoutAJumpAndMeltsOnlyOutsideTheBody) {
   EXPECT_LT(glm::length(pose.side - straight.side), 1e-9);
 }
 
+TEST(DeviceHand, GoesOnFromWhereSomethingElseLeftTheTool) {
+  const cases::ToolPose left{{7, 8, 9}, {0, 1, 0}, {1, 0, 0}};
+  for (const bool was_there : {false, true}) {
+    DeviceHand hand({}, {});
+    if (was_there) {
+      hand.advance(reading_at({1, 2, 3}), true, 0.001);
+      hand.leave_at(left);
+      EXPECT_EQ(hand.advance(reading_at({1, 2, 3}), false, 0.001).position_lps_mm, glm::dvec3(1, 2, 3))
+          << "a hand that is there lets nobody else have its tool";
+      hand.let_go();
+    }
+    hand.leave_at(left);
+    const cases::ToolPose pose = hand.advance(reading_at({40, 2, 3}), false, 0.001);
+    EXPECT_LT(glm::length(pose.position_lps_mm - left.position_lps_mm), 1e-12);
+    EXPECT_LT(glm::length(pose.axis - left.axis), 1e-12);
+    EXPECT_LT(glm::length(pose.side - left.side), 1e-12);
+  }
+}
+
 TEST(HandDevice, ForceGoesEvenlyWithinTwentyMilliseconds) {
   EXPECT_EQ(share_of_force(0.0), 1.0);
   EXPECT_EQ(share_of_force(kHoldS), 1.0);

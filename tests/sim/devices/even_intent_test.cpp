@@ -29,6 +29,32 @@ TEST(EvenIntent, GivesOutEvenlyWhatWasTold) {
 }
 
 // However tellings and ticks fall together, what is given is what was told.
+// Whichever device says it first.
+TEST(HandIntent, DevicesOfOneHandAddUpAndALevelHoldsWhereAnyHasIt) {
+  HandIntent fires, slides;
+  fires.fire = true;
+  fires.advance_mm = 1.0;
+  slides.slide_lps_mm = {0.0, 3.0, 0.0};
+  slides.advance_mm = 0.5;
+  slides.swaps = 1;
+  slides.keep_tilt = slides.in_space = true;
+  for (const bool first : {false, true}) {
+    HandIntent both = first ? fires : slides;
+    join(first ? slides : fires, both);
+    EXPECT_TRUE(both.fire);
+    EXPECT_TRUE(both.keep_tilt);
+    EXPECT_TRUE(both.in_space) << "as the longer slide is meant";
+    EXPECT_EQ(both.slide_lps_mm.y, 3.0);
+    EXPECT_EQ(both.advance_mm, 1.5);
+    EXPECT_EQ(both.swaps, 1U);
+  }
+  HandIntent still, dragged;
+  still.in_space = true;  // a cap at rest
+  dragged.slide_lps_mm = {1.0, 0.0, 0.0};
+  join(still, dragged);
+  EXPECT_FALSE(dragged.in_space);
+}
+
 TEST(EvenIntent, LosesNothingAndGivesNothingTwice) {
   EvenIntent even;
   HandIntent sum, given;

@@ -1,0 +1,62 @@
+// The hands at the workstation, tick by tick: two arms where there are any and they answer, mouse, keys and their
+// like for what no arm holds. Everything but the constructor is the servo's: it allocates and waits for nothing.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "app/attempt_ticks.h"
+#include "app/device_desk.h"
+#include "sim/devices/hands.h"
+#include "sim/haptics/two_hands.h"
+
+namespace seldinger::app {
+
+// A stall of the machine is no news; who is silent for so long is said to be lost (design). What it holds stays at
+// once.
+inline constexpr double kSaidLostS = 0.1;
+
+// By haptics::Side.
+struct ArmsHeld {
+  bool used = false;                     // else there are none
+  std::array<bool, 2> lost{true, true};  // nothing was heard for kSaidLostS, or ever
+  std::array<haptics::Tool, 2> tools{haptics::Tool::none, haptics::Tool::none};
+};
+
+class DeskHands {
+ public:
+  // Scene and skin must outlive it. arms: nullptr: none. They are connected to at once.
+  DeskHands(const cases::Case& scene, const devices::HandsStart& start, const devices::HandsSettings& settings,
+            haptics::Handedness handedness, const Arms* arms);
+
+  // One tick: poses, trigger and frozen picture into `inputs`. The tool of a lost arm stays until mouse or keys
+  // move it; an arm that comes back goes on from where its tool is then.
+  void advance(const devices::HandIntent& intent, const cases::State& state, const devices::AxialForces& forces,
+               double elapsed_s, cases::Inputs& inputs) noexcept;
+  // What the arms feel of the tick that was done goes to their motors.
+  void feel(const Room& room, double elapsed_s) noexcept;
+  // Instead of both while no time goes by.
+  void let_go() noexcept;
+
+  const devices::Hands& mouse() const noexcept { return mouse_; }
+  // The tool is where mouse and keys led it last.
+  bool mouse_leads(haptics::Tool tool) const noexcept;
+  bool frozen() const noexcept { return last_.freeze; }
+  const ArmsHeld& arms() const noexcept { return arms_; }
+
+ private:
+  cases::ToolPose& pose_in(cases::Inputs& inputs, std::size_t side) const noexcept;
+
+  devices::Hands mouse_;
+  cases::Inputs last_;
+  ArmsHeld arms_;
+  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS};
+  std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
+  haptics::HandInputs held_;
+  haptics::HandStates felt_;
+  std::optional<haptics::TwoHands> forces_;
+  std::unique_ptr<DeviceDesk> desk_;
+};
+
+}  // namespace seldinger::app
