@@ -27,7 +27,7 @@ std::array<haptics::HandSettings, 2> two_arms() {
 
 DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
                      const devices::HandsSettings& settings, haptics::Handedness handedness, const Arms* arms)
-    : mouse_(scene.skin_index, start, settings) {
+    : mouse_(scene.skin_index, start, settings), braced_(scene) {
   if (arms == nullptr) return;
   arms_.used = true;
   arms_.tools = {tool_of(handedness, Side::left), tool_of(handedness, Side::right)};
@@ -56,7 +56,11 @@ void DeskHands::advance(const devices::HandIntent& intent, const cases::State& s
   }
   mouse_.advance(intent, forces, elapsed_s);
   mouse_.say(inputs);
-  if (desk_) {
+  if (!desk_) {  // an arm's hand goes with the patient by itself
+    braced_.see(state);
+    inputs.needle = braced_.carried(inputs.needle, mouse_.inserted_mm());
+    inputs.probe = braced_.carried(inputs.probe, 0.0);
+  } else {
     cases::Inputs arms;
     desk_->read(state.needle.inserted_mm <= 0.0, forces.probe_n <= 0.0, elapsed_s, arms, held_);
     inputs.fire = inputs.fire || arms.fire;

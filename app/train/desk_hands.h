@@ -8,6 +8,7 @@
 
 #include "app/attempt_ticks.h"
 #include "app/device_desk.h"
+#include "app/train/braced_hand.h"
 #include "sim/devices/hands.h"
 #include "sim/haptics/two_hands.h"
 
@@ -49,6 +50,7 @@ class DeskHands {
   cases::ToolPose& pose_in(cases::Inputs& inputs, std::size_t side) const noexcept;
 
   devices::Hands mouse_;
+  BracedHand braced_;
   cases::Inputs last_;
   ArmsHeld arms_;
   std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS};

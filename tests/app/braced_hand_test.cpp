@@ -1,0 +1,67 @@
+#include "app/train/braced_hand.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::app {
+namespace {
+
+cases::Case ball(bool breathes) {
+  volume::AnalyticVolume analytic;
+  analytic.size_voxels = {60, 60, 60};
+  analytic.spacing_mm = {2, 2, 2};
+  analytic.origin_mm = {-59, -59, -59};
+  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 50.0}, 50.0, "liver"});
+  cases::Case scene;
+  scene.volume = volume::rasterize(analytic);
+  scene.classes.assign(scene.volume.hu.size(), volume::TissueClass::liver);
+  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  if (breathes) scene.breathing.emplace();
+  return scene;
+}
+
+cases::State breathed(double level) {
+  cases::State state;
+  state.breath.moves = true;
+  state.breath.level = level;
+  return state;
+}
+
+TEST(BracedHand, NothingIsCarriedAtAPatientWhoLiesStill) {
+  const cases::Case scene = ball(false);
+  BracedHand hand(scene);
+  hand.see(breathed(1.0));
+  const cases::ToolPose pose{{0.0, -50.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+  EXPECT_EQ(hand.carried(pose, 0.0).position_lps_mm, pose.position_lps_mm);
+}
+
+// On the skin it is where the skin is; deeper and above it goes along without a leap, and turns nowhere.
+TEST(BracedHand, GoesWithTheSkinBelowIt) {
+  const cases::Case scene = ball(true);
+  BracedHand hand(scene);
+  const engine::MovingTissue tissue(scene);
+  const cases::State state = breathed(1.0);
+  hand.see(state);
+  const glm::dvec3 entry(0.0, -50.0, 0.0), in(0.0, 1.0, 0.0);
+  const glm::dvec3 moved = tissue::displaced(tissue.felt_by_probe(state), entry) - entry;
+  ASSERT_GT(glm::length(moved), 1.0);
+  cases::ToolPose before;
+  for (double inserted_mm = -20.0; inserted_mm <= 40.0; inserted_mm += 0.5) {
+    const cases::ToolPose pose{entry + inserted_mm * in, in, {1.0, 0.0, 0.0}};
+    const cases::ToolPose carried = hand.carried(pose, std::max(0.0, inserted_mm));
+    EXPECT_NEAR(glm::length(carried.position_lps_mm - pose.position_lps_mm - moved), 0.0, 0.2) << inserted_mm;
+    EXPECT_EQ(carried.axis, pose.axis);
+    const double step_mm = glm::length(carried.position_lps_mm - before.position_lps_mm);
+    EXPECT_TRUE(inserted_mm == -20.0 || step_mm < 0.7) << inserted_mm << " " << step_mm;
+    before = carried;
+  }
+}
+
+}  // namespace
+}  // namespace seldinger::app
