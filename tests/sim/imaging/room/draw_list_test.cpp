@@ -126,7 +126,8 @@ TEST(DrawList, PutsToolsWhereHandsHoldThem) {
   const DrawList thrown = list_of(scene, state);
   EXPECT_NEAR(glm::distance(placed(*find(thrown, RoomPart::needle_hub), {0, 0, -200.0}), handle), 0.0, 1e-9);
   // The shaft still reaches into it.
-  const auto& shaft = make_room_scene(scene).meshes[make_room_scene(scene).shaft];
+  const RoomScene room = make_room_scene(scene);
+  const RoomMesh& shaft = room.meshes[room.shaft];
   const auto low = std::min_element(shaft.vertices.begin(), shaft.vertices.end(),
                                     [](const auto& a, const auto& b) { return a.place_mm.z < b.place_mm.z; });
   EXPECT_LE(static_cast<double>(low->place_mm.z), -(scene.instrument.length_mm + scene.instrument.throw_mm));
