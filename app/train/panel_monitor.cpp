@@ -27,6 +27,7 @@ bool knob(const char* label, double& value, double low, double high, const char*
 void MonitorPanel::begin(const cases::Case& scene) {
   kind_ = scene.picture;
   shown_ = {};
+  knobs_ = {};
   calipers_px_.clear();
   measuring_ = false;
 }

@@ -15,7 +15,7 @@ class MonitorPanel {
  public:
   explicit MonitorPanel(gpu::Context& context) : picture_(context, gpu::ScreenPicture::Pixels::grey) {}
 
-  // A new attempt: knobs are where they were, calipers and picture are gone.
+  // A new attempt, with a console of its own: knobs stand where that begins, calipers and picture are gone.
   void begin(const cases::Case& scene);
 
   // In what room there is. `fluoroscope` is what the machine's console asks for; other cases do not touch it.
@@ -29,7 +29,6 @@ class MonitorPanel {
   void draw_ultrasound(Monitor& monitor, bool frozen);
   void draw_fluoroscope(const cases::State& state, cases::FluoroscopeInputs& fluoroscope);
   void measure(const std::array<float, 2>& at_px);
-  void save() const;
 
   gpu::ScreenPicture picture_;
   ShownPicture shown_;
@@ -37,7 +36,6 @@ class MonitorPanel {
   imaging::UltrasoundKnobs knobs_;
   std::vector<std::array<float, 2>> calipers_px_;  // of the picture; pairs
   bool measuring_ = false;
-  double lag_s_ = 0.0;
 };
 
 }  // namespace seldinger::app
