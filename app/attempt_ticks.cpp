@@ -33,6 +33,15 @@ void Room::bring_to_rest(haptics::HandInput& hand) const noexcept {
     hand.pose.position_lps_mm = tissue::rest_of(tissue_.felt_by_probe(state_), hand.pose.position_lps_mm);
 }
 
+// A layer without a capsule is entered without anybody's noticing.
+void Room::note_capsule(const haptics::HeldNeedleState& needle) noexcept {
+  if (needle.track.opened == 0) return;
+  const double taken_n = needle.path.layers[needle.track.opened - 1].tissue.rupture_n;
+  if (taken_n <= 0.0) return;
+  ++capsules_;
+  capsule_n_ = taken_n;
+}
+
 std::optional<cases::ForceSample> Room::feel(double elapsed_s) noexcept {
   if (!hands_) return std::nullopt;
   haptics::HandInput needle, probe;
@@ -44,6 +53,7 @@ std::optional<cases::ForceSample> Room::feel(double elapsed_s) noexcept {
   bring_to_rest(needle);
   bring_to_rest(probe);
   const haptics::HandForces forces = hands_->advance({probe, needle}, elapsed_s, hand_states_);
+  if (forces[1].ruptured) note_capsule(hand_states_[1].needle);
   const glm::dvec3& needle_n = forces[1].wanted_n;
   const double axial_n = -glm::dot(needle_n, needle.pose.axis);
   return cases::ForceSample{state_.t_s, axial_n, glm::length(needle_n + axial_n * needle.pose.axis),
@@ -67,6 +77,10 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   if (tick.reaction != cases::EventKind::none) {
     reaction_ = tick.reaction;
     reaction_t_s_ = state_.t_s;
+  }
+  if (inputs.event != cases::EventKind::none) {
+    event_ = inputs.event;
+    event_t_s_ = state_.t_s;
   }
   force_ = feel(dt_s);
   // Before a core needle's throw, in the same tick, drags what the trigger found.

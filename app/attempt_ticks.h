@@ -27,6 +27,10 @@ struct Moment {
   std::optional<cases::ForceSample> force{};           // none: nothing is felt in this case
   cases::EventKind reaction = cases::EventKind::none;  // the patient's last
   double reaction_t_s = 0.0;
+  cases::EventKind event = cases::EventKind::none;  // what was said, or a mentor let happen, last
+  double event_t_s = 0.0;
+  std::uint32_t capsules = 0;  // that the needle opened since the beginning,
+  double capsule_n = 0.0;      // and the force that the last one took
   double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 
@@ -39,7 +43,9 @@ class Room {
   const cases::State& state() const noexcept { return state_; }
   // Of the tick that was done: where what pictures show is.
   const tissue::Displacement& displacement() const noexcept { return displacement_; }
-  Moment moment() const noexcept { return {state_, displacement_, force_, reaction_, reaction_t_s_}; }
+  Moment moment() const noexcept {
+    return {state_, displacement_, force_, reaction_, reaction_t_s_, event_, event_t_s_, capsules_, capsule_n_};
+  }
   // From where a hand holds its tool to where that is in tissue at rest, by which forces are told.
   void bring_to_rest(haptics::HandInput& hand) const noexcept;
 
@@ -48,6 +54,7 @@ class Room {
 
  private:
   std::optional<cases::ForceSample> feel(double elapsed_s) noexcept;
+  void note_capsule(const haptics::HeldNeedleState& needle) noexcept;
   std::optional<glm::dvec3> rest_of(const glm::dvec3& tip_lps_mm) const noexcept;
 
   const cases::Case& scene_;
@@ -59,6 +66,10 @@ class Room {
   std::optional<cases::ForceSample> force_;
   cases::EventKind reaction_ = cases::EventKind::none;
   double reaction_t_s_ = 0.0;
+  cases::EventKind event_ = cases::EventKind::none;
+  double event_t_s_ = 0.0;
+  std::uint32_t capsules_ = 0;
+  double capsule_n_ = 0.0;
   cases::State state_;
   std::uint64_t hash_ = 0;
 };

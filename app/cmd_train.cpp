@@ -49,7 +49,11 @@ int run_train(const Arguments& arguments) {
   settings.whole_screen = arguments.has("--whole-screen");
   Window window(settings);
   Trace trace(arguments.text("--trace"));
-  Desk desk(window, trainer, {arguments.has("--left-handed")}, arguments.text("--pictures", "."), trace);
+  DeskOptions options;
+  options.left_handed = arguments.has("--left-handed");
+  options.sound.muted = arguments.has("--mute");
+  options.sound.volume = 0.01 * static_cast<double>(arguments.whole("--volume", 70, 0, 100));
+  Desk desk(window, trainer, options, arguments.text("--pictures", "."), trace);
   std::signal(SIGTERM, on_signal);  // what runs is stored, as when the window is closed
   std::signal(SIGINT, on_signal);
   while (window.open() && told_to_end == 0) desk.frame();

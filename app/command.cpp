@@ -275,6 +275,8 @@ constexpr Option kTrainOptions[] = {
     {"--width", "PIXELS", "of the window; 1280 unless given"},
     {"--height", "PIXELS", "of the window; 800 unless given"},
     {"--whole-screen", nullptr, "without a frame"},
+    {"--mute", nullptr, "without sound, until M is pressed"},
+    {"--volume", "PERCENT", "of the sound; 70 unless given"},
     {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
     {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
 };

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <thread>
 
@@ -11,6 +12,7 @@ namespace seldinger::app {
 namespace {
 
 constexpr double kTellEveryS = 0.25;
+constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
 // A window that is drawn in software leaves the processor to servo and pictures.
 constexpr double kMostFramesS = 60.0, kMostFramesInSoftwareS = 25.0;
 
@@ -38,8 +40,9 @@ std::string name_of(Trainer& trainer) {
 Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace)
     : window_(window),
       trainer_(trainer),
-      attempt_(window.context(), options),
-      watch_(window.context()),
+      speaker_(options.sound),
+      attempt_(window.context(), options, speaker_),
+      watch_(window.context(), speaker_),
       pictures_(std::move(pictures)),
       trace_(trace),
       opened_s_(clock_s()),
@@ -92,6 +95,7 @@ void Desk::tell(const std::string& screen) {
     attempt_.tell(line);
     line.pictures_s /= std::max(1e-3, passed_s);
   }
+  for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   trace_.write(line);
   told_s_ = now_s;
   frames_ = 0;
@@ -106,12 +110,32 @@ void Desk::keep(const std::vector<unsigned char>& rgb) {
   write_file(pictures_ / name, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
+// What became of the sound is said for a moment, where it was turned or cannot be.
+void Desk::turn_sound(const Keys& keys) {
+  const auto say = [this](std::string words) {
+    notice_ = std::move(words);
+    notice_until_s_ = clock_s() + kNoticeS;
+  };
+  const double turned = (keys.pressed('=') ? kVolumeStep : 0.0) - (keys.pressed('-') ? kVolumeStep : 0.0);
+  if (turned != 0.0) speaker_.set_volume(speaker_.volume() + turned);
+  const bool muted = keys.pressed('M') ? !speaker_.muted() : speaker_.muted() && turned <= 0.0;
+  if (muted != speaker_.muted()) speaker_.set_muted(muted);
+  if (keys.pressed('M') || turned != 0.0)
+    say(muted ? "Sound is off (M)"
+              : "Sound " + std::to_string(std::lround(100.0 * speaker_.volume())) + " % (M, −, =)");
+  const Speaker::State now = speaker_.state();
+  if (now == Speaker::State::none && sound_ != now) say("This workstation has no sound: what is heard is silent");
+  sound_ = now;
+  if (clock_s() < notice_until_s_) draw_notice(notice_);
+}
+
 void Desk::frame() {
   std::this_thread::sleep_for(std::chrono::duration<double>(due_s_ - clock_s()));
   due_s_ = std::max(due_s_ + between_s_, clock_s());
   window_.begin_frame();
   trainer_.look();
   draw_screen();
+  turn_sound(window_.keys());
   std::vector<unsigned char> pixels;
   const bool keeps = window_.keys().pressed(kF12);
   window_.end_frame(keeps ? &pixels : nullptr);

@@ -6,6 +6,7 @@
 #include "app/train/panel_attempt.h"
 #include "app/train/panel_watch.h"
 #include "app/train/panels.h"
+#include "app/train/speaker.h"
 #include "app/train/trace.h"
 #include "app/train/trainer.h"
 #include "app/train/window.h"
@@ -24,9 +25,11 @@ class Desk {
   OtherHands other_hands();
   void tell(const std::string& screen);
   void keep(const std::vector<unsigned char>& pixels);
+  void turn_sound(const Keys& keys);
 
   Window& window_;
   Trainer& trainer_;
+  Speaker speaker_;
   LogInPanel log_in_;
   ChoosePanel choose_;
   BriefingPanel briefing_;
@@ -38,7 +41,9 @@ class Desk {
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;
   int frames_ = 0, kept_ = 0;
-  std::string title_;
+  std::string title_, notice_;
+  double notice_until_s_ = 0.0;
+  Speaker::State sound_ = Speaker::State::unasked;
 };
 
 }  // namespace seldinger::app

@@ -255,7 +255,10 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
   PersonAttempt& attempt = *trainer.attempt();
   const std::shared_ptr<const Task> kept = attempt.task();
   const Task& task = *kept;
-  if (const auto seen = attempt.seen()) seen_ = *seen;
+  if (const auto seen = attempt.seen()) {
+    speaker_.play(sounds_of(seen_, *seen, task.scene.instrument.kind));
+    seen_ = *seen;
+  }
   if (seen_.moment.state.fire.fired && !fired_) {
     fired_ = true;
     keep_picture();

@@ -5,6 +5,7 @@
 
 #include "app/train/panel_monitor.h"
 #include "app/train/panel_room.h"
+#include "app/train/speaker.h"
 #include "app/train/trace.h"
 #include "app/train/trainer.h"
 
@@ -12,12 +13,17 @@ namespace seldinger::app {
 
 struct DeskOptions {
   bool left_handed = false;
+  Speaker::Settings sound{};
 };
 
 class AttemptPanel {
  public:
-  AttemptPanel(gpu::Context& context, DeskOptions options)
-      : options_(options), room_(context), monitor_(context), at_fire_(context, gpu::ScreenPicture::Pixels::grey) {}
+  AttemptPanel(gpu::Context& context, DeskOptions options, Speaker& speaker)
+      : options_(options),
+        speaker_(speaker),
+        room_(context),
+        monitor_(context),
+        at_fire_(context, gpu::ScreenPicture::Pixels::grey) {}
 
   // From the briefing: hands are set up and the sign-in is said.
   void begin(Trainer& trainer);
@@ -43,6 +49,7 @@ class AttemptPanel {
   void keep_picture();
 
   DeskOptions options_;
+  Speaker& speaker_;
   RoomPanel room_;
   MonitorPanel monitor_;
   gpu::ScreenPicture at_fire_;

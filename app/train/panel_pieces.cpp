@@ -29,6 +29,17 @@ void quiet(const char* text) {
   ImGui::PopStyleColor();
 }
 
+void draw_notice(const std::string& words) {
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+  const ImVec2 at{viewport->WorkPos.x + 0.5F * (viewport->WorkSize.x - size.x),
+                  viewport->WorkPos.y + viewport->WorkSize.y - size.y - 22.0F};
+  ImDrawList* draw = ImGui::GetForegroundDrawList();
+  draw->AddRectFilled({at.x - 14.0F, at.y - 8.0F}, {at.x + size.x + 14.0F, at.y + size.y + 8.0F},
+                      IM_COL32(30, 50, 62, 235), 6.0F);
+  draw->AddText(at, IM_COL32(225, 240, 248, 255), words.c_str());
+}
+
 std::string modality_words(cases::Modality modality) {
   switch (modality) {
     case cases::Modality::mpr:

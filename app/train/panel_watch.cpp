@@ -61,7 +61,12 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
       seen_ = {};
       shown_ = attempt.attempt_id;
     }
-    if (const auto moment = watched.moment()) seen_.moment = *moment;
+    if (const auto moment = watched.moment()) {
+      Seen now = seen_;
+      now.moment = *moment;
+      speaker_.play(sounds_of(seen_, now, watched.scene().instrument.kind));
+      seen_.moment = *moment;
+    }
     seen_.frozen = seen_.moment.state.probe.frozen;
     heading((attempt.case_title + " – " +
              (attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again"))

@@ -5,13 +5,14 @@
 
 #include "app/train/panel_monitor.h"
 #include "app/train/panel_room.h"
+#include "app/train/speaker.h"
 #include "app/train/trainer.h"
 
 namespace seldinger::app {
 
 class WatchPanel {
  public:
-  explicit WatchPanel(gpu::Context& context) : room_(context), monitor_(context) {}
+  WatchPanel(gpu::Context& context, Speaker& speaker) : speaker_(speaker), room_(context), monitor_(context) {}
 
   void draw(Trainer& trainer, const Keys& keys);
   void end() noexcept {
@@ -22,6 +23,7 @@ class WatchPanel {
  private:
   void draw_course(Trainer& trainer, const Keys& keys);
 
+  Speaker& speaker_;
   RoomPanel room_;
   MonitorPanel monitor_;
   std::string shown_;  // the attempt whose room is drawn

@@ -52,5 +52,7 @@ void end_screen();
 void heading(const char* text);
 void quiet(const char* text);  // smaller in weight: what explains
 std::string modality_words(cases::Modality modality);
+// Below, in the middle, over whatever screen is up.
+void draw_notice(const std::string& words);
 
 }  // namespace seldinger::app
