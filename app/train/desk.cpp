@@ -86,7 +86,7 @@ void Desk::draw_screen() {
 void Desk::tell(const std::string& screen) {
   const double now_s = clock_s(), passed_s = now_s - told_s_;
   ++frames_;
-  if (passed_s < kTellEveryS && screen == title_) return;
+  if (passed_s < kTellEveryS && screen == title_ && !(screen == "attempt" && attempt_.first_picture())) return;
   TraceLine line;
   line.t_s = now_s - opened_s_;
   line.screen = screen;
@@ -139,8 +139,9 @@ void Desk::frame() {
   std::vector<unsigned char> pixels;
   const bool keeps = window_.keys().pressed(kF12);
   window_.end_frame(keeps ? &pixels : nullptr);
-  if (keeps) keep(pixels);
   const std::string screen = name_of(trainer_);
+  if (screen == "attempt") attempt_.shown();
+  if (keeps) keep(pixels);
   tell(screen);
   if (screen != title_) window_.set_title("Seldinger – " + screen);
   title_ = screen;

@@ -200,8 +200,7 @@ void AttemptPanel::tell(TraceLine& line) {
     for (const bool lost : seen_.arms.lost) line.arms.emplace_back(lost ? "lost" : "ok");
 }
 
-// Once a frame: how long after the hands what is shown now was told.
-void AttemptPanel::measure_lags() {
+void AttemptPanel::shown() noexcept {
   const double now_s = clock_s();
   hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
   if (seen_.moment.told_s > room_told_s_) {
@@ -271,8 +270,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
   draw_top(trainer);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
-  ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
   devices::HandIntent sum = told_.sum;
   room_.draw(task.scene, seen_, trainer.help(), keys, other, elapsed_s, sum);
   if (running && !attempt.paused()) told_.sum = sum;
@@ -283,8 +281,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
   ImGui::GetWindowDrawList()->AddText({corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(40, 50, 60, 255), rates);
   ImGui::EndChild();
   ImGui::SameLine();
-  ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  begin_picture("guidance", 0.0F, all.y - below - 8.0F);
   monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, told_.fluoroscope);
   ImGui::EndChild();
   ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
@@ -304,7 +301,6 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
     return;
   }
   read_keys(trainer, keys);
-  measure_lags();
   told_.between_s = elapsed_s;
   told_.told_s = told_s_ = now_s;
   attempt.tell(told_);

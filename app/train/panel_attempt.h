@@ -30,8 +30,11 @@ class AttemptPanel {
   void draw(Trainer& trainer, const Keys& keys, const OtherHands& other);
   void end() noexcept { room_.end(); }
 
+  // Once what was drawn is on the screen: how long after the hands that is.
+  void shown() noexcept;
   // What there is to tell since it was told last.
   void tell(TraceLine& line);
+  bool first_picture() const noexcept { return pictures_ > 0 && pictures_told_ == 0; }  // not told of yet
 
   // What the guidance showed when the trigger fell, or last.
   const gpu::ScreenPicture& picture_at_fire() const noexcept { return at_fire_; }
@@ -45,7 +48,6 @@ class AttemptPanel {
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
-  void measure_lags();
   void keep_picture();
 
   DeskOptions options_;

@@ -11,7 +11,8 @@
 namespace seldinger::app {
 namespace {
 
-constexpr ImU32 kCaliper = IM_COL32(255, 220, 90, 255), kWords = IM_COL32(200, 220, 230, 255);
+constexpr ImU32 kCaliper = IM_COL32(255, 220, 90, 255), kWords = IM_COL32(200, 220, 230, 255),
+                kNothing = IM_COL32(0, 0, 0, 255);
 
 // A knob that turns by dragging; double click types a number.
 bool knob(const char* label, double& value, double low, double high, const char* format, float width) {
@@ -41,16 +42,22 @@ void MonitorPanel::draw_picture(const Monitor& monitor, float width, float heigh
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", {width, height});
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(corner, {corner.x + width, corner.y + height}, IM_COL32(0, 0, 0, 255));
+  const ImVec2 end{corner.x + width, corner.y + height};
   if (picture_.width_px() == 0) {
+    draw->AddRectFilled(corner, end, kNothing);
     draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, kWords, "no picture yet");
     return;
   }
   const float across = static_cast<float>(picture_.width_px()), down = static_cast<float>(picture_.height_px());
   const float zoom = std::min(width / across, height / down);
   const ImVec2 low{corner.x + 0.5F * (width - zoom * across), corner.y + 0.5F * (height - zoom * down)};
-  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture_.name())), low,
-                 {low.x + zoom * across, low.y + zoom * down});
+  const ImVec2 high{low.x + zoom * across, low.y + zoom * down};
+  // Beside it only: under it, in software, a ground would cost as much again.
+  draw->AddRectFilled(corner, {end.x, low.y}, kNothing);
+  draw->AddRectFilled({corner.x, high.y}, end, kNothing);
+  draw->AddRectFilled({corner.x, low.y}, {low.x, high.y}, kNothing);
+  draw->AddRectFilled({high.x, low.y}, {end.x, high.y}, kNothing);
+  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture_.name())), low, high);
   if (shown_.pixel_mm > 0.0) {  // depth marks every centimetre
     const auto depth_px = [&](double mm) {
       return low.y + zoom * static_cast<float>((mm - shown_.top_mm) / shown_.pixel_mm);

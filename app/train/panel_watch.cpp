@@ -75,15 +75,14 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::TextDisabled("%s", kTrainingOnly);
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
-    constexpr ImGuiWindowFlags kStill = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
-    ImGui::BeginChild("room", {all.x - right - 8.0F, all.y - below - 8.0F}, false, kStill);
+    begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
     devices::HandIntent nobodys;
     const double now_s = clock_s();
     room_.draw(watched.scene(), seen_, kHelp, keys, {}, std::min(0.1, now_s - drawn_s_), nobodys);
     drawn_s_ = now_s;
     ImGui::EndChild();
     ImGui::SameLine();
-    ImGui::BeginChild("guidance", {0.0F, all.y - below - 8.0F}, false, kStill);
+    begin_picture("guidance", 0.0F, all.y - below - 8.0F);
     cases::FluoroscopeInputs nobody_asks;
     monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, nobody_asks);
     ImGui::EndChild();

@@ -49,6 +49,8 @@ class DebriefPanel {
 // Pieces that several screens have.
 void begin_screen(const char* name);  // the whole window; end_screen ends it
 void end_screen();
+// A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
+void begin_picture(const char* name, float width, float height);
 void heading(const char* text);
 void quiet(const char* text);  // smaller in weight: what explains
 std::string modality_words(cases::Modality modality);

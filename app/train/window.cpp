@@ -161,7 +161,8 @@ void Window::begin_frame() {
 
 void Window::end_frame(std::vector<unsigned char>* pixels) {
   ImGui::Render();
-  gpu::clear_window(*parts_->context, width_px(), height_px());
+  const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];  // screens have none of their own
+  gpu::clear_window(*parts_->context, width_px(), height_px(), {ground.x, ground.y, ground.z});
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   if (pixels != nullptr) *pixels = gpu::window_pixels(*parts_->context, width_px(), height_px());
   glfwSwapBuffers(parts_->window);

@@ -9,12 +9,12 @@
 
 namespace seldinger::gpu {
 
-void clear_window(Context& context, int width_px, int height_px) {
+void clear_window(Context& context, int width_px, int height_px, glm::vec3 colour) {
   context.handles()->make_current();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width_px, height_px);
   glDisable(GL_SCISSOR_TEST);
-  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  glClearColor(colour.r, colour.g, colour.b, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT);
 }
 

@@ -131,6 +131,8 @@ struct RoomRenderer::Parts {
   Ball still_ball;
   bool moving = false;  // in this picture
   bool still_map_is_right = false;
+  tissue::Displacement still_displacement{};  // that it shows
+  int still_age = 0;                          // pictures of another displacement since
   int uploads = 0, still_draws = 0;
 };
 
@@ -236,7 +238,10 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
     p.sources->bind(kSourcesBinding);
     ++p.uploads;
   }
-  if (p.moving || moved_before) p.still_map_is_right = false;
+  if (p.moving != moved_before) p.still_map_is_right = false;
+  if (p.moving && std::memcmp(&p.still_displacement, &displacement, sizeof displacement) != 0 &&
+      ++p.still_age > asked.quality.still_shadow_age)
+    p.still_map_is_right = false;
 
   // Everything that is told to the shaders goes up at once: writing between two drawings would make GL wait.
   p.upload(list, asked);
@@ -247,6 +252,8 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
     raster.depth_offset(2.0F, 4.0F);
     p.draw_casters(list, raster, Casts::still);
     p.still_map_is_right = true;
+    p.still_displacement = p.moving ? displacement : tissue::Displacement{};
+    p.still_age = 0;
     ++p.still_draws;
   }
   p.views.bind_part(kViewBinding, kViewStride, sizeof(shaders::RoomView));

@@ -19,8 +19,11 @@ struct RoomQuality {
   int still_shadow_px = 2048;  // sides of the shadow maps
   int tools_shadow_px = 1024;
   bool soft_shadows = true;  // four looks into each map in place of one
+  // While tissue moves: the shadows of what else lies still may be those of so many pictures before. The tools' are
+  // always new.
+  int still_shadow_age = 0;
 };
-constexpr RoomQuality kFastRoom = {1, 1024, 512, false};
+constexpr RoomQuality kFastRoom = {1, 1024, 512, false, 3};
 RoomQuality room_quality(const gpu::Context& context) noexcept;  // less on software GL
 
 struct RoomPicture {

@@ -240,6 +240,28 @@ TEST_F(RoomPictures, AStillPatientCostsNoDisplacementAndNoNewShadowMap) {
   EXPECT_EQ(renderer.still_shadow_draws(), 3);
 }
 
+TEST_F(RoomPictures, ShadowsOfWhatLiesStillMayBeALittleOldWhileTissueMoves) {
+  const RoomScene room = make_room_scene(scene);
+  asked.width_px = asked.height_px = 64;
+  asked.camera = room_camera(room, scene, state, RoomView::operator_side);
+  scene.yields = true;
+  make_draw_list(room, scene, state, options, list);
+  const auto pressed = [](int by_mm) {
+    const tissue::SkinPress press{{0.0, -kBallMm, 0.0}, {0.0, 1.0, 0.0}, 40.0, 1.0 * by_mm, 0.0};
+    return tissue::displacement_of({{&press, 1}, {}, {}, {}});
+  };
+  for (const int age : {0, 3}) {
+    RoomRenderer renderer(context, room);
+    asked.quality.still_shadow_age = age;
+    for (int i = 0; i < 9; ++i) renderer.draw(list, asked, pressed(1 + i));
+    EXPECT_EQ(renderer.still_shadow_draws(), age == 0 ? 9 : 3) << "pictures 0, 4 and 8";
+    for (int i = 0; i < 9; ++i) renderer.draw(list, asked, pressed(9));
+    EXPECT_EQ(renderer.still_shadow_draws(), age == 0 ? 9 : 3) << "nothing changed any more";
+    renderer.draw(list, asked, tissue::Displacement{});
+    EXPECT_EQ(renderer.still_shadow_draws(), age == 0 ? 10 : 4) << "let go: at once";
+  }
+}
+
 TEST_F(RoomPictures, EverySettingDrawsAllOfIt) {
   scene.structures.push_back({"organ", {}, cases::StructureRule::organ, cases::Sphere{{0, 0, 0}, 30.0}});
   for (const auto modality : {cases::Modality::ultrasound, cases::Modality::xray, cases::Modality::mpr}) {
