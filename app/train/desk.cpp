@@ -12,6 +12,7 @@ namespace seldinger::app {
 namespace {
 
 constexpr double kTellEveryS = 0.25;
+constexpr double kHandsEveryS = 0.004;  // half of what lies between two words of a usual mouse
 constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
 // A window that is drawn in software leaves the processor to servo and pictures.
 constexpr double kMostFramesS = 60.0, kMostFramesInSoftwareS = 25.0;
@@ -71,7 +72,7 @@ void Desk::draw_screen() {
       if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);
       break;
     case TrainerScreen::attempt:
-      attempt_.draw(trainer_, keys, other_hands());
+      attempt_.draw(trainer_, keys, window_.pointer(), other_hands());
       break;
     case TrainerScreen::debrief:
       attempt_.end();
@@ -129,16 +130,35 @@ void Desk::turn_sound(const Keys& keys) {
   if (clock_s() < notice_until_s_) draw_notice(notice_);
 }
 
+void Desk::go_on() {
+  if (trainer_.screen() != TrainerScreen::attempt) return;
+  const Keys& keys = window_.poll();
+  attempt_.go_on(trainer_, keys, window_.pointer(), attempt_.wheel_is_its(keys) ? window_.take_wheel() : 0.0,
+                 other_hands());
+}
+
+void Desk::finish(double began_s) {
+  if (trainer_.screen() != TrainerScreen::attempt) return;
+  while (!attempt_.finished(trainer_, began_s, kHandsEveryS)) go_on();
+  attempt_.take_late(trainer_);
+}
+
 void Desk::frame() {
-  std::this_thread::sleep_for(std::chrono::duration<double>(due_s_ - clock_s()));
-  due_s_ = std::max(due_s_ + between_s_, clock_s());
+  for (double left_s = due_s_ - clock_s(); left_s > 0.0; left_s = due_s_ - clock_s()) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kHandsEveryS)));
+    go_on();
+  }
+  const double began_s = clock_s();
+  due_s_ = std::max(due_s_ + between_s_, began_s);
   window_.begin_frame();
   trainer_.look();
   draw_screen();
   turn_sound(window_.keys());
+  window_.end_frame();
+  finish(began_s);
   std::vector<unsigned char> pixels;
   const bool keeps = window_.keys().pressed(kF12);
-  window_.end_frame(keeps ? &pixels : nullptr);
+  window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
   if (screen == "attempt") attempt_.shown();
   if (keeps) keep(pixels);

@@ -23,6 +23,8 @@ class Desk {
  private:
   void draw_screen();
   OtherHands other_hands();
+  void go_on();                 // of hands between frames
+  void finish(double began_s);  // what is being drawn for the frame that began then
   void tell(const std::string& screen);
   void keep(const std::vector<unsigned char>& pixels);
   void turn_sound(const Keys& keys);

@@ -29,7 +29,9 @@ imaging::ConsolePreset preset_of(const cases::Picture& picture) {
   return {"case", probe != nullptr ? *probe : imaging::kC52v, picture.depth_mm, 0.0, 60.0};
 }
 
-constexpr double kRateOver = 0.9;  // of the rate that is told, what was before counts so much
+constexpr double kRateOver = 0.9;   // of the rate that is told, what was before counts so much
+constexpr double kUsualOver = 0.7;  // likewise of what a picture takes
+constexpr std::chrono::milliseconds kUnasked(100);
 
 }  // namespace
 
@@ -106,6 +108,10 @@ class Monitor::Painter {
   std::uint64_t pictures_ = 0;
 };
 
+double clock_s() noexcept {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
+
 Monitor::Monitor(const cases::Case& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
   switch (scene.picture.modality) {
     case cases::Modality::ultrasound:
@@ -145,6 +151,26 @@ void Monitor::set_console(std::function<void(imaging::Console&)> change) {
   woken_.notify_all();
 }
 
+void Monitor::want() {
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_ = true;
+  }
+  woken_.notify_all();
+}
+
+std::optional<double> Monitor::expected_s() const {
+  const std::lock_guard lock(mutex_);
+  if (begun_s_) return *begun_s_ + usual_s_;
+  if (wanted_) return std::max(due_s_, clock_s()) + usual_s_;
+  return std::nullopt;
+}
+
+bool Monitor::fresh() const {
+  const std::lock_guard lock(mutex_);
+  return fresh_;
+}
+
 bool Monitor::take(ShownPicture& shown) {
   const std::lock_guard lock(mutex_);
   if (!fresh_) return false;
@@ -167,8 +193,11 @@ void Monitor::run() {
     {
       std::unique_lock lock(mutex_);
       woken_.wait_until(lock, due, [&] { return stopping_; });
+      if (!xray) woken_.wait_for(lock, kUnasked, [&] { return stopping_ || wanted_ || !changes_.empty(); });
       if (stopping_) return;
       changes.swap(changes_);
+      wanted_ = false;
+      if (!xray) begun_s_ = clock_s();
     }
     due = std::max(due + between, Clock::now());
     const std::uint64_t before = work.number;
@@ -181,7 +210,7 @@ void Monitor::run() {
     if (!changes.empty() && painter.console() != nullptr && painter.console()->frozen()) painter.develop(work);
     if (xray && newest) work.live = newest->state.fluoroscopy.live;
     changes.clear();
-    if (work.number == before && work.live == live) continue;
+    const bool changed = work.number != before || work.live != live;
     live = work.live;
     if (work.number != before) {
       work.drawn_in_s = seconds_since(begun);
@@ -192,6 +221,11 @@ void Monitor::run() {
     }
     if (auto* console = painter.console()) work.cine_pictures = console->cine_pictures();
     const std::lock_guard lock(mutex_);
+    begun_s_.reset();
+    due_s_ = std::chrono::duration<double>(due.time_since_epoch()).count();
+    if (work.number != before)
+      usual_s_ = usual_s_ > 0.0 ? kUsualOver * usual_s_ + (1.0 - kUsualOver) * work.drawn_in_s : work.drawn_in_s;
+    if (!changed) continue;
     newest_ = work;
     fresh_ = true;
   }

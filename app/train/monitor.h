@@ -1,5 +1,7 @@
 // The screen that guides, while an attempt runs: a thread of its own draws what the newest moment shows, as often
-// as the real machine would and no faster than it can, so that neither servo nor window ever waits for a picture.
+// as the real machine would and no faster than it can, so that the servo never waits for a picture, and the window
+// no longer than it likes. A picture that is asked for when the window begins to draw is there when it has drawn;
+// one that is made unasked would be old by then, or never seen.
 #pragma once
 
 #include <atomic>
@@ -18,6 +20,9 @@
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
+
+// Seconds of the machine's steady clock: by it lags from hand to picture are told, across threads.
+double clock_s() noexcept;
 
 // What is on the screen, and how it came there.
 struct ShownPicture {
@@ -45,6 +50,12 @@ class Monitor {
 
   // By the window. `change` is called on the monitor's thread, soon; ultrasound only.
   void set_console(std::function<void(imaging::Console&)> change);
+  // A picture of the newest moment, as soon as the machine's rate allows. Those that are asked for come at that
+  // rate; unasked a few come, for the cine loop, and a fluoroscope's whenever it pulses.
+  void want();
+  // When the picture that was asked for, or is being made, can be expected, by clock_s; nothing: none is.
+  std::optional<double> expected_s() const;
+  bool fresh() const;  // there is one to take
   // The newest picture, if there is one since the last call; `shown`'s memory is used again.
   bool take(ShownPicture& shown);
 
@@ -60,13 +71,15 @@ class Monitor {
   std::string method_;
   base::Snapshot<Moment> moments_, pulses_;
   std::uint32_t pulses_seen_ = 0;  // the servo's
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::vector<std::function<void(imaging::Console&)>> changes_;
   ShownPicture newest_;
   bool fresh_ = false;
-  bool stopping_ = false;
-  std::thread thread_;  // last: it uses the rest
+  bool stopping_ = false, wanted_ = false;
+  std::optional<double> begun_s_;       // that is being made, by clock_s
+  double due_s_ = 0.0, usual_s_ = 0.0;  // when the next may begin; what one takes, lately
+  std::thread thread_;                  // last: it uses the rest
 };
 
 }  // namespace seldinger::app

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
+#include "app/train/frame_plan.h"
 #include "app/train/panels.h"
 #include "reports/attempt_words.h"
 
@@ -39,6 +42,12 @@ bool asked_for(const Saying& saying, const cases::Case& scene) {
 // The meters' full scale (design): a needle that is stopped by capsule or skin, a probe that is pressed hard.
 constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
 
+// What came at once, a notch or what a slow frame kept, is given out as by a window of 60 frames a second.
+constexpr double kLeastBetweenS = 1.0 / 60.0;
+constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
+constexpr double kLookAgainS = 0.0005;
+constexpr double kLagOver = 0.9;  // of a lag that is shown, what was before counts so much
+
 void meter(const char* label, double force_n, double most_n) {
   char words[48];
   std::snprintf(words, sizeof words, "%s %.1f N", label, std::max(0.0, force_n));
@@ -58,7 +67,8 @@ void AttemptPanel::begin(Trainer& trainer) {
   seen_ = {};
   told_ = {};
   told_.fluoroscope.pulse_rate = 1;
-  told_s_ = clock_s();
+  told_s_ = drawn_s_ = clock_s();
+  room_lag_s_ = picture_lag_s_ = 0.0;
   method_ = trainer.attempt()->monitor().method();
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
@@ -202,15 +212,21 @@ void AttemptPanel::tell(TraceLine& line) {
 
 void AttemptPanel::shown() noexcept {
   const double now_s = clock_s();
+  const auto lately = [](double& lag_s, double newest_s) {
+    lag_s = lag_s > 0.0 ? kLagOver * lag_s + (1.0 - kLagOver) * newest_s : newest_s;
+  };
   hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
   if (seen_.moment.told_s > room_told_s_) {
     room_told_s_ = seen_.moment.told_s;
+    lately(room_lag_s_, now_s - room_told_s_);
     hand_to_room_s_ = std::max(hand_to_room_s_, now_s - room_told_s_);
   }
   const ShownPicture& shown = monitor_.shown();
   if (shown.number == 0 || shown.number == pictures_) return;
   pictures_ = shown.number;
-  if (shown.live && shown.told_s > 0.0) hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
+  if (!shown.live || shown.told_s <= 0.0) return;
+  lately(picture_lag_s_, now_s - shown.told_s);
+  hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
 }
 
 void AttemptPanel::draw_arms() {
@@ -250,20 +266,75 @@ void AttemptPanel::draw_hands(const Task& task) {
               "camera");
 }
 
-void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& other) {
+void AttemptPanel::see(PersonAttempt& attempt) {
+  if (const auto seen = attempt.seen()) {
+    speaker_.play(sounds_of(seen_, *seen, attempt.task()->scene.instrument.kind));
+    seen_ = *seen;
+  }
+}
+
+// What was told is in one of the next ticks: worth more than drawing a moment that does not know of it.
+void AttemptPanel::see_told(PersonAttempt& attempt) {
+  const double until_s = clock_s() + kMostTicksS;
+  for (see(attempt); seen_.moment.told_s < told_.told_s && clock_s() < until_s; see(attempt))
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+void AttemptPanel::read_hands(PersonAttempt& attempt, const Keys& keys, const Pointer& pointer, double wheel,
+                              const OtherHands& other) {
+  const double now_s = clock_s(), elapsed_s = now_s - told_s_;
+  devices::HandIntent sum = told_.sum;
+  room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum);
+  told_s_ = now_s;
+  if (attempt.phase() != PersonAttempt::Phase::running || attempt.paused()) return;
+  told_.sum = sum;
+  told_.between_s = std::max(elapsed_s, kLeastBetweenS);
+  told_.told_s = now_s;
+  attempt.tell(told_);
+}
+
+void AttemptPanel::go_on(Trainer& trainer, const Keys& keys, const Pointer& pointer, double wheel,
+                         const OtherHands& other) {
+  if (trainer.attempt() != nullptr) read_hands(*trainer.attempt(), keys, pointer, wheel, other);
+}
+
+bool AttemptPanel::finished(Trainer& trainer, double began_s, double most_s) {
+  if (!room_.finished(most_s)) return false;
+  PersonAttempt* attempt = trainer.attempt();
+  if (attempt == nullptr || attempt->phase() != PersonAttempt::Phase::running || attempt->monitor().fresh())
+    return true;
+  const double now_s = clock_s(), until_s = wait_for_picture_until_s(attempt->monitor().expected_s(), began_s);
+  if (now_s >= until_s) return true;
+  std::this_thread::sleep_for(std::chrono::duration<double>(std::min({kLookAgainS, most_s, until_s - now_s})));
+  return false;
+}
+
+void AttemptPanel::take_late(Trainer& trainer) {
+  PersonAttempt* attempt = trainer.attempt();
+  if (attempt != nullptr && attempt->phase() == PersonAttempt::Phase::running)
+    monitor_.take_late(attempt->monitor());
+}
+
+void AttemptPanel::draw_rates() {
+  char words[96];
+  std::snprintf(words, sizeof words, "%.0f /s   behind the hand: room %.0f ms, picture %.0f ms", frames_s_,
+                1e3 * room_lag_s_, 1e3 * picture_lag_s_);
+  const ImVec2 corner = ImGui::GetWindowPos();
+  ImGui::GetWindowDrawList()->AddText({corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(40, 50, 60, 255), words);
+}
+
+void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other) {
   PersonAttempt& attempt = *trainer.attempt();
   const std::shared_ptr<const Task> kept = attempt.task();
   const Task& task = *kept;
-  if (const auto seen = attempt.seen()) {
-    speaker_.play(sounds_of(seen_, *seen, task.scene.instrument.kind));
-    seen_ = *seen;
-  }
+  see(attempt);
   if (seen_.moment.state.fire.fired && !fired_) {
     fired_ = true;
     keep_picture();
   }
-  const double now_s = clock_s(), elapsed_s = now_s - told_s_;
-  if (elapsed_s > 0.0) frames_s_ = 0.9 * frames_s_ + 0.1 / elapsed_s;
+  const double now_s = clock_s(), elapsed_s = std::min(0.1, now_s - drawn_s_);
+  if (now_s > drawn_s_) frames_s_ = 0.9 * frames_s_ + 0.1 / (now_s - drawn_s_);
+  drawn_s_ = now_s;
   const bool running = attempt.phase() == PersonAttempt::Phase::running;
 
   begin_screen("attempt");
@@ -271,14 +342,13 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
   begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
-  devices::HandIntent sum = told_.sum;
-  room_.draw(task.scene, seen_, trainer.help(), keys, other, elapsed_s, sum);
-  if (running && !attempt.paused()) told_.sum = sum;
+  room_.place(task.scene, seen_, keys, elapsed_s);
+  read_hands(attempt, keys, pointer, ImGui::GetIO().MouseWheel, other);
+  if (running && !attempt.paused()) see_told(attempt);
+  attempt.monitor().want();
+  room_.draw(task.scene, seen_, trainer.help());
   draw_reaction();
-  char rates[64];
-  std::snprintf(rates, sizeof rates, "%.0f /s", frames_s_);
-  const ImVec2 corner = ImGui::GetWindowPos();
-  ImGui::GetWindowDrawList()->AddText({corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(40, 50, 60, 255), rates);
+  draw_rates();
   ImGui::EndChild();
   ImGui::SameLine();
   begin_picture("guidance", 0.0F, all.y - below - 8.0F);
@@ -301,9 +371,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& ot
     return;
   }
   read_keys(trainer, keys);
-  told_.between_s = elapsed_s;
-  told_.told_s = told_s_ = now_s;
-  attempt.tell(told_);
+  attempt.tell(told_);  // what the guidance's console asks for
   if (keys.pressed(kF5)) {
     trainer.again();
     return;

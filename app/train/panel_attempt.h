@@ -27,9 +27,17 @@ class AttemptPanel {
 
   // From the briefing: hands are set up and the sign-in is said.
   void begin(Trainer& trainer);
-  void draw(Trainer& trainer, const Keys& keys, const OtherHands& other);
+  void draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other);
+  // Between frames, as often as one likes: what hands want goes on. `wheel`: notches, where it is the room's.
+  void go_on(Trainer& trainer, const Keys& keys, const Pointer& pointer, double wheel, const OtherHands& other);
+  bool wheel_is_its(const Keys& keys) const noexcept { return room_.under_pointer() && !keys.alt; }
+  // Once a frame that began then is said: whether all that belongs to it is drawn; waits no longer than told. The
+  // guidance's picture belongs to it if it comes in time (frame_plan.h).
+  bool finished(Trainer& trainer, double began_s, double most_s);
   void end() noexcept { room_.end(); }
 
+  // Just before it is shown: what came last.
+  void take_late(Trainer& trainer);
   // Once what was drawn is on the screen: how long after the hands that is.
   void shown() noexcept;
   // What there is to tell since it was told last.
@@ -49,6 +57,11 @@ class AttemptPanel {
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
   void keep_picture();
+  void see(PersonAttempt& attempt);
+  void see_told(PersonAttempt& attempt);
+  void read_hands(PersonAttempt& attempt, const Keys& keys, const Pointer& pointer, double wheel,
+                  const OtherHands& other);
+  void draw_rates();
 
   DeskOptions options_;
   Speaker& speaker_;
@@ -57,9 +70,10 @@ class AttemptPanel {
   gpu::ScreenPicture at_fire_;
   Seen seen_;
   HandsTold told_;
-  double told_s_ = 0.0;
+  double told_s_ = 0.0, drawn_s_ = 0.0;
   bool decided_ = false, fired_ = false, leaving_ = false;
   double frames_s_ = 0.0;                                                          // the window's rate, lately
+  double room_lag_s_ = 0.0, picture_lag_s_ = 0.0;                                  // lately
   double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   double room_told_s_ = 0.0;

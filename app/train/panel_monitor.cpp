@@ -182,6 +182,11 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, cases::Fluoroscop
               machine.dap_mgy_cm2);
 }
 
+void MonitorPanel::take_late(Monitor& monitor) {
+  if (picture_.width_px() > 0 && monitor.take(shown_) && shown_.picture.width_px > 0)
+    picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
+}
+
 void MonitorPanel::draw(Monitor& monitor, const cases::State& state, bool frozen,
                         cases::FluoroscopeInputs& fluoroscope) {
   if (monitor.take(shown_) && shown_.picture.width_px > 0)

@@ -21,6 +21,9 @@ class MonitorPanel {
   // In what room there is. `fluoroscope` is what the machine's console asks for; other cases do not touch it.
   void draw(Monitor& monitor, const cases::State& state, bool frozen, cases::FluoroscopeInputs& fluoroscope);
 
+  // Between saying and showing a frame: a picture that has come since is in it, too.
+  void take_late(Monitor& monitor);
+
   const ShownPicture& shown() const noexcept { return shown_; }
   const gpu::ScreenPicture& picture() const noexcept { return picture_; }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 #include "app/train/panels.h"
 
@@ -50,7 +51,7 @@ constexpr float kSoftwareShare = 0.8F;
 }  // namespace
 
 void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
-  room_.reset();
+  end();
   room_ = std::make_unique<Room>(context_, scene, left_handed);
   view_ = imaging::RoomView::operator_side;
   begun_ = false;
@@ -97,53 +98,65 @@ void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::S
   imaging::stay_clear(room.camera, room.scene.frame, scene.skin_index, {}, size.x / std::max(1.0F, size.y));
 }
 
-void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys,
-                     const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
+void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& keys, double elapsed_s) {
+  const ImVec2 size = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
+  corner_px_ = {corner.x, corner.y};
+  size_px_ = {size.x, size.y};
   ImGui::InvisibleButton(
-      "room", room,
+      "room", size,
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-  if (!room_) return;
-  const cases::State& state = seen.moment.state;
-  move_camera(*room_, scene, state, keys, elapsed_s);
+  over_ = ImGui::IsItemHovered();
+  dragging_ = ImGui::IsItemActive();
+  if (room_) move_camera(*room_, scene, seen.moment.state, keys, elapsed_s);
+}
 
+void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
+                      const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
+  const Pointer before = std::exchange(pointer_, pointer);
+  if (!room_) return;
+  devices::MouseEvents events;
+  events.elapsed_s = elapsed_s;
+  events.actions = held_actions(keys);
+  if (!keys.alt) {
+    if (dragging_) {
+      events.right_px = pointer.x_px - before.x_px;
+      events.down_px = pointer.y_px - before.y_px;
+      events.primary = pointer.down[0];
+      events.secondary = pointer.down[1];
+      events.middle = pointer.down[2];
+    }
+    if (under_pointer()) events.wheel_notches = wheel;
+  }
+  const cases::ToolPose held = pose_of_held(seen);
+  const devices::HandView view = hand_view(*room_, held, size_px_[1]);
+  devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
+  if (other.gamepad) devices::join(room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s), intent);
+  if (other.space_mouse) devices::join(room_->space_mouse.intent(*other.space_mouse, view, elapsed_s), intent);
+  devices::add(intent, sum);
+}
+
+void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
+  if (!room_) return;
   imaging::RoomPicture picture;
   const float share = context_.software() ? kSoftwareShare : 1.0F;
-  picture.width_px = std::max(16, static_cast<int>(share * room.x));
-  picture.height_px = std::max(16, static_cast<int>(share * room.y));
+  picture.width_px = std::max(16, static_cast<int>(share * size_px_[0]));
+  picture.height_px = std::max(16, static_cast<int>(share * size_px_[1]));
   picture.views = stereo_ ? 2 : 1;
   picture.camera = room_->camera;
   picture.quality = imaging::room_quality(context_);
   imaging::RoomOptions options;
   options.help = help;
-  imaging::make_draw_list(room_->scene, scene, state, options, room_->list);
+  imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
   const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
+  drawn_.emplace(context_);
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name)), corner,
-                 {corner.x + room.x, corner.y + room.y}, {0.0F, 1.0F}, {1.0F, 0.0F});
+  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name)), {corner_px_[0], corner_px_[1]},
+                 {corner_px_[0] + size_px_[0], corner_px_[1] + size_px_[1]}, {0.0F, 1.0F}, {1.0F, 0.0F});
+}
 
-  const ImGuiIO& io = ImGui::GetIO();
-  devices::MouseEvents events;
-  events.elapsed_s = elapsed_s;
-  events.actions = held_actions(keys);
-  if (!keys.alt) {
-    const bool over = ImGui::IsItemHovered(), dragging = ImGui::IsItemActive();
-    if (dragging) {
-      events.right_px = io.MouseDelta.x;
-      events.down_px = io.MouseDelta.y;
-      events.primary = ImGui::IsMouseDown(ImGuiMouseButton_Left);
-      events.secondary = ImGui::IsMouseDown(ImGuiMouseButton_Right);
-      events.middle = ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    }
-    if (over || dragging) events.wheel_notches = io.MouseWheel;
-  }
-  const cases::ToolPose held = pose_of_held(seen);
-  const devices::HandView view = hand_view(*room_, held, room.y);
-  devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
-  if (other.gamepad) devices::join(room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s), intent);
-  if (other.space_mouse) devices::join(room_->space_mouse.intent(*other.space_mouse, view, elapsed_s), intent);
-  devices::add(intent, sum);
+bool RoomPanel::finished(double most_s) {
+  if (drawn_ && drawn_->passed(most_s)) drawn_.reset();
+  return !drawn_;
 }
 
 }  // namespace seldinger::app

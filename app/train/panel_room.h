@@ -1,6 +1,7 @@
 // The room as the trainee sees it: patient, probe and needle, with the camera, and the hands' mouse and keys.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "sim/devices/gamepad_hands.h"
 #include "sim/devices/mouse_hands.h"
 #include "sim/devices/space_mouse.h"
+#include "sim/gpu/fence.h"
 #include "sim/imaging/room/room_renderer.h"
 
 namespace seldinger::app {
@@ -25,11 +27,22 @@ class RoomPanel {
 
   // A new attempt.
   void begin(const cases::Case& scene, bool left_handed);
-  void end() noexcept { room_.reset(); }
+  void end() noexcept {
+    drawn_.reset();
+    room_.reset();
+  }
 
-  // In what room there is; what mouse, keys and `other` want is added to `sum`.
-  void draw(const cases::Case& scene, const Seen& seen, int help, const Keys& keys, const OtherHands& other,
-            double elapsed_s, devices::HandIntent& sum);
+  // It takes what room there is, and the camera goes on.
+  void place(const cases::Case& scene, const Seen& seen, const Keys& keys, double elapsed_s);
+  // What mouse, keys and `other` want since the last call is added to `sum`: in a frame once the room is placed,
+  // and between frames. `wheel`: notches.
+  void hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel, const OtherHands& other,
+             double elapsed_s, devices::HandIntent& sum);
+  bool under_pointer() const noexcept { return over_ || dragging_; }  // when it was placed
+  // Where it was placed, of the newest that is seen.
+  void draw(const cases::Case& scene, const Seen& seen, int help);
+  // Whether what was drawn is finished; waits for that no longer than told.
+  bool finished(double most_s);
 
   bool stereo() const noexcept { return stereo_; }
   void set_stereo(bool stereo) noexcept { stereo_ = stereo; }
@@ -60,6 +73,10 @@ class RoomPanel {
   std::unique_ptr<Room> room_;
   std::optional<imaging::RoomView> view_;  // asked for
   bool stereo_ = false, begun_ = false;
+  std::array<float, 2> corner_px_{}, size_px_{};  // where it is placed
+  bool over_ = false, dragging_ = false;
+  Pointer pointer_;  // when hands were read last
+  std::optional<gpu::Fence> drawn_;
 };
 
 }  // namespace seldinger::app

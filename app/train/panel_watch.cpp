@@ -67,6 +67,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
       speaker_.play(sounds_of(seen_, now, watched.scene().instrument.kind));
       seen_.moment = *moment;
     }
+    watched.monitor().want();
     seen_.frozen = seen_.moment.state.probe.frozen;
     heading((attempt.case_title + " – " +
              (attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again"))
@@ -76,9 +77,9 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
     begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
-    devices::HandIntent nobodys;
     const double now_s = clock_s();
-    room_.draw(watched.scene(), seen_, kHelp, keys, {}, std::min(0.1, now_s - drawn_s_), nobodys);
+    room_.place(watched.scene(), seen_, keys, std::min(0.1, now_s - drawn_s_));
+    room_.draw(watched.scene(), seen_, kHelp);
     drawn_s_ = now_s;
     ImGui::EndChild();
     ImGui::SameLine();

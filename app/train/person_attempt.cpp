@@ -13,10 +13,6 @@ constexpr double kAimMm = 60.0;  // any depth: only its direction counts
 
 }  // namespace
 
-double clock_s() noexcept {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 PersonAttempt::PersonAttempt(Wanted wanted) : wanted_(std::move(wanted)) {
   thread_ = std::thread([this] { run(); });
 }

@@ -22,9 +22,6 @@
 
 namespace seldinger::app {
 
-// Seconds of the machine's steady clock: by it lags from hand to picture are told, across threads.
-double clock_s() noexcept;
-
 // What the window tells the servo, once a frame.
 struct HandsTold {
   devices::HandIntent sum;  // running, since the attempt began

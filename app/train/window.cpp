@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -68,10 +69,23 @@ bool Keys::held(int key) const noexcept {
 
 struct Window::Parts {
   GLFWwindow* window = nullptr;
-  Keys keys;
+  Keys keys;     // of the frame
+  Keys between;  // as poll found them
+  std::vector<int> down;
   std::vector<int> pressed;  // since the frame began
   std::optional<gpu::Context> context;
   float scale = 1.0F;
+
+  void read(Keys& into) const {
+    into.pressed_ = pressed;
+    into.down_ = down;
+    const auto either = [&](int left, int right) {
+      return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
+    };
+    into.shift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    into.control = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    into.alt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+  }
 };
 
 Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
@@ -90,13 +104,13 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
     throw base::Failure("gl", "no window with OpenGL 4.3 can be had");
   }
   glfwMakeContextCurrent(parts_->window);
-  glfwSwapInterval(1);
   parts_->context.emplace(gpu::Context::of_window());
+  glfwSwapInterval(parts_->context->software() ? 0 : 1);  // software has nobody's beam to wait for
   glfwSetWindowUserPointer(parts_->window, parts_.get());
   // Dear ImGui calls it, too, when it takes the callbacks over.
   glfwSetKeyCallback(parts_->window, [](GLFWwindow* window, int key, int, int action, int) {
     auto* parts = static_cast<Parts*>(glfwGetWindowUserPointer(window));
-    std::vector<int>& down = parts->keys.down_;
+    std::vector<int>& down = parts->down;
     if (action == GLFW_PRESS) {
       parts->pressed.push_back(key);
       down.push_back(key);
@@ -139,28 +153,44 @@ double Window::scale() const noexcept {
 void Window::begin_frame() {
   // Dear ImGui 1.86 sees what is down when a frame begins; a short press is down for the whole of its frame.
   bool* down = ImGui::GetIO().KeysDown;
-  for (const int key : parts_->pressed)
+  for (const int key : parts_->keys.pressed_)
     if (key >= 0 && glfwGetKey(parts_->window, key) == GLFW_RELEASE) down[key] = false;
-  parts_->pressed.clear();
   glfwPollEvents();
   for (const int key : parts_->pressed)
     if (key >= 0) down[key] = true;
-  Keys& keys = parts_->keys;
-  keys.pressed_ = parts_->pressed;
-  const auto either = [&](int left, int right) {
-    return glfwGetKey(parts_->window, left) == GLFW_PRESS || glfwGetKey(parts_->window, right) == GLFW_PRESS;
-  };
-  keys.shift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
-  keys.control = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-  keys.alt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
+  parts_->read(parts_->keys);
+  parts_->pressed.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
-  keys.typing_ = ImGui::GetIO().WantTextInput;
+  parts_->keys.typing_ = parts_->between.typing_ = ImGui::GetIO().WantTextInput;
 }
 
-void Window::end_frame(std::vector<unsigned char>* pixels) {
+void Window::end_frame() {
   ImGui::Render();
+}
+
+const Keys& Window::poll() {
+  glfwPollEvents();
+  parts_->read(parts_->between);
+  return parts_->between;
+}
+
+Pointer Window::pointer() const {
+  Pointer pointer;
+  glfwGetCursorPos(parts_->window, &pointer.x_px, &pointer.y_px);
+  constexpr std::array<int, 3> kButtons = {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT,
+                                           GLFW_MOUSE_BUTTON_MIDDLE};
+  for (std::size_t i = 0; i < kButtons.size(); ++i)
+    pointer.down[i] = glfwGetMouseButton(parts_->window, kButtons[i]) == GLFW_PRESS;
+  return pointer;
+}
+
+double Window::take_wheel() {
+  return std::exchange(ImGui::GetIO().MouseWheel, 0.0F);
+}
+
+void Window::show(std::vector<unsigned char>* pixels) {
   const ImVec4& ground = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];  // screens have none of their own
   gpu::clear_window(*parts_->context, width_px(), height_px(), {ground.x, ground.y, ground.z});
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -2,6 +2,7 @@
 // app/train/panel_* of Dear ImGui.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,12 @@ enum Key : int {
   kF5 = 294,
   kF9 = 298,
   kF12 = 301,
+};
+
+// Where the mouse is in the window, and its buttons: left, right, middle.
+struct Pointer {
+  double x_px = 0.0, y_px = 0.0;
+  std::array<bool, 3> down{};
 };
 
 // What the keyboard did since the last frame. A key that went down and up again in between counts as well: a slow
@@ -65,9 +72,18 @@ class Window {
 
   // Between these two what is in the window is said to Dear ImGui.
   void begin_frame();
-  // `pixels`: what it shows, red, green, blue, row by row from the upper left.
-  void end_frame(std::vector<unsigned char>* pixels = nullptr);
+  void end_frame();
   const Keys& keys() const noexcept;  // of this frame
+  // Draws what was said, and is back when that is on the screen, as far as a program can tell. `pixels`: what it
+  // shows, red, green, blue, row by row from the upper left.
+  void show(std::vector<unsigned char>* pixels = nullptr);
+  // Between end_frame and the next begin_frame, as often as one likes: what came meanwhile, for hands, which are
+  // not to wait for a frame. Keys are as they are now; what went down counts until the next frame, which has it
+  // too.
+  const Keys& poll();
+  Pointer pointer() const;
+  // Notches since the frame, or the last call; those that are taken the next frame does not have.
+  double take_wheel();
   // The first that GLFW has a mapping for, as it is now; nothing: there is none.
   std::optional<devices::GamepadReading> gamepad() const;
   void set_title(const std::string& title);

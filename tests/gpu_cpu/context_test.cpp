@@ -12,6 +12,7 @@
 
 #include "sim/base/failure.h"
 #include "sim/gpu/buffer.h"
+#include "sim/gpu/fence.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
 
@@ -172,6 +173,18 @@ TEST(Buffer, GivesBackWhatWasWritten) {
   std::vector<double> read(8);
   buffer.read(std::as_writable_bytes(std::span(read)));
   EXPECT_EQ(read, written);
+}
+
+TEST(Context, AFenceIsPassedOnceWhatWasToldBeforeIsDone) {
+  Context context;
+  Copier copier(context);
+  Fence before(context);
+  EXPECT_TRUE(before.passed(10.0));
+  copier.run(1);
+  Fence after(context);
+  while (!after.passed(0.001)) {
+  }
+  EXPECT_TRUE(after.passed(0.0)) << "it stays so";
 }
 
 }  // namespace
