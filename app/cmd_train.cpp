@@ -47,7 +47,11 @@ int run_train(const Arguments& arguments) {
   settings.width = static_cast<int>(arguments.whole("--width", 1280, 640, 16384));
   settings.height = static_cast<int>(arguments.whole("--height", 800, 480, 16384));
   settings.whole_screen = arguments.has("--whole-screen");
+  const std::string backend = arguments.text("--backend", "auto");
+  if (backend != "gpu" && backend != "cpu" && backend != "auto") throw UsageError("--backend is gpu, cpu or auto");
   Window window(settings);
+  if (backend == "gpu" || (backend == "auto" && !window.context().software()))
+    trainer.set_pictures_by(PicturesBy::gpu);
   Trace trace(arguments.text("--trace"));
   DeskOptions options;
   options.left_handed = arguments.has("--left-handed");

@@ -272,6 +272,8 @@ constexpr Option kTrainOptions[] = {
     {"--device-port", "N", "its port; default 10001"},
     {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
+    {"--backend", "gpu|cpu|auto",
+     "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
     {"--width", "PIXELS", "of the window; 1280 unless given"},
     {"--height", "PIXELS", "of the window; 800 unless given"},
     {"--whole-screen", nullptr, "without a frame"},

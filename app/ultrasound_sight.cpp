@@ -156,6 +156,12 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   return seen_from;
 }
 
+void UltrasoundSight::draw_on(gpu::Context& context) {
+  const bool moves = scene_.yields || scene_.breathing.has_value();
+  gpu_ = std::make_shared<imaging::UltrasoundGpu>(context, tissue_, imaging::LinesBy::machine,
+                                                  moves ? imaging::TissueMoves::yes : imaging::TissueMoves::no);
+}
+
 struct UltrasoundSight::Screen {
   explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}) {}
   imaging::ScanConverter converter;
@@ -166,9 +172,13 @@ imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, con
                                                std::uint64_t seed, std::uint64_t frame,
                                                imaging::PolarPicture& picture,
                                                const tissue::Displacement& displacement) const {
-  const imaging::UltrasoundView view = view_of(scene_.picture, probe);
-  imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions},
-                            element_depths(scene_.skin_index, view, 1, displacement), picture, displacement);
+  imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  view.method = method_;
+  const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
+  if (gpu_)
+    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, displacement);
+  else
+    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, displacement);
   imaging::add_receiver_noise(seed, frame, picture);
   return view;
 }

@@ -11,7 +11,9 @@
 #include "assessment/operators/plan.h"
 #include "sim/case/case.h"
 #include "sim/case/mesh_index.h"
+#include "sim/gpu/context.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/tissue/displacement.h"
 
@@ -46,6 +48,11 @@ class UltrasoundSight {
   imaging::UltrasoundView polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
                                 std::uint64_t frame, imaging::PolarPicture& picture,
                                 const tissue::Displacement& displacement = {}) const;
+  // How `polar` makes speckle; scatterers unless it is told.
+  void set_method(imaging::UltrasoundMethod method) noexcept { method_ = method; }
+  // `polar` is GL's from now on, on the context's thread. Throws base::Failure("gl").
+  void draw_on(gpu::Context& context);
+  void draw_on_cpu() noexcept { gpu_.reset(); }  // again
   // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
   GreyPicture picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
                       std::uint64_t frame, const tissue::Displacement& displacement = {});
@@ -60,6 +67,8 @@ class UltrasoundSight {
   const cases::Case& scene_;
   imaging::TissueVolume tissue_;
   std::shared_ptr<Screen> screen_;
+  imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
+  std::shared_ptr<imaging::UltrasoundGpu> gpu_;
 };
 
 }  // namespace seldinger::app

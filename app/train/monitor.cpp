@@ -6,7 +6,9 @@
 
 #include "app/attempt_loop.h"
 #include "app/fluoroscopy.h"
+#include "app/train/speckle_choice.h"
 #include "app/ultrasound_sight.h"
+#include "sim/base/failure.h"
 
 namespace seldinger::app {
 namespace {
@@ -38,12 +40,20 @@ constexpr std::chrono::milliseconds kUnasked(100);
 // Draws on the monitor's thread.
 class Monitor::Painter {
  public:
-  Painter(const cases::Case& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
+  Painter(const cases::Case& scene, std::uint64_t seed, PicturesBy by) : scene_(scene), seed_(seed) {
     if (scene.picture.modality == cases::Modality::ultrasound) {
       sight_.emplace(scene);
+      if (by == PicturesBy::gpu) try_gpu();
       console_.emplace(preset_of(scene.picture));
     }
     if (scene.picture.modality == cases::Modality::xray) room_.emplace(scene);
+  }
+
+  bool ultrasound() const noexcept { return sight_.has_value(); }
+  std::string set_method(imaging::UltrasoundMethod method) {
+    sight_->set_method(method);
+    const std::string on = !context_ ? "CPU" : context_->software() ? "GL in software" : "GPU";
+    return (method == imaging::UltrasoundMethod::lattice ? "lattice, " : "scatterers, ") + on;
   }
 
   imaging::Console* console() { return console_ ? &*console_ : nullptr; }
@@ -71,8 +81,16 @@ class Monitor::Painter {
     if (console_->frozen() == shown.live) console_->set_frozen(!shown.live);
     if (console_->frozen() && shown.number > 0) return;  // it stands, until the console is changed
     if (!console_->frozen()) {
-      const imaging::UltrasoundView view =
-          sight_->polar(probe, needle, seed_, ++pictures_, polar_, moment.displacement);
+      const auto make = [&] { return sight_->polar(probe, needle, seed_, pictures_, polar_, moment.displacement); };
+      ++pictures_;
+      imaging::UltrasoundView view;
+      try {
+        view = make();
+      } catch (const base::Failure&) {
+        if (!context_) throw;
+        leave_gpu();
+        view = make();
+      }
       console_->show(state.t_s, pictures_, view, polar_);
     }
     develop(shown);
@@ -98,8 +116,22 @@ class Monitor::Painter {
   }
 
  private:
+  void try_gpu() {
+    try {
+      context_.emplace();
+      sight_->draw_on(*context_);
+    } catch (const base::Failure&) {  // no GL without a window, or too little memory: the CPU's are the same
+      leave_gpu();
+    }
+  }
+  void leave_gpu() {
+    sight_->draw_on_cpu();
+    context_.reset();
+  }
+
   const cases::Case& scene_;
   std::uint64_t seed_;
+  std::optional<gpu::Context> context_;
   std::optional<UltrasoundSight> sight_;
   std::optional<imaging::Console> console_;
   std::optional<imaging::ScanConverter> converter_;
@@ -112,7 +144,8 @@ double clock_s() noexcept {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-Monitor::Monitor(const cases::Case& scene, std::uint64_t seed) : scene_(scene), seed_(seed) {
+Monitor::Monitor(const cases::Case& scene, std::uint64_t seed, PicturesBy by)
+    : scene_(scene), seed_(seed), by_(by) {
   switch (scene.picture.modality) {
     case cases::Modality::ultrasound:
       method_ = "scatterers, CPU";
@@ -134,6 +167,11 @@ Monitor::~Monitor() {
   }
   woken_.notify_all();
   thread_.join();
+}
+
+std::string Monitor::method() const {
+  const std::lock_guard lock(mutex_);
+  return method_;
 }
 
 void Monitor::show(const Moment& moment) noexcept {
@@ -180,7 +218,8 @@ bool Monitor::take(ShownPicture& shown) {
 }
 
 void Monitor::run() {
-  Painter painter(scene_, seed_);
+  Painter painter(scene_, seed_, by_);
+  SpeckleChoice speckle;
   const bool xray = scene_.picture.modality == cases::Modality::xray;
   const auto between = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(xray ? 0.002 : 1.0 / scene_.picture.rate_hz));
@@ -197,6 +236,7 @@ void Monitor::run() {
       if (stopping_) return;
       changes.swap(changes_);
       wanted_ = false;
+      if (painter.ultrasound()) method_ = painter.set_method(speckle.method());
       if (!xray) begun_s_ = clock_s();
     }
     due = std::max(due + between, Clock::now());
@@ -217,6 +257,7 @@ void Monitor::run() {
       const double now_hz = 1.0 / std::max(1e-3, seconds_since(last_picture));
       rate_hz = rate_hz > 0.0 ? kRateOver * rate_hz + (1.0 - kRateOver) * now_hz : now_hz;
       last_picture = Clock::now();
+      if (work.live) speckle.made(clock_s(), work.drawn_in_s);
       work.rate_hz = rate_hz;
     }
     if (auto* console = painter.console()) work.cine_pictures = console->cine_pictures();

@@ -24,6 +24,9 @@ namespace seldinger::app {
 // Seconds of the machine's steady clock: by it lags from hand to picture are told, across threads.
 double clock_s() noexcept;
 
+// What makes ultrasound's pictures. Slices and fluoroscopy are the CPU's.
+enum class PicturesBy { cpu, gpu };
+
 // What is on the screen, and how it came there.
 struct ShownPicture {
   GreyPicture picture;
@@ -39,8 +42,9 @@ struct ShownPicture {
 
 class Monitor {
  public:
-  // `scene` (with its tissue under ultrasound) must outlive it. `seed` is the noise's.
-  Monitor(const cases::Case& scene, std::uint64_t seed);
+  // `scene` (with its tissue under ultrasound) must outlive it. `seed` is the noise's. `by`: by the GPU on a
+  // context of the monitor's own, and by the CPU where there is none.
+  Monitor(const cases::Case& scene, std::uint64_t seed, PicturesBy by = PicturesBy::cpu);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
@@ -59,8 +63,8 @@ class Monitor {
   // The newest picture, if there is one since the last call; `shown`'s memory is used again.
   bool take(ShownPicture& shown);
 
-  // How pictures are made: "scatterers, CPU", for the screen's corner.
-  const std::string& method() const noexcept { return method_; }
+  // How pictures are made: "scatterers, CPU", for the screen's corner. Ultrasound's may change (speckle_choice.h).
+  std::string method() const;
 
  private:
   class Painter;
@@ -68,7 +72,8 @@ class Monitor {
 
   const cases::Case& scene_;
   std::uint64_t seed_;
-  std::string method_;
+  PicturesBy by_;
+  std::string method_;  // mutex_'s
   base::Snapshot<Moment> moments_, pulses_;
   std::uint32_t pulses_seen_ = 0;  // the servo's
   mutable std::mutex mutex_;

@@ -346,6 +346,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   read_hands(attempt, keys, pointer, ImGui::GetIO().MouseWheel, other);
   if (running && !attempt.paused()) see_told(attempt);
   attempt.monitor().want();
+  method_ = attempt.monitor().method();
   room_.draw(task.scene, seen_, trainer.help());
   draw_reaction();
   draw_rates();

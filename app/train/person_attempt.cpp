@@ -64,7 +64,7 @@ void PersonAttempt::begin(bool left_handed) {
   if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
-  monitor_ = std::make_unique<Monitor>(task_->scene, 0);
+  monitor_ = std::make_unique<Monitor>(task_->scene, 0, wanted_.by);
   phase_.store(Phase::running, std::memory_order_release);
   {
     const std::lock_guard lock(mutex_);

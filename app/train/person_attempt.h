@@ -49,6 +49,7 @@ class PersonAttempt {
     std::string person_id;
     std::shared_ptr<const Task> task{};  // as prepared for an attempt before; else it is prepared
     std::optional<Arms> arms{};
+    PicturesBy by = PicturesBy::cpu;
   };
   enum class Phase { preparing, ready, running, storing, stored, refused };
 

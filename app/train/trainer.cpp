@@ -113,8 +113,8 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
-  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt,
-                                                                   account_.person_id, std::move(task), arms_});
+  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
+      library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_, by_});
   screen_ = TrainerScreen::briefing;
 }
 
@@ -147,7 +147,7 @@ void Trainer::watch(const std::string& attempt_id) {
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   refusal_.clear();
   watched_from_ = screen_;
-  watched_ = std::make_unique<WatchedAttempt>(library_.folder(), attempt_id);
+  watched_ = std::make_unique<WatchedAttempt>(library_.folder(), attempt_id, by_);
   screen_ = TrainerScreen::watch;
 }
 

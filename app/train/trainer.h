@@ -42,6 +42,9 @@ class Trainer {
   // Without arms, mouse and keys and what is like them are the hands.
   explicit Trainer(casedb::Library library, std::optional<Arms> arms = std::nullopt);
 
+  // Of what comes from now on.
+  void set_pictures_by(PicturesBy by) noexcept { by_ = by; }
+
   TrainerScreen screen() const noexcept { return screen_; }
   // The last thing that was refused, in words for the screen; empty: nothing was.
   const std::string& refusal() const noexcept { return refusal_; }
@@ -84,6 +87,7 @@ class Trainer {
 
   casedb::Library library_;
   std::optional<Arms> arms_;
+  PicturesBy by_ = PicturesBy::cpu;
   TrainerScreen screen_ = TrainerScreen::log_in;
   std::string refusal_;
   casedb::Account account_;

@@ -16,8 +16,8 @@ constexpr double kPieceS = 0.005;
 
 }  // namespace
 
-WatchedAttempt::WatchedAttempt(std::filesystem::path library, std::string attempt_id)
-    : library_(std::move(library)), attempt_id_(std::move(attempt_id)) {
+WatchedAttempt::WatchedAttempt(std::filesystem::path library, std::string attempt_id, PicturesBy by)
+    : library_(std::move(library)), attempt_id_(std::move(attempt_id)), by_(by) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -99,7 +99,7 @@ void WatchedAttempt::run() {
     attempt_ = std::move(*attempt);
     recording_ = std::move(*recording);
     scene_.emplace(std::move(*scene));
-    monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed);
+    monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed, by_);
   } catch (const base::Failure& failure) {
     return refuse({failure.code(), failure.what()});
   }

@@ -20,7 +20,7 @@ class WatchedAttempt {
   enum class Phase { preparing, playing, over, refused };
 
   // Begins at once.
-  WatchedAttempt(std::filesystem::path library, std::string attempt_id);
+  WatchedAttempt(std::filesystem::path library, std::string attempt_id, PicturesBy by = PicturesBy::cpu);
   ~WatchedAttempt();
   WatchedAttempt(const WatchedAttempt&) = delete;
   WatchedAttempt& operator=(const WatchedAttempt&) = delete;
@@ -44,6 +44,7 @@ class WatchedAttempt {
 
   std::filesystem::path library_;
   std::string attempt_id_;
+  PicturesBy by_;
   std::atomic<Phase> phase_{Phase::preparing};
   std::optional<base::Error> error_;
   std::optional<casedb::AttemptRow> attempt_;

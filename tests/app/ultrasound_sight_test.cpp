@@ -162,6 +162,47 @@ TEST(UltrasoundPlan, ATargetThatSoundCannotTellHasNone) {
   EXPECT_EQ(plan.error().code, "no_path");
 }
 
+// Mean difference of two envelopes, as a share of the first's mean.
+double mean_difference(const imaging::PolarPicture& a, const imaging::PolarPicture& b) {
+  EXPECT_EQ(a.envelope.size(), b.envelope.size());
+  double apart = 0.0, all = 0.0;
+  for (std::size_t i = 0; i < a.envelope.size(); ++i) {
+    apart += std::abs(static_cast<double>(a.envelope[i]) - static_cast<double>(b.envelope[i]));
+    all += a.envelope[i];
+  }
+  return apart / all;
+}
+
+TEST(UltrasoundSightBackends, GlDrawsWhatTheCpuDrawsByEitherMethodAndMayBeLeftAgain) {
+  cases::Case scene = ball();
+  scene.picture = ultrasound_picture(55.0);
+  scene.yields = true;
+  const cases::ToolPose probe{{0.0, 12.0 - kBallMm, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};  // all of it touches
+  const imaging::NeedlePose aside{{300.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, 100.0, 0.5, 0.3, 4000.0};
+  const tissue::SkinPress press{{0.0, -kBallMm, 0.0}, {0.0, 1.0, 0.0}, 40.0, 8.0, 0.0};
+  UltrasoundSight sight(scene), by_gl(scene);
+  gpu::Context context;
+  by_gl.draw_on(context);
+  for (const tissue::Displacement& displacement :
+       {tissue::Displacement{}, tissue::displacement_of({{&press, 1}, {}, {}, {}})}) {
+    imaging::PolarPicture fine, fast, other;
+    for (UltrasoundSight* one : {&sight, &by_gl}) one->set_method(imaging::UltrasoundMethod::scatterers);
+    sight.polar(probe, aside, 1, 1, fine, displacement);
+    by_gl.polar(probe, aside, 1, 1, other, displacement);
+    EXPECT_LT(mean_difference(fine, other), 0.01);
+    for (UltrasoundSight* one : {&sight, &by_gl}) one->set_method(imaging::UltrasoundMethod::lattice);
+    sight.polar(probe, aside, 1, 1, fast, displacement);
+    by_gl.polar(probe, aside, 1, 1, other, displacement);
+    EXPECT_LT(mean_difference(fast, other), 0.01);
+    EXPECT_GT(mean_difference(fine, fast), 0.2) << "another grain";
+  }
+  by_gl.draw_on_cpu();
+  imaging::PolarPicture again, as_before;
+  sight.polar(probe, aside, 1, 1, again);
+  by_gl.polar(probe, aside, 1, 1, as_before);
+  EXPECT_EQ(again.envelope, as_before.envelope);
+}
+
 TEST(UltrasoundAttempt, IsRecordedAtTheRateOfSoundAndReplayable) {
   const Planned& p = planned();
   const auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 3);
