@@ -1,6 +1,7 @@
 // bench: the room, by quality. Times until the picture is finished; errors against many samples a pixel and large
 // maps.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -62,8 +63,12 @@ base::Result<void> bench_room(const Arguments& arguments, bool quick, std::vecto
   state.needle.tip_lps_mm = site + 45.0 * room.frame.across;
   state.needle.direction = glm::normalize(-room.frame.up - room.frame.across);
   scene.planned_entry_lps_mm = state.needle.tip_lps_mm;
-  const tissue::SkinPress press{site, -room.frame.up, 20.0, 8.0, 0.0};
-  const tissue::Displacement pressed = tissue::displacement_of({{&press, 1}, {}, {}, {}});
+  // Each picture's is another, as while tissue moves.
+  std::array<tissue::Displacement, 2> pressed;
+  for (std::size_t i = 0; i < pressed.size(); ++i) {
+    const tissue::SkinPress press{site, -room.frame.up, 20.0, 8.0 + 0.1 * static_cast<double>(i), 0.0};
+    pressed[i] = tissue::displacement_of({{&press, 1}, {}, {}, {}});
+  }
 
   std::unique_ptr<gpu::Context> context;
   try {
@@ -90,10 +95,9 @@ base::Result<void> bench_room(const Arguments& arguments, bool quick, std::vecto
       for (const Choice& choice : kChoices)
         for (const bool moves : {false, true}) {
           asked.quality = choice.quality;
-          const tissue::Displacement displacement = moves ? pressed : tissue::Displacement{};
-          std::vector<std::uint8_t> rgba;
+          std::size_t drawn = 0;
           const auto draw = [&] {
-            renderer.draw(list, asked, displacement);
+            renderer.draw(list, asked, moves ? pressed[++drawn % pressed.size()] : tissue::Displacement{});
             renderer.wait();
           };
           draw();  // warm: maps and, once, shaders are made

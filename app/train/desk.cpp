@@ -12,6 +12,7 @@ namespace seldinger::app {
 namespace {
 
 constexpr double kTellEveryS = 0.25;
+constexpr double kHiddenS = 0.1;        // from frame to frame of a window that nobody sees
 constexpr double kHandsEveryS = 0.004;  // half of what lies between two words of a usual mouse
 constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
 // A window that is drawn in software leaves the processor to servo and pictures.
@@ -149,7 +150,7 @@ void Desk::frame() {
     go_on();
   }
   const double began_s = clock_s();
-  due_s_ = std::max(due_s_ + between_s_, began_s);
+  due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : between_s_), began_s);
   window_.begin_frame();
   trainer_.look();
   draw_screen();

@@ -190,6 +190,7 @@ void Monitor::set_console(std::function<void(imaging::Console&)> change) {
 }
 
 void Monitor::want() {
+  if (scene_.picture.modality == cases::Modality::xray) return;
   {
     const std::lock_guard lock(mutex_);
     wanted_ = true;
@@ -244,6 +245,10 @@ void Monitor::run() {
     const auto begun = Clock::now();
     const auto newest = moments_.take();
     const auto pulse = xray ? pulses_.take() : std::nullopt;
+    if (pulse) {
+      const std::lock_guard lock(mutex_);
+      begun_s_ = clock_s();
+    }
     if (auto* console = painter.console())
       for (const auto& change : changes) change(*console);
     if (xray ? pulse.has_value() : newest.has_value()) painter.draw(xray ? *pulse : *newest, work);

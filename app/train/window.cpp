@@ -146,6 +146,9 @@ bool Window::open() const noexcept {
 void Window::close() noexcept {
   glfwSetWindowShouldClose(parts_->window, GLFW_TRUE);
 }
+bool Window::hidden() const noexcept {
+  return glfwGetWindowAttrib(parts_->window, GLFW_ICONIFIED) == GLFW_TRUE;
+}
 double Window::scale() const noexcept {
   return parts_->scale;
 }

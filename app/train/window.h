@@ -68,6 +68,7 @@ class Window {
   gpu::Context& context() noexcept;
   bool open() const noexcept;  // until it is closed, by its user or by close
   void close() noexcept;
+  bool hidden() const noexcept;   // nobody sees it: it is an icon
   double scale() const noexcept;  // of fonts and distances: 1 on a screen of 96 dots an inch
 
   // Between these two what is in the window is said to Dear ImGui.
