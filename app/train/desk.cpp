@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,6 +19,12 @@ constexpr double kHandsEveryS = 0.004;  // half of what lies between two words o
 constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
 // A window that is drawn in software leaves the processor to servo and pictures.
 constexpr double kMostFramesS = 60.0, kMostFramesInSoftwareS = 25.0;
+
+// Looking at it takes every arena's lock in turn: not while an attempt runs.
+double heap_mib() {
+  const struct mallinfo2 held = mallinfo2();
+  return static_cast<double>(held.uordblks + held.hblkhd) / (1024.0 * 1024.0);
+}
 
 std::string name_of(Trainer& trainer) {
   PersonAttempt* attempt = trainer.attempt();
@@ -96,6 +104,8 @@ void Desk::tell(const std::string& screen) {
   if (screen == "attempt") {
     attempt_.tell(line);
     line.pictures_s /= std::max(1e-3, passed_s);
+  } else {
+    line.heap_mib = heap_mib();
   }
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   trace_.write(line);
@@ -126,7 +136,7 @@ void Desk::turn_sound(const Keys& keys) {
     say(muted ? "Sound is off (M)"
               : "Sound " + std::to_string(std::lround(100.0 * speaker_.volume())) + " % (M, −, =)");
   const Speaker::State now = speaker_.state();
-  if (now == Speaker::State::none && sound_ != now) say("This workstation has no sound: what is heard is silent");
+  if (now == Speaker::State::none && sound_ != now) say("This workstation has no sound device: it is silent");
   sound_ = now;
   if (clock_s() < notice_until_s_) draw_notice(notice_);
 }

@@ -24,6 +24,7 @@ struct TraceLine {
   double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
   bool fired = false;
   glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face
+  double heap_mib = 0.0;                             // what the program holds; told outside attempts only
   std::vector<std::string> sounds;                   // that began, heard or not
   std::vector<std::string> arms;                     // left, right: "ok" or "lost"; empty: none are used
 };

@@ -20,6 +20,7 @@ std::string json_of(const TraceLine& line) {
                  {"fired", line.fired},
                  {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});
+  if (line.heap_mib > 0.0) json["heap_mib"] = line.heap_mib;
   if (!line.sounds.empty()) json["sounds"] = line.sounds;
   if (!line.arms.empty()) json["arms"] = line.arms;
   return json.dump();

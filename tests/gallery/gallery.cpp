@@ -43,7 +43,7 @@ class Gallery : public testing::Test {
 
 TEST_F(Gallery, Ultrasound) {
   const std::string made = library("ultrasound");
-  fixtures::Trainee trainee(program, made, scratch_);
+  fixtures::Trainee trainee(program, made, scratch_, {"--mute"});
   keep(trainee, "log-in");
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
