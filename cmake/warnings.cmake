@@ -5,7 +5,10 @@ target_compile_options(seldinger_options INTERFACE
   -ffp-contract=off)
 target_include_directories(seldinger_options INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_definitions(seldinger_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
-if(SELDINGER_SANITIZE)
+if(SELDINGER_SANITIZE STREQUAL "thread")
+  target_compile_options(seldinger_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(seldinger_options INTERFACE -fsanitize=thread)
+elseif(SELDINGER_SANITIZE)
   target_compile_options(seldinger_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                                     -fno-omit-frame-pointer)
   target_link_options(seldinger_options INTERFACE -fsanitize=address,undefined)

@@ -9,6 +9,7 @@
 #include "shaders/shared/ultrasound.glsl.h"
 #include "shaders/shared/ultrasound_cube.glsl.h"
 #include "sim/base/check.h"
+#include "sim/base/clones.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
 #include "sim/imaging/ultrasound/phase.h"
@@ -138,18 +139,17 @@ template <bool curved>
     see<curved>(f, n, chunk.x[n] + chunk.moved_x[n], y, chunk.z[n] + chunk.moved_z[n], chunk);
   }
 }
-[[gnu::target_clones("avx2", "default")]] void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
+SELDINGER_FOR_AVX2_TOO void place_curved(const TileFrame& f, Chunk& chunk) noexcept {
   place<true>(f, chunk);
 }
-[[gnu::target_clones("avx2", "default")]] void place_straight(const TileFrame& f, Chunk& chunk) noexcept {
+SELDINGER_FOR_AVX2_TOO void place_straight(const TileFrame& f, Chunk& chunk) noexcept {
   place<false>(f, chunk);
 }
-[[gnu::target_clones("avx2", "default")]] void place_moving_curved(const TileFrame& f, const Columns& columns,
-                                                                   Chunk& chunk) noexcept {
+SELDINGER_FOR_AVX2_TOO void place_moving_curved(const TileFrame& f, const Columns& columns, Chunk& chunk) noexcept {
   place_moving<true>(f, columns, chunk);
 }
-[[gnu::target_clones("avx2", "default")]] void place_moving_straight(const TileFrame& f, const Columns& columns,
-                                                                     Chunk& chunk) noexcept {
+SELDINGER_FOR_AVX2_TOO void place_moving_straight(const TileFrame& f, const Columns& columns,
+                                                  Chunk& chunk) noexcept {
   place_moving<false>(f, columns, chunk);
 }
 

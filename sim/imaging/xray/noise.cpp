@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/clones.h"
 #include "sim/base/hash.h"
 #include "sim/imaging/xray/float_math.h"
 
@@ -34,8 +35,7 @@ constexpr int kChunk = 256;
 // counts[i] = the least k with P(X ≤ k) > u[i], for count ≤ kChunk means below kInversionMean: the sum of the
 // probabilities of 0, 1, 2, … for all pixels at a time. Terms below kLeastTerm end it, so that a sum that rounding
 // keeps below u does not run on; chances below that do not occur.
-[[gnu::target_clones("avx2", "default")]] void invert(const float* means, const float* u, int count,
-                                                      float* counts) noexcept {
+SELDINGER_FOR_AVX2_TOO void invert(const float* means, const float* u, int count, float* counts) noexcept {
   constexpr int kMostTerms = 50;  // P(X ≥ 50) < 1e-10 for a mean of 16
   constexpr float kLeastTerm = 1e-8F;
   float term[kChunk], below[kChunk];
@@ -60,8 +60,8 @@ constexpr int kChunk = 256;
 }
 
 // Standard normals of these pixels.
-[[gnu::target_clones("avx2", "default")]] void normals(const std::uint32_t* pixels, int count, NoiseKey key,
-                                                       float* x, float* z) noexcept {
+SELDINGER_FOR_AVX2_TOO void normals(const std::uint32_t* pixels, int count, NoiseKey key, float* x,
+                                    float* z) noexcept {
   for (int i = 0; i < count; ++i) {
     x[i] = symmetric(noise_bits(key, pixels[i]));
     z[i] = normal_quantile_middle(x[i]);
@@ -81,16 +81,14 @@ template <bool electronic>
   }
 }
 
-[[gnu::target_clones("avx2", "default")]] void draw_most_whole(const float* means, int count, NoiseKey key,
-                                                               std::uint32_t first_pixel, float* x,
-                                                               float* counts) noexcept {
+SELDINGER_FOR_AVX2_TOO void draw_most_whole(const float* means, int count, NoiseKey key, std::uint32_t first_pixel,
+                                            float* x, float* counts) noexcept {
   draw_most<false>(means, count, key, first_pixel, 0.0F, x, counts);
 }
 
-[[gnu::target_clones("avx2", "default")]] void draw_most_electronic(const float* means, int count, NoiseKey key,
-                                                                    std::uint32_t first_pixel,
-                                                                    float electronic_variance, float* x,
-                                                                    float* counts) noexcept {
+SELDINGER_FOR_AVX2_TOO void draw_most_electronic(const float* means, int count, NoiseKey key,
+                                                 std::uint32_t first_pixel, float electronic_variance, float* x,
+                                                 float* counts) noexcept {
   draw_most<true>(means, count, key, first_pixel, electronic_variance, x, counts);
 }
 

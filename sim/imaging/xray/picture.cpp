@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "sim/base/check.h"
+#include "sim/base/clones.h"
 #include "sim/base/exact_math.h"
 #include "sim/imaging/xray/float_math.h"
 #include "sim/imaging/xray/noise.h"
@@ -27,33 +28,32 @@ void over_rows(int count, int threads, const Work& work) {
   work(0, count / parts);
 }
 
-[[gnu::target_clones("avx2", "default")]] void means_from_logs(float* values, int count,
-                                                               float open_quanta) noexcept {
+SELDINGER_FOR_AVX2_TOO void means_from_logs(float* values, int count, float open_quanta) noexcept {
   for (int i = 0; i < count; ++i) values[i] = open_quanta * float_exp(values[i]);
 }
 
 // Along a row whose `margin` values either side are set.
-[[gnu::target_clones("avx2", "default")]] void blur_row(const float* in, int count, const float* weights,
-                                                        int radius, float* out) noexcept {
+SELDINGER_FOR_AVX2_TOO void blur_row(const float* in, int count, const float* weights, int radius,
+                                     float* out) noexcept {
   for (int i = 0; i < count; ++i) out[i] = weights[0] * in[i];
   for (int k = 1; k <= radius; ++k)
     for (int i = 0; i < count; ++i) out[i] += weights[k] * (in[i - k] + in[i + k]);
 }
 
-[[gnu::target_clones("avx2", "default")]] void blur_column_step(const float* above, const float* below, int count,
-                                                                float weight, float* out) noexcept {
+SELDINGER_FOR_AVX2_TOO void blur_column_step(const float* above, const float* below, int count, float weight,
+                                             float* out) noexcept {
   for (int i = 0; i < count; ++i) out[i] += weight * (above[i] + below[i]);
 }
 
-[[gnu::target_clones("avx2", "default")]] void logs_of_quanta(float* values, int count, float log_open) noexcept {
+SELDINGER_FOR_AVX2_TOO void logs_of_quanta(float* values, int count, float log_open) noexcept {
   for (int i = 0; i < count; ++i) {
     const float quanta = values[i] < kLeastQuanta ? kLeastQuanta : values[i];
     values[i] = float_log(quanta) - log_open;
   }
 }
 
-[[gnu::target_clones("avx2", "default")]] void grey_row(const float* log_signal, int count, float low, float scale,
-                                                        unsigned char* grey) noexcept {
+SELDINGER_FOR_AVX2_TOO void grey_row(const float* log_signal, int count, float low, float scale,
+                                     unsigned char* grey) noexcept {
   for (int i = 0; i < count; ++i) {
     const float value = (log_signal[i] - low) * scale + 0.5F;
     const float clamped = value < 0.0F ? 0.0F : (value < 255.0F ? value : 255.0F);  // NaN: 255

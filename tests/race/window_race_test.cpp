@@ -1,0 +1,106 @@
+// A minute at the trainer's window, by a script, in a build that looks for races (preset `thread`): ultrasound and
+// fluoroscopy, begun, frozen, begun again, signed out, watched, and closed in the middle.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/fixtures/process.h"
+#include "tests/fixtures/trainee.h"
+#include "tests/race/ball_library.h"
+
+namespace seldinger {
+namespace {
+
+using fixtures::until;
+
+class WindowRace : public testing::Test {
+ protected:
+  void SetUp() override {
+    scratch_ = fixtures::fresh_folder("window_race");
+    fixtures::make_ball_library(scratch_ / "library", {cases::Modality::ultrasound, cases::Modality::xray});
+    trainee_ = std::make_unique<fixtures::Trainee>(SELDINGER_PROGRAM, (scratch_ / "library").string(), scratch_);
+  }
+  const fixtures::Screen& screen() const { return trainee_->screen(); }
+  // What is pressed next is seen in the window's next frame; these are slow here.
+  void wait(double seconds) {
+    const double from_s = trainee_->now().value("t_s", 0.0);
+    EXPECT_TRUE(until([&] { return trainee_->now().value("t_s", 0.0) > from_s + seconds; }, 60.0));
+  }
+  void begin(int line) {
+    screen().click(1200, 131 + 30 * line);
+    ASSERT_TRUE(trainee_->reaches("ready", 120.0)) << trainee_->now();
+    screen().click(687, 335);
+    wait(1.0);
+    screen().press("Return");
+    ASSERT_TRUE(trainee_->reaches("attempt", 60.0)) << trainee_->now();
+    screen().press("y");
+    wait(1.0);
+    screen().press("F4");
+    screen().point(350, 300);
+  }
+  void begin_again() {
+    screen().press("F5");
+    ASSERT_TRUE(until([&] { return trainee_->now().value("attempt_s", 9.0) < 2.0; }, 120.0)) << trainee_->now();
+    screen().press("y");
+  }
+  void sign_out_and_watch() {
+    screen().press("F9");
+    ASSERT_TRUE(trainee_->reaches("debrief", 120.0)) << trainee_->now();
+    screen().press("w");
+    ASSERT_TRUE(trainee_->reaches("watch", 60.0)) << trainee_->now();
+    wait(4.0);
+    screen().press("Escape");
+    ASSERT_TRUE(trainee_->reaches("debrief", 60.0)) << trainee_->now();
+  }
+
+  std::filesystem::path scratch_;
+  std::unique_ptr<fixtures::Trainee> trainee_;
+};
+
+TEST_F(WindowRace, AMinuteByUltrasoundAndFluoroscopyHasNone) {
+  ASSERT_NO_FATAL_FAILURE(trainee_->log_in("mona", fixtures::kBallPassword));
+  ASSERT_NO_FATAL_FAILURE(begin(0));
+  screen().wheel(6, 100);  // the needle, pushed
+  wait(2.0);
+  screen().press("Tab");
+  screen().wheel(12, 50);
+  screen().drag(350, 300, 380, 320);
+  screen().press("f");  // frozen; knobs, and live again
+  wait(2.0);
+  screen().drag(790, 535, 840, 535);
+  screen().press("f");
+  screen().press("m");
+  wait(2.0);
+  ASSERT_NO_FATAL_FAILURE(begin_again());
+  screen().point(350, 300);
+  screen().wheel(10, 100);
+  screen().press("Escape");  // a pause
+  wait(2.0);
+  screen().press("Escape");
+  wait(8.0);
+  screen().press("space");
+  wait(5.0);
+  ASSERT_NO_FATAL_FAILURE(sign_out_and_watch());
+  ASSERT_NO_FATAL_FAILURE(trainee_->leave_debrief());
+  ASSERT_NO_FATAL_FAILURE(begin(1));
+  screen().hold("p", 4.0);
+  screen().hold("Left", 3.0);
+  screen().hold("p", 6.0);
+  screen().wheel(8, 100);
+  wait(4.0);
+  ASSERT_NO_FATAL_FAILURE(begin_again());
+  screen().hold("p", 5.0);
+  ASSERT_NO_FATAL_FAILURE(sign_out_and_watch());
+  screen().press("F5");
+  ASSERT_TRUE(trainee_->reaches("attempt", 60.0)) << trainee_->now();
+  wait(4.0);
+  EXPECT_GT(trainee_->now().value("t_s", 0.0), 60.0);
+  trainee_->program().signal(SIGTERM);
+  ASSERT_TRUE(until([&] { return trainee_->program().ended(); }, 60.0));
+  const std::string said = fixtures::whole_file(scratch_ / "train.txt");
+  EXPECT_EQ(trainee_->program().exit_code(), 0) << said;
+  EXPECT_EQ(said.find("ThreadSanitizer"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace seldinger
