@@ -8,7 +8,9 @@
 #include "app/attempt_ticks.h"
 #include "app/fluoroscopy.h"
 #include "app/frame_truth.h"
+#include "app/picture_clock.h"
 #include "app/png.h"
+#include "app/slice_picture.h"
 #include "app/ultrasound_sight.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/fluoroscopy.h"
@@ -21,9 +23,6 @@
 namespace seldinger::app {
 namespace {
 
-constexpr double kPixelMm = 0.4;                                  // a 22-gauge needle is 1.8 of these
-constexpr double kWindowCenterHu = 60.0, kWindowWidthHu = 400.0;  // abdominal soft tissue
-
 imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) {
   const cases::Instrument& instrument = scene.instrument;
   return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
@@ -32,13 +31,6 @@ imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lp
 
 cases::ToolPose probe_of(const cases::PoseSample& pose) {
   return {pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral};
-}
-
-imaging::MprView view_of(const cases::Case& scene, const cases::PoseSample& pose) {
-  imaging::MprView view = imaging::view_under_probe(pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral,
-                                                    scene.picture.width_mm, scene.picture.depth_mm, kPixelMm);
-  view.needle_slab_mm = 2.0 * imaging::kMprSlabHalfMm;  // drawn where it counts as seen
-  return view;
 }
 
 // One attempt in virtual time, and its recording.
@@ -85,13 +77,11 @@ cases::Recording run_probe_attempt(const cases::Case& scene, const assessment::P
   cases::FrameTruth frame;
   glm::dvec3 moved_mm(0.0);
   bool new_frame = false;
-  long long frames = 0;
+  PictureClock clock;
   while (!person.done() && state.t_s < kMaxAttemptSeconds) {
     person.hear(attempt.tick(person.act(state, new_frame ? &frame : nullptr, engine::kTickSeconds, moved_mm)));
-    const auto due = static_cast<long long>(std::floor(state.t_s * scene.picture.rate_hz));
-    new_frame = due >= frames;
+    new_frame = clock.due(state.t_s, picture_rate_hz(scene.picture, state.probe.console));
     if (!new_frame) continue;
-    frames = due + 1;
     frame = truth_of(state, attempt.displacement());
     frame.live = !state.probe.frozen;
     if (target && tissue::count_sources(attempt.displacement()) > 0)
@@ -140,12 +130,14 @@ Sight sight_of(const cases::Case& scene) {
   if (scene.picture.modality == cases::Modality::ultrasound)
     return [needle, sight = std::make_shared<UltrasoundSight>(scene)](const cases::State& state,
                                                                       const tissue::Displacement& displacement) {
-      return frame_truth(state.t_s, sight->see(probe_of(pose_of(state)), needle(state), displacement));
+      return frame_truth(state.t_s,
+                         sight->see(probe_of(pose_of(state)), state.probe.console, needle(state), displacement));
     };
   return [needle, &scene](const cases::State& state, const tissue::Displacement& displacement) {
     auto target = target_of(scene.lesions);
     if (target) target = tissue::displaced(displacement, *target);
-    return frame_truth(state.t_s, imaging::mpr_visible(view_of(scene, pose_of(state)), needle(state), target));
+    const imaging::MprView view = slice_view(scene.picture, pose_of(state), state.probe.console);
+    return frame_truth(state.t_s, imaging::mpr_visible(view, needle(state), target));
   };
 }
 
@@ -190,14 +182,6 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
   return assessment::measure_all(*signals);
 }
 
-GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
-                              const imaging::NeedlePose& needle, const tissue::Displacement& displacement) {
-  const imaging::MprView view = view_of(scene, pose);
-  return {imaging::grey_from_hu(imaging::mpr_cpu(scene.volume, view, {needle, scene.lesions}, displacement),
-                                kWindowCenterHu, kWindowWidthHu),
-          view.width_px, view.height_px};
-}
-
 namespace {
 
 std::vector<std::byte> png_of(const GreyPicture& picture) {
@@ -236,6 +220,18 @@ tissue::Displacement displacement_at_end(const cases::Case& scene, const cases::
   return room.displacement();
 }
 
+// As it stood when the trigger fell, or last.
+cases::ConsoleSetting console_at_end(const cases::Recording& recording) {
+  cases::ConsoleSetting console;
+  std::uint64_t tick = 0;
+  for (const cases::Inputs& inputs : recording.inputs) {
+    if (recording.endpoint && static_cast<double>(tick) * recording.dt_s >= recording.endpoint->t_s) break;
+    cases::turn(console, inputs.console);
+    ++tick;
+  }
+  return console;
+}
+
 }  // namespace
 
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
@@ -248,10 +244,12 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
   const imaging::NeedlePose needle =
       recording.endpoint ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
                          : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
+  const cases::ConsoleSetting console = console_at_end(recording);
+  const tissue::Displacement displacement = displacement_at_end(scene, recording);
   if (scene.picture.modality == cases::Modality::ultrasound)
-    return png_of(UltrasoundSight(scene).picture(probe_of(pose), needle, recording.hashes.back(),
-                                                 recording.frames.size(), displacement_at_end(scene, recording)));
-  return png_of(slice_under_probe(scene, pose, needle, displacement_at_end(scene, recording)));
+    return png_of(UltrasoundSight(scene).picture(probe_of(pose), console, needle, recording.hashes.back(),
+                                                 recording.frames.size(), displacement));
+  return png_of(slice_under_probe(scene, pose, console, needle, displacement));
 }
 
 Replay replay(const cases::Case& scene, const cases::Recording& recording, const TickSeen& seen) {

@@ -6,7 +6,6 @@
 #include <functional>
 #include <span>
 
-#include "app/grey_picture.h"
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
@@ -47,10 +46,6 @@ base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& sc
 // The picture when the trigger fell (or last), as PNG: slice or ultrasound under the probe, or the fluoroscope's
 // last image. Empty where there is none.
 std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording);
-
-// A slice of the CT as the screen shows it under a probe.
-GreyPicture slice_under_probe(const cases::Case& scene, const cases::PoseSample& pose,
-                              const imaging::NeedlePose& needle, const tissue::Displacement& displacement);
 
 // Replays the inputs by this step version: states, poses and, where the scene has tissue and the recording them,
 // forces. `seen` is called after each tick, up to the first that differs. What another step version recorded is

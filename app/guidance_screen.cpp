@@ -1,9 +1,7 @@
 #include "app/guidance_screen.h"
 
-#include <cmath>
-
-#include "app/attempt_loop.h"
 #include "app/attempt_ticks.h"
+#include "app/slice_picture.h"
 
 namespace seldinger::app {
 
@@ -19,9 +17,7 @@ void GuidanceScreen::tick(const cases::State& state, const tissue::Displacement&
   } else {
     live_ = !state.probe.frozen;
     // As the loop that turned the attempt counted them.
-    const auto due = static_cast<long long>(std::floor(state.t_s * scene_.picture.rate_hz));
-    if (!live_ || due < pictures_) return;
-    pictures_ = due + 1;
+    if (!live_ || !clock_.due(state.t_s, picture_rate_hz(scene_.picture, state.probe.console))) return;
   }
   shown_ = state;
   shown_displacement_ = displacement;
@@ -39,9 +35,11 @@ const GreyPicture& GuidanceScreen::picture() {
   const cases::Instrument& tool = scene_.instrument;
   const imaging::NeedlePose needle{pose.tip_lps_mm, pose.needle_direction, tool.length_mm,
                                    tool.radius_mm,  tool.inner_radius_mm,  tool.hu};
-  picture_ = sight_ ? sight_->picture({pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral}, needle,
-                                      seed_, static_cast<std::uint64_t>(pictures_), shown_displacement_)
-                    : slice_under_probe(scene_, pose, needle, shown_displacement_);
+  const cases::ConsoleSetting& console = shown_.probe.console;
+  picture_ = sight_
+                 ? sight_->picture({pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral}, console,
+                                   needle, seed_, static_cast<std::uint64_t>(clock_.count()), shown_displacement_)
+                 : slice_under_probe(scene_, pose, console, needle, shown_displacement_);
   return picture_;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/fluoroscopy.h"
 #include "app/grey_picture.h"
+#include "app/picture_clock.h"
 #include "app/ultrasound_sight.h"
 #include "sim/case/case.h"
 #include "sim/case/state.h"
@@ -33,7 +34,7 @@ class GuidanceScreen {
   std::optional<FluoroscopyRoom> room_;
   cases::State shown_;  // of which the screen shows the picture
   tissue::Displacement shown_displacement_{};
-  long long pictures_ = 0;
+  PictureClock clock_;
   bool live_ = false, drawn_ = true;
   GreyPicture picture_;
 };

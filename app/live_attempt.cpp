@@ -10,6 +10,7 @@
 #include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/fluoroscopy.h"
+#include "app/ultrasound_sight.h"
 #include "casedb/running_mark.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/engine/step.h"
@@ -76,10 +77,11 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
 
   const auto begun = std::chrono::steady_clock::now();
   std::optional<cases::FrameTruth> last;  // of a fluoroscope that is live
-  const double rate_hz = xray ? kPulsesLookedForHz : scene_.picture.rate_hz;
-  for (long long next = 0; !over && !recorder.failed(); ++next) {
+  cases::ConsoleSetting console;
+  for (double due_s = 0.0; !over && !recorder.failed();
+       due_s += 1.0 / (xray ? kPulsesLookedForHz : picture_rate_hz(scene_.picture, console))) {
     std::this_thread::sleep_until(begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                              std::chrono::duration<double>(static_cast<double>(next) / rate_hz)));
+                                              std::chrono::duration<double>(due_s)));
     const auto moment = moments.take();
     if (room) {
       if (const auto pulse = pulses.take()) {
@@ -97,6 +99,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
       continue;
     }
     if (!moment) continue;
+    console = moment->state.probe.console;
     cases::FrameTruth frame = see(moment->state, moment->displacement);
     frame.live = !moment->state.probe.frozen;
     recorder.frame(frame);

@@ -35,6 +35,17 @@ double press_mm(const imaging::Probe& probe) {
   return probe.radius_mm > 0.0 ? kPressCurvedMm : kPressStraightMm;
 }
 
+double sound_rate_hz(double depth_mm) {
+  return std::min(kScreenHz, imaging::frame_rate_hz(depth_mm, imaging::UltrasoundView{}.beams));
+}
+
+imaging::UltrasoundView held(imaging::UltrasoundView view, const cases::ToolPose& probe) {
+  view.origin_lps_mm = probe.position_lps_mm;
+  view.axial = probe.axis;
+  view.lateral = probe.side;
+  return view;
+}
+
 }  // namespace
 
 std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride,
@@ -75,24 +86,26 @@ cases::Picture ultrasound_picture(double target_below_skin_mm) {
   const double deep_mm = (target_below_skin_mm - press_mm(probe)) / kTargetShare;
   picture.depth_mm = std::max(kLeastDepthMm, kDepthStepMm * std::round(deep_mm / kDepthStepMm));
   picture.width_mm = 0.0;
-  picture.rate_hz = std::min(kScreenHz, imaging::frame_rate_hz(picture.depth_mm, imaging::UltrasoundView{}.beams));
+  picture.rate_hz = sound_rate_hz(picture.depth_mm);
   return picture;
+}
+
+imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console) {
+  imaging::UltrasoundView view;
+  view.probe = probe_of(picture);
+  view.depth_mm = picture.depth_mm;
+  imaging::set_view(console, view);
+  return view;
+}
+
+double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept {
+  if (picture.modality != cases::Modality::ultrasound || !(console.depth_mm > 0.0)) return picture.rate_hz;
+  return sound_rate_hz(console_view(picture, console).depth_mm);
 }
 
 UltrasoundSight::UltrasoundSight(const cases::Case& scene)
     : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
   CHECK(scene.classes.size() == scene.volume.hu.size());
-}
-
-imaging::UltrasoundView UltrasoundSight::view_of(const cases::Picture& picture,
-                                                 const cases::ToolPose& probe) const {
-  imaging::UltrasoundView view;
-  view.probe = probe_of(picture);
-  view.depth_mm = picture.depth_mm;
-  view.origin_lps_mm = probe.position_lps_mm;
-  view.axial = probe.axis;
-  view.lateral = probe.side;
-  return view;
 }
 
 imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const {
@@ -101,17 +114,17 @@ imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, con
           instrument.hu};
 }
 
-imaging::UltrasoundVisible UltrasoundSight::see(const cases::Picture& picture, const cases::ToolPose& probe,
+imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& view,
                                                 const imaging::Inserted& inserted,
                                                 const tissue::Displacement& displacement) const {
-  const imaging::UltrasoundView view = view_of(picture, probe);
   return imaging::ultrasound_visible(
       tissue_, view, inserted, element_depths(scene_.skin_index, view, kContactStride, displacement), displacement);
 }
 
-imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                                const imaging::NeedlePose& needle,
                                                 const tissue::Displacement& displacement) const {
-  return see(scene_.picture, probe, {needle, scene_.lesions}, displacement);
+  return see(held(console_view(scene_.picture, console), probe), {needle, scene_.lesions}, displacement);
 }
 
 std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
@@ -123,13 +136,13 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
   if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)
     return std::nullopt;
-  assessment::PuncturePlan held = plan;
-  held.probe.position_lps_mm += press_mm(probe) * held.probe.axis;
-  held.probe_first.position_lps_mm += press_mm(probe) * held.probe_first.axis;
+  assessment::PuncturePlan pressed = plan;
+  pressed.probe.position_lps_mm += press_mm(probe) * pressed.probe.axis;
+  pressed.probe_first.position_lps_mm += press_mm(probe) * pressed.probe_first.axis;
   const auto needle = [&](double inserted_mm) {
     return needle_at(plan.entry_lps_mm + inserted_mm * plan.direction, plan.direction);
   };
-  const imaging::UltrasoundView view = view_of(picture, held.probe);
+  const imaging::UltrasoundView unheld = console_view(picture, {}), view = held(unheld, pressed.probe);
   const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);
   const imaging::Visible seen =
       imaging::ultrasound_visible(tissue_, view, {needle(plan.depth_mm), {target}}, depths).visible;
@@ -137,7 +150,7 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   const auto tip_shows = [&](double inserted_mm) {
     const imaging::Inserted inserted{needle(inserted_mm), {}};
     if (plan.approach == cases::Approach::out_of_plane)
-      return see(picture, assessment::probe_over(held, inserted_mm), inserted, {}).visible.needle_tip;
+      return see(held(unheld, assessment::probe_over(pressed, inserted_mm)), inserted, {}).visible.needle_tip;
     return imaging::needle_level(tissue_, view, inserted, depths, 0.0).stands_out();
   };
   double shows_from_mm = plan.depth_mm;
@@ -147,8 +160,8 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   }
   const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}}, depths);
   assessment::ProbeView seen_from;
-  seen_from.probe = held.probe;
-  seen_from.probe_first = held.probe_first;
+  seen_from.probe = pressed.probe;
+  seen_from.probe_first = pressed.probe_first;
   seen_from.picture = picture;
   seen_from.tip_shows_from_mm = shows_from_mm;
   seen_from.needle_mm = seen.needle_length_mm;
@@ -163,16 +176,17 @@ void UltrasoundSight::draw_on(gpu::Context& context) {
 }
 
 struct UltrasoundSight::Screen {
-  explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}) {}
+  explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}), depth_mm(view.depth_mm) {}
   imaging::ScanConverter converter;
+  double depth_mm;
   imaging::PolarPicture polar;
 };
 
-imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                               std::uint64_t seed, std::uint64_t frame,
-                                               imaging::PolarPicture& picture,
+imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                               const imaging::NeedlePose& needle, std::uint64_t seed,
+                                               std::uint64_t frame, imaging::PolarPicture& picture,
                                                const tissue::Displacement& displacement) const {
-  imaging::UltrasoundView view = view_of(scene_.picture, probe);
+  imaging::UltrasoundView view = held(console_view(scene_.picture, console), probe);
   view.method = method_;
   const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
   if (gpu_)
@@ -183,13 +197,14 @@ imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, con
   return view;
 }
 
-GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
-                                     std::uint64_t seed, std::uint64_t frame,
+GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                     const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
                                      const tissue::Displacement& displacement) {
-  if (!screen_) screen_ = std::make_shared<Screen>(view_of(scene_.picture, probe));
+  const imaging::UltrasoundView asked = console_view(scene_.picture, console);
+  if (!screen_ || screen_->depth_mm != asked.depth_mm) screen_ = std::make_shared<Screen>(asked);
   const imaging::ScanConverter& converter = screen_->converter;
   GreyPicture picture;
-  const imaging::UltrasoundView view = polar(probe, needle, seed, frame, screen_->polar, displacement);
+  const imaging::UltrasoundView view = polar(probe, console, needle, seed, frame, screen_->polar, displacement);
   converter.grey(view, {}, screen_->polar, picture.grey);
   picture.width_px = converter.width_px();
   picture.height_px =

@@ -32,6 +32,13 @@ std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::U
 // screen's 60 Hz.
 cases::Picture ultrasound_picture(double target_below_skin_mm);
 
+// How often the machine under the probe makes a picture: as the case says, until a depth is asked for; then as
+// sound allows.
+double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept;
+
+// The picture's view as the console stands, without a pose.
+imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console);
+
 class UltrasoundSight {
  public:
   // The scene has its tissue (Needs::ultrasound; CHECK) and outlives it.
@@ -41,12 +48,15 @@ class UltrasoundSight {
   std::optional<assessment::ProbeView> looks_from(const assessment::PuncturePlan& plan,
                                                   const cases::Lesion& target) const;
 
-  // In the scene's picture, with its lesions, of tissue that is where the displacement puts it.
-  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const imaging::NeedlePose& needle,
+  // In the scene's picture as the console stands, with its lesions, of tissue that is where the displacement puts
+  // it.
+  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                 const imaging::NeedlePose& needle,
                                  const tissue::Displacement& displacement = {}) const;
   // What the machine receives there, with its noise; answers how it looked.
-  imaging::UltrasoundView polar(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
-                                std::uint64_t frame, imaging::PolarPicture& picture,
+  imaging::UltrasoundView polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
+                                imaging::PolarPicture& picture,
                                 const tissue::Displacement& displacement = {}) const;
   // How `polar` makes speckle; scatterers unless it is told.
   void set_method(imaging::UltrasoundMethod method) noexcept { method_ = method; }
@@ -54,14 +64,14 @@ class UltrasoundSight {
   void draw_on(gpu::Context& context);
   void draw_on_cpu() noexcept { gpu_.reset(); }  // again
   // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
-  GreyPicture picture(const cases::ToolPose& probe, const imaging::NeedlePose& needle, std::uint64_t seed,
-                      std::uint64_t frame, const tissue::Displacement& displacement = {});
+  GreyPicture picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                      const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
+                      const tissue::Displacement& displacement = {});
 
  private:
   struct Screen;  // what pictures need beside the tissue, made with the first
-  imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ToolPose& probe) const;
-  imaging::UltrasoundVisible see(const cases::Picture& picture, const cases::ToolPose& probe,
-                                 const imaging::Inserted& inserted, const tissue::Displacement& displacement) const;
+  imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
+                                 const tissue::Displacement& displacement) const;
   imaging::NeedlePose needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const;
 
   const cases::Case& scene_;

@@ -1,6 +1,7 @@
 #include "reports/raw_export.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 
@@ -116,7 +117,14 @@ void write_recording(const fs::path& folder, const RawChoice& choice, const std:
   }
   if (choice.frames) {
     std::vector<FrameFact> facts;
-    for (const cases::FrameTruth& frame : recording.frames) facts.push_back({&attempt, frame});
+    cases::ConsoleSetting console;
+    std::size_t ticks = 0;
+    for (const cases::FrameTruth& frame : recording.frames) {
+      const auto until = static_cast<std::size_t>(std::max(0.0, std::round(frame.t_s / recording.dt_s)));
+      for (; ticks < std::min(until, recording.inputs.size()); ++ticks)
+        cases::turn(console, recording.inputs[ticks].console);
+      facts.push_back({&attempt, frame, console});
+    }
     write_samples(folder / "frames" / name, frame_columns(), facts);
     ++sum.files;
   }

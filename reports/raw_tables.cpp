@@ -14,6 +14,7 @@ constexpr std::array kOperators = {"novice", "intermediate", "expert", kPerson};
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
+constexpr const char* kAsTheCase = "as the case's picture has it, or another modality";
 constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
 constexpr const char* kRestTip =
     "where the tissue at the tip lies in a patient at rest, as CT, lesions and structures do, LPS";
@@ -307,6 +308,14 @@ const std::vector<Column<FrameFact>>& frame_columns() {
        [](CsvLine& line, const Fact& f) { f.frame.beam ? line.flag(f.frame.beam->arm_moving) : line.nothing(); }},
       {{"hand_in_beam", "flag", "", kNoBeam, "1: the hand at the needle was in the beam"},
        [](CsvLine& line, const Fact& f) { f.frame.beam ? line.flag(f.frame.beam->hand_in_beam) : line.nothing(); }},
+      {{"console_depth_mm", "number", "mm", kAsTheCase, "depth of an ultrasound picture, as it was set"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.depth_mm != 0.0, f.console.depth_mm); }},
+      {{"console_focus_mm", "number", "mm", kAsTheCase, "its focus"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.focus_mm != 0.0, f.console.focus_mm); }},
+      {{"console_frequency_mhz", "number", "MHz", kAsTheCase, "its frequency"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.frequency_mhz != 0.0, f.console.frequency_mhz); }},
+      {{"console_slice_mm", "number", "mm", kAsTheCase, "how far beside the probe's plane a slice of the CT lies"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
   };
   return columns;
 }

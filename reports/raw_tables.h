@@ -60,6 +60,7 @@ struct ForceFact {
 struct FrameFact {
   const std::string* attempt = nullptr;
   cases::FrameTruth frame;
+  cases::ConsoleSetting console;  // as it was set then
 };
 struct EventFact {
   const std::string* attempt = nullptr;

@@ -4,11 +4,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/attempt_loop.h"
+#include "app/attempt_ticks.h"
 #include "app/fluoroscopy.h"
 #include "app/train/speckle_choice.h"
 #include "app/ultrasound_sight.h"
 #include "sim/base/failure.h"
+#include "sim/imaging/ultrasound/view.h"
 
 namespace seldinger::app {
 namespace {
@@ -73,15 +74,16 @@ class Monitor::Painter {
     const imaging::NeedlePose needle = needle_of(scene_, state);
     if (!sight_) {
       if (!shown.live) return;
-      shown.picture = slice_under_probe(scene_, pose_of(state), needle, moment.displacement);
-      shown.t_s = state.t_s;
-      ++shown.number;
+      slice_ = moment;
+      draw_slice(shown);
       return;
     }
     if (console_->frozen() == shown.live) console_->set_frozen(!shown.live);
     if (console_->frozen() && shown.number > 0) return;  // it stands, until the console is changed
     if (!console_->frozen()) {
-      const auto make = [&] { return sight_->polar(probe, needle, seed_, pictures_, polar_, moment.displacement); };
+      const auto make = [&] {
+        return sight_->polar(probe, state.probe.console, needle, seed_, pictures_, polar_, moment.displacement);
+      };
       ++pictures_;
       imaging::UltrasoundView view;
       try {
@@ -96,11 +98,20 @@ class Monitor::Painter {
     develop(shown);
   }
 
+  // Of the moment that was drawn last.
+  void set_window(const HuWindow& window, ShownPicture& shown) {
+    window_ = window;
+    if (shown.number > 0) draw_slice(shown);
+  }
+
   // Of what the console holds, as it is set now.
   void develop(ShownPicture& shown) {
     const auto cine = console_->shown();
     if (!cine) return;
-    if (!converter_) converter_.emplace(cine->view, imaging::DisplaySize{});
+    if (!converter_ || converted_depth_mm_ != cine->view.depth_mm) {
+      converter_.emplace(cine->view, imaging::DisplaySize{});
+      converted_depth_mm_ = cine->view.depth_mm;
+    }
     converter_->grey(cine->view, console_->knobs(), cine->picture, shown.picture.grey);
     shown.picture.width_px = converter_->width_px();
     shown.picture.height_px = std::min(
@@ -110,6 +121,7 @@ class Monitor::Painter {
                               static_cast<std::size_t>(shown.picture.width_px));
     shown.pixel_mm = converter_->pixel_mm();
     shown.top_mm = converter_->top_mm();
+    shown.console = {cine->view.depth_mm, cine->view.focus_mm, imaging::working_mhz(cine->view)};
     shown.t_s = cine->t_s;
     shown.cine_back = console_->scrolled();
     ++shown.number;
@@ -129,14 +141,28 @@ class Monitor::Painter {
     context_.reset();
   }
 
+  void draw_slice(ShownPicture& shown) {
+    const cases::State& state = slice_.state;
+    const cases::ConsoleSetting& console = state.probe.console;
+    shown.picture =
+        slice_under_probe(scene_, pose_of(state), console, needle_of(scene_, state), slice_.displacement, window_);
+    shown.pixel_mm = kSlicePixelMm;
+    shown.console = {scene_.picture.depth_mm, 0.0, 0.0, std::clamp(console.slice_mm, -kMostSliceMm, kMostSliceMm)};
+    shown.t_s = state.t_s;
+    ++shown.number;
+  }
+
   const cases::Case& scene_;
   std::uint64_t seed_;
   std::optional<gpu::Context> context_;
   std::optional<UltrasoundSight> sight_;
   std::optional<imaging::Console> console_;
   std::optional<imaging::ScanConverter> converter_;
+  double converted_depth_mm_ = 0.0;
   imaging::PolarPicture polar_;
   std::optional<FluoroscopyRoom> room_;
+  Moment slice_;  // of which the slice is
+  HuWindow window_ = kHuWindows[0];
   std::uint64_t pictures_ = 0;
 };
 
@@ -189,6 +215,14 @@ void Monitor::set_console(std::function<void(imaging::Console&)> change) {
   woken_.notify_all();
 }
 
+void Monitor::set_window(const HuWindow& window) {
+  {
+    const std::lock_guard lock(mutex_);
+    window_ = window;
+  }
+  woken_.notify_all();
+}
+
 void Monitor::want() {
   if (scene_.picture.modality == cases::Modality::xray) return;
   {
@@ -222,25 +256,29 @@ void Monitor::run() {
   Painter painter(scene_, seed_, by_);
   SpeckleChoice speckle;
   const bool xray = scene_.picture.modality == cases::Modality::xray;
-  const auto between = std::chrono::duration_cast<Clock::duration>(
-      std::chrono::duration<double>(xray ? 0.002 : 1.0 / scene_.picture.rate_hz));
+  cases::ConsoleSetting stands;
   ShownPicture work;
   Clock::time_point due = Clock::now(), last_picture = due;
   double rate_hz = 0.0;
   bool live = false;
   std::vector<std::function<void(imaging::Console&)>> changes;
+  std::optional<HuWindow> window;
   for (;;) {
     {
       std::unique_lock lock(mutex_);
       woken_.wait_until(lock, due, [&] { return stopping_; });
-      if (!xray) woken_.wait_for(lock, kUnasked, [&] { return stopping_ || wanted_ || !changes_.empty(); });
+      if (!xray)
+        woken_.wait_for(lock, kUnasked, [&] { return stopping_ || wanted_ || !changes_.empty() || window_; });
       if (stopping_) return;
       changes.swap(changes_);
       wanted_ = false;
       if (painter.ultrasound()) method_ = painter.set_method(speckle.method());
       if (!xray) begun_s_ = clock_s();
+      window.swap(window_);
     }
-    due = std::max(due + between, Clock::now());
+    const double between_s = xray ? 0.002 : 1.0 / picture_rate_hz(scene_.picture, stands);
+    due = std::max(due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(between_s)),
+                   Clock::now());
     const std::uint64_t before = work.number;
     const auto begun = Clock::now();
     const auto newest = moments_.take();
@@ -249,6 +287,9 @@ void Monitor::run() {
       const std::lock_guard lock(mutex_);
       begun_s_ = clock_s();
     }
+    if (newest) stands = newest->state.probe.console;
+    if (window && scene_.picture.modality == cases::Modality::mpr) painter.set_window(*window, work);
+    window.reset();
     if (auto* console = painter.console())
       for (const auto& change : changes) change(*console);
     if (xray ? pulse.has_value() : newest.has_value()) painter.draw(xray ? *pulse : *newest, work);

@@ -15,6 +15,7 @@
 
 #include "app/attempt_ticks.h"
 #include "app/grey_picture.h"
+#include "app/slice_picture.h"
 #include "sim/base/snapshot.h"
 #include "sim/case/case.h"
 #include "sim/imaging/ultrasound/console.h"
@@ -30,13 +31,15 @@ enum class PicturesBy { cpu, gpu };
 // What is on the screen, and how it came there.
 struct ShownPicture {
   GreyPicture picture;
-  double pixel_mm = 0.0, top_mm = 0.0;  // ultrasound: pixel (c, r) is at ((c − (width − 1)/2), top/pixel + r + ½)
-  double t_s = 0.0;                     // the attempt's time that it shows
-  double told_s = 0.0;                  // of the moment that it shows (Moment)
-  std::uint64_t number = 0;             // rises with each new picture
-  bool live = false;                    // neither frozen nor a held last image
-  double rate_hz = 0.0;                 // pictures a second, lately
-  double drawn_in_s = 0.0;              // what the last one took
+  // Pixel (c, r) is at ((c − (width − 1)/2), top/pixel + r + ½); pixel 0: fluoroscopy, which has no one scale.
+  double pixel_mm = 0.0, top_mm = 0.0;
+  cases::ConsoleSetting console{};  // as it stood then, in what the probe can do; slices: in what is offered
+  double t_s = 0.0;                 // the attempt's time that it shows
+  double told_s = 0.0;              // of the moment that it shows (Moment)
+  std::uint64_t number = 0;         // rises with each new picture
+  bool live = false;                // neither frozen nor a held last image
+  double rate_hz = 0.0;             // pictures a second, lately
+  double drawn_in_s = 0.0;          // what the last one took
   int cine_pictures = 0, cine_back = 0;
 };
 
@@ -54,6 +57,7 @@ class Monitor {
 
   // By the window. `change` is called on the monitor's thread, soon; ultrasound only.
   void set_console(std::function<void(imaging::Console&)> change);
+  void set_window(const HuWindow& window);  // slices only
   // A picture of the newest moment, as soon as the machine's rate allows. Those that are asked for come at that
   // rate; unasked a few come, for the cine loop, and a fluoroscope's whenever it pulses.
   void want();
@@ -79,6 +83,7 @@ class Monitor {
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::vector<std::function<void(imaging::Console&)>> changes_;
+  std::optional<HuWindow> window_;  // that is not drawn with yet
   ShownPicture newest_;
   bool fresh_ = false;
   bool stopping_ = false, wanted_ = false;

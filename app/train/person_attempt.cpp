@@ -86,12 +86,14 @@ cases::Inputs PersonAttempt::hands(const cases::State& state) {
   if (const auto told = told_.take()) {
     even_.tell(told->sum, told->between_s);
     fluoroscope_ = told->fluoroscope;
+    console_ = told->console;
     told_s_ = told->told_s;
     hand_to_force_s_ = clock_s() - told_s_;
   }
   cases::Inputs inputs;
   hands_->advance(even_.advance(engine::kTickSeconds), state, forces_, engine::kTickSeconds, inputs);
   inputs.fluoroscope = fluoroscope_;
+  inputs.console = console_;
   const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
   if (said_count_.load(std::memory_order_acquire) != heard) {
     inputs.event = said_[heard % kMostSaid].load(std::memory_order_relaxed);

@@ -26,6 +26,7 @@ namespace seldinger::app {
 struct HandsTold {
   devices::HandIntent sum;  // running, since the attempt began
   cases::FluoroscopeInputs fluoroscope;
+  cases::ConsoleSetting console;
   double between_s = 0.0;  // since it was told before
   double told_s = 0.0;     // when, by clock_s
 };
@@ -101,6 +102,7 @@ class PersonAttempt {
   devices::AxialForces forces_;
   double told_s_ = 0.0, hand_to_force_s_ = 0.0;
   cases::FluoroscopeInputs fluoroscope_;
+  cases::ConsoleSetting console_;
   static constexpr std::uint64_t kMostSaid = 32;
   std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo
   alignas(64) std::atomic<std::uint64_t> said_count_{0};

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "sim/case/console.h"
 #include "sim/case/event.h"
 #include "sim/case/fluoroscope.h"
 
@@ -22,6 +23,7 @@ struct Inputs {
   ToolPose probe;
   bool fire = false;                  // trigger is down
   bool freeze = false;                // picture is frozen
+  ConsoleSetting console;             // under xray it says nothing
   EventKind event = EventKind::none;  // said or asked for in this tick, by trainee or mentor
   FluoroscopeInputs fluoroscope;
   ExposureReport exposure;  // of the last exposed frame, by imaging; each frame's counts once

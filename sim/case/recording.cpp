@@ -11,7 +11,7 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 5, kFormatWithoutEvents = 4, kFormatWithoutForces = 3,
+constexpr std::uint32_t kFormat = 6, kFormatWithoutConsole = 5, kFormatWithoutEvents = 4, kFormatWithoutForces = 3,
                         kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
 
@@ -29,15 +29,16 @@ struct Header {
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2 };
+enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4 };
 
 constexpr std::size_t kMaxPoseColumns = 19, kRestColumns = 3, kForceColumns = 4, kEventColumns = 2;
-constexpr std::size_t kMaxInputColumns = 37;
+constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4;
+constexpr std::size_t kMaxInputColumns = kInputColumns + kFluoroscopeColumns + kConsoleColumns;
 std::size_t pose_columns(bool moves) {
   return moves ? kMaxPoseColumns : 16;
 }
-std::size_t input_columns(bool fluoroscope) {
-  return fluoroscope ? kMaxInputColumns : 20;
+std::size_t input_columns(bool fluoroscope, bool console) {
+  return kInputColumns + (fluoroscope ? kFluoroscopeColumns : 0) + (console ? kConsoleColumns : 0);
 }
 std::size_t frame_columns(bool fluoroscope) {
   return fluoroscope ? 11 : 3;
@@ -121,6 +122,17 @@ void get(const std::uint64_t*& at, FluoroscopeInputs& asked, ExposureReport& rep
     *value = get(at);
 }
 
+void put(std::uint64_t*& at, const ConsoleSetting& console) {
+  for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
+    put(at, value);
+}
+ConsoleSetting get_console(const std::uint64_t*& at) {
+  ConsoleSetting console;
+  for (double* value : {&console.depth_mm, &console.focus_mm, &console.frequency_mhz, &console.slice_mm})
+    *value = get(at);
+  return console;
+}
+
 void put(std::uint64_t*& at, const BeamTruth& beam) {
   for (const double value : {beam.lao_deg, beam.cranial_deg, beam.kv, beam.ma, beam.air_kerma_mgy, beam.dap_mgy_cm2,
                              beam.collimated_share, beam.beam_s})
@@ -187,6 +199,13 @@ bool uses_fluoroscope(const Recording& recording, const Piece& piece) {
   return false;
 }
 
+// Whether the console was touched in a chunk, or was before.
+bool turns_console(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
+    if (!(recording.inputs[i].console == ConsoleSetting{})) return true;
+  return false;
+}
+
 // Whether the patient moves in a chunk: then every tip has a place at rest of its own.
 bool moves(const Recording& recording, const Piece& piece) {
   for (std::size_t i = piece.poses.first; i < piece.poses.end; ++i)
@@ -214,11 +233,12 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   }
   const bool fluoroscope = uses_fluoroscope(recording, piece);
   const bool moving = moves(recording, piece);
-  header.used = (fluoroscope ? kFluoroscope : 0U) | (moving ? kMoves : 0U);
+  const bool console = turns_console(recording, piece);
+  header.used = (fluoroscope ? kFluoroscope : 0U) | (moving ? kMoves : 0U) | (console ? kConsole : 0U);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
 
-  std::vector<std::uint64_t> rows(header.inputs * input_columns(fluoroscope));
+  std::vector<std::uint64_t> rows(header.inputs * input_columns(fluoroscope, console));
   std::uint64_t* at = rows.data();
   for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i) {
     const Inputs& inputs = recording.inputs[i];
@@ -231,8 +251,9 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
             std::uint64_t{static_cast<std::uint8_t>(inputs.event)} << kEventShift;
     *at++ = recording.hashes[i];
     if (fluoroscope) put(at, asked, inputs.exposure);
+    if (console) put(at, inputs.console);
   }
-  append_table(raw, rows, input_columns(fluoroscope));
+  append_table(raw, rows, input_columns(fluoroscope, console));
 
   rows.assign(header.poses * pose_columns(moving), 0);
   at = rows.data();
@@ -358,19 +379,21 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
       return base::Error{"recording_version", where + " has an unknown format"};
     if (header.used > (header.format == kFormatWithoutFluoroscope ? 0U
                        : header.format <= kFormatWithoutEvents    ? std::uint32_t{kFluoroscope}
-                                                                  : kFluoroscope | kMoves))
+                       : header.format <= kFormatWithoutConsole   ? kFluoroscope | kMoves
+                                                                  : kFluoroscope | kMoves | kConsole))
       return base::Error{"damaged", where + " cannot be read"};
-    const bool fluoroscope = (header.used & kFluoroscope) != 0, moving = (header.used & kMoves) != 0;
+    const bool fluoroscope = (header.used & kFluoroscope) != 0, moving = (header.used & kMoves) != 0,
+               console = (header.used & kConsole) != 0;
     const std::uint32_t rests = moving && header.has_endpoint != 0 ? 1 : 0;
     if (header.format <= kFormatWithoutEvents) header.events = kNotListened;
     const bool listened = header.events != kNotListened;
     const std::uint32_t events = listened ? header.events : 0;
     if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
         header.forces > kMaxRows || events > kMaxRows ||
-        raw->size() !=
-            header_size + 8 * (header.inputs * input_columns(fluoroscope) + header.poses * pose_columns(moving) +
-                               header.forces * kForceColumns + header.frames * frame_columns(fluoroscope) +
-                               events * kEventColumns + rests * kRestColumns))
+        raw->size() != header_size + 8 * (header.inputs * input_columns(fluoroscope, console) +
+                                          header.poses * pose_columns(moving) + header.forces * kForceColumns +
+                                          header.frames * frame_columns(fluoroscope) + events * kEventColumns +
+                                          rests * kRestColumns))
       return base::Error{"damaged", where + " has a wrong size"};
     if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s ||
                   listened != recording.events.has_value()))
@@ -386,7 +409,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
                                     {header.endpoint[4], header.endpoint[5], header.endpoint[6]},
                                     {}};
     const std::byte* from = raw->data() + header_size;
-    const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope));
+    const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope, console));
     const std::uint64_t* at = inputs.data();
     for (std::uint32_t row = 0; row < header.inputs; ++row) {
       Inputs& in = recording.inputs.emplace_back();
@@ -401,12 +424,14 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
           return base::Error{"damaged", where + " holds an unknown event"};
       }
       recording.hashes.push_back(static_cast<std::uint32_t>(*at++));
-      if (!fluoroscope) continue;
-      in.fluoroscope.pedal = (bits & kPedal) != 0;
-      in.fluoroscope.automatic_exposure = (bits & kAutomatic) != 0;
-      in.fluoroscope.hand_away = (bits & kHandAway) != 0;
-      in.exposure.hand_in_beam = (bits & kHandInBeam) != 0;
-      get(at, in.fluoroscope, in.exposure);
+      if (fluoroscope) {
+        in.fluoroscope.pedal = (bits & kPedal) != 0;
+        in.fluoroscope.automatic_exposure = (bits & kAutomatic) != 0;
+        in.fluoroscope.hand_away = (bits & kHandAway) != 0;
+        in.exposure.hand_in_beam = (bits & kHandInBeam) != 0;
+        get(at, in.fluoroscope, in.exposure);
+      }
+      if (console) in.console = get_console(at);
     }
     const auto poses = table_at(from, header.poses, pose_columns(moving));
     at = poses.data();

@@ -102,7 +102,8 @@ struct RecordingChunk {
 // Chunks hold two seconds each, numbered from 0; the one in which the trigger fell carries the endpoint. Since
 // format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3
 // frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events and, of
-// a patient who moves, where tips are at rest. Formats 1 to 4, without, are read too.
+// a patient who moves, where tips are at rest; since format 6 a chunk in which the console was not as the case has
+// it holds how it stood. Formats 1 to 5, without, are read too.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 constexpr double kChunkSeconds = 2.0;

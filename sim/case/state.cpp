@@ -64,6 +64,9 @@ std::uint64_t state_hash(const State& state, std::uint64_t previous) noexcept {
       add(value);
     add_integer(breath.breath << 2U | (breath.failed ? 1U : 0U) | (state.breath.hold_asked ? 2U : 0U));
   }
+  if (const ConsoleSetting& console = state.probe.console; !(console == ConsoleSetting{}))
+    for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
+      add(value);
   return state.fluoroscopy.in_use ? hash_of(state.fluoroscopy, hash) : hash;
 }
 

@@ -23,6 +23,7 @@ struct ProbeState {
   glm::dvec3 axial{0.0, 0.0, 1.0};    // unit
   glm::dvec3 lateral{1.0, 0.0, 0.0};  // unit, perpendicular to axial
   bool frozen = false;
+  ConsoleSetting console;  // hashed only where it is not as the case's picture has it
 };
 
 // A patient holds the breath whether or not the case shows how it moves the tissue.

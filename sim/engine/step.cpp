@@ -73,6 +73,7 @@ void step(const cases::Case& scene, const cases::Inputs& inputs, double dt_s,
   state.t_s = static_cast<double>(state.tick) * dt_s;
   breathe(scene, inputs.event, dt_s, state.breath);
   move_probe(inputs, state.probe);
+  if (scene.picture.modality != cases::Modality::xray) cases::turn(state.probe.console, inputs.console);
   if (scene.picture.modality == cases::Modality::xray) advance_fluoroscope(scene, inputs, dt_s, state.fluoroscopy);
   // Let go of, the needle stays where it is, and nobody pulls the trigger.
   if (scene.picture.modality == cases::Modality::xray && inputs.fluoroscope.hand_away && !first) return;

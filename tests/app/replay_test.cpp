@@ -8,6 +8,7 @@
 #include "app/body_planes.h"
 #include "app/canvas.h"
 #include "app/guidance_screen.h"
+#include "app/slice_picture.h"
 #include "sim/engine/step.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
@@ -197,6 +198,56 @@ TEST(GuidanceScreen, AFrozenPictureStays) {
   EXPECT_EQ(screen.picture().grey, before.grey);
   run(false);
   EXPECT_NE(screen.picture().grey, before.grey);
+}
+
+TEST(GuidanceScreen, ASliceBesideTheProbeIsWhatIsShownAndTold) {
+  const cases::Case scene = ball(cases::Modality::mpr);
+  GuidanceScreen screen(scene, 1);
+  const Sight see = sight_of(scene);
+  cases::State state;
+  cases::Inputs inputs;
+  inputs.probe = {{0.0, -100.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+  inputs.needle = {{0.0, -60.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};
+  const auto run = [&](double slice_mm) {
+    inputs.console.slice_mm = slice_mm;
+    for (int i = 0; i < 100; ++i) {
+      engine::step(scene, inputs, engine::kTickSeconds, state);
+      screen.tick(state, {});
+    }
+    return screen.picture();
+  };
+  const GreyPicture plane = run(0.0);
+  EXPECT_TRUE(see(state, {}).joint());
+  const GreyPicture beside = run(30.0);
+  EXPECT_NE(beside.grey, plane.grey);
+  EXPECT_FALSE(see(state, {}).target || see(state, {}).needle_tip);
+  // axial × lateral is −z: the slice of a probe that is held there.
+  inputs.probe.position_lps_mm.z = -30.0;
+  EXPECT_EQ(run(0.0).grey, beside.grey);
+  inputs.probe.position_lps_mm.z = -kMostSliceMm;
+  const GreyPicture furthest = run(0.0);
+  inputs.probe.position_lps_mm.z = 0.0;
+  EXPECT_EQ(run(1e6).grey, furthest.grey);
+  EXPECT_EQ(run(0.0).grey, plane.grey);
+}
+
+TEST(SlicePicture, AWindowIsWhatIsBlackAndWhite) {
+  const cases::Case scene = ball(cases::Modality::mpr);
+  cases::PoseSample pose;
+  pose.probe_origin_lps_mm = {0.0, -100.0, 0.0};
+  pose.probe_axial = {0.0, 1.0, 0.0};
+  pose.probe_lateral = {1.0, 0.0, 0.0};
+  const imaging::NeedlePose away{{500.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 100.0, 0.36, 0.0, 3000.0};
+  const auto at_80_mm = [&](const HuWindow& window) {
+    const GreyPicture picture = slice_under_probe(scene, pose, {}, away, {}, window);
+    const int row = static_cast<int>(80.0 / kSlicePixelMm);
+    return static_cast<int>(picture.grey[static_cast<std::size_t>(row * picture.width_px + picture.width_px / 2)]);
+  };
+  for (const HuWindow& window : kHuWindows)  // tissue of 40 HU
+    EXPECT_NEAR(at_80_mm(window),
+                std::clamp(255.0 * (40.0 - window.center_hu + 0.5 * window.width_hu) / window.width_hu, 0.0, 255.0),
+                1.0)
+        << window.name;
 }
 
 TEST(Replay, IsSeenUpToTheFirstDifferenceAndThroughWhatCannotBeCompared) {

@@ -168,6 +168,60 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   EXPECT_EQ(trainer.help(), 1) << "help fades";
 }
 
+// What the console was turned to is in the recording, and what is told of the pictures is of them as they stood.
+TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
+  Trainer trainer(open());
+  trainer.log_in("mona", kPassword);
+  trainer.choose(case_id_);
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  ASSERT_TRUE(trainer.begin(false));
+  PersonAttempt& attempt = *trainer.attempt();
+  HandsTold told;
+  ShownPicture shown;
+  const auto stands_at = [&](double slice_mm) {
+    told.console.slice_mm = slice_mm;
+    attempt.tell(told);
+    return until([&] { return attempt.monitor().take(shown) && shown.console.slice_mm == slice_mm; });
+  };
+  const auto wait_s = [&](double seconds) {
+    double from_s = -1.0;
+    return until([&] {
+      const auto seen = attempt.seen();
+      if (seen && from_s < 0.0) from_s = seen->moment.state.t_s;
+      return seen && seen->moment.state.t_s > from_s + seconds;
+    });
+  };
+  ASSERT_TRUE(stands_at(0.0) && wait_s(0.3));
+  const GreyPicture plane = shown.picture;
+  ASSERT_TRUE(stands_at(30.0) && wait_s(0.3));
+  EXPECT_NE(shown.picture.grey, plane.grey);
+  attempt.monitor().set_window(kHuWindows[3]);
+  const GreyPicture soft = shown.picture;
+  EXPECT_TRUE(until([&] { return attempt.monitor().take(shown) && shown.picture.grey != soft.grey; }));
+  attempt.end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  trainer.watch(trainer.debrief()->attempt.attempt_id);
+  WatchedAttempt& watched = *trainer.watched();
+  watched.set_speed(50.0);
+  ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
+  std::optional<Moment> last;
+  while (const auto moment = watched.moment()) last = moment;
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->state.probe.console.slice_mm, 30.0);
+  const cases::Recording& recording = watched.recording();
+  double turned_s = 0.0;
+  for (std::size_t i = 0; i < recording.inputs.size() && turned_s == 0.0; ++i)
+    if (recording.inputs[i].console.slice_mm != 0.0) turned_s = static_cast<double>(i + 1) * recording.dt_s;
+  ASSERT_GT(turned_s, 0.3);
+  int seen = 0, passed = 0;
+  for (const cases::FrameTruth& frame : recording.frames) {
+    EXPECT_EQ(frame.target, frame.t_s < turned_s) << frame.t_s << ": the target lies in the probe's plane";
+    (frame.t_s < turned_s ? seen : passed) += 1;
+  }
+  EXPECT_GT(seen, 3);
+  EXPECT_GT(passed, 3);
+}
+
 TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
   {
     Trainer trainer(open());

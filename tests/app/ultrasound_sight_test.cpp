@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/attempt_loop.h"
+#include "app/guidance_screen.h"
+#include "app/picture_clock.h"
 #include "assessment/operators/plan.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/volume/analytic.h"
@@ -126,8 +128,9 @@ TEST(UltrasoundPlan, SeesTargetAndTipFromItsProbe) {
   const cases::Case& scene = planned().scene;
   const UltrasoundSight sight(scene);
   const cases::Instrument needle;
-  const auto seen = sight.see(plan.probe, {plan.target_lps_mm, plan.direction, needle.length_mm, needle.radius_mm,
-                                           needle.inner_radius_mm, needle.hu});
+  const auto seen = sight.see(
+      plan.probe, {},
+      {plan.target_lps_mm, plan.direction, needle.length_mm, needle.radius_mm, needle.inner_radius_mm, needle.hu});
   EXPECT_TRUE(seen.visible.joint);
   EXPECT_TRUE(seen.near_plane.tip_2_mm && seen.near_plane.target_2_mm) << "needle and target lie in its plane";
   EXPECT_LE(plan.tip_shows_from_mm, 4.0) << "the needle enters beside a face whose end touches";
@@ -187,19 +190,19 @@ TEST(UltrasoundSightBackends, GlDrawsWhatTheCpuDrawsByEitherMethodAndMayBeLeftAg
        {tissue::Displacement{}, tissue::displacement_of({{&press, 1}, {}, {}, {}})}) {
     imaging::PolarPicture fine, fast, other;
     for (UltrasoundSight* one : {&sight, &by_gl}) one->set_method(imaging::UltrasoundMethod::scatterers);
-    sight.polar(probe, aside, 1, 1, fine, displacement);
-    by_gl.polar(probe, aside, 1, 1, other, displacement);
+    sight.polar(probe, {}, aside, 1, 1, fine, displacement);
+    by_gl.polar(probe, {}, aside, 1, 1, other, displacement);
     EXPECT_LT(mean_difference(fine, other), 0.01);
     for (UltrasoundSight* one : {&sight, &by_gl}) one->set_method(imaging::UltrasoundMethod::lattice);
-    sight.polar(probe, aside, 1, 1, fast, displacement);
-    by_gl.polar(probe, aside, 1, 1, other, displacement);
+    sight.polar(probe, {}, aside, 1, 1, fast, displacement);
+    by_gl.polar(probe, {}, aside, 1, 1, other, displacement);
     EXPECT_LT(mean_difference(fast, other), 0.01);
     EXPECT_GT(mean_difference(fine, fast), 0.2) << "another grain";
   }
   by_gl.draw_on_cpu();
   imaging::PolarPicture again, as_before;
-  sight.polar(probe, aside, 1, 1, again);
-  by_gl.polar(probe, aside, 1, 1, as_before);
+  sight.polar(probe, {}, aside, 1, 1, again);
+  by_gl.polar(probe, {}, aside, 1, 1, as_before);
   EXPECT_EQ(again.envelope, as_before.envelope);
 }
 
@@ -225,6 +228,130 @@ TEST(UltrasoundAttempt, IsRecordedAtTheRateOfSoundAndReplayable) {
   const auto a = measure(p.scene, recording), b = measure(bare, *stored);
   ASSERT_TRUE(a.has_value() && b.has_value());
   for (std::size_t i = 0; i < a->size(); ++i) EXPECT_EQ((*a)[i].value, (*b)[i].value) << (*a)[i].id;
+}
+
+// At the plan's end, with the probe where the plan has it.
+cases::State at_target(const Planned& p) {
+  cases::State state;
+  state.t_s = 1.0;
+  state.needle.tip_lps_mm = p.plan.target_lps_mm;
+  state.needle.direction = p.plan.direction;
+  state.probe.origin_lps_mm = p.plan.probe.position_lps_mm;
+  state.probe.axial = p.plan.probe.axis;
+  state.probe.lateral = p.plan.probe.side;
+  return state;
+}
+
+TEST(UltrasoundConsole, WhatIsSaidToShowIsOfThePictureAsItStands) {
+  const Planned& p = planned();
+  const Sight see = sight_of(p.scene);
+  cases::State state = at_target(p);
+  EXPECT_TRUE(see(state, {}).joint());
+  state.probe.console.depth_mm = imaging::kC52v.least_depth_mm;
+  const double below_mm = glm::dot(p.scene.lesions[0].center_lps_mm - state.probe.origin_lps_mm, state.probe.axial);
+  ASSERT_GT(below_mm, state.probe.console.depth_mm);
+  const cases::FrameTruth shallow = see(state, {});
+  EXPECT_FALSE(shallow.target || shallow.needle_tip) << "both lie below the picture";
+  EXPECT_FALSE(shallow.near_plane->target_5_mm) << "which is told of the field, too";
+  EXPECT_LT(shallow.needle_length_mm, see(at_target(p), {}).needle_length_mm);
+  state.probe.console.depth_mm = p.scene.picture.depth_mm + 40.0;
+  EXPECT_TRUE(see(state, {}).joint());
+  // The tip's echo is weaker where the beam is wide: far out of focus, and by waves that are longer.
+  const auto told = [&](const cases::ConsoleSetting& console) {
+    imaging::UltrasoundView view = console_view(p.scene.picture, console);
+    view.origin_lps_mm = state.probe.origin_lps_mm;
+    view.axial = state.probe.axial;
+    view.lateral = state.probe.lateral;
+    return view;
+  };
+  for (const cases::ConsoleSetting& console :
+       {cases::ConsoleSetting{70.0, 0.0, 0.0}, cases::ConsoleSetting{0.0, 20.0, 0.0},
+        cases::ConsoleSetting{0.0, 0.0, 5.0}, cases::ConsoleSetting{300.0, 299.0, 2.0}}) {
+    state.probe.console = console;
+    const imaging::UltrasoundView view = told(console);
+    const cases::Instrument& needle = p.scene.instrument;
+    const imaging::NeedlePose pose{state.needle.tip_lps_mm, state.needle.direction, needle.length_mm,
+                                   needle.radius_mm,        needle.inner_radius_mm, needle.hu};
+    const auto expected = imaging::ultrasound_visible({&p.scene.volume, p.scene.classes, p.scene.echogenicity},
+                                                      view, {pose, p.scene.lesions},
+                                                      element_depths(p.scene.skin_index, view, kContactStride));
+    const cases::FrameTruth seen = see(state, {});
+    EXPECT_EQ(seen.needle_tip, expected.visible.needle_tip);
+    EXPECT_EQ(seen.target, expected.visible.target);
+    EXPECT_EQ(seen.needle_length_mm, expected.visible.needle_length_mm);
+  }
+}
+
+TEST(UltrasoundConsole, IsThatOfTheCaseUntilItIsTurned) {
+  const cases::Picture& picture = planned().scene.picture;
+  const imaging::UltrasoundView own = console_view(picture, {});
+  EXPECT_EQ(own.depth_mm, picture.depth_mm);
+  EXPECT_EQ(own.focus_mm, 0.0);
+  EXPECT_EQ(own.frequency_mhz, 0.0);
+  EXPECT_EQ(picture_rate_hz(picture, {}), picture.rate_hz);
+  EXPECT_EQ(picture_rate_hz(picture, {0.0, 40.0, 3.0}), picture.rate_hz) << "the way of sound is the same";
+  EXPECT_NEAR(picture_rate_hz(picture, {200.0, 0.0, 0.0}), 1540e3 / (2.0 * 200.0 * 128), 1e-9);
+  EXPECT_EQ(picture_rate_hz(picture, {40.0, 0.0, 0.0}), 60.0) << "the screen's";
+  EXPECT_EQ(picture_rate_hz(picture, {9e9, 0.0, 0.0}), picture_rate_hz(picture, {300.0, 0.0, 0.0}));
+}
+
+TEST(UltrasoundConsole, TheStoredPictureIsAsItStoodWhenTheTriggerFell) {
+  const Planned& p = planned();
+  auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 4);
+  ASSERT_TRUE(recording.endpoint.has_value());
+  const auto plain = picture_at_endpoint(p.scene, recording);
+  const auto fired = static_cast<std::size_t>(std::lround(recording.endpoint->t_s / recording.dt_s));
+  ASSERT_LT(fired, recording.inputs.size());
+  ASSERT_TRUE(recording.inputs[fired - 1].fire && !recording.inputs[fired - 2].fire);
+  auto turned = recording;
+  for (std::size_t i = fired; i < turned.inputs.size(); ++i) turned.inputs[i].console.depth_mm = 120.0;
+  EXPECT_EQ(picture_at_endpoint(p.scene, turned), plain) << "afterwards";
+  turned.inputs[fired - 1].console.depth_mm = 120.0;
+  const auto deep = picture_at_endpoint(p.scene, turned);
+  EXPECT_NE(deep, plain) << "in the same tick";
+  // The same inputs by another picture: the same motion, other hashes from the turn on.
+  EXPECT_EQ(replay(p.scene, turned).first_difference_tick, fired);
+}
+
+TEST(UltrasoundConsole, AScreenThatIsWatchedShowsWhatWasTurned) {
+  const Planned& p = planned();
+  GuidanceScreen screen(p.scene, 7);
+  cases::State state = at_target(p);
+  const auto after = [&](double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 1000.0); ++i) {
+      state.t_s += 0.001;
+      screen.tick(state, {});
+    }
+    return screen.picture();
+  };
+  const GreyPicture own = after(0.1);
+  ASSERT_GT(own.width_px, 0);
+  state.probe.console.depth_mm = p.scene.picture.depth_mm + 60.0;
+  const GreyPicture deep = after(0.1);
+  EXPECT_NE(deep.grey, own.grey);
+  // Of a picture that is deeper more lies above the target: it comes to lie higher.
+  state.probe.frozen = true;
+  state.probe.console = {};
+  EXPECT_EQ(after(0.1).grey, deep.grey) << "frozen it stays, whatever is turned";
+  state.probe.frozen = false;
+  EXPECT_EQ(after(0.1).height_px, own.height_px);
+}
+
+TEST(PictureClock, KeepsItsRateAndGoesOnFromTheLastPictureAtAnother) {
+  PictureClock clock;
+  std::vector<int> due_ms;
+  for (int ms = 1; ms <= 2000; ++ms)
+    if (clock.due(0.001 * ms, ms <= 1000 ? 40.0 : 10.0)) due_ms.push_back(ms);
+  ASSERT_EQ(due_ms.size(), 41U + 10U);
+  EXPECT_EQ(due_ms.front(), 1);
+  EXPECT_EQ(clock.count(), 51);
+  for (std::size_t i = 1; i < due_ms.size(); ++i)
+    EXPECT_NEAR(due_ms[i] - due_ms[i - 1], due_ms[i - 1] < 1000 ? 25.0 : 100.0, 1.001) << due_ms[i];
+  // A knob that is turned without end makes no more pictures than either rate.
+  PictureClock turned;
+  int pictures = 0;
+  for (int ms = 1; ms <= 1000; ++ms) pictures += turned.due(0.001 * ms, 20.0 + 0.01 * (ms % 100)) ? 1 : 0;
+  EXPECT_NEAR(pictures, 21, 2);
 }
 
 TEST(UltrasoundAttempt, HasThePictureOfItsEndpoint) {

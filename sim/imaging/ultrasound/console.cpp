@@ -11,10 +11,12 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr std::array<ConsolePreset, 3> kPresets = {{
+constexpr std::array<ConsolePreset, 5> kPresets = {{
     {"liver", kC52v, 150.0, 80.0, 60.0},
     {"kidney", kC52v, 120.0, 60.0, 60.0},
+    {"deep", kC52v, 220.0, 140.0, 65.0, 2.5},
     {"vessel", kL115v, 40.0, 15.0, 55.0},
+    {"surface", kL115v, 30.0, 12.0, 60.0, 10.0},
 }};
 
 // NaN leaves the value that was.
@@ -36,6 +38,16 @@ const ConsolePreset* console_preset_named(std::string_view name) noexcept {
 
 double frame_rate_hz(double depth_mm, int beams) noexcept {
   return 1e6 * shaders::kUsSpeedMmPerUs / (2.0 * depth_mm * beams);
+}
+
+void set_view(const cases::ConsoleSetting& asked, UltrasoundView& view) noexcept {
+  const Probe& probe = view.probe;
+  if (asked.depth_mm > 0.0)
+    view.depth_mm = taken(asked.depth_mm, probe.least_depth_mm, probe.most_depth_mm, view.depth_mm);
+  if (asked.frequency_mhz > 0.0)
+    view.frequency_mhz = taken(asked.frequency_mhz, probe.least_mhz, probe.most_mhz, view.frequency_mhz);
+  if (asked.focus_mm > 0.0)
+    view.focus_mm = taken(asked.focus_mm, std::min(kLeastFocusMm, view.depth_mm), view.depth_mm, view.focus_mm);
 }
 
 glm::dvec2 picture_mm(const ScanConverter& converter, const UltrasoundKnobs& knobs,
@@ -63,6 +75,7 @@ void Console::set_preset(const ConsolePreset& preset) {
   view_.range_error = true;
   set_depth_mm(preset.depth_mm);
   set_focus_mm(preset.focus_mm);
+  if (preset.frequency_mhz > 0.0) set_frequency_mhz(preset.frequency_mhz);
   set_dynamic_range_db(preset.dynamic_range_db);
 }
 
@@ -72,14 +85,12 @@ void Console::set_probe(const Probe& probe) {
 }
 
 void Console::set_depth_mm(double depth_mm) {
-  view_.depth_mm = taken(depth_mm, kLeastDepthMm, kMostDepthMm, view_.depth_mm);
+  view_.depth_mm = taken(depth_mm, view_.probe.least_depth_mm, view_.probe.most_depth_mm, view_.depth_mm);
   view_.focus_mm = std::min(view_.focus_mm, view_.depth_mm);
 }
 
 void Console::set_frequency_mhz(double frequency_mhz) {
-  const double own = view_.probe.frequency_mhz;
-  view_.frequency_mhz =
-      taken(frequency_mhz, kLeastFrequencyShare * own, kMostFrequencyShare * own, view_.frequency_mhz);
+  view_.frequency_mhz = taken(frequency_mhz, view_.probe.least_mhz, view_.probe.most_mhz, view_.frequency_mhz);
 }
 
 void Console::set_focus_mm(double focus_mm) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "sim/case/console.h"
 #include "sim/imaging/ultrasound/cine_loop.h"
 
 namespace seldinger::imaging {
@@ -16,15 +17,19 @@ struct ConsolePreset {
   Probe probe;
   double depth_mm, focus_mm;  // focus 0: at every depth
   double dynamic_range_db;
+  double frequency_mhz = 0.0;  // 0: the probe's
 };
-// liver, kidney, vessel (design, after the depths of ultrasound.md §2.4).
+// Design, after the depths of ultrasound.md §2.4; deep: sound that gets through; surface: sound that resolves.
 std::span<const ConsolePreset> console_presets() noexcept;
 const ConsolePreset* console_preset_named(std::string_view name) noexcept;
 
-constexpr double kLeastDepthMm = 20.0, kMostDepthMm = 300.0;
 constexpr double kMostGainDb = 40.0, kMostTgcDb = 40.0;  // either way
 constexpr double kLeastRangeDb = 30.0, kMostRangeDb = 100.0;
-constexpr double kLeastFrequencyShare = 0.6, kMostFrequencyShare = 1.4;  // of the probe's: inside its band
+constexpr double kLeastFocusMm = 5.0;  // nearer, the face itself is no wider
+
+// A view as the console stands: what is asked with 0, or is no number, stays as it was; the rest is brought to what
+// its probe can do, a focus into the picture.
+void set_view(const cases::ConsoleSetting& asked, UltrasoundView& view) noexcept;
 
 // Pictures a second that sound's way there and back allows: c/(2·depth·beams).
 double frame_rate_hz(double depth_mm, int beams) noexcept;

@@ -98,6 +98,7 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.inputs[i].fire, b.inputs[i].fire);
     EXPECT_EQ(a.inputs[i].freeze, b.inputs[i].freeze);
     EXPECT_EQ(a.inputs[i].event, b.inputs[i].event);
+    EXPECT_EQ(a.inputs[i].console, b.inputs[i].console);
     EXPECT_EQ(a.inputs[i].fluoroscope, b.inputs[i].fluoroscope);
     EXPECT_EQ(a.inputs[i].exposure, b.inputs[i].exposure);
   }
@@ -192,17 +193,50 @@ TEST(Recording, WhatWasNearThePlaneComesBack) {
   expect_same(recording, *back);
 }
 
+// As random_recording, its console turned from the tick `from` on.
+Recording random_console_recording(std::size_t ticks, std::uint64_t seed, std::size_t from = 0) {
+  Recording recording = random_recording(ticks, seed);
+  base::Rng rng(seed + 2);
+  ConsoleSetting console;
+  for (std::size_t i = from; i < ticks; ++i) {
+    if ((i - from) % 300 == 0) console = {rng.uniform() * 200.0, rng.uniform(), rng.normal(), rng.normal()};
+    recording.inputs[i].console = console;
+  }
+  return recording;
+}
+
+std::size_t bytes_of(const Recording& recording) {
+  std::size_t bytes = 0;
+  for (const auto& chunk : chunks_from_recording(recording))
+    bytes += base::decompress(chunk.data, 1U << 24)->size();
+  return bytes;
+}
+
+TEST(Recording, OfAConsoleThatIsTurnedComesBackBitForBit) {
+  // In all chunks; from the middle of one; in the last alone; and beside a fluoroscope, which no attempt has.
+  for (const std::size_t from : {std::size_t{0}, std::size_t{3000}, std::size_t{6001}}) {
+    const Recording recording = random_console_recording(6500, 40 + from, from);
+    const auto back = recording_from_chunks(chunks_from_recording(recording));
+    ASSERT_TRUE(back.has_value()) << back.error().text;
+    expect_same(recording, *back);
+  }
+  Recording both = random_xray_recording(2500, 41, 900);
+  for (std::size_t i = 2100; i < 2500; ++i) both.inputs[i].console.slice_mm = 0.01 * static_cast<double>(i);
+  const auto back = recording_from_chunks(chunks_from_recording(both));
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(both, *back);
+}
+
+TEST(Recording, AConsoleThatIsNotTurnedTakesNoRoom) {
+  const std::size_t without = bytes_of(random_recording(4000, 5));
+  EXPECT_EQ(bytes_of(random_console_recording(4000, 5, 3000)), without + 8 * 2000 * 4) << "in the second chunk";
+}
+
 TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
-  const auto size = [](const Recording& recording) {
-    std::size_t bytes = 0;
-    for (const auto& chunk : chunks_from_recording(recording))
-      bytes += base::decompress(chunk.data, 1U << 24)->size();
-    return bytes;
-  };
   // The columns of format 1: 20, 16 and 3 words a row; 104 bytes of head.
   const Recording recording = random_recording(2000, 3);
   EXPECT_TRUE(recording.forces.empty());
-  EXPECT_EQ(size(recording), 104 + 8 * (2000 * 20 + 200 * 16 + recording.frames.size() * 3));
+  EXPECT_EQ(bytes_of(recording), 104 + 8 * (2000 * 20 + 200 * 16 + recording.frames.size() * 3));
 }
 
 // The layout that format 1 had, by its description: head, then three tables, column by column, byte plane by byte
@@ -310,6 +344,22 @@ TEST(Recording, OfFormat4SaysNothingOfEvents) {
   expect_same(recording, *back);
 }
 
+TEST(Recording, OfFormat5IsReadAndHasNoConsole) {
+  const auto as_format_5 = [](const Recording& recording) {
+    return std::vector{with_bytes(chunks_from_recording(recording)[0],
+                                  [](std::vector<std::byte>& raw) { raw[4] = std::byte{5}; })};
+  };
+  Recording recording = random_recording(1500, 18);
+  recording.endpoint->rest_tip_lps_mm = glm::dvec3(1, 2, 3);
+  for (PoseSample& pose : recording.poses) pose.rest_tip_lps_mm = pose.tip_lps_mm;
+  const auto back = recording_from_chunks(as_format_5(recording));
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+  const auto impossible = recording_from_chunks(as_format_5(random_console_recording(1500, 18)));
+  ASSERT_FALSE(impossible.has_value()) << "format 5 had no console";
+  EXPECT_EQ(impossible.error().code, "damaged");
+}
+
 TEST(Recording, OfAPatientWhoMovesComesBackBitForBit) {
   for (const bool from_the_start : {true, false}) {
     Recording recording = random_recording(6500, 18);
@@ -339,7 +389,7 @@ TEST(Recording, AnUnknownEventIsDamage) {
 
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 6U, 77U})
+  for (const std::uint32_t format : {0U, 7U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")
@@ -456,6 +506,18 @@ TEST(StateHash, EveryFieldOfAFluoroscopeInUseCounts) {
   EXPECT_NE(state_hash(state, 0), with_views);
 }
 
+TEST(StateHash, EveryFieldOfAConsoleThatIsTurnedCounts) {
+  State state;
+  state.probe.console = {90.0, 40.0, 2.5, -3.0};
+  const std::uint64_t before = state_hash(state, 0);
+  using C = ConsoleSetting;
+  for (double C::*const number : {&C::depth_mm, &C::focus_mm, &C::frequency_mhz, &C::slice_mm}) {
+    State other = state;
+    other.probe.console.*number += 1.0;
+    EXPECT_NE(state_hash(other, 0), before);
+  }
+}
+
 TEST(StateHash, EveryFieldCounts) {
   State state;
   const std::uint64_t before = state_hash(state, 0);
@@ -481,6 +543,10 @@ TEST(StateHash, EveryFieldCounts) {
   EXPECT_TRUE(changes([](State& s) { s.probe.axial.x = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.lateral.y = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.probe.frozen = true; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.depth_mm = 90; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.focus_mm = 40; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.frequency_mhz = 2.5; }));
+  EXPECT_TRUE(changes([](State& s) { s.probe.console.slice_mm = -3; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.fired = true; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.t_s = 1; }));
   EXPECT_TRUE(changes([](State& s) { s.fire.tip_lps_mm.x = 1; }));

@@ -59,6 +59,28 @@ TEST(Step, IsPure) {
   }
 }
 
+TEST(Step, TheConsoleStandsAsItWasTurnedLast) {
+  cases::Case scene = sphere_case();
+  cases::State state;
+  cases::Inputs inputs = at(-120.0);
+  step(scene, inputs, 0.001, state);
+  EXPECT_EQ(state.probe.console, cases::ConsoleSetting{});
+  inputs.console = {90.0, 40.0, 2.5, -3.0};
+  step(scene, inputs, 0.001, state);
+  EXPECT_EQ(state.probe.console, inputs.console);
+  const cases::ConsoleSetting before = inputs.console;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  inputs.console = {kNan, std::numeric_limits<double>::infinity(), 3.0, kNan};
+  step(scene, inputs, 0.001, state);
+  EXPECT_EQ(state.probe.console, (cases::ConsoleSetting{before.depth_mm, before.focus_mm, 3.0, before.slice_mm}));
+  // Nothing of it under a fluoroscope.
+  scene.picture.modality = cases::Modality::xray;
+  cases::State room;
+  inputs.console = before;
+  step(scene, inputs, 0.001, room);
+  EXPECT_EQ(room.probe.console, cases::ConsoleSetting{});
+}
+
 TEST(Step, InsertedLengthIsTheWayFromTheEntry) {
   const cases::Case scene = sphere_case();
   cases::State state;

@@ -24,11 +24,12 @@ TEST(Console, FrameRateIsThatOfSound) {
 }
 
 TEST(Console, PresetsAreWithinItsRange) {
-  ASSERT_EQ(console_presets().size(), 3U);
+  ASSERT_EQ(console_presets().size(), 5U);
   for (const ConsolePreset& preset : console_presets()) {
     const Console console(preset);
     EXPECT_EQ(console.view().depth_mm, preset.depth_mm) << preset.name;
     EXPECT_EQ(console.view().focus_mm, preset.focus_mm);
+    EXPECT_EQ(console.view().frequency_mhz, preset.frequency_mhz);
     EXPECT_EQ(console.knobs().dynamic_range_db, preset.dynamic_range_db);
     EXPECT_EQ(console.view().probe.name, preset.probe.name);
     EXPECT_EQ(console_preset_named(preset.name), &preset);
@@ -39,12 +40,12 @@ TEST(Console, PresetsAreWithinItsRange) {
 TEST(Console, TakesWhatIsInRangeAndNoNaN) {
   Console console(*console_preset_named("liver"));
   console.set_depth_mm(1000.0);
-  EXPECT_EQ(console.view().depth_mm, kMostDepthMm);
+  EXPECT_EQ(console.view().depth_mm, kC52v.most_depth_mm);
   console.set_depth_mm(0.0);
-  EXPECT_EQ(console.view().depth_mm, kLeastDepthMm);
-  EXPECT_LE(console.view().focus_mm, kLeastDepthMm);  // it went with the edge
+  EXPECT_EQ(console.view().depth_mm, kC52v.least_depth_mm);
+  EXPECT_LE(console.view().focus_mm, kC52v.least_depth_mm);  // it went with the edge
   console.set_depth_mm(std::nan(""));
-  EXPECT_EQ(console.view().depth_mm, kLeastDepthMm);
+  EXPECT_EQ(console.view().depth_mm, kC52v.least_depth_mm);
   console.set_gain_db(std::nan(""));
   EXPECT_EQ(console.knobs().gain_db, 0.0);
   console.set_gain_db(-1e9);
@@ -52,11 +53,49 @@ TEST(Console, TakesWhatIsInRangeAndNoNaN) {
   console.set_tgc_db(7, 55.0);
   EXPECT_EQ(console.knobs().tgc_db[7], kMostTgcDb);
   console.set_frequency_mhz(20.0);
-  EXPECT_DOUBLE_EQ(console.view().frequency_mhz, kMostFrequencyShare * kC52v.frequency_mhz);
+  EXPECT_EQ(console.view().frequency_mhz, kC52v.most_mhz);
   console.set_probe(kL115v);
   EXPECT_EQ(console.view().frequency_mhz, 0.0);  // the new probe's own
   console.set_dynamic_range_db(0.0);
   EXPECT_EQ(console.knobs().dynamic_range_db, kLeastRangeDb);
+}
+
+TEST(Console, EveryProbeIsOfferedWithinItsBand) {
+  for (const Probe& probe : kProbes) {
+    EXPECT_LT(probe.least_mhz, probe.frequency_mhz) << probe.name;
+    EXPECT_GT(probe.most_mhz, probe.frequency_mhz) << probe.name;
+    // −6 dB of the pulse: beyond it the transducer hardly rings.
+    EXPECT_GT(probe.least_mhz, probe.frequency_mhz * (1.0 - 0.8 * probe.bandwidth)) << probe.name;
+    EXPECT_LT(probe.most_mhz, probe.frequency_mhz * (1.0 + 0.8 * probe.bandwidth)) << probe.name;
+    EXPECT_LT(probe.least_depth_mm, probe.most_depth_mm) << probe.name;
+  }
+}
+
+TEST(Console, AViewIsSetAsAskedWithinWhatItsProbeCan) {
+  UltrasoundView as_is = UltrasoundView{};
+  as_is.probe = kL115v;
+  as_is.depth_mm = 130.0;  // deeper than is offered, as a case may have it
+  const auto set = [&](const cases::ConsoleSetting& asked) {
+    UltrasoundView view = as_is;
+    set_view(asked, view);
+    return view;
+  };
+  for (const cases::ConsoleSetting& nothing :
+       {cases::ConsoleSetting{}, cases::ConsoleSetting{-5.0, -1.0, -2.0, 4.0},
+        cases::ConsoleSetting{std::nan(""), std::nan(""), std::nan(""), 0.0}}) {
+    EXPECT_EQ(set(nothing).depth_mm, 130.0);
+    EXPECT_EQ(set(nothing).focus_mm, 0.0);
+    EXPECT_EQ(set(nothing).frequency_mhz, 0.0);
+  }
+  EXPECT_EQ(set({60.0, 30.0, 9.0}).depth_mm, 60.0);
+  EXPECT_EQ(set({60.0, 30.0, 9.0}).focus_mm, 30.0);
+  EXPECT_EQ(set({60.0, 30.0, 9.0}).frequency_mhz, 9.0);
+  EXPECT_EQ(set({500.0, 0.0, 0.0}).depth_mm, kL115v.most_depth_mm);
+  EXPECT_EQ(set({1.0, 0.0, 0.0}).depth_mm, kL115v.least_depth_mm);
+  EXPECT_EQ(set({60.0, 90.0, 50.0}).focus_mm, 60.0) << "not below the picture";
+  EXPECT_EQ(set({60.0, 1.0, 50.0}).focus_mm, kLeastFocusMm);
+  EXPECT_EQ(set({60.0, 1.0, 50.0}).frequency_mhz, kL115v.most_mhz);
+  EXPECT_EQ(set({60.0, 1.0, 0.1}).frequency_mhz, kL115v.least_mhz);
 }
 
 TEST(Console, FrozenItKeepsItsPictureWhileTheProbeMoves) {
