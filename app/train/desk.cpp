@@ -9,6 +9,7 @@
 #include "app/file.h"
 #include "app/png.h"
 #include "app/train/desk.h"
+#include "sim/base/failure.h"
 
 namespace seldinger::app {
 namespace {
@@ -113,13 +114,25 @@ void Desk::tell(const std::string& screen) {
   frames_ = 0;
 }
 
-void Desk::keep(const std::vector<unsigned char>& rgb) {
-  const std::vector<std::byte> png = png_from_rgb(rgb, window_.width_px(), window_.height_px());
-  std::string name;
+std::string Desk::keep(const std::string& name, const std::vector<unsigned char>& rgb, int width_px,
+                       int height_px) {
+  const std::vector<std::byte> png = png_from_rgb(rgb, width_px, height_px);
+  std::string file;
+  int number = 0;
   do {
-    name = "seldinger-" + std::to_string(++kept_) + ".png";
-  } while (std::filesystem::exists(pictures_ / name));
-  write_file(pictures_ / name, {reinterpret_cast<const char*>(png.data()), png.size()});
+    file = name + "-" + std::to_string(++number) + ".png";
+  } while (std::filesystem::exists(pictures_ / file));
+  try {
+    write_file(pictures_ / file, {reinterpret_cast<const char*>(png.data()), png.size()});
+  } catch (const base::Failure&) {
+    return "not kept: " + file + " cannot be written";  // no reason to end an attempt
+  }
+  return "kept as " + file;
+}
+
+void Desk::keep_guidance(MonitorPanel& guidance) {
+  if (const auto kept = guidance.take_kept())
+    guidance.say(keep("guidance", kept->rgb(), kept->width_px(), kept->height_px()));
 }
 
 // What became of the sound is said for a moment, where it was turned or cannot be.
@@ -172,7 +185,9 @@ void Desk::frame() {
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
   if (screen == "attempt") attempt_.shown();
-  if (keeps) keep(pixels);
+  if (keeps) keep("seldinger", pixels, window_.width_px(), window_.height_px());
+  keep_guidance(attempt_.guidance());
+  keep_guidance(watch_.guidance());
   tell(screen);
   if (screen != title_) window_.set_title("Seldinger – " + screen);
   title_ = screen;

@@ -15,7 +15,8 @@ namespace seldinger::app {
 
 class Desk {
  public:
-  // F12 keeps a picture of the window in `pictures`. The trace gets four lines a second.
+  // F12 keeps a picture of the window in `pictures`; so does the guidance's console one of its picture alone. The
+  // trace gets four lines a second.
   Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace);
 
   void frame();
@@ -26,7 +27,9 @@ class Desk {
   void go_on();                 // of hands between frames
   void finish(double began_s);  // what is being drawn for the frame that began then
   void tell(const std::string& screen);
-  void keep(const std::vector<unsigned char>& pixels);
+  // As `name`-1.png or the next that is free; what there is to say of it.
+  std::string keep(const std::string& name, const std::vector<unsigned char>& rgb, int width_px, int height_px);
+  void keep_guidance(MonitorPanel& guidance);
   void turn_sound(const Keys& keys);
 
   Window& window_;
@@ -42,7 +45,7 @@ class Desk {
   std::filesystem::path pictures_;
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;
-  int frames_ = 0, kept_ = 0;
+  int frames_ = 0;
   std::string title_, notice_;
   double notice_until_s_ = 0.0;
   Speaker::State sound_ = Speaker::State::unasked;

@@ -112,15 +112,6 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
   for (int view = 0; view < static_cast<int>(imaging::kRoomViewNames.size()); ++view)
     if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
   if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
-  if (scene.picture.modality != cases::Modality::xray) return;
-  cases::FluoroscopeInputs& asked = told_.fluoroscope;
-  const auto axis = [&](int more, int less) {
-    return (keys.held(more) ? 1.0 : 0.0) - (keys.held(less) ? 1.0 : 0.0);
-  };
-  asked.lao_speed = axis(kRight, kLeft);
-  asked.cranial_speed = axis(kUp, kDown);
-  asked.pedal = asked.pedal || keys.held('P');
-  if (keys.pressed('H')) asked.hand_away = !asked.hand_away;
 }
 
 void AttemptPanel::draw_top(Trainer& trainer) {
@@ -204,6 +195,8 @@ void AttemptPanel::tell(TraceLine& line) {
   line.press_mm = seen_.press_mm;
   line.attempt_s = seen_.moment.state.t_s;
   line.fired = seen_.moment.state.fire.fired;
+  line.console = monitor_.shown().console;
+  line.gain_db = monitor_.knobs().screen.gain_db;
   line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
   line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;
   if (seen_.arms.used)
@@ -353,7 +346,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   ImGui::EndChild();
   ImGui::SameLine();
   begin_picture("guidance", 0.0F, all.y - below - 8.0F);
-  monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, told_.fluoroscope);
+  monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, keys, &told_);
   ImGui::EndChild();
   ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (running)

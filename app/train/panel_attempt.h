@@ -44,6 +44,8 @@ class AttemptPanel {
   void tell(TraceLine& line);
   bool first_picture() const noexcept { return pictures_ > 0 && pictures_told_ == 0; }  // not told of yet
 
+  MonitorPanel& guidance() noexcept { return monitor_; }
+
   // What the guidance showed when the trigger fell, or last.
   const gpu::ScreenPicture& picture_at_fire() const noexcept { return at_fire_; }
 

@@ -1,12 +1,16 @@
-// The screen that guides, with its console: what the monitor drew, its knobs, calipers and the cine loop.
+// The screen that guides, with its console: what the monitor drew, its knobs and keys, calipers and the cine loop.
 #pragma once
 
-#include <array>
-#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "app/canvas.h"
+#include "app/train/calipers.h"
+#include "app/train/console_knobs.h"
 #include "app/train/monitor.h"
+#include "app/train/person_attempt.h"
+#include "app/train/window.h"
 #include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
@@ -18,27 +22,49 @@ class MonitorPanel {
   // A new attempt, with a console of its own: knobs stand where that begins, calipers and picture are gone.
   void begin(const cases::Case& scene);
 
-  // In what room there is. `fluoroscope` is what the machine's console asks for; other cases do not touch it.
-  void draw(Monitor& monitor, const cases::State& state, bool frozen, cases::FluoroscopeInputs& fluoroscope);
+  // In what room there is. What the console asks of the attempt goes into `told`; null: an attempt that is watched,
+  // whose knobs stand as they did and turn nothing but the screen.
+  void draw(Monitor& monitor, const cases::State& state, bool frozen, const Keys& keys, HandsTold* told);
 
   // Between saying and showing a frame: a picture that has come since is in it, too.
   void take_late(Monitor& monitor);
 
   const ShownPicture& shown() const noexcept { return shown_; }
   const gpu::ScreenPicture& picture() const noexcept { return picture_; }
+  const ConsoleKnobs& knobs() const noexcept { return knobs_; }
+
+  // The guidance's picture, once, where somebody asked to keep it.
+  std::optional<Canvas> take_kept();
+  // Shown at the picture for a moment.
+  void say(std::string note);
 
  private:
-  void draw_picture(const Monitor& monitor, float width, float height);
-  void draw_ultrasound(Monitor& monitor, bool frozen);
-  void draw_fluoroscope(const cases::State& state, cases::FluoroscopeInputs& fluoroscope);
-  void measure(const std::array<float, 2>& at_px);
+  void read_keys(Monitor& monitor, bool frozen, bool watched, const Keys& keys);
+  void draw_picture(const Monitor& monitor, const cases::State& state, float width, float height);
+  void draw_marks(float left, float top, float zoom, float ruler_x);
+  void measure(float left, float top, float zoom);
+  void draw_ultrasound(Monitor& monitor, bool frozen, bool turns);
+  void draw_slices(Monitor& monitor, bool frozen, bool turns);
+  void draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked);
+  void draw_calipers_and_keep(bool calipers);
+  void roll(Monitor& monitor, int notches, bool frozen, bool watched);  // the wheel over the picture
+  void tell(Monitor& monitor) const;                                    // what acts on the screen
+  void keep();
+  float console_height(const cases::FluoroscopeInputs& asked) const;
 
   gpu::ScreenPicture picture_;
   ShownPicture shown_;
   cases::Picture kind_;
-  imaging::UltrasoundKnobs knobs_;
-  std::vector<std::array<float, 2>> calipers_px_;  // of the picture; pairs
-  bool measuring_ = false;
+  cases::Fluoroscope machine_;
+  cases::FluoroscopyState machine_state_;
+  ConsoleKnobs knobs_;
+  Calipers calipers_;
+  bool measuring_ = false, frozen_ = false;
+  int notches_ = 0;  // of the wheel, over the picture, in this frame
+  double dose_from_s_ = 0.0, dose_from_mgy_ = 0.0, dose_mgy_min_ = 0.0;  // lately
+  std::optional<Canvas> kept_;
+  std::string note_;
+  double note_until_s_ = 0.0;
 };
 
 }  // namespace seldinger::app

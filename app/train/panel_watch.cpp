@@ -84,8 +84,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::EndChild();
     ImGui::SameLine();
     begin_picture("guidance", 0.0F, all.y - below - 8.0F);
-    cases::FluoroscopeInputs nobody_asks;
-    monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, nobody_asks);
+    monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, keys, nullptr);
     ImGui::EndChild();
     draw_course(trainer, keys);
   }

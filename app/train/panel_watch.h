@@ -15,6 +15,7 @@ class WatchPanel {
   WatchPanel(gpu::Context& context, Speaker& speaker) : speaker_(speaker), room_(context), monitor_(context) {}
 
   void draw(Trainer& trainer, const Keys& keys);
+  MonitorPanel& guidance() noexcept { return monitor_; }
   void end() noexcept {
     room_.end();
     shown_.clear();

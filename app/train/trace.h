@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/base/result.h"
+#include "sim/case/console.h"
 
 namespace seldinger::app {
 
@@ -23,6 +24,8 @@ struct TraceLine {
   std::string held;  // "needle" or "probe"; outside an attempt empty, as the rest
   double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
   bool fired = false;
+  cases::ConsoleSetting console{};                   // of the picture that is shown
+  double gain_db = 0.0;                              // of the knob
   glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face
   double heap_mib = 0.0;                             // what the program holds; told outside attempts only
   std::vector<std::string> sounds;                   // that began, heard or not

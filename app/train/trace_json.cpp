@@ -18,6 +18,11 @@ std::string json_of(const TraceLine& line) {
                  {"press_mm", line.press_mm},
                  {"attempt_s", line.attempt_s},
                  {"fired", line.fired},
+                 {"depth_mm", line.console.depth_mm},
+                 {"focus_mm", line.console.focus_mm},
+                 {"frequency_mhz", line.console.frequency_mhz},
+                 {"slice_mm", line.console.slice_mm},
+                 {"gain_db", line.gain_db},
                  {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});
   if (line.heap_mib > 0.0) json["heap_mib"] = line.heap_mib;

@@ -1,0 +1,166 @@
+// The guidance's console in the trainer's window, by keys: what is turned changes the picture and stands in the
+// stored attempt; a new attempt's knobs stand where its console does; the pedal makes pulses that cost dose.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "casedb/store.h"
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/process.h"
+#include "tests/fixtures/trainee.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::run;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+constexpr const char* kPassword = "a password";
+
+class TrainConsoleTest : public testing::Test {
+ protected:
+  // The demo's case by this guidance, and a mentor who may try it as it is.
+  void begin(const std::string& modality) {
+    scratch_ = fixtures::fresh_folder("train_console_" + modality);
+    library_ = (scratch_ / "library").string();
+    const auto made =
+        run(kProgram + " demo --no-serve --modality " + modality + " --library " + library_, scratch_);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    ASSERT_EQ(run(std::string("printf '") + kPassword + "\\n' | " + kProgram +
+                      " user add mona --role mentor --library " + library_,
+                  scratch_)
+                  .exit_code,
+              0);
+    trainee_ = std::make_unique<fixtures::Trainee>(kProgram, library_, scratch_);
+    ASSERT_NO_FATAL_FAILURE(trainee_->log_in("mona", kPassword));
+    ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
+    ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
+  }
+  Json now() const { return trainee_->now(); }
+  void press(const std::string& key, int times = 1) {
+    for (int i = 0; i < times; ++i) trainee_->screen().press(key);
+  }
+  // By key: the guidance's picture alone.
+  fixtures::RgbPicture guidance() {
+    const auto file = scratch_ / ("guidance-" + std::to_string(++guidances_) + ".png");
+    press("t");
+    EXPECT_TRUE(fixtures::until(
+        [&] { return std::filesystem::exists(file) && std::filesystem::file_size(file) > 1000; }, 10.0));
+    return fixtures::read_png(file);
+  }
+  // What the only person's newest attempt recorded, once it is stored.
+  void stored(Json& shown, cases::Recording& recording) {
+    const auto listed =
+        Json::parse(run(kProgram + " attempt list --json --library " + library_, scratch_).out, nullptr, false);
+    std::string id;
+    for (const Json& attempt : listed["attempts"])
+      if (!attempt["synthetic"].get<bool>()) id = attempt["attempt_id"];
+    ASSERT_FALSE(id.empty());
+    shown = Json::parse(run(kProgram + " attempt show " + id + " --json --library " + library_, scratch_).out);
+    const auto verified =
+        Json::parse(run(kProgram + " replay " + id + " --verify --json --library " + library_, scratch_).out);
+    EXPECT_EQ(verified["verified"], true);
+    auto library = casedb::Library::open(library_);
+    ASSERT_TRUE(library.has_value());
+    auto loaded = casedb::load_recording(*library, id);
+    ASSERT_TRUE(loaded.has_value());
+    recording = std::move(*loaded);
+  }
+
+  std::filesystem::path scratch_;
+  std::string library_;
+  std::unique_ptr<fixtures::Trainee> trainee_;
+  int guidances_ = 0;
+};
+
+double mean(const fixtures::RgbPicture& picture) {
+  return std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
+}
+
+TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
+  ASSERT_NO_FATAL_FAILURE(begin("ultrasound"));
+  trainee_->prepare();
+  ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
+  const double own_mm = now().value("depth_mm", 0.0);
+  ASSERT_GT(own_mm, 10.0);
+  const auto before = guidance();
+  press("Down", 4);
+  ASSERT_TRUE(fixtures::until([&] { return now().value("depth_mm", 0.0) > own_mm + 15.0; }, 10.0)) << now();
+  const double deep_mm = now().value("depth_mm", 0.0);
+  const auto deep = guidance();
+  EXPECT_NE(deep.rgb, before.rgb);
+  press("bracketright");
+  press("comma", 2);
+  ASSERT_TRUE(fixtures::until([&] { return now().value("focus_mm", 0.0) > 0.0; }, 10.0)) << now();
+  const Json last = now();
+  ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
+  Json shown;
+  cases::Recording recording;
+  ASSERT_NO_FATAL_FAILURE(stored(shown, recording));
+  EXPECT_EQ(recording.inputs.front().console, cases::ConsoleSetting{}) << "as the case has it";
+  const cases::ConsoleSetting& end = recording.inputs.back().console;
+  EXPECT_DOUBLE_EQ(end.depth_mm, deep_mm);
+  EXPECT_DOUBLE_EQ(end.focus_mm, last["focus_mm"].get<double>());
+  EXPECT_DOUBLE_EQ(end.frequency_mhz, last["frequency_mhz"].get<double>());
+}
+
+// The knobs of the attempt before say nothing of this one's picture.
+TEST_F(TrainConsoleTest, ANewAttemptsKnobsStandWhereItsConsoleDoes) {
+  ASSERT_NO_FATAL_FAILURE(begin("ultrasound"));
+  ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
+  const double own_mm = now().value("depth_mm", 0.0);
+  const double plain = mean(guidance());
+  press("0", 8);
+  press("Up");
+  ASSERT_TRUE(fixtures::until([&] { return now().value("gain_db", 0.0) > 15.0; }, 10.0)) << now();
+  const double bright = mean(guidance());
+  EXPECT_GT(bright, 1.3 * plain);
+  press("F5");
+  ASSERT_TRUE(fixtures::until(
+      [&] { return now().value("screen", "") == "attempt" && now().value("attempt_s", 9.0) < 1.5; }, 30.0));
+  ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
+  EXPECT_EQ(now().value("gain_db", -1.0), 0.0);
+  EXPECT_EQ(now().value("depth_mm", -1.0), own_mm);
+  EXPECT_NEAR(mean(guidance()), plain, 0.5 * (bright - plain)) << "the picture is the knobs'";
+  press("0");  // one step from where it stands, not from where it stood before
+  ASSERT_TRUE(fixtures::until([&] { return now().value("gain_db", 0.0) == 2.0; }, 10.0)) << now();
+}
+
+TEST_F(TrainConsoleTest, ThePedalMakesPulsesAndDoseInTheStoredAttempt) {
+  ASSERT_NO_FATAL_FAILURE(begin("xray"));
+  trainee_->prepare();
+  trainee_->screen().hold("p", 1.5);
+  press("bracketleft", 4);  // both pairs of blades to 0.8
+  press("h");
+  trainee_->screen().hold("p", 1.5);
+  const auto image = guidance();
+  EXPECT_GT(mean(image), 5.0) << "the last image stays";
+  ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
+  Json shown;
+  cases::Recording recording;
+  ASSERT_NO_FATAL_FAILURE(stored(shown, recording));
+  std::size_t pulses = 0, open = 0, collimated = 0;
+  double air_kerma_mgy = 0.0;
+  for (const cases::FrameTruth& frame : recording.frames) {
+    if (!frame.beam) continue;
+    ++pulses;
+    air_kerma_mgy += frame.beam->air_kerma_mgy;
+    open += frame.beam->collimated_share == 0.0 ? 1 : 0;
+    collimated += std::abs(frame.beam->collimated_share - (1.0 - 0.8 * 0.8)) < 1e-6 ? 1 : 0;
+  }
+  EXPECT_GE(open, 4U) << "7.5 a second";
+  EXPECT_GE(collimated, 4U);
+  EXPECT_EQ(pulses, open + collimated);
+  EXPECT_LE(pulses, 60U) << "and none while the pedal is up";
+  EXPECT_GT(air_kerma_mgy, 0.0);
+  EXPECT_NEAR(*fixtures::metric(shown, "air_kerma"), air_kerma_mgy, 1e-6 * air_kerma_mgy);
+  EXPECT_NEAR(*fixtures::metric(shown, "fluoroscopy_time"), static_cast<double>(pulses) / 7.5, 0.01);
+  EXPECT_TRUE(std::any_of(recording.inputs.begin(), recording.inputs.end(),
+                          [](const cases::Inputs& inputs) { return inputs.fluoroscope.hand_away; }));
+}
+
+}  // namespace
+}  // namespace seldinger
