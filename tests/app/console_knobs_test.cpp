@@ -188,7 +188,7 @@ int lit_right_of(const Canvas& canvas, int column, const std::function<bool(int,
 TEST(ConsolePicture, HasItsScaleItsFocusAndItsCalipers) {
   ShownPicture shown = shown_at(100.0);
   Calipers none, two;
-  for (const glm::dvec2 end : {glm::dvec2(-20, 40), glm::dvec2(20, 40)}) two.press(end, 1.0), two.release();
+  for (const glm::dvec2& end : {glm::dvec2(-20, 40), glm::dvec2(20, 40)}) two.press(end, 1.0), two.release();
   const Canvas plain = console_picture(shown, false, none, {"C5-2v"});
   EXPECT_GE(plain.width_px(), 640) << "small pictures are shown larger";
   const auto yellow = [](int red, int green, int blue) { return red > 200 && green > 160 && blue < 120; };

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "sim/case/c_arm.h"
+#include "sim/imaging/room/scan_border.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -15,6 +16,7 @@ const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
 const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F, 0.10F, 0.55F);
 const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
 constexpr double kGuideMm = 150.0, kLineRadiusMm = 0.6, kEntryRadiusMm = 3.0;
+constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
 
 glm::dmat4 pose(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin) {
   return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(origin, 1.0));
@@ -185,8 +187,7 @@ class Maker {
   }
 
   void help() {
-    if (options_.help >= 1 && options_.probe)
-      overlay(RoomPart::scan_plane, room_.scan_plane, probe_pose(), kPlaneLine);
+    if (options_.help >= 1 && options_.probe) scan_plane();
     if (options_.help >= 2) {
       if (scene_.planned_entry_lps_mm)
         overlay(RoomPart::planned_entry, room_.ball, ball_pose(*scene_.planned_entry_lps_mm, kEntryRadiusMm),
@@ -219,6 +220,15 @@ class Maker {
     item.shadowed = false;
     item.over_all = true;
     add(item);
+  }
+  void scan_plane() {
+    const cases::ConsoleSetting& console = state_.probe.console;
+    if (room_.scan_plane == kNoMesh || console == cases::ConsoleSetting{})
+      return overlay(RoomPart::scan_plane, room_.scan_plane, probe_pose(), kPlaneLine);
+    const std::vector<glm::dvec3> border = scan_border(scene_.picture, console, kTurnedPieces);
+    const auto place = [pose = probe_pose()](const glm::dvec3& p) { return glm::dvec3(pose * glm::dvec4(p, 1.0)); };
+    for (std::size_t i = 0; i + 1 < border.size(); ++i)
+      line(RoomPart::scan_plane, place(border[i]), place(border[i + 1]), kPlaneLine);
   }
   void line(RoomPart part, const glm::dvec3& from, const glm::dvec3& to, const glm::vec4& colour) {
     const double length_mm = glm::distance(from, to);

@@ -10,6 +10,7 @@
 #include "sim/imaging/room/c_arm_forms.h"
 #include "sim/imaging/room/field_surface.h"
 #include "sim/imaging/room/patient_forms.h"
+#include "sim/imaging/room/scan_border.h"
 #include "sim/imaging/room/tool_forms.h"
 
 namespace seldinger::imaging {
@@ -107,25 +108,9 @@ RoomMesh bone_of(const cases::Case& scene) {
   return field_surface(field, kBoneHu);
 }
 
-// The picture's border in the probe's frame: x lateral, z axial.
-RoomMesh scan_plane_of(const cases::Picture& picture, const Probe* probe) {
-  std::vector<glm::dvec3> border;
-  const double depth_mm = picture.depth_mm;
-  if (picture.modality == cases::Modality::ultrasound && probe != nullptr && probe->radius_mm > 0.0) {
-    const double half = 0.5 * probe->elements * probe->pitch_mm / probe->radius_mm;
-    const auto at = [&](double angle, double depth) {
-      const double r = probe->radius_mm + depth;
-      return glm::dvec3(r * std::sin(angle), 0.0, r * std::cos(angle) - probe->radius_mm);
-    };
-    constexpr int kSteps = 24;
-    for (int i = 0; i <= kSteps; ++i) border.push_back(at(half * (2.0 * i / kSteps - 1.0), depth_mm));
-    for (int i = 0; i <= kSteps; ++i) border.push_back(at(half * (1.0 - 2.0 * i / kSteps), 0.0));
-  } else {
-    const bool of_probe = picture.modality == cases::Modality::ultrasound && probe != nullptr;
-    const double half = 0.5 * (of_probe ? probe->elements * probe->pitch_mm : picture.width_mm);
-    border = {{-half, 0.0, depth_mm}, {half, 0.0, depth_mm}, {half, 0.0, 0.0}, {-half, 0.0, 0.0}};
-  }
-  border.push_back(border.front());
+RoomMesh scan_plane_of(const cases::Picture& picture) {
+  constexpr int kPieces = 24;
+  const std::vector<glm::dvec3> border = scan_border(picture, {}, kPieces);
   // Pieces by themselves: a swept tube would flatten at sharp corners.
   RoomMesh mesh;
   for (std::size_t i = 0; i + 1 < border.size(); ++i)
@@ -193,7 +178,7 @@ RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish) {
   if (scene.picture.modality != cases::Modality::xray) {
     const Probe* probe = probe_named(scene.picture.probe);
     room.probe = add(probe_form(probe != nullptr ? *probe : kC52v));
-    room.scan_plane = add(scan_plane_of(scene.picture, probe));
+    room.scan_plane = add(scan_plane_of(scene.picture));
   } else {
     room.c_arm_tube = add(c_arm_tube_form(scene.fluoroscope));
     room.c_arm_detector = add(c_arm_detector_form(scene.fluoroscope));

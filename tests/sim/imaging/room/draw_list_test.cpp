@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "sim/imaging/room/scan_border.h"
+#include "sim/imaging/ultrasound/probe.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/sim/imaging/room/room_fixture.h"
 
@@ -61,6 +63,35 @@ TEST(DrawList, HelpGrowsByLevels) {
         EXPECT_LT(find(list, part)->colour.a, 1.0F);
       }
   }
+}
+
+// The outline in the room is that of the picture as its console stands.
+TEST(DrawList, TheScanPlaneFollowsTheConsole) {
+  for (const char* probe : {"L11-5v", "C5-2v"}) {
+    cases::Case scene = ball_case();
+    scene.picture.modality = cases::Modality::ultrasound;
+    scene.picture.probe = probe;
+    scene.picture.depth_mm = 50.0;
+    RoomOptions options;
+    options.help = 1;
+    cases::State state = ball_state();
+    const auto deepest_mm = [&] {
+      double deepest = 0.0;
+      for (const RoomItem& item : list_of(scene, state, options).items)
+        if (item.part == RoomPart::scan_plane)
+          for (const glm::dvec3& end : {placed(item, {0, 0, 0}), placed(item, {0, 0, 1})})
+            deepest = std::max(deepest, glm::dot(end - state.probe.origin_lps_mm, state.probe.axial));
+      return deepest;
+    };
+    state.probe.console.depth_mm = 90.0;
+    EXPECT_NEAR(deepest_mm(), 90.0, 0.01) << probe;
+    state.probe.console.depth_mm = 1e6;
+    EXPECT_NEAR(deepest_mm(), probe_named(probe)->most_depth_mm, 0.01) << probe;
+  }
+  // A slice beside the probe's plane lies there.
+  cases::Picture slices;
+  for (const glm::dvec3& corner : scan_border(slices, {0.0, 0.0, 0.0, -12.0}, 1)) EXPECT_EQ(corner.y, -12.0);
+  for (const glm::dvec3& corner : scan_border(slices, {}, 1)) EXPECT_EQ(corner.y, 0.0);
 }
 
 TEST(DrawList, LooksInsideForAMentorOnly) {
