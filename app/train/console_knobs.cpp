@@ -30,8 +30,8 @@ void ConsoleKnobs::begin(const cases::Picture& picture) {
   presets_.clear();
   if (picture.modality == cases::Modality::ultrasound) {
     const imaging::UltrasoundView own = console_view(picture, {});
-    presets_.push_back({"as the case", own.probe, own.depth_mm, own.focus_mm,
-                        imaging::UltrasoundKnobs{}.dynamic_range_db, own.frequency_mhz});
+    presets_.push_back({"case", own.probe, own.depth_mm, own.focus_mm, imaging::UltrasoundKnobs{}.dynamic_range_db,
+                        own.frequency_mhz});
     for (const imaging::ConsolePreset& preset : imaging::console_presets())
       if (preset.probe.name == own.probe.name) presets_.push_back(preset);
   }

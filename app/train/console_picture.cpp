@@ -65,7 +65,10 @@ Canvas console_picture(const ShownPicture& shown, bool flip, const Calipers& cal
       const glm::dvec2 end = place(ends[i]);
       canvas.line({end.x - 6.0, end.y}, {end.x + 6.0, end.y}, 1.5, kMeasured);
       canvas.line({end.x, end.y - 6.0}, {end.x, end.y + 6.0}, 1.5, kMeasured);
-      if (i % 2 == 1) canvas.line(place(ends[i - 1]), end, 1.0, kMeasured);
+      if (i % 2 == 0) continue;
+      canvas.line(place(ends[i - 1]), end, 1.0, kMeasured);
+      const char name = static_cast<char>('A' + i / 2);
+      canvas.text(static_cast<int>(end.x) + 9, static_cast<int>(end.y) - 18, kTextScale, {&name, 1}, kMeasured);
     }
   }
   int top = at.top + at.height + kMarginPx;
