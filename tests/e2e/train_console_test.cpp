@@ -94,7 +94,9 @@ TEST_F(TrainConsoleTest, DepthAndFrequencyAreTheTraineesAndStandInTheAttempt) {
   EXPECT_NE(deep.rgb, before.rgb);
   press("bracketright");
   press("comma", 2);
-  ASSERT_TRUE(fixtures::until([&] { return now().value("focus_mm", 0.0) > 0.0; }, 10.0)) << now();
+  ASSERT_TRUE(fixtures::until(  // 3.57, to 3.5, to 3
+      [&] { return now().value("focus_mm", 0.0) > 0.0 && now().value("frequency_mhz", 9.0) == 3.0; }, 10.0))
+      << now();
   const Json last = now();
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   Json shown;
