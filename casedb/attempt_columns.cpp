@@ -102,7 +102,7 @@ base::Result<void> check_head(Sqlite& database, const AttemptHead& head) {
     Statement begun = question(database, "attempts_begun");
     CHECK(begun.bind("case_id", head.case_id).bind("person_id", *head.person_id).step());
     if (!begun.is_null("attempt_limit") && begun.integer("begun") >= begun.integer("attempt_limit"))
-      return base::Error{"no_attempts_left", "as many attempts as the case allows have been made"};
+      return base::Error{"no_attempts_left", "as many attempts as case or curriculum allow have been made"};
   }
   return {};
 }

@@ -153,6 +153,30 @@ TEST_F(CurriculumTest, TellsHowFarSomebodyIs) {
   EXPECT_EQ(states_of(library_, find_curriculum(library_, id).value())[0].title, "Kidney A");
 }
 
+TEST_F(CurriculumTest, AnItemsOwnLimitStandsInPlaceOfTheCases) {
+  const std::string tight = published(4);
+  std::string id = new_curriculum();
+  static_cast<void>(add_curriculum_item(library_, id, tight, 2, {}, "Mia").value());
+  done(true);
+  done(false);
+  done(true);  // a draft binds nobody
+  ASSERT_EQ(code(publish_curriculum(library_, id, "Dan")), "none");
+  EXPECT_EQ(code(add_attempt(library_, new_attempt(person_, 1.0, 20.0))), "no_attempts_left");
+  EXPECT_EQ(code(open_attempt(library_, new_attempt(person_, 1.0, 20.0))), "no_attempts_left");
+  // Of two curricula the more generous counts, here the one that leaves it to the case: four.
+  id = new_curriculum();
+  static_cast<void>(add_curriculum_item(library_, id, tight, {}, {}, "Mia").value());
+  ASSERT_EQ(code(publish_curriculum(library_, id, "Dan")), "none");
+  done(true);
+  EXPECT_EQ(code(add_attempt(library_, new_attempt(person_, 1.0, 20.0))), "no_attempts_left");
+  // An item without end, on a case without: nobody is stopped.
+  const std::string endless = published();
+  id = new_curriculum();
+  static_cast<void>(add_curriculum_item(library_, id, endless, {}, {}, "Mia").value());
+  ASSERT_EQ(code(publish_curriculum(library_, id, "Dan")), "none");
+  for (int i = 0; i < 5; ++i) done(false);
+}
+
 TEST_F(CurriculumTest, PassesCarryOverToANewVersionAndUsedUpAttemptsDoNot) {
   const std::string first = published(3);
   const std::string id = new_curriculum();
