@@ -74,7 +74,7 @@ devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& 
 void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
                             double elapsed_s) {
   constexpr double kViewS = 0.6;
-  if (view_) {
+  if (view_ && (begun_ || state.tick > 0)) {  // before a tick nobody knows where the tools are
     room.from = room.camera;
     room.to = imaging::room_camera(room.scene, scene, state, *view_);
     room.on_way = begun_ ? 0.0 : 1.0;
@@ -113,7 +113,7 @@ void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& ke
 void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
                       const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
   const Pointer before = std::exchange(pointer_, pointer);
-  if (!room_) return;
+  if (!room_ || !begun_) return;
   devices::MouseEvents events;
   events.elapsed_s = elapsed_s;
   events.actions = held_actions(keys);
@@ -136,7 +136,7 @@ void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer
 }
 
 void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
-  if (!room_) return;
+  if (!room_ || !begun_) return;
   imaging::RoomPicture picture;
   const float share = context_.software() ? kSoftwareShare : 1.0F;
   picture.width_px = std::max(16, static_cast<int>(share * size_px_[0]));

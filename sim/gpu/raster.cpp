@@ -12,8 +12,8 @@
 namespace seldinger::gpu {
 namespace {
 
-constexpr GLenum kSwitches[] = {GL_DEPTH_TEST,   GL_CULL_FACE,           GL_BLEND,
-                                GL_SCISSOR_TEST, GL_POLYGON_OFFSET_FILL, GL_CLIP_DISTANCE0};
+constexpr GLenum kSwitches[] = {GL_DEPTH_TEST,          GL_CULL_FACE,      GL_BLEND,      GL_SCISSOR_TEST,
+                                GL_POLYGON_OFFSET_FILL, GL_CLIP_DISTANCE0, GL_DEPTH_CLAMP};
 
 void turn(GLenum what, bool on) {
   if (on)
@@ -282,6 +282,10 @@ void Raster::depth_offset(float by_slope, float constant) {
 
 void Raster::clip(bool on) {
   turn(GL_CLIP_DISTANCE0, on);
+}
+
+void Raster::clamp_depth(bool on) {
+  turn(GL_DEPTH_CLAMP, on);
 }
 
 void Raster::finish() const {

@@ -86,13 +86,14 @@ class Raster {
   void both_sides(bool on);  // also triangles seen from behind
   void depth_offset(float by_slope, float constant);  // pushes back what is drawn (0, 0: not)
   void clip(bool on);                                 // gl_ClipDistance[0]
+  void clamp_depth(bool on);                          // what lies before the near plane is drawn on it
   void finish() const;                                // waits for everything
   void check(const char* doing) const;                // throws base::Failure("gl") on any pending GL error
 
  private:
   std::shared_ptr<Handles> handles_;
   int frame_ = 0, program_ = 0, array_ = 0, viewport_[4] = {0, 0, 0, 0}, active_unit_ = 0;
-  std::array<bool, 6> enabled_{};
+  std::array<bool, 7> enabled_{};
 };
 
 }  // namespace seldinger::gpu

@@ -15,6 +15,7 @@ constexpr double kBeyondMm = 330.0;  // over the table
 constexpr double kStepMm = 8.0, kClothMm = 2.5;
 constexpr double kAsideMm = 252.0;     // from the middle of the table, to before its sides
 constexpr double kFallsMmPerMm = 5.0;  // cloth does not hang steeper
+constexpr double kHemMm = 60.0;
 constexpr double kLeastCutMm2 = 900.0;
 
 // Heights above the table along `across`, mm; 0 where no body is.
@@ -66,9 +67,14 @@ RoomMesh drape_over(const cases::Mesh& skin, const RoomFrame& f, double end) {
   if (cut_mm2 < kLeastCutMm2) return mesh;
   spread(edge);
 
-  const auto rows = static_cast<std::size_t>((kOverMm + kBeyondMm) / kStepMm) + 1;
+  // Its hem hangs down onto the skin: where that falls off, nobody looks in under the cloth.
+  for (std::size_t i = 0; i < columns; ++i)
+    mesh.add(f.lps(first_mm + kStepMm * static_cast<double>(i), at_mm - end * (kOverMm - 1.0),
+                   f.table_mm + kClothMm + std::max(0.0, edge[i] - kHemMm)),
+             f.up);
+  const auto rows = static_cast<std::size_t>((kOverMm + kBeyondMm) / kStepMm) + 2;
   Profile heights = edge;
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t row = 0; row + 1 < rows; ++row) {
     const double out_mm = -kOverMm + kStepMm * static_cast<double>(row);
     if (out_mm > 0.0) {
       // Further out the body is guessed: smoother, a little lower.

@@ -128,6 +128,7 @@ class Maker {
     tube.mesh = room_.c_arm_tube;
     tube.lps_from_mesh = pose(beam.u, -beam.v, beam.direction, arm.isocentre_lps_mm);
     tube.roughness = 0.5F;
+    tube.casts = Casts::still;
     add(tube);
     RoomItem detector = tube;
     detector.part = RoomPart::detector;

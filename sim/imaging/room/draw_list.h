@@ -36,7 +36,7 @@ enum class RoomPart : std::uint8_t {
   detector
 };
 
-// Which light map a thing casts into.
+// Which light map a thing casts into: that of what seldom moves, or that around the tools, drawn each time.
 enum class Casts : std::uint8_t { nothing, still, tools };
 
 struct RoomItem {

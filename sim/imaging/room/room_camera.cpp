@@ -24,6 +24,53 @@ glm::dmat3 axes_of(const RoomCamera& camera) {
   return {right, glm::cross(back, right), back};
 }
 
+// Möller and Trumbore, J. Graphics Tools 2 (1997) 21: whether the way from `from` to `to` goes through a triangle.
+bool crosses(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& a, const glm::dvec3& b,
+             const glm::dvec3& c) {
+  const glm::dvec3 way = to - from, u = b - a, v = c - a, p = glm::cross(way, v);
+  const double det = glm::dot(u, p);
+  if (det == 0.0) return false;
+  const glm::dvec3 s = (from - a) / det, q = glm::cross(s, u);
+  const double share_u = glm::dot(s, p), share_v = glm::dot(way, q), at = glm::dot(v, q);
+  return share_u >= 0.0 && share_v >= 0.0 && share_u + share_v <= 1.0 && at > 0.0 && at < 1.0;
+}
+
+// How many of these places the probe hides from the eye.
+int behind_probe(const RoomMesh& form, const cases::ProbeState& probe, const glm::dvec3& eye,
+                 std::span<const glm::dvec3> places) {
+  const glm::dmat3 lps_from_probe(probe.lateral, glm::cross(probe.axial, probe.lateral), probe.axial);
+  const auto here = [&](const glm::dvec3& p) { return glm::transpose(lps_from_probe) * (p - probe.origin_lps_mm); };
+  const glm::dvec3 from = here(eye);
+  int hidden = 0;
+  for (const glm::dvec3& place : places)
+    hidden += std::any_of(form.triangles.begin(), form.triangles.end(),
+                          [&, to = here(place)](const glm::uvec3& t) {
+                            return crosses(from, to, glm::dvec3(form.vertices[t.x].place_mm),
+                                           glm::dvec3(form.vertices[t.y].place_mm),
+                                           glm::dvec3(form.vertices[t.z].place_mm));
+                          })
+                  ? 1
+                  : 0;
+  return hidden;
+}
+
+// About the target to where the probe hides least of the needle, by no more than is needed.
+void look_past_probe(RoomCamera& camera, const RoomScene& room, const cases::ProbeState& probe,
+                     std::span<const glm::dvec3> places) {
+  const RoomCamera asked = camera;
+  int least = behind_probe(room.meshes[room.probe], probe, camera.eye_lps_mm, places);
+  for (const double up_deg : {0.0, 15.0})
+    for (const double right_deg : {15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0}) {
+      if (least == 0) return;
+      RoomCamera turned = asked;
+      orbit(turned, room.frame, right_deg, up_deg);
+      const int hidden = behind_probe(room.meshes[room.probe], probe, turned.eye_lps_mm, places);
+      if (hidden >= least) continue;
+      least = hidden;
+      camera = turned;
+    }
+}
+
 }  // namespace
 
 std::optional<RoomView> room_view_named(std::string_view name) noexcept {
@@ -40,24 +87,27 @@ RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const ca
   glm::dvec3 site = scene.planned_entry_lps_mm ? *scene.planned_entry_lps_mm : tip;
   if (state.needle.skin.in_body) site = state.needle.skin.entry_lps_mm;
   const double side = operator_side(f, scene);
-  camera.target_lps_mm = site;
+  const glm::dvec3 hub = tip - needle * (scene.instrument.length_mm + 30.0);
+  // Between the way in and the hand, nearer to what the hand works at.
+  const bool at_work = view == RoomView::operator_side || view == RoomView::head_end || view == RoomView::foot_end;
+  camera.target_lps_mm = at_work ? glm::mix(site, hub, 0.3) : site;
   const auto from = [&](double across, double head, double up, double distance_mm) {
     camera.eye_lps_mm =
         camera.target_lps_mm + distance_mm * glm::normalize(f.across * across + f.head * head + f.up * up);
   };
   switch (view) {
     case RoomView::operator_side:
-      from(side, -0.25, 0.75, 850.0);
+      from(side, -0.25, 0.75, 560.0);
       break;
     case RoomView::head_end:
-      from(0.15 * side, 1.0, 0.7, 900.0);
+      from(0.15 * side, 1.0, 0.7, 620.0);
       break;
     case RoomView::foot_end:
-      from(0.15 * side, -1.0, 0.7, 900.0);
+      from(0.15 * side, -1.0, 0.7, 620.0);
       break;
     case RoomView::top:
       camera.up = f.head;
-      from(0.0, 0.0, 1.0, 900.0);
+      from(0.0, 0.0, 1.0, 650.0);
       break;
     case RoomView::over_needle:
       from(0.45 * side, -0.2, 0.9, 420.0);
@@ -72,8 +122,15 @@ RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const ca
   }
   const glm::dvec3 back = camera.eye_lps_mm - camera.target_lps_mm;
   if (glm::length(glm::cross(camera.up, back)) < 0.05 * glm::length(back)) camera.up = f.head;
-  const glm::dvec3 in_view[] = {site, tip - needle * (scene.instrument.length_mm + 30.0)};
+  const glm::dvec3 in_view[] = {site, hub};
   stay_clear(camera, f, scene.skin_index, in_view, 1.0);
+  const double length_mm = scene.instrument.length_mm;
+  const glm::dvec3 seen[] = {site, tip - 0.02 * length_mm * needle, tip - 0.2 * length_mm * needle,
+                             tip - 0.5 * length_mm * needle};
+  if (room.probe != kNoMesh && (at_work || view == RoomView::over_needle)) {
+    look_past_probe(camera, room, state.probe, seen);
+    stay_clear(camera, f, scene.skin_index, in_view, 1.0);
+  }
   return camera;
 }
 

@@ -29,7 +29,8 @@ struct RoomCamera {
   double eye_separation_mm = 63.0;  // of a pair: people's mean
 };
 
-// A preset. `state` tells where needle and probe are; needle hub and way in are in view (stay_clear).
+// A preset. `state` tells where needle and probe are; needle hub and way in are in view (stay_clear), and the probe
+// is not before them where another look from near by helps.
 RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const cases::State& state, RoomView view);
 
 // So that it does not stand in the way of its own sight: back from the target until the eye is outside the skin by

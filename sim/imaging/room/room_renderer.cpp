@@ -104,6 +104,8 @@ struct RoomRenderer::Parts {
   void draw_item(const RoomItem& item, std::size_t at, gpu::RasterProgram& still, gpu::RasterProgram* displaced);
   void draw_casters(const DrawList& list, gpu::Raster& raster, Casts casts);
   std::optional<Ball> tools_ball(const DrawList& list) const;
+  bool still_casters_moved(const DrawList& list) const;
+  void note_still_places(const DrawList& list);
   void upload(const DrawList& list, const RoomPicture& asked);
 
   gpu::Context& context;
@@ -132,7 +134,8 @@ struct RoomRenderer::Parts {
   bool moving = false;  // in this picture
   bool still_map_is_right = false;
   tissue::Displacement still_displacement{};  // that it shows
-  int still_age = 0;                          // pictures of another displacement since
+  std::vector<glm::dmat4> still_places;       // of what is drawn into it
+  int still_age = 0;                          // pictures of another displacement or place since
   int uploads = 0, still_draws = 0;
 };
 
@@ -197,6 +200,21 @@ void RoomRenderer::Parts::draw_casters(const DrawList& list, gpu::Raster& raster
   raster.both_sides(false);
 }
 
+// Since the map was drawn: a C-arm does, now and then.
+bool RoomRenderer::Parts::still_casters_moved(const DrawList& list) const {
+  std::size_t at = 0;
+  for (const RoomItem& item : list.items)
+    if (item.casts == Casts::still && (at == still_places.size() || still_places[at++] != item.lps_from_mesh))
+      return true;
+  return at != still_places.size();
+}
+
+void RoomRenderer::Parts::note_still_places(const DrawList& list) {
+  still_places.clear();
+  for (const RoomItem& item : list.items)
+    if (item.casts == Casts::still) still_places.push_back(item.lps_from_mesh);
+}
+
 std::optional<Ball> RoomRenderer::Parts::tools_ball(const DrawList& list) const {
   glm::dvec3 low(std::numeric_limits<double>::max()), high = -low;
   for (const RoomItem& item : list.items) {
@@ -239,8 +257,9 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
     ++p.uploads;
   }
   if (p.moving != moved_before) p.still_map_is_right = false;
-  if (p.moving && std::memcmp(&p.still_displacement, &displacement, sizeof displacement) != 0 &&
-      ++p.still_age > asked.quality.still_shadow_age)
+  const bool displaced_since =
+      p.moving && std::memcmp(&p.still_displacement, &displacement, sizeof displacement) != 0;
+  if ((displaced_since || p.still_casters_moved(list)) && ++p.still_age > asked.quality.still_shadow_age)
     p.still_map_is_right = false;
 
   // Everything that is told to the shaders goes up at once: writing between two drawings would make GL wait.
@@ -250,10 +269,13 @@ unsigned int RoomRenderer::draw(const DrawList& list, const RoomPicture& asked,
     p.views.bind_part(kViewBinding, 0, sizeof(shaders::RoomView));
     p.still_map->begin();
     raster.depth_offset(2.0F, 4.0F);
+    raster.clamp_depth(true);  // a detector is nearer to the light than what the map is about
     p.draw_casters(list, raster, Casts::still);
+    raster.clamp_depth(false);
     p.still_map_is_right = true;
     p.still_displacement = p.moving ? displacement : tissue::Displacement{};
     p.still_age = 0;
+    p.note_still_places(list);
     ++p.still_draws;
   }
   p.views.bind_part(kViewBinding, kViewStride, sizeof(shaders::RoomView));

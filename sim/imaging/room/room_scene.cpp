@@ -155,9 +155,11 @@ double operator_side(const RoomFrame& frame, const cases::Case& scene) noexcept 
 RoomScene make_room_scene(const cases::Case& scene, const RoomWish& wish) {
   RoomScene room;
   room.frame = room_frame_of(scene);
-  // From the head, so that shadows fall beside the tools and not behind them.
+  // From the head, so that shadows fall beside the tools and not behind them; lower where a detector hangs over the
+  // patient, so that its shadow falls beside them too.
   const double side = operator_side(room.frame, scene);
-  room.key_light = glm::normalize(room.frame.up + 0.45 * room.frame.head + 0.25 * side * room.frame.across);
+  const double low = scene.picture.modality == cases::Modality::xray ? 1.75 : 1.0;
+  room.key_light = glm::normalize(room.frame.up + low * (0.45 * room.frame.head + 0.25 * side * room.frame.across));
   const auto add = [&](RoomMesh mesh) {
     if (mesh.triangles.empty()) return kNoMesh;
     room.meshes.push_back(std::move(mesh));

@@ -93,6 +93,44 @@ TEST(RoomCamera, PresetsSeeHubAndEntryFromOutsideHoweverThePatientLies) {
   }
 }
 
+// How near the line of sight to a place comes to the axis of the probe's case.
+double past_probe_mm(const glm::dvec3& eye, const glm::dvec3& place, const cases::ProbeState& probe) {
+  double nearest_mm = 1e9;
+  for (int i = 0; i <= 400; ++i)
+    for (int j = 0; j <= 30; ++j)
+      nearest_mm = std::min(
+          nearest_mm, glm::distance(glm::mix(eye, place, i / 400.0), probe.origin_lps_mm - 5.0 * j * probe.axial));
+  return nearest_mm;
+}
+
+TEST(RoomCamera, PresetsLookPastTheProbeAtTheNeedle) {
+  cases::Case scene = ball_case();
+  const RoomScene room = make_room_scene(scene);
+  const RoomFrame& f = room.frame;
+  cases::State state = ball_state();
+  state.needle.tip_lps_mm = *scene.planned_entry_lps_mm + 2.0 * f.up;
+  state.needle.direction = -f.up;
+  state.probe.axial = -f.up;
+  state.probe.lateral = f.head;
+  for (const RoomView view : {RoomView::operator_side, RoomView::over_needle}) {
+    SCOPED_TRACE(kRoomViewNames[static_cast<std::size_t>(view)]);
+    state.probe.origin_lps_mm = *scene.planned_entry_lps_mm + 200.0 * f.head;  // out of the way
+    const RoomCamera free = room_camera(room, scene, state, view);
+    const glm::dvec3 middle = state.needle.tip_lps_mm + 0.2 * scene.instrument.length_mm * f.up;
+    const glm::dvec3 towards = free.eye_lps_mm - *scene.planned_entry_lps_mm;
+    const glm::dvec3 flat = glm::normalize(towards - glm::dot(towards, f.up) * f.up);
+    state.probe.origin_lps_mm = *scene.planned_entry_lps_mm + 30.0 * flat;  // between
+    ASSERT_LT(past_probe_mm(free.eye_lps_mm, middle, state.probe), 8.0);
+    const RoomCamera camera = room_camera(room, scene, state, view);
+    for (const glm::dvec3& place : {state.needle.tip_lps_mm, middle})
+      EXPECT_GT(past_probe_mm(camera.eye_lps_mm, place, state.probe), 10.0);
+    EXPECT_GT(glm::dot(glm::normalize(camera.eye_lps_mm - camera.target_lps_mm),
+                       glm::normalize(free.eye_lps_mm - free.target_lps_mm)),
+              0.4)
+        << "from near by";
+  }
+}
+
 TEST(RoomCamera, StaysOutOfTheSkinAndAboveTheFloor) {
   const cases::Case scene = ball_case();
   const RoomScene room = make_room_scene(scene);

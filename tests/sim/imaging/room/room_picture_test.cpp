@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "sim/imaging/room/room_renderer.h"
+#include "tests/fixtures/failure_picture.h"
 #include "tests/sim/imaging/room/room_fixture.h"
 
 namespace seldinger::imaging {
@@ -28,8 +29,10 @@ class RoomPictures : public ::testing::Test {
   std::vector<std::uint8_t> draw(RoomRenderer& renderer, const RoomScene& room) {
     make_draw_list(room, scene, state, options, list);
     renderer.draw(list, asked);
-    return renderer.read_rgba();
+    last = {renderer.read_rgba(), asked.width_px, asked.height_px};
+    return last.rgba;
   }
+  void TearDown() override { fixtures::keep_if_failed(last.rgba, last.width_px, last.height_px); }
 
   gpu::Context context;
   cases::Case scene = ball_case();
@@ -37,6 +40,10 @@ class RoomPictures : public ::testing::Test {
   RoomOptions options;
   DrawList list;
   RoomPicture asked;
+  struct {
+    std::vector<std::uint8_t> rgba;
+    int width_px = 0, height_px = 0;
+  } last;
 };
 
 TEST_F(RoomPictures, TheSkinIsWhereItsOutlineIsProjected) {
@@ -132,6 +139,67 @@ TEST_F(RoomPictures, TheShadowMeetsTheTipWhereTheNeedleTouches) {
         EXPECT_GT(expected_px, 25.0);
       }
     }
+  }
+}
+
+// Where light past the middle of the detector's face meets the ball it is dark, also where the detector is nearer
+// to the lamp than the map about the patient; and the map is drawn again only while the arm moves.
+TEST_F(RoomPictures, ADetectorCastsItsShadowWhereverTheArmStands) {
+  scene = ball_case(cases::Modality::xray);
+  options.needle = false;
+  state.fluoroscopy.in_use = true;
+  const RoomScene room = make_room_scene(scene);
+  RoomRenderer renderer(context, room);
+  asked.width_px = asked.height_px = 300;
+  asked.quality = kFastRoom;
+  asked.quality.still_shadow_age = 0;
+  const glm::dvec3 light = renderer.key_light();
+  asked.camera.target_lps_mm = {0.0, 0.0, 0.0};
+  asked.camera.up = room.frame.up;
+  int draws = 0;
+  for (const double sid_mm : {1000.0, 1150.0}) {
+    SCOPED_TRACE(sid_mm);
+    state.fluoroscopy.arm.sid_mm = sid_mm;
+    // So that light past the detector comes to the ball.
+    const double above_mm = sid_mm - scene.fluoroscope.source_isocentre_mm;
+    state.fluoroscopy.arm.isocentre_lps_mm = above_mm * (light / glm::dot(light, room.frame.up) - room.frame.up);
+    // A corner of the detector's face in whose shadow the ball lies.
+    make_draw_list(room, scene, state, options, list);
+    const auto detector = std::find_if(list.items.begin(), list.items.end(),
+                                       [](const RoomItem& item) { return item.part == RoomPart::detector; });
+    ASSERT_NE(detector, list.items.end());
+    EXPECT_EQ(detector->casts, Casts::still);
+    double dark_mm = 1e9;
+    glm::dvec3 shadow(0.0);
+    const double half_mm = 0.5 * scene.fluoroscope.detector_side_mm;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j) {
+        const glm::dvec3 edge(detector->lps_from_mesh * glm::dvec4(0.2 * half_mm * i, 0.2 * half_mm * j, 0.0, 1.0));
+        const double b = glm::dot(edge, light), c = glm::dot(edge, edge) - kBallMm * kBallMm;
+        if (b * b - c <= 0.0) continue;
+        const glm::dvec3 at = edge - light * (b - std::sqrt(b * b - c));
+        const double off_mm = glm::distance(at, kBallMm * glm::normalize(room.frame.up - 0.4 * room.frame.head));
+        if (off_mm < dark_mm) shadow = at;
+        dark_mm = std::min(dark_mm, off_mm);
+      }
+    ASSERT_LT(dark_mm, 100.0);
+    // From where the shadow is, and the detector is not between.
+    asked.camera.eye_lps_mm = 6.0 * shadow - 500.0 * room.frame.head;
+    const auto with = draw(renderer, room);
+    EXPECT_EQ(renderer.still_shadow_draws(), ++draws);
+    static_cast<void>(draw(renderer, room));
+    EXPECT_EQ(renderer.still_shadow_draws(), draws) << "it stands";
+    for (RoomItem& item : list.items)
+      if (item.part == RoomPart::detector || item.part == RoomPart::tube) item.casts = Casts::nothing;
+    RoomRenderer other(context, room);
+    other.draw(list, asked);
+    const auto without = other.read_rgba();
+    const RoomProjection projection = projection_of(asked.camera, 0, 1.0);
+    const glm::dvec2 px = *pixel_of(projection, shadow, asked.width_px, asked.height_px);
+    const Rgb dark = at(with, static_cast<int>(px.x), static_cast<int>(px.y));
+    const Rgb lit = at(without, static_cast<int>(px.x), static_cast<int>(px.y));
+    EXPECT_TRUE(is_skin(lit));
+    EXPECT_LT(3 * dark.r, 2 * lit.r) << dark.r << " of " << lit.r;
   }
 }
 
