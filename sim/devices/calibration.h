@@ -4,6 +4,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -40,6 +41,15 @@ struct Placement {
     return scale * (rotation * device_mm) + translation_mm;
   }
 };
+
+// The way back. Its scale is not 0.
+inline Placement inverse_of(const Placement& placement) noexcept {
+  Placement inverse;
+  inverse.rotation = glm::transpose(placement.rotation);
+  inverse.scale = 1.0 / placement.scale;
+  inverse.translation_mm = -inverse.scale * (inverse.rotation * placement.translation_mm);
+  return inverse;
+}
 
 struct Calibration {
   struct Point {

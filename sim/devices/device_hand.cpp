@@ -28,16 +28,20 @@ StandsAt side_of(const glm::dvec3& entry_lps_mm, const glm::dvec3& middle_lps_mm
                                                                 : StandsAt::patients_left;
 }
 
-Placement patient_from_template(cases::PatientPosition position, StandsAt stands, const glm::dvec3& entry_lps_mm) {
+Placement patient_from_template(cases::PatientPosition position, StandsAt stands, const glm::dvec3& entry_lps_mm,
+                                double motion_scale) {
   const glm::dvec3 x = to_the_right(stands), y = cases::upwards(position);
   Placement placement;
   placement.rotation = glm::dmat3(x, y, glm::cross(x, y));
-  placement.translation_mm = entry_lps_mm - placement.rotation * glm::dvec3(0.0, kEntryAboveMm, 0.0);
+  placement.scale = motion_scale;
+  placement.translation_mm =
+      entry_lps_mm - motion_scale * (placement.rotation * glm::dvec3(0.0, kEntryAboveMm, 0.0));
   return placement;
 }
 
-DeviceHand::DeviceHand(const Placement& template_from_device, const Placement& patient_from_template) noexcept
-    : template_from_device_(template_from_device), patient_from_template_(patient_from_template) {}
+DeviceHand::DeviceHand(const Placement& template_from_device, const Placement& patient_from_template,
+                       const DeviceGains& gains) noexcept
+    : template_from_device_(template_from_device), patient_from_template_(patient_from_template), gains_(gains) {}
 
 cases::ToolPose DeviceHand::pose_of(const DeviceReading& reading) const noexcept {
   const glm::dmat3 rotation =
@@ -88,7 +92,22 @@ double DeviceHand::offset_mm() const noexcept {
 }
 
 glm::dvec3 DeviceHand::device_force(const glm::dvec3& force_lps_n) const noexcept {
-  return glm::transpose(patient_from_template_.rotation * template_from_device_.rotation) * force_lps_n;
+  const double share = usable_share(gains_, patient_from_template_.scale * template_from_device_.scale);
+  return limited(
+      share * (glm::transpose(patient_from_template_.rotation * template_from_device_.rotation) * force_lps_n),
+      gains_.most_force_n);
+}
+
+DeviceReading DeviceHand::reading_of(const cases::ToolPose& pose) const noexcept {
+  DeviceReading reading;
+  reading.position_mm = inverse_of(template_from_device_)(inverse_of(patient_from_template_)(pose.position_lps_mm));
+  cases::ToolPose held = pose;
+  square_up(held);
+  // kToolSide and kToolAxis are the stylus' x and −z.
+  const glm::dmat3 lps_from_stylus(held.side, glm::cross(-held.axis, held.side), -held.axis);
+  reading.orientation =
+      glm::transpose(patient_from_template_.rotation * template_from_device_.rotation) * lps_from_stylus;
+  return reading;
 }
 
 }  // namespace seldinger::devices

@@ -7,6 +7,7 @@
 #include "sim/case/inputs.h"
 #include "sim/case/patient_position.h"
 #include "sim/devices/calibration.h"
+#include "sim/devices/device_gains.h"
 #include "sim/devices/hand_device.h"
 
 namespace seldinger::devices {
@@ -19,9 +20,11 @@ StandsAt side_of(const glm::dvec3& entry_lps_mm, const glm::dvec3& middle_lps_mm
 
 // Where the template lies in the patient: its up is away from the table; its x, the user's right, runs along the
 // table, to the feet of a patient on whose right the user stands, who then faces the patient; kEntryAboveMm above
-// its middle is the planned entry, so that the device's reach is around it. Scale 1: a hand's mm are the patient's.
+// its middle is the planned entry, so that the device's reach is around it. motion_scale: mm of the patient for a
+// mm of the hand, about the entry.
 inline constexpr double kEntryAboveMm = 70.0;  // half the box (143 mm): there is way up and down
-Placement patient_from_template(cases::PatientPosition position, StandsAt stands, const glm::dvec3& entry_lps_mm);
+Placement patient_from_template(cases::PatientPosition position, StandsAt stands, const glm::dvec3& entry_lps_mm,
+                                double motion_scale = 1.0);
 
 // How a tool lies in the stylus, in its axes: a needle points along the stylus' −z, a probe's face looks along it;
 // side is the stylus' x (design: until a real grip says otherwise).
@@ -32,7 +35,8 @@ inline constexpr double kMeltMmS = 50.0, kMeltRadS = 0.8;
 
 class DeviceHand {
  public:
-  DeviceHand(const Placement& template_from_device, const Placement& patient_from_template) noexcept;
+  DeviceHand(const Placement& template_from_device, const Placement& patient_from_template,
+             const DeviceGains& gains = {}) noexcept;
 
   // The tool's pose of this tick. Of a device that is not healthy: the last, it stays where it was. When the device
   // comes back its hand may be anywhere: the tool goes on from where it stayed, as if the hand had re-gripped it,
@@ -47,13 +51,17 @@ class DeviceHand {
   // Between hand and tool; 0 but for a re-grip.
   double offset_mm() const noexcept;
 
-  // Newtons are the patient's and the hand's alike.
+  // Newtons are the patient's and the hand's alike, as far as the gains and rest allow (usable_share).
   glm::dvec3 device_force(const glm::dvec3& force_lps_n) const noexcept;
+  // Where the device is, in its own axes, when its tool is held so and nothing was re-gripped: the way back of a
+  // reading's pose, for hands that are themselves simulated.
+  DeviceReading reading_of(const cases::ToolPose& pose) const noexcept;
 
  private:
   cases::ToolPose pose_of(const DeviceReading& reading) const noexcept;
 
   Placement template_from_device_, patient_from_template_;
+  DeviceGains gains_;
   cases::ToolPose pose_;
   glm::dvec3 offset_lps_mm_{0.0}, offset_rad_{0.0};  // the turn of the axis, and then
   double spin_rad_ = 0.0;                            // about it

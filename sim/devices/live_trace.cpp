@@ -1,17 +1,17 @@
-#include "sim/devices/force_trace.h"
+#include "sim/devices/live_trace.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace seldinger::devices {
 
-void ForceTrace::add(double force_n, double elapsed_s) noexcept {
+void LiveTrace::add(double value, double elapsed_s) noexcept {
   if (!(elapsed_s > 0.0)) return;
-  if (std::isfinite(force_n)) {
+  if (std::isfinite(value)) {
     Bin& bin = bins_[newest_];
-    const auto force = static_cast<float>(force_n);
-    bin.least_n = bin.filled ? std::min(bin.least_n, force) : force;
-    bin.most_n = bin.filled ? std::max(bin.most_n, force) : force;
+    const auto newest = static_cast<float>(value);
+    bin.least = bin.filled ? std::min(bin.least, newest) : newest;
+    bin.most = bin.filled ? std::max(bin.most, newest) : newest;
     bin.filled = true;
   }
   in_bin_s_ += elapsed_s;

@@ -1,6 +1,6 @@
-// The last seconds of a force, to be looked at: the least and the most of every kTraceBinS, so that no peak of a
-// millisecond is lost however slowly it is drawn. A plain value: a servo adds to its own and puts it into a
-// base::Snapshot now and then.
+// The last seconds of a force or a place, to be looked at: the least and the most of every kTraceBinS, so that no
+// peak of a millisecond is lost however slowly it is drawn. A plain value: a servo adds to its own and puts it into
+// a base::Snapshot now and then.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@ namespace seldinger::devices {
 inline constexpr double kTraceBinS = 0.01;
 inline constexpr std::size_t kTraceBins = 512;  // 5 s
 
-class ForceTrace {
+class LiveTrace {
  public:
   struct Bin {
-    float least_n = 0.0F, most_n = 0.0F;
+    float least = 0.0F, most = 0.0F;
     bool filled = false;  // else nothing was told: a gap is drawn, not a zero
   };
 
   // Of one tick. No number: a gap.
-  void add(double force_n, double elapsed_s) noexcept;
+  void add(double value, double elapsed_s) noexcept;
 
   // i = 0 is the bin that is being filled, kTraceBins − 1 the oldest.
   const Bin& bin(std::size_t i) const noexcept { return bins_[(newest_ + kTraceBins - i) % kTraceBins]; }
