@@ -96,11 +96,11 @@ assessment::RecordedTick Room::advance(const cases::Inputs& inputs, double dt_s)
   return tick;
 }
 
-assessment::RecordedTick AttemptTicks::advance(const cases::Inputs& hands) noexcept {
+assessment::RecordedTick AttemptTicks::advance(const cases::Inputs& hands, ToolsRead read) noexcept {
   constexpr double kTickS = engine::kTickSeconds;
   cases::Inputs inputs = hands;
-  inputs.needle = needle_arm_.advance(hands.needle, kTickS);
-  inputs.probe = probe_arm_.advance(hands.probe, kTickS);
+  inputs.needle = read.needle ? needle_arm_.follow(hands.needle) : needle_arm_.advance(hands.needle, kTickS);
+  inputs.probe = read.probe ? probe_arm_.follow(hands.probe) : probe_arm_.advance(hands.probe, kTickS);
   return room_.advance(inputs, kTickS);
 }
 

@@ -89,6 +89,11 @@ class Scenario {
   std::span<const cases::Event> events_;
 };
 
+// Which tools an arm says the place of; a hand's wish passes the virtual arm first.
+struct ToolsRead {
+  bool needle = false, probe = false;
+};
+
 // An attempt: hands through the arms into the room.
 class AttemptTicks {
  public:
@@ -100,7 +105,7 @@ class AttemptTicks {
   const Room& room() const noexcept { return room_; }
 
   // One tick of where hands want to be, and what it leaves behind. Allocates nothing.
-  assessment::RecordedTick advance(const cases::Inputs& hands) noexcept;
+  assessment::RecordedTick advance(const cases::Inputs& hands, ToolsRead read = {}) noexcept;
 
  private:
   Room room_;

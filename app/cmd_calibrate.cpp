@@ -7,7 +7,6 @@
 #include "app/csv.h"
 #include "app/file.h"
 #include "app/station.h"
-#include "casedb/disk.h"
 
 namespace seldinger::app {
 namespace {
@@ -44,23 +43,16 @@ int run_haptics_calibrate(const Arguments& arguments) {
   const auto calibration = devices::calibrate(taken);
   if (!calibration) return refuse(calibration.error());
 
-  // Both devices may be calibrated at once: neither forgets the other.
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  const casedb::FolderLock lock(folder);
-  Station station;
-  if (std::filesystem::exists(file)) {
-    auto known = read_station(file);
-    if (!known) return refuse(known.error());
-    station = std::move(*known);
-  }
-  StationDevice& kept = station[device];
-  kept.calibration = *calibration;
-  // Which arm it is stays known through a new calibration.
-  kept.ids.arm = arguments.text("--device-id", kept.ids.arm);
-  kept.ids.grip = arguments.text("--grip-id", kept.ids.grip);
-  write_file(file, json_of_station(station));
+  const auto station = change_station(file, [&](Station& changed) {
+    StationDevice& kept = changed[device];
+    kept.calibration = *calibration;
+    // Which arm it is stays known through a new calibration.
+    kept.ids.arm = arguments.text("--device-id", kept.ids.arm);
+    kept.ids.grip = arguments.text("--grip-id", kept.ids.grip);
+  });
+  if (!station) return refuse(station.error());
   if (arguments.has("--json"))
-    std::fputs(json_of_station({{device, kept}}).c_str(), stdout);
+    std::fputs(json_of_station({{device, station->at(device)}}).c_str(), stdout);
   else
     print(device, *calibration);
   return kDone;

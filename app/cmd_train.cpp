@@ -13,20 +13,33 @@ void on_signal(int) {
   told_to_end = 1;
 }
 
-// Without --device haply: none. Throws UsageError.
+// With a mouse: none. Throws UsageError.
 base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   const std::string device = arguments.text("--device", "mouse");
-  if (device != "mouse" && device != "haply") throw UsageError("--device is mouse or haply");
+  if (device != "mouse" && device != "haply" && device != "virtual")
+    throw UsageError("--device is mouse, haply or virtual");
+  for (const char* option : {"--device-host", "--device-port"})
+    if (device != "haply" && arguments.has(option))
+      throw UsageError(std::string(option) + " is for --device haply");
   if (device == "mouse") {
-    for (const char* option : {"--device-host", "--device-port", "--station"})
-      if (arguments.has(option)) throw UsageError(std::string(option) + " is for --device haply");
+    if (arguments.has("--station")) throw UsageError("--station is for --device haply or virtual");
     return std::optional<Arms>();
   }
   Arms arms;
-  arms.place.host = arguments.text("--device-host", arms.place.host);
-  arms.place.port = static_cast<int>(arguments.whole("--device-port", arms.place.port, 1, 65535));
-  if (arguments.has("--station")) {
-    auto known = read_station(arguments.text("--station"));
+  if (device == "virtual") {
+    auto led = LedArms::start();
+    if (!led) return led.error();
+    arms.led = std::move(*led);
+    arms.place = arms.led->place();
+  } else {
+    arms.place.host = arguments.text("--device-host", arms.place.host);
+    arms.place.port = static_cast<int>(arguments.whole("--device-port", arms.place.port, 1, 65535));
+    arms.station_file = usual_station_file();
+  }
+  // A file that is not there yet is made when something is kept.
+  if (arguments.has("--station")) arms.station_file = arguments.text("--station");
+  if (!arms.station_file.empty() && std::filesystem::exists(arms.station_file)) {
+    auto known = read_station(arms.station_file);
     if (!known) return known.error();
     arms.station = std::move(*known);
   }
@@ -42,6 +55,8 @@ int run_train(const Arguments& arguments) {
   auto arms = arms_of(arguments);
   if (!arms) return refuse(arms.error());
   Trainer trainer(std::move(*library), std::move(*arms));
+  if (arguments.has("--case"))
+    if (const auto refused = trainer.open_at_log_in(arguments.text("--case"))) return refuse(*refused);
   Window::Settings settings;
   settings.title = "Seldinger";
   settings.width = static_cast<int>(arguments.whole("--width", 1280, 640, 16384));

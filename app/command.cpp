@@ -265,12 +265,16 @@ constexpr Option kDemoOptions[] = {
     kJson};
 constexpr Option kTrainOptions[] = {
     {"--library", "DIR", "the library; else the demo's"},
-    {"--device", "mouse|haply",
-     "what holds the tools: mouse, keys, gamepad and 3-D mouse, or two arms of a Haply Inverse service, and these "
-     "for what an arm does not hold; default mouse"},
-    {"--device-host", "ADDRESS", "where that service is; default 127.0.0.1"},
+    {"--case", "ID", "whoever logs in finds this case's briefing open"},
+    {"--device", "mouse|haply|virtual",
+     "what holds the tools: mouse, keys, gamepad and 3-D mouse; or two arms of a Haply Inverse service, and these "
+     "for what an arm does not hold; or two simulated arms that these lead, to try arms without any; default "
+     "mouse"},
+    {"--device-host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"},
     {"--device-port", "N", "its port; default 10001"},
-    {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
+    {"--station", "FILE.json",
+     "whose arms are left and right, where they stand, and how they are set, as the device page (F10) keeps it; "
+     "default with haply ~/.config/seldinger/station.json"},
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--backend", "gpu|cpu|auto",
      "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "app/station.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -42,10 +44,10 @@ std::string text_of_device_list(const DeviceListAnswer& answer) {
 
 std::string text_of_device_probe(const DeviceProbeAnswer& answer) {
   std::string text;
-  constexpr const char* kSides[] = {"left", "right"};
   for (std::size_t side = 0; side < 2; ++side) {
     const ProbedArm& arm = answer.arms[side];
-    text += std::string(kSides[side]) + ": arm " + spoken(arm.ids.arm) + ", grip " + spoken(arm.ids.grip) + "\n";
+    text +=
+        std::string(kSideNames[side]) + ": arm " + spoken(arm.ids.arm) + ", grip " + spoken(arm.ids.grip) + "\n";
     if (arm.readings == 0) {
       text += "  nothing was read\n";
       continue;

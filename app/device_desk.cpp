@@ -7,8 +7,6 @@
 namespace seldinger::app {
 namespace {
 
-constexpr const char* kSides[] = {"left", "right"};
-
 glm::dvec3 middle_of(const volume::Volume& volume) {
   const glm::dvec3 half = 0.5 * (glm::dvec3(volume.size_voxels) - 1.0);
   return glm::dvec3(volume.lps_from_voxel * glm::dvec4(half, 1.0));
@@ -27,20 +25,22 @@ glm::dvec3 entry_of(const cases::Case& scene) {
 
 std::array<devices::DeviceHand, 2> device_hands(const Station& station, const cases::Case& scene) {
   const glm::dvec3 entry = entry_of(scene);
-  const devices::Placement patient = devices::patient_from_template(
-      scene.position, devices::side_of(entry, middle_of(scene.volume), scene.position), entry);
-  const auto placement = [&](const char* side) {
+  const devices::StandsAt stands = devices::side_of(entry, middle_of(scene.volume), scene.position);
+  const auto hand = [&](const char* side) {
     const auto known = station.find(side);
-    return known == station.end() ? devices::Placement{} : known->second.calibration.template_from_device;
+    const StationDevice device = known == station.end() ? StationDevice{} : known->second;
+    return devices::DeviceHand(
+        device.calibration.template_from_device,
+        devices::patient_from_template(scene.position, stands, entry, device.gains.motion_scale), device.gains);
   };
-  return {devices::DeviceHand(placement(kSides[0]), patient), devices::DeviceHand(placement(kSides[1]), patient)};
+  return {hand(kSideNames[0]), hand(kSideNames[1])};
 }
 
 devices::HaplySettings haply_settings(const Station& station, const devices::WebSocketPlace& place) {
   devices::HaplySettings settings;
   settings.place = place;
   for (std::size_t side = 0; side < 2; ++side)
-    if (const auto known = station.find(kSides[side]); known != station.end())
+    if (const auto known = station.find(kSideNames[side]); known != station.end())
       settings.ids[side] = known->second.ids;
   return settings;
 }
@@ -54,7 +54,7 @@ void DeviceDesk::read(bool needle_outside, bool probe_off, double elapsed_s, cas
   for (std::size_t side = 0; side < 2; ++side) {
     const haptics::Tool tool = haptics::tool_of(handedness_, static_cast<haptics::Side>(side));
     const bool is_needle = tool == haptics::Tool::needle;
-    const devices::DeviceReading reading = haply_.hand(side).poll();
+    const devices::DeviceReading& reading = readings_[side] = haply_.hand(side).poll();
     const cases::ToolPose& pose = hands_[side].advance(reading, is_needle ? needle_outside : probe_off, elapsed_s);
     (is_needle ? inputs.needle : inputs.probe) = pose;
     const bool pressed = reading.healthy && reading.buttons[0];
@@ -69,9 +69,17 @@ void DeviceDesk::read(bool needle_outside, bool probe_off, double elapsed_s, cas
   }
 }
 
-void DeviceDesk::send(const haptics::HandForces& forces) noexcept {
-  for (std::size_t side = 0; side < 2; ++side)
-    haply_.hand(side).send(hands_[side].device_force(forces[side].motor_n));
+void DeviceDesk::send(const haptics::HandForces& forces, double elapsed_s) noexcept {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const glm::dvec3 force_n = hands_[side].device_force(forces[side].motor_n);
+    haply_.hand(side).send(force_n);
+    watch_.see(side, readings_[side], force_n, elapsed_s);
+  }
+}
+
+LedStylus DeviceDesk::stylus_for(haptics::Side side, const cases::ToolPose& pose) const noexcept {
+  const devices::DeviceReading reading = hands_[static_cast<std::size_t>(side)].reading_of(pose);
+  return {reading.position_mm, reading.orientation, false};
 }
 
 }  // namespace seldinger::app

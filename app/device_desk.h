@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "app/arms_seen.h"
+#include "app/device_simulation/led_arms.h"
 #include "app/station.h"
 #include "sim/case/case.h"
 #include "sim/devices/device_hand.h"
@@ -22,6 +24,8 @@ devices::HaplySettings haply_settings(const Station& station, const devices::Web
 struct Arms {
   Station station{};
   devices::WebSocketPlace place{};
+  std::filesystem::path station_file{};  // where what is changed of the station is kept; empty: in here only
+  std::shared_ptr<LedArms> led{};        // there is no hardware: mouse and keys lead the arms
 };
 
 class DeviceDesk {
@@ -36,12 +40,17 @@ class DeviceDesk {
   // re-gripped tool may go back to its hand.
   void read(bool needle_outside, bool probe_off, double elapsed_s, cases::Inputs& inputs,
             haptics::HandInputs& hands) noexcept;
-  void send(const haptics::HandForces& forces) noexcept;
+  void send(const haptics::HandForces& forces, double elapsed_s) noexcept;
+  ArmsWatch& watch() noexcept { return watch_; }  // of what was read and sent
+  // Where an arm's stylus is to be so that its tool is there.
+  LedStylus stylus_for(haptics::Side side, const cases::ToolPose& pose) const noexcept;
 
   // By the servo's thread, too: a lost arm's tool is held by something else, and is here.
   void leave_at(haptics::Side side, const cases::ToolPose& pose) noexcept {
     hands_[static_cast<std::size_t>(side)].leave_at(pose);
   }
+  // An arm that answers now and then is not followed: as if it were lost.
+  void let_go(haptics::Side side) noexcept { hands_[static_cast<std::size_t>(side)].let_go(); }
   // No time goes by: whatever the arms do meanwhile, the tools stay, and are re-gripped afterwards.
   void let_go() noexcept {
     for (devices::DeviceHand& hand : hands_) hand.let_go();
@@ -54,6 +63,8 @@ class DeviceDesk {
   haptics::Handedness handedness_;
   std::array<devices::DeviceHand, 2> hands_;
   bool freeze_was_down_ = false, frozen_ = false;
+  std::array<devices::DeviceReading, 2> readings_{};
+  ArmsWatch watch_;
   devices::Haply haply_;
 };
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/device_answer.h"
+#include "app/station.h"
 
 namespace seldinger::app {
 namespace {
@@ -39,10 +40,9 @@ std::string json_of_device_list(const DeviceListAnswer& answer) {
 
 std::string json_of_device_probe(const DeviceProbeAnswer& answer) {
   Json document{{"seconds", answer.seconds}};
-  constexpr const char* kSides[] = {"left", "right"};
   for (std::size_t side = 0; side < 2; ++side) {
     const ProbedArm& arm = answer.arms[side];
-    Json& json = document[kSides[side]];
+    Json& json = document[kSideNames[side]];
     json = {{"arm", id_or_null(arm.ids.arm)}, {"grip", id_or_null(arm.ids.grip)}, {"readings", arm.readings}};
     if (arm.readings == 0) continue;
     Json rotation = Json::array();

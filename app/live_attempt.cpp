@@ -65,7 +65,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     for (int i = 0; i < due && !over; ++i) {
       cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
-      const bool kept = recorder.tick(ticks.advance(inputs));
+      const bool kept = recorder.tick(ticks.advance(inputs, with.read ? with.read() : ToolsRead()));
       if (with.feel) with.feel(ticks.room());
       if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.moment());
       if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;

@@ -29,6 +29,7 @@ class LiveAttempt {
   // Who takes part. All but `ended` are asked by the servo: they must not allocate, lock or wait.
   struct With {
     Hands hands;
+    std::function<ToolsRead()> read{};           // after `hands`: what of them an arm said
     std::function<void(const Room&)> feel{};     // after each tick: what hands feel in it
     std::function<bool()> done;                  // after each tick
     std::function<bool()> paused{};              // while it says so, no time goes by

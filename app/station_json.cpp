@@ -36,6 +36,10 @@ Json json_of(const StationDevice& device) {
       {"points", points}};
   if (!device.ids.arm.empty()) json["device_id"] = device.ids.arm;
   if (!device.ids.grip.empty()) json["grip_id"] = device.ids.grip;
+  if (device.gains != devices::DeviceGains{})
+    json["gains"] = {{"motion_scale", device.gains.motion_scale},
+                     {"force_share", device.gains.force_share},
+                     {"most_force_n", device.gains.most_force_n}};
   return json;
 }
 
@@ -75,6 +79,17 @@ devices::Calibration calibration_of(const Json& json, bool& sound) {
   return calibration;
 }
 
+devices::DeviceGains gains_of(const Json& device, bool& sound) {
+  devices::DeviceGains gains;
+  if (!device.contains("gains")) return gains;
+  const Json& json = device.at("gains");
+  gains.motion_scale = json.at("motion_scale").get<double>();
+  gains.force_share = json.at("force_share").get<double>();
+  gains.most_force_n = json.at("most_force_n").get<double>();
+  sound = sound && devices::is_sound(gains);
+  return gains;
+}
+
 }  // namespace
 
 base::Result<Station> read_station(const std::filesystem::path& path) {
@@ -88,7 +103,9 @@ base::Result<Station> read_station(const std::filesystem::path& path) {
     sound = json.at("format") == kFormat;
     for (const auto& [name, device] : json.at("devices").items()) {
       sound = sound && (name == "left" || name == "right");
-      station[name] = {calibration_of(device, sound), {device.value("device_id", ""), device.value("grip_id", "")}};
+      station[name] = {calibration_of(device, sound),
+                       {device.value("device_id", ""), device.value("grip_id", "")},
+                       gains_of(device, sound)};
     }
   } catch (const Json::exception&) {
     return bad;

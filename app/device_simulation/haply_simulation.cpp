@@ -20,11 +20,15 @@ double seconds_since(Clock::time_point then) {
 }
 
 struct Arm {
-  Arm(const SimulatedArm& what, const haptics::HapticDevice& device) : arm(what) {
-    const glm::dvec3 at_mm = arm.at_mm(0.0);
+  Arm(const SimulatedArm& what, const haptics::HapticDevice& row) : arm(what), device(row) {
+    stand(arm.at_mm(0.0));
+  }
+  void stand(const glm::dvec3& at_mm) {
+    axes.clear();
     for (int i = 0; i < 3; ++i) axes.emplace_back(device, arm.hand, at_mm[i], 0.0);
   }
   SimulatedArm arm;
+  haptics::HapticDevice device;
   std::vector<haptics::HandOnDevice> axes;
   glm::dvec3 asked_n{0.0};
   Clock::time_point asked{};
@@ -111,15 +115,19 @@ struct HaplySimulation::Service final : devices::WebSocketPeer {
     }
   }
 
+  std::size_t place_of(const Arm& arm) const { return static_cast<std::size_t>(&arm - arms.data()); }
+
   devices::HaplyMessage state() const {
     devices::HaplyMessage message;
     const double t_s = seconds_since(start);
     for (const Arm& arm : arms) {
+      if (faults.unplugged[place_of(arm)]) continue;
       const glm::dvec3 at_mm(arm.axes[0].encoder_mm(), arm.axes[1].encoder_mm(), arm.axes[2].encoder_mm());
       message.arms.push_back({arm.arm.id, arm.arm.handedness, at_mm * kMPerMm});
-      message.grips.push_back({arm.arm.grip, arm.arm.held(t_s), {}});
+      message.grips.push_back(
+          {arm.arm.grip, arm.arm.held(t_s), arm.arm.buttons ? arm.arm.buttons(t_s) : std::bitset<8>()});
     }
-    if (faults.swapped) {
+    if (faults.swapped && message.arms.size() == 2) {
       std::swap(message.arms[0], message.arms[1]);
       std::swap(message.grips[0], message.grips[1]);
     }
@@ -179,6 +187,11 @@ void HaplySimulation::say_once(const std::string& text, bool raw) {
 void HaplySimulation::hang_up() {
   const std::lock_guard lock(service_->mutex);
   service_->hangs_up = true;
+}
+
+void HaplySimulation::put(std::size_t i, const glm::dvec3& at_mm) {
+  const std::lock_guard lock(service_->mutex);
+  service_->arms.at(i).stand(at_mm);
 }
 
 SimulatedArmState HaplySimulation::arm(std::size_t i) const {

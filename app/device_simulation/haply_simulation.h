@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -22,16 +23,18 @@ struct SimulatedArm {
   std::function<glm::dvec3(double t_s)> at_mm;
   std::function<glm::dmat3(double t_s)> held;
   haptics::Hand hand;
+  std::function<std::bitset<8>(double t_s)> buttons{};  // of the stylus; none: nobody presses any
 };
 
 // Two arms that go slowly round a circle of 20 mm.
 std::array<SimulatedArm, 2> circling_arms();
 
 struct SimulatedFaults {
-  bool silent = false;   // hears, and says nothing
-  bool away = false;     // nobody is let in, and who is in has to go
-  double delay_s = 0.0;  // of what it says
-  bool swapped = false;  // tells of the second arm first
+  bool silent = false;              // hears, and says nothing
+  bool away = false;                // nobody is let in, and who is in has to go
+  double delay_s = 0.0;             // of what it says
+  bool swapped = false;             // tells of the second arm first
+  std::array<bool, 2> unplugged{};  // arms that it does not tell of
 };
 
 // What the simulation knows of an arm that a client does not.
@@ -56,6 +59,7 @@ class HaplySimulation {
   void set(const SimulatedFaults& faults);
   void say_once(const std::string& text, bool raw);  // beside its answers: in a message, or as bytes of TCP
   void hang_up();
+  void put(std::size_t i, const glm::dvec3& at_mm);  // the device is there now, at rest
   SimulatedArmState arm(std::size_t i) const;
   std::uint64_t connections() const;
   std::string message() const;  // as it would say it now

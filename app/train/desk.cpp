@@ -42,6 +42,8 @@ std::string name_of(Trainer& trainer) {
       return "debrief";
     case TrainerScreen::watch:
       return "watch";
+    case TrainerScreen::devices:
+      return "devices";
   }
   return "";
 }
@@ -59,12 +61,18 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       opened_s_(clock_s()),
       told_s_(opened_s_),
       between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {
+  look_for_space_mouse();
+}
+
+void Desk::look_for_space_mouse() {
+  if (space_mouse_) return;
   if (auto found = devices::SpaceMouse::open()) space_mouse_.emplace(std::move(*found));
 }
 
 OtherHands Desk::other_hands() {
   OtherHands other;
   other.gamepad = window_.gamepad();
+  if (space_mouse_ && !space_mouse_->connected()) space_mouse_.reset();
   if (space_mouse_) other.space_mouse = space_mouse_->poll();
   return other;
 }
@@ -91,7 +99,11 @@ void Desk::draw_screen() {
     case TrainerScreen::watch:
       watch_.draw(trainer_, keys);
       break;
+    case TrainerScreen::devices:
+      devices_.draw(trainer_, keys, other_hands());
+      return;  // F10 was to leave it
   }
+  if (keys.pressed(kF1 + 9)) trainer_.show_devices();
 }
 
 void Desk::tell(const std::string& screen) {
@@ -109,6 +121,7 @@ void Desk::tell(const std::string& screen) {
     line.heap_mib = heap_mib();
   }
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
+  if (screen == "devices" && trainer_.bench() != nullptr) devices_.tell(*trainer_.bench(), line);
   trace_.write(line);
   told_s_ = now_s;
   frames_ = 0;
@@ -190,6 +203,7 @@ void Desk::frame() {
   keep_guidance(watch_.guidance());
   tell(screen);
   if (screen != title_) window_.set_title("Seldinger – " + screen);
+  if (screen != title_ && screen == "devices") look_for_space_mouse();  // its daemon may have been started since
   title_ = screen;
 }
 

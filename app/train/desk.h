@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/train/panel_attempt.h"
+#include "app/train/panel_device.h"
 #include "app/train/panel_watch.h"
 #include "app/train/panels.h"
 #include "app/train/speaker.h"
@@ -24,6 +25,7 @@ class Desk {
  private:
   void draw_screen();
   OtherHands other_hands();
+  void look_for_space_mouse();
   void go_on();                 // of hands between frames
   void finish(double began_s);  // what is being drawn for the frame that began then
   void tell(const std::string& screen);
@@ -41,7 +43,8 @@ class Desk {
   AttemptPanel attempt_;
   DebriefPanel debrief_;
   WatchPanel watch_;
-  std::optional<devices::SpaceMouse> space_mouse_;  // if one was there at the start
+  DevicePanel devices_;
+  std::optional<devices::SpaceMouse> space_mouse_;  // if one is there
   std::filesystem::path pictures_;
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;

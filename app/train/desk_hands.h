@@ -15,13 +15,14 @@
 namespace seldinger::app {
 
 // A stall of the machine is no news; who is silent for so long is said to be lost (design). What it holds stays at
-// once.
-inline constexpr double kSaidLostS = 0.1;
+// once. Who answers now and then is silent, too: a moment of answers is worth kForgivenTimes as much silence.
+inline constexpr double kSaidLostS = 0.1, kForgivenTimes = 3.0;
 
 // By haptics::Side.
 struct ArmsHeld {
   bool used = false;                     // else there are none
   std::array<bool, 2> lost{true, true};  // nothing was heard for kSaidLostS, or ever
+  std::array<bool, 2> late{};            // it is followed, but answers too late to give force
   std::array<haptics::Tool, 2> tools{haptics::Tool::none, haptics::Tool::none};
 };
 
@@ -43,17 +44,29 @@ class DeskHands {
   const devices::Hands& mouse() const noexcept { return mouse_; }
   // The tool is where mouse and keys led it last.
   bool mouse_leads(haptics::Tool tool) const noexcept;
+  // What of the last tick's poses an arm said.
+  ToolsRead read() const noexcept;
+  // How far the probe's face is below the skin at rest, whoever holds it; negative: above. At most kLookMm.
+  double press_mm(const cases::State& state) const noexcept;
+  // None: there are no arms.
+  ArmsWatch* watch() noexcept { return desk_ ? &desk_->watch() : nullptr; }
   bool frozen() const noexcept { return last_.freeze; }
   const ArmsHeld& arms() const noexcept { return arms_; }
 
  private:
   cases::ToolPose& pose_in(cases::Inputs& inputs, std::size_t side) const noexcept;
+  void lead(const cases::Inputs& wanted) noexcept;
+  static constexpr double kLookMm = 60.0;
+
+  const cases::Case& scene_;
+  std::shared_ptr<LedArms> led_;              // whose styli the mouse leads,
+  std::array<std::size_t, 2> led_arm_{0, 1};  // by side
 
   devices::Hands mouse_;
   BracedHand braced_;
   cases::Inputs last_;
   ArmsHeld arms_;
-  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS};
+  std::array<double, 2> silent_s_{kSaidLostS, kSaidLostS}, late_s_{};
   std::array<bool, 2> arm_led_{};  // last, and so the mouse's own pose of it is old
   haptics::HandInputs held_;
   haptics::HandStates felt_;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/train/frame_plan.h"
+#include "app/train/panel_device_traces.h"
 #include "app/train/panels.h"
 #include "reports/attempt_words.h"
 
@@ -65,6 +66,8 @@ void AttemptPanel::begin(Trainer& trainer) {
   room_.begin(scene, options_.left_handed);
   monitor_.begin(scene);
   seen_ = {};
+  arms_ = {};
+  by_led_arms_ = trainer.arms() && trainer.arms()->led;
   told_ = {};
   told_.fluoroscope.pulse_rate = 1;
   told_s_ = drawn_s_ = clock_s();
@@ -111,6 +114,7 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
   }
   for (int view = 0; view < static_cast<int>(imaging::kRoomViewNames.size()); ++view)
     if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
+  if (keys.pressed(kF1 + 9)) arms_live_ = !arms_live_;
   if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
 }
 
@@ -200,7 +204,8 @@ void AttemptPanel::tell(TraceLine& line) {
   line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
   line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;
   if (seen_.arms.used)
-    for (const bool lost : seen_.arms.lost) line.arms.emplace_back(lost ? "lost" : "ok");
+    for (std::size_t side = 0; side < 2; ++side)
+      line.arms.emplace_back(seen_.arms.lost[side] ? "lost" : seen_.arms.late[side] ? "late" : "ok");
 }
 
 void AttemptPanel::shown() noexcept {
@@ -233,16 +238,39 @@ void AttemptPanel::draw_arms() {
   else if (arms.lost[0] || arms.lost[1])
     ImGui::TextColored(warning, "%s arm lost: the %s stays, mouse and keys move it (Tab)",
                        arms.lost[0] ? "left" : "right", tool(arms.lost[0] ? 0 : 1));
+  else if (arms.late[0] || arms.late[1])
+    ImGui::TextColored(warning, "%s too late to push back: no force there",
+                       arms.late[0] && arms.late[1] ? "both arms answer"
+                       : arms.late[0]               ? "the left arm answers"
+                                                    : "the right arm answers");
   else
-    ImGui::TextDisabled("left arm: %s · right arm: %s", tool(0), tool(1));
+    ImGui::TextDisabled("left arm: %s · right arm: %s · F10: live", tool(0), tool(1));
+}
+
+void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
+  if (const auto newest = attempt.arms_seen()) arms_ = *newest;
+  if (!arms_live_ || !seen_.arms.used) return;
+  // Over the lower part of the room, where the table is.
+  constexpr float kWidth = 560.0F, kHeight = 200.0F, kStepsPx = 168.0F;
+  ImGui::SetNextWindowPos({14.0F, ImGui::GetMainViewport()->WorkSize.y - kStepsPx - kHeight}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSize({kWidth, kHeight}, ImGuiCond_Appearing);
+  if (ImGui::Begin("The arms, live (F10)", &arms_live_,
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                       ImGuiWindowFlags_NoFocusOnAppearing))
+    draw_arm_traces(arms_, ImGui::GetContentRegionAvail().y);
+  ImGui::End();
 }
 
 void AttemptPanel::draw_hands(const Task& task) {
   if (seen_.arms.used) draw_arms();
   const Moment& moment = seen_.moment;
   const bool needle = seen_.held == devices::HeldTool::needle;
-  ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
-  ImGui::SameLine();
+  // An arm's tool is in the hand at the arm.
+  if (seen_.by_mouse || by_led_arms_) {
+    ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
+    ImGui::SameLine();
+  }
   if (seen_.inserted)
     ImGui::Text("· %.0f mm of the needle are in", seen_.inserted_mm);
   else if (moment.state.fire.fired)
@@ -359,6 +387,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   draw_hands(task);
   ImGui::EndChild();
   end_screen();
+  draw_arms_live(attempt);
 
   if (!running) {
     if (!fired_) keep_picture();

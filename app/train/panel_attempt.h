@@ -55,6 +55,7 @@ class AttemptPanel {
   void draw_steps(Trainer& trainer);
   void draw_hands(const Task& task);
   void draw_arms();
+  void draw_arms_live(PersonAttempt& attempt);
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
@@ -71,8 +72,11 @@ class AttemptPanel {
   MonitorPanel monitor_;
   gpu::ScreenPicture at_fire_;
   Seen seen_;
+  ArmsSeen arms_;
+  bool arms_live_ = false;  // F10: their places and forces over the steps
   HandsTold told_;
   double told_s_ = 0.0, drawn_s_ = 0.0;
+  bool by_led_arms_ = false;  // arms that the mouse leads
   bool decided_ = false, fired_ = false, leaving_ = false;
   double frames_s_ = 0.0;                                                          // the window's rate, lately
   double room_lag_s_ = 0.0, picture_lag_s_ = 0.0;                                  // lately

@@ -54,7 +54,9 @@ void draw_choices(Trainer& trainer, const std::string& curriculum) {
 void ChoosePanel::draw(Trainer& trainer) {
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
-  ImGui::SameLine(ImGui::GetContentRegionAvail().x - 90.0F);
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
+  const bool devices = ImGui::Button("Hands (F10)");
+  ImGui::SameLine();
   const bool out = ImGui::Button("Log out");
   quiet(kTrainingOnly);
   if (!trainer.refusal().empty()) {
@@ -79,6 +81,7 @@ void ChoosePanel::draw(Trainer& trainer) {
     draw_choices(trainer, curriculum);
   }
   if (out) trainer.log_out();
+  if (devices && !out) trainer.show_devices();
   end_screen();
 }
 

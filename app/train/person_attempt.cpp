@@ -102,6 +102,12 @@ cases::Inputs PersonAttempt::hands(const cases::State& state) {
   return inputs;
 }
 
+void PersonAttempt::feel(const Room& room) {
+  hands_->feel(room, engine::kTickSeconds);
+  if (ArmsWatch* arms = hands_->watch(); arms != nullptr && arms->due(engine::kTickSeconds))
+    arms_seen_.put(arms->seen());
+}
+
 void PersonAttempt::watch(Moment moment) {
   moment.told_s = told_s_;
   if (moment.force) forces_ = {moment.force->needle_axial_n, moment.force->probe_n};
@@ -116,7 +122,9 @@ void PersonAttempt::watch(Moment moment) {
   const bool by_mouse = hands_->mouse_leads(haptics::Tool::needle);
   seen.inserted_mm = by_mouse ? mouse.inserted_mm() : moment.state.needle.inserted_mm;
   seen.inserted = by_mouse ? mouse.needle_inserted() : seen.inserted_mm > 0.0;
-  seen.press_mm = hands_->mouse_leads(haptics::Tool::probe) ? mouse.press_mm() : 0.0;
+  seen.press_mm = hands_->press_mm(moment.state);
+  seen.by_mouse =
+      hands_->mouse_leads(seen.held == devices::HeldTool::needle ? haptics::Tool::needle : haptics::Tool::probe);
   seen.arms = hands_->arms();
   seen.hand_to_force_s = hand_to_force_s_;
   seen_.put(seen);
@@ -148,7 +156,8 @@ void PersonAttempt::run() {
                      task_->scene);
     const auto stored =
         live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
-                  .feel = [this](const Room& room) { hands_->feel(room, engine::kTickSeconds); },
+                  .read = [this] { return hands_->read(); },
+                  .feel = [this](const Room& room) { feel(room); },
                   .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
                   .paused =
                       [this] {
@@ -158,6 +167,7 @@ void PersonAttempt::run() {
                       },
                   .watch = [this](const Moment& moment) { watch(moment); },
                   .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
+    hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());
     stored_ = *stored;
     phase_.store(Phase::stored, std::memory_order_release);

@@ -36,7 +36,8 @@ struct Seen {
   Moment moment;
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
-  double inserted_mm = 0.0, press_mm = 0.0;  // press: of a probe that mouse or keys lead
+  double inserted_mm = 0.0, press_mm = 0.0;  // press: of the probe's face below the skin
+  bool by_mouse = true;                      // the held tool is where mouse and keys led it last, not an arm
   double hand_to_force_s = 0.0;              // from a telling to the tick that took it in
   ArmsHeld arms{};
 };
@@ -66,6 +67,8 @@ class PersonAttempt {
   const base::Error& error() const;          // `refused` only (CHECKed)
   const StoredAttempt& stored() const;       // `stored` only (CHECKed)
 
+  // By the window's thread, before `begin`: the arms are others, or stand elsewhere.
+  void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);
   void tell(const HandsTold& told) noexcept { told_.put(told); }
@@ -82,12 +85,14 @@ class PersonAttempt {
 
   // The newest since the last call.
   std::optional<Seen> seen() noexcept { return seen_.take(); }
-  Monitor& monitor();  // from `running` on (CHECKed)
+  std::optional<ArmsSeen> arms_seen() noexcept { return arms_seen_.take(); }  // where there are arms
+  Monitor& monitor();                                                         // from `running` on (CHECKed)
 
  private:
   void run();
   cases::Inputs hands(const cases::State& state);
   void watch(Moment moment);
+  void feel(const Room& room);
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
@@ -97,6 +102,7 @@ class PersonAttempt {
   std::unique_ptr<Monitor> monitor_;
   base::Snapshot<HandsTold> told_;
   base::Snapshot<Seen> seen_;
+  base::Snapshot<ArmsSeen> arms_seen_;
   std::optional<DeskHands> hands_;  // the servo's, from here …
   devices::EvenIntent even_;
   devices::AxialForces forces_;

@@ -15,11 +15,12 @@ namespace seldinger::app {
 
 // Since the line before.
 struct TraceLine {
-  double t_s = 0.0;         // since the window opened
-  std::string screen;       // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief"
-  double frames_s = 0.0;    // the window's
-  double pictures_s = 0.0;  // the guidance's
-  std::string method;       // how these are made
+  double t_s = 0.0;  // since the window opened
+  std::string
+      screen;  // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "watch", "devices"
+  double frames_s = 0.0;                                                           // the window's
+  double pictures_s = 0.0;                                                         // the guidance's
+  std::string method;                                                              // how these are made
   double hand_to_force_ms = 0.0, hand_to_room_ms = 0.0, hand_to_picture_ms = 0.0;  // the longest
   std::string held;  // "needle" or "probe"; outside an attempt empty, as the rest
   double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
@@ -29,7 +30,8 @@ struct TraceLine {
   glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face
   double heap_mib = 0.0;                             // what the program holds; told outside attempts only
   std::vector<std::string> sounds;                   // that began, heard or not
-  std::vector<std::string> arms;                     // left, right: "ok" or "lost"; empty: none are used
+  std::vector<std::string> arms;                     // left, right: "ok", "late", "lost"; empty: none are used
+  std::string asks;                                  // what the device page asks its user for
 };
 
 std::string json_of(const TraceLine& line);

@@ -28,6 +28,7 @@ std::string json_of(const TraceLine& line) {
   if (line.heap_mib > 0.0) json["heap_mib"] = line.heap_mib;
   if (!line.sounds.empty()) json["sounds"] = line.sounds;
   if (!line.arms.empty()) json["arms"] = line.arms;
+  if (!line.asks.empty()) json["asks"] = line.asks;
   return json.dump();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/expert_replay.h"
+#include "sim/base/failure.h"
 
 namespace seldinger::app {
 namespace {
@@ -37,9 +38,90 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
   account_ = *account;
   list_choices();
   screen_ = TrainerScreen::choose;
+  if (first_case_.empty()) return;
+  const auto choice =
+      std::find_if(choices_.begin(), choices_.end(), [&](const Choice& one) { return one.case_id == first_case_; });
+  if (choice == choices_.end())
+    refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
+  else if (!choice->open)
+    refusal_ =
+        "“" + choice->title + "” is not open for " + account_.login_name + ": " +
+        (choice->attempts_left.value_or(1) > 0 ? "what comes before it is not passed yet." : "no attempt is left.");
+  else
+    choose(first_case_);
+}
+
+std::optional<base::Error> Trainer::open_at_log_in(const std::string& case_id) {
+  const auto row = casedb::find_case(library_, case_id);
+  if (!row) return row.error();
+  first_case_ = case_id;
+  return std::nullopt;
+}
+
+void Trainer::show_devices() {
+  if (screen_ == TrainerScreen::attempt || screen_ == TrainerScreen::watch || screen_ == TrainerScreen::devices ||
+      restarting_)
+    return;
+  devices_from_ = screen_;
+  refusal_.clear();
+  screen_ = TrainerScreen::devices;
+  if (arms_) bench_ = std::make_unique<DeviceBench>(*arms_);
+}
+
+void Trainer::leave_devices() {
+  if (screen_ != TrainerScreen::devices) return;
+  bench_.reset();  // the arms are an attempt's again
+  if (attempt_ &&
+      (attempt_->phase() == PersonAttempt::Phase::preparing || attempt_->phase() == PersonAttempt::Phase::ready))
+    attempt_->use(arms_);
+  refusal_.clear();
+  screen_ = devices_from_;
+}
+
+bool Trainer::change_station(const std::function<void(Station&)>& change) {
+  if (!arms_) return false;
+  refusal_.clear();
+  if (arms_->station_file.empty()) {
+    change(arms_->station);
+    return true;
+  }
+  try {
+    auto changed = app::change_station(arms_->station_file, change);
+    if (!changed)
+      refusal_ = changed.error().text;
+    else
+      arms_->station = std::move(*changed);
+  } catch (const base::Failure& failure) {
+    refusal_ = failure.what();
+  }
+  return refusal_.empty();
+}
+
+bool Trainer::keep_calibration(std::size_t side, const devices::Calibration& calibration) {
+  if (!bench_) return false;
+  const auto ids = bench_->status().ids;
+  return change_station([&](Station& station) {
+    station[kSideNames.at(side)].calibration = calibration;
+    // Which arm it was that was calibrated; and once one is named, the other must be.
+    for (std::size_t one = 0; one < 2; ++one)
+      if (!ids[one].arm.empty()) station[kSideNames[one]].ids = ids[one];
+  });
+}
+
+void Trainer::exchange_arms() {
+  if (!bench_) return;
+  const auto ids = bench_->status().ids;
+  const bool kept = change_station([&](Station& station) {
+    for (std::size_t side = 0; side < 2; ++side) station[kSideNames[side]].ids = ids[side];
+    std::swap(station["left"], station["right"]);
+  });
+  if (!kept) return;
+  bench_.reset();
+  bench_ = std::make_unique<DeviceBench>(*arms_);
 }
 
 void Trainer::log_out() {
+  bench_.reset();
   watched_.reset();
   attempt_.reset();
   debrief_.reset();
@@ -167,7 +249,7 @@ void Trainer::look() {
     refusal_ = attempt_->error().text;
     attempt_.reset();
     list_choices();
-    screen_ = TrainerScreen::choose;
+    (screen_ == TrainerScreen::devices ? devices_from_ : screen_) = TrainerScreen::choose;
   } else if (phase == PersonAttempt::Phase::stored && !debrief_ && screen_ == TrainerScreen::attempt) {
     const std::string id = attempt_->stored().attempt_id;
     const auto row = casedb::find_attempt(library_, id);

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/train/device_bench.h"
 #include "app/train/person_attempt.h"
 #include "app/train/watched_attempt.h"
 #include "casedb/curriculum.h"
@@ -16,7 +18,7 @@
 
 namespace seldinger::app {
 
-enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch };
+enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, devices };
 
 // A case that can be chosen, as a line of the list.
 struct Choice {
@@ -46,6 +48,8 @@ class Trainer {
   void set_pictures_by(PicturesBy by) noexcept { by_ = by; }
 
   TrainerScreen screen() const noexcept { return screen_; }
+  // Whoever logs in finds this case's briefing open at once, or is told why not. Refused: `no_case`.
+  std::optional<base::Error> open_at_log_in(const std::string& case_id);
   // The last thing that was refused, in words for the screen; empty: nothing was.
   const std::string& refusal() const noexcept { return refusal_; }
 
@@ -77,6 +81,18 @@ class Trainer {
   void stop_watching();
   WatchedAttempt* watched() noexcept { return watched_.get(); }
 
+  // The hands at this desk, from any screen but an attempt, a replay and one that is to begin again; and back
+  // there.
+  void show_devices();
+  void leave_devices();
+  const std::optional<Arms>& arms() const noexcept { return arms_; }
+  DeviceBench* bench() noexcept { return bench_.get(); }  // of the arms, while they are shown
+  // What is known of the station becomes so, in its file too; false: refused, and nothing is changed.
+  bool change_station(const std::function<void(Station&)>& change);
+  // A side's arm is calibrated so, and is that arm from now on.
+  bool keep_calibration(std::size_t side, const devices::Calibration& calibration);
+  void exchange_arms();  // what is the left hand's becomes the right one's
+
   // Looks whether threads have got on; once a frame.
   void look();
   const Debrief* debrief() const noexcept { return debrief_ ? &*debrief_ : nullptr; }
@@ -97,7 +113,9 @@ class Trainer {
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
   std::unique_ptr<WatchedAttempt> watched_;
-  TrainerScreen watched_from_ = TrainerScreen::debrief;
+  TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
+  std::unique_ptr<DeviceBench> bench_;
+  std::string first_case_;  // to be opened at log-in
   bool restarting_ = false;
   int help_ = 0;
 };

@@ -32,7 +32,10 @@ base::Result<SpaceMouse> SpaceMouse::open() {
 }
 
 SpaceMouse::SpaceMouse(SpaceMouse&& other) noexcept
-    : open_(std::exchange(other.open_, false)), connected_(other.connected_), reading_(other.reading_) {}
+    : open_(std::exchange(other.open_, false)),
+      connected_(other.connected_),
+      reading_(other.reading_),
+      down_(other.down_) {}
 
 SpaceMouse::~SpaceMouse() {
   if (!open_) return;
@@ -41,6 +44,7 @@ SpaceMouse::~SpaceMouse() {
 }
 
 const SpaceMouseReading& SpaceMouse::poll() {
+  decltype(reading_.buttons) pressed;  // a short press between two polls is down in the one after it
   // A burst is read at once; the bound is for a daemon that talks without end.
   for (int i = 0; i < 1000 && connected_; ++i) {
     // libspnav reads whole packets only, and cannot say that the daemon hung up.
@@ -49,6 +53,7 @@ const SpaceMouseReading& SpaceMouse::poll() {
     if (waiting == 0 || (waiting < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) {
       connected_ = false;
       reading_ = {};
+      down_ = {};
     }
     if (waiting < static_cast<ssize_t>(sizeof packet)) break;
     spnav_event event;
@@ -58,9 +63,12 @@ const SpaceMouseReading& SpaceMouse::poll() {
       reading_.about = {m.rx, m.ry, m.rz};
     } else if (event.type == SPNAV_EVENT_BUTTON && event.button.bnum >= 0 &&
                static_cast<std::size_t>(event.button.bnum) < reading_.buttons.size()) {
-      reading_.buttons[static_cast<std::size_t>(event.button.bnum)] = event.button.press != 0;
+      const auto button = static_cast<std::size_t>(event.button.bnum);
+      down_[button] = event.button.press != 0;
+      if (down_[button]) pressed[button] = true;
     }
   }
+  reading_.buttons = down_ | pressed;
   return reading_;
 }
 

@@ -35,6 +35,7 @@ class SpaceMouse {
   SpaceMouse() = default;
   bool open_ = true, connected_ = true;
   SpaceMouseReading reading_;
+  std::bitset<16> down_;
 };
 
 // Full deflection is about 350 counts (spacenavd's documentation); speeds there, and what counts as rest (design).

@@ -28,4 +28,10 @@ cases::ToolPose VirtualDevice::advance(const cases::ToolPose& hand, double dt_s)
           quantised(pose_.side, options_.encoder_unit)};
 }
 
+cases::ToolPose VirtualDevice::follow(const cases::ToolPose& read) noexcept {
+  pose_ = read;
+  started_ = true;
+  return advance(read, 0.0);
+}
+
 }  // namespace seldinger::devices

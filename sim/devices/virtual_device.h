@@ -20,6 +20,9 @@ class VirtualDevice {
 
   // The arm's reading after dt_s of the hand wanting `hand`. The first call stands where the hand is.
   cases::ToolPose advance(const cases::ToolPose& hand, double dt_s) noexcept;
+  // Of an arm that is there, which has lag enough of its own: where it was read to be, through this encoder; a hand
+  // goes on from there.
+  cases::ToolPose follow(const cases::ToolPose& read) noexcept;
 
  private:
   VirtualDeviceOptions options_;

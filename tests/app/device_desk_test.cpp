@@ -85,7 +85,7 @@ TEST(DeviceDesk, HandednessSaysWhichArmHoldsTheNeedle) {
       bool healthy = false;
       for (int i = 0; i < 3000 && !healthy; ++i) {
         desk.read(true, true, 0.001, inputs, hands);
-        desk.send({});
+        desk.send({}, 0.001);
         healthy = desk.healthy(haptics::Side::left) && desk.healthy(haptics::Side::right);
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
@@ -102,7 +102,7 @@ TEST(DeviceDesk, HandednessSaysWhichArmHoldsTheNeedle) {
       const long before = fixtures::allocations_of_this_thread();
       for (int i = 0; i < 100; ++i) {
         desk.read(true, true, 0.001, inputs, hands);
-        desk.send({});
+        desk.send({}, 0.001);
       }
       EXPECT_EQ(fixtures::allocations_of_this_thread(), before);
     }

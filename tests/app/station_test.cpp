@@ -47,6 +47,27 @@ TEST(Station, IsReadBackToTheLastBit) {
   }
 }
 
+TEST(Station, GainsAreKeptAndOneSideIsChangedWithoutTheOther) {
+  const auto file = fixtures::fresh_folder("station_change") / "station.json";
+  const devices::DeviceGains gains{1.5, 0.5, 4.0};
+  ASSERT_TRUE(change_station(file, [&](Station& station) {
+    station["left"].gains = gains;
+    station["left"].ids = {"one", "two"};
+  }));
+  const auto changed = change_station(file, [](Station& station) { station["right"].calibration = calibration(); });
+  ASSERT_TRUE(changed);
+  const auto read = read_station(file);
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->at("left").gains, gains);
+  EXPECT_EQ(read->at("left").ids.grip, "two");
+  EXPECT_TRUE(read->at("left").calibration.points.empty()) << "nobody calibrated it";
+  EXPECT_EQ(read->at("right").gains, devices::DeviceGains{});
+  EXPECT_EQ(read->at("right").calibration.points.size(), 6U);
+  std::ofstream(file) << "{}";
+  EXPECT_FALSE(change_station(file, [](Station&) {}));
+  EXPECT_EQ(fixtures::whole_file(file), "{}") << "what is none of ours stays";
+}
+
 TEST(Station, RefusesWhatIsNoneOfOurs) {
   const std::string good = json_of_station({{"left", {calibration()}}});
   ASSERT_TRUE(read_station(file_with(good)));
@@ -66,6 +87,13 @@ TEST(Station, RefusesWhatIsNoneOfOurs) {
     const auto read = read_station(file_with(text));
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().code, "bad_station");
+  }
+  const std::string set = json_of_station({{"left", {calibration(), {}, {2.0, 0.5, 4.0}}}});
+  ASSERT_TRUE(read_station(file_with(set)));
+  for (const char* gain : {"\"motion_scale\": 2", "\"force_share\": 0", "\"most_force_n\": 4"}) {
+    const std::size_t at = set.find(gain) + std::string(gain).size() - 1;
+    const std::string text = set.substr(0, at) + "7" + set.substr(at);
+    EXPECT_FALSE(read_station(file_with(text))) << text;
   }
   // A reflection is no rotation.
   devices::Calibration mirrored = calibration();

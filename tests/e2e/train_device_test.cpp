@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
+#include "app/device_simulation/led_arms.h"
+#include "sim/devices/device_hand.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/trainee.h"
 
@@ -60,6 +63,190 @@ double way_mm(const fixtures::Trainee& trainee, const char* field, double second
   return glm::length(most - least);
 }
 
+// A library with the demo's case and a mentor who may try it.
+std::string library_in(const std::filesystem::path& scratch) {
+  std::string library = (scratch / "library").string();
+  const auto run = [&](const std::string& words) {
+    const auto ran = fixtures::run(words + " --library " + library, scratch);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+  };
+  run(kProgram + " demo --no-serve --modality mpr");
+  run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " user add mona --role mentor");
+  return library;
+}
+
+// Its state of both arms, or that of one.
+bool arms_are(const fixtures::Trainee& trainee, const Json& states) {
+  return trainee.now().value("arms", Json::array()) == states;
+}
+
+// Two arms at a service of the test's: the left one's probe is in the air, the right one's needle goes straight
+// down through the entry as deep as it is told to.
+struct AtTheEntry {
+  AtTheEntry() : led(*app::LedArms::start()) {
+    led->put(0, stylus({-60.0, devices::kEntryAboveMm + 60.0, 30.0}));
+    led->put(1, stylus({0.0, devices::kEntryAboveMm + 30.0, 0.0}));
+  }
+  static app::LedStylus stylus(const glm::dvec3& at_mm) {
+    return {at_mm, glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0}), false};  // the stylus' z is up
+  }
+  void go_down_to(double mm) {
+    for (; std::abs(mm - deep_mm) > 1e-9; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+      deep_mm += std::clamp(mm - deep_mm, -0.3, 0.3);
+      led->lead(1, stylus({0.0, devices::kEntryAboveMm - deep_mm, 0.0}));
+    }
+  }
+  double asked_n() const { return glm::length(led->service().arm(1).asked_n); }
+  double motor_n() const { return glm::length(led->service().arm(1).motor_n); }
+  std::shared_ptr<app::LedArms> led;
+  double deep_mm = -30.0;
+};
+
+// However an arm is lost while its needle is in tissue: its force is gone, its tool stays, the attempt goes on, and
+// when it is back the tool goes on from where it is, and pushes back again.
+TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemptGoesOn) {
+  const auto scratch = fixtures::fresh_folder("train_device_faults");
+  const std::string library = library_in(scratch);
+  AtTheEntry desk;
+  app::HaplySimulation& service = desk.led->service();
+  fixtures::Trainee trainee(kProgram, library, scratch,
+                            {"--device", "haply", "--device-port", std::to_string(service.port()), "--station",
+                             (scratch / "station.json").string()});
+  ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
+  ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
+  const Json both = {"ok", "ok"};
+  ASSERT_TRUE(until([&] { return arms_are(trainee, both); }, 30.0)) << trainee.now();
+  for (const char* key : {"y", "F4"}) trainee.screen().press(key);
+  // The mouse's start melts into the arm's place outside the body.
+  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+  desk.go_down_to(30.0);
+  const auto inserted_mm = [&] { return trainee.now().value("inserted_mm", 0.0); };
+  ASSERT_TRUE(until([&] { return inserted_mm() > 10.0 && desk.asked_n() > 0.2; }, 20.0)) << trainee.now();
+  trainee.keep_picture();
+
+  struct Fault {
+    const char* name;
+    std::function<void()> begin;
+    Json arms;  // while it lasts; null: it lasts no time
+    // Of late answers one now and then looks like an early one, and force begins to come in.
+    double most_n = 0.0;
+  };
+  const Json none = {"lost", "lost"};
+  const std::vector<Fault> faults = {
+      {"the needle's arm is unplugged",
+       [&] {
+         service.set({.unplugged = {false, true}});
+       },
+       {"ok", "lost"}},
+      {"the service says nothing", [&] { service.set({.silent = true}); }, none},
+      {"every answer is 4 ms late", [&] { service.set({.delay_s = 0.004}); }, Json({"late", "late"}), 0.1},
+      {"nobody is let in", [&] { service.set({.away = true}); }, none},
+      {"it hangs up", [&] { service.hang_up(); }, nullptr},
+      {"garbage in a message", [&] { service.say_once("{\"inverse3\": [{\"device_id\": 7", false); }, nullptr},
+      {"garbage beside the protocol", [&] { service.say_once(std::string(300, '\x85'), true); }, nullptr},
+      {"the arms change places in its messages", [&] { service.set({.swapped = true}); }, nullptr},
+  };
+  for (const Fault& fault : faults) {
+    SCOPED_TRACE(fault.name);
+    const glm::dvec3 before = place(trainee.now(), "needle_lps_mm");
+    const double before_s = trainee.now().value("attempt_s", 0.0);
+    fault.begin();
+    if (!fault.arms.is_null()) {
+      EXPECT_TRUE(until([&] { return desk.motor_n() <= fault.most_n; }, 2.0)) << "the motors let go";
+      EXPECT_TRUE(until([&] { return arms_are(trainee, fault.arms); }, 10.0)) << trainee.now();
+      for (int i = 0; i < 50; ++i) {
+        EXPECT_LE(desk.motor_n(), fault.most_n) << "and stay so";
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    }
+    EXPECT_TRUE(until([&] { return trainee.now().value("attempt_s", 0.0) > before_s + 1.0; }, 10.0))
+        << "it goes on";
+    const bool swapped = std::string(fault.name).find("places") != std::string::npos;
+    if (!swapped) service.set({});
+    ASSERT_TRUE(until([&] { return arms_are(trainee, both); }, 20.0)) << trainee.now();
+    EXPECT_TRUE(until([&] { return desk.asked_n() > 0.1; }, 10.0)) << "it is felt again";
+    EXPECT_LT(glm::length(place(trainee.now(), "needle_lps_mm") - before), 6.0) << "nothing was torn";
+    EXPECT_GT(inserted_mm(), 5.0);
+    service.set({});
+  }
+  trainee.keep_picture();
+  desk.go_down_to(-20.0);
+  EXPECT_TRUE(until([&] { return inserted_mm() <= 0.0; }, 20.0)) << trainee.now();
+  ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
+  const auto ran = fixtures::run(kProgram + " attempt list --json --library " + library, scratch);
+  for (const Json& attempt : Json::parse(ran.out)["attempts"])
+    if (!attempt["synthetic"].get<bool>()) {
+      const std::string mine = attempt["attempt_id"].get<std::string>();
+      const auto replay =
+          fixtures::run(kProgram + " replay " + mine + " --verify --json --library " + library, scratch);
+      EXPECT_EQ(Json::parse(replay.out)["verified"], true) << replay.err;
+    }
+}
+
+// The device page by its keys, with arms that have no hardware.
+TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfterwards) {
+  const auto scratch = fixtures::fresh_folder("train_device_page");
+  const std::string library = library_in(scratch);
+  const auto station = scratch / "station.json";
+  const Json cases =
+      Json::parse(fixtures::run(kProgram + " case list --json --library " + library, scratch).out)["cases"];
+  const std::string case_id = cases.at(0)["case_id"];
+  EXPECT_EQ(fixtures::run(kProgram + " train --case nonsense --library " + library, scratch).exit_code, 3);
+  fixtures::Trainee trainee(kProgram, library, scratch,
+                            {"--device", "virtual", "--station", station.string(), "--case", case_id});
+  const auto asks = [&](const char* words) {
+    return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
+  };
+  trainee.screen().press("F10");
+  ASSERT_TRUE(trainee.reaches("devices", 10.0)) << "before anybody logs in";
+  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); }, 20.0)) << trainee.now();
+  for (const char* key : {"2", "c"}) trainee.screen().press(key);
+  ASSERT_TRUE(until([&] { return asks("on a: "); }, 10.0)) << trainee.now();
+  for (const char* point : {"on b: ", "on c: ", "on d: ", "on e: ", "on f: ", "All points"}) {
+    trainee.screen().press("v");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // the hand comes to rest
+    for (int tries = 0; tries < 5 && !asks(point); ++tries) {
+      trainee.screen().press("space");
+      until([&] { return asks(point); }, 3.0);
+    }
+    ASSERT_TRUE(asks(point)) << trainee.now();
+  }
+  trainee.keep_picture();
+  EXPECT_FALSE(std::filesystem::exists(station));
+  trainee.screen().press("Return");
+  ASSERT_TRUE(until([&] { return std::filesystem::exists(station); }, 10.0));
+  const Json kept = Json::parse(fixtures::whole_file(station));
+  EXPECT_EQ(kept["devices"]["right"]["points"].size(), 6U);
+  EXPECT_EQ(kept["devices"]["right"]["device_id"], "sim-right");
+  EXPECT_LT(kept["devices"]["right"]["residual_max_mm"].get<double>(), 1.0);
+
+  trainee.screen().press("t");
+  ASSERT_TRUE(until([&] { return asks("as far as it goes"); }, 10.0)) << trainee.now();
+  for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 1.5);
+  for (int more = 0; more < 6 && asks("as far as it goes"); ++more)
+    for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 0.6);
+  ASSERT_TRUE(until([&] { return asks("fit for an attempt"); }, 60.0)) << trainee.now();
+  trainee.keep_picture();
+
+  trainee.screen().press("Escape");
+  ASSERT_TRUE(trainee.reaches("log_in", 10.0)) << "back where one was";
+  trainee.screen().click(630, 335);
+  trainee.screen().type("mona");
+  trainee.screen().press("Tab");
+  trainee.screen().type(kPassword);
+  trainee.screen().press("Return");
+  ASSERT_TRUE(trainee.reaches("ready", 60.0)) << "the case of this workstation";
+  ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
+  trainee.screen().press("y");
+  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); }, 20.0)) << trainee.now();
+  trainee.screen().press("F10");
+  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(20.0));
+  EXPECT_GT(trainee.now().value("inserted_mm", 0.0), 12.0) << "the mouse leads the arm, the arm the needle";
+  trainee.keep_picture();
+  ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
+}
+
 TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   const auto scratch = fixtures::fresh_folder("train_device");
   const std::string library = (scratch / "library").string();
@@ -74,15 +261,14 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
 
   auto service = std::make_unique<Service>(scratch, "0");
   const std::string port = service->port();
-  fixtures::Trainee trainee(kProgram, library, scratch, {"--device", "haply", "--device-port", port});
+  fixtures::Trainee trainee(
+      kProgram, library, scratch,
+      {"--device", "haply", "--device-port", port, "--station", (scratch / "station.json").string()});
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
-  const auto arms_are = [&](const char* state) {
-    const Json arms = trainee.now().value("arms", Json::array());
-    return arms == Json::array({state, state});
-  };
-  ASSERT_TRUE(until([&] { return arms_are("ok"); }, 20.0)) << trainee.now();
+  const auto both_are = [&](const char* state) { return arms_are(trainee, Json::array({state, state})); };
+  ASSERT_TRUE(until([&] { return both_are("ok"); }, 20.0)) << trainee.now();
   trainee.screen().press("y");
   // Both go round circles of 20 mm.
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
@@ -90,7 +276,7 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   trainee.keep_picture();
 
   service->kill();
-  ASSERT_TRUE(until([&] { return arms_are("lost"); }, 10.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return both_are("lost"); }, 10.0)) << trainee.now();
   std::this_thread::sleep_for(std::chrono::milliseconds(600));
   const double lost_s = trainee.now().value("attempt_s", 0.0);
   EXPECT_LT(way_mm(trainee, "needle_lps_mm", 2.0), 0.5) << "it stays";
@@ -104,7 +290,7 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   EXPECT_TRUE(until([&] { return glm::length(place(trainee.now(), "needle_lps_mm") - stayed) > 0.5; }, 10.0));
 
   service = std::make_unique<Service>(scratch, port);
-  ASSERT_TRUE(until([&] { return arms_are("ok"); }, 20.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return both_are("ok"); }, 20.0)) << trainee.now();
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
   EXPECT_GT(way_mm(trainee, "probe_lps_mm", 4.0), 25.0);
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());

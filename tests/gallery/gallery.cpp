@@ -61,6 +61,22 @@ TEST_F(Gallery, Ultrasound) {
   keep(trainee, "debrief");
 }
 
+TEST_F(Gallery, Devices) {
+  const std::string made = library("mpr");
+  fixtures::Trainee trainee(program, made, scratch_, {"--device", "virtual"});
+  trainee.screen().press("F10");
+  ASSERT_TRUE(trainee.reaches("devices", 10.0));
+  trainee.screen().press("t");
+  const auto asks = [&](const char* words) {
+    return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
+  };
+  ASSERT_TRUE(fixtures::until([&] { return asks("as far as it goes"); }, 20.0));
+  for (int more = 0; more < 8 && asks("as far as it goes"); ++more)
+    for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 0.7);
+  ASSERT_TRUE(fixtures::until([&] { return asks("push 5 of 6"); }, 30.0)) << trainee.now();
+  keep(trainee, "devices");
+}
+
 TEST_F(Gallery, Fluoroscopy) {
   const std::string made = library("xray");
   fixtures::Trainee trainee(program, made, scratch_);

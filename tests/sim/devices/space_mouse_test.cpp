@@ -3,81 +3,17 @@
 
 #include <gtest/gtest.h>
 #include <spnav.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <glm/geometric.hpp>
-#include <thread>
 
+#include "tests/fixtures/spacenav_daemon.h"
 #include "tests/sim/devices/hands_fixture.h"
 
 namespace seldinger::devices {
 namespace {
 
-// What spacenavd says on its socket: packets of eight 32-bit words; an answer to the protocol's first word.
-class Daemon {
- public:
-  explicit Daemon(bool answers = true) {
-    // Sockets' names are short, build folders' may not be.
-    char short_folder[] = "/tmp/seldinger-spnav-XXXXXX";
-    folder_ = ::mkdtemp(short_folder);
-    path_ = folder_ / "sock";
-    listening_ = ::socket(AF_UNIX, SOCK_STREAM, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
-    EXPECT_EQ(::bind(listening_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    EXPECT_EQ(::listen(listening_, 1), 0);
-    ::setenv("SPNAV_SOCKET", path_.c_str(), 1);
-    thread_ = std::thread([this, answers] {
-      client_ = ::accept(listening_, nullptr, nullptr);
-      std::int32_t word = 0;
-      if (client_ >= 0 && ::read(client_, &word, sizeof word) == sizeof word && answers) {
-        const ssize_t wrote = ::write(client_, &word, sizeof word);
-        EXPECT_EQ(wrote, static_cast<ssize_t>(sizeof word));
-      }
-    });
-  }
-  ~Daemon() {
-    ::shutdown(listening_, SHUT_RDWR);
-    ready();
-    hang_up();
-    ::close(listening_);
-    std::filesystem::remove_all(folder_);
-    ::unsetenv("SPNAV_SOCKET");
-  }
-  Daemon(const Daemon&) = delete;
-  Daemon& operator=(const Daemon&) = delete;
-
-  void ready() {
-    if (thread_.joinable()) thread_.join();
-  }
-  void hang_up() {
-    if (client_ >= 0) ::close(client_);
-    client_ = -1;
-  }
-  void motion(const std::array<int, 3>& along, const std::array<int, 3>& about) {
-    say({0, along[0], along[1], along[2], about[0], about[1], about[2], 16});
-  }
-  void button(int number, bool down) { say({down ? 1 : 2, number, 0, 0, 0, 0, 0, 0}); }
-  void say(const std::array<std::int32_t, 8>& packet, std::size_t bytes = 32) {
-    EXPECT_EQ(::write(client_, packet.data(), bytes), static_cast<ssize_t>(bytes));
-  }
-  void rest_of(const std::array<std::int32_t, 8>& packet, std::size_t from) {
-    const auto* bytes = reinterpret_cast<const char*>(packet.data());
-    EXPECT_EQ(::write(client_, bytes + from, 32 - from), static_cast<ssize_t>(32 - from));
-  }
-
- private:
-  std::filesystem::path folder_, path_;
-  int listening_ = -1, client_ = -1;
-  std::thread thread_;
-};
+using Daemon = fixtures::SpacenavDaemon;
 
 TEST(SpaceMouse, WithoutADaemonThereIsNone) {
   ::setenv("SPNAV_SOCKET", "/nonexistent/socket", 1);
@@ -102,6 +38,10 @@ TEST(SpaceMouse, SaysHowTheCapIsHeldAndWhichButtonsAreDown) {
   EXPECT_EQ(reading.about, (std::array<int, 3>{4, 5, 6}));
   EXPECT_EQ(reading.buttons.to_ulong(), 2UL);
   daemon.button(1, false);
+  EXPECT_EQ(mouse->poll().buttons.to_ulong(), 0UL);
+  daemon.button(2, true);
+  daemon.button(2, false);
+  EXPECT_EQ(mouse->poll().buttons.to_ulong(), 4UL) << "a short press between two looks is one";
   EXPECT_EQ(mouse->poll().buttons.to_ulong(), 0UL);
 }
 

@@ -33,6 +33,17 @@ TEST(VirtualDevice, FollowsAStepAsAFirstOrderLag) {
   EXPECT_NEAR(reading, 1.0 - std::exp(-1.0), 1e-3) << "after one time constant of 20 ms";
 }
 
+TEST(VirtualDevice, AnArmThatIsThereIsReadAtOnceAndAHandGoesOnFromThere) {
+  VirtualDevice device;
+  cases::ToolPose hand;
+  device.advance(hand, 0.001);
+  cases::ToolPose read;
+  read.position_lps_mm = {64.0, -3.0, 0.01};
+  EXPECT_EQ(device.follow(read).position_lps_mm, glm::dvec3(64.0, -3.0, 0.0)) << "no lag, in steps of the encoder";
+  const glm::dvec3 next = device.advance(hand, 0.001).position_lps_mm;
+  EXPECT_NEAR(next.x, 64.0 - 0.4, 0.04) << "no faster than a hand";
+}
+
 TEST(VirtualDevice, NeverMovesFasterThanAHand) {
   VirtualDevice device;
   cases::ToolPose hand;

@@ -1,0 +1,34 @@
+#include "app/station.h"
+
+#include <cstdlib>
+
+#include "app/file.h"
+#include "casedb/disk.h"
+
+namespace seldinger::app {
+
+base::Result<Station> change_station(const std::filesystem::path& file,
+                                     const std::function<void(Station&)>& change) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  casedb::without_paths([&] { return std::filesystem::create_directories(folder); });
+  const casedb::FolderLock lock(folder);
+  Station station;
+  if (std::filesystem::exists(file)) {
+    auto known = read_station(file);
+    if (!known) return known.error();
+    station = std::move(*known);
+  }
+  change(station);
+  write_file(file, json_of_station(station));
+  return station;
+}
+
+std::filesystem::path usual_station_file() {
+  const auto below = [](const std::filesystem::path& folder) { return folder / "seldinger" / "station.json"; };
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config == '/')
+    return below(config);
+  const char* home = std::getenv("HOME");
+  return home != nullptr && *home == '/' ? below(std::filesystem::path(home) / ".config") : std::filesystem::path();
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,123 @@
+// Other hands at the trainer's window: a 3-D mouse behind a daemon of the test's, and a gamepad that answers in
+// GLFW's place. What they say goes the whole way: their library, the window, the hands, the recording.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/fixtures/process.h"
+#include "tests/fixtures/spacenav_daemon.h"
+#include "tests/fixtures/trainee.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::until;
+
+const std::string kProgram = SELDINGER_PROGRAM;
+constexpr const char* kPassword = "a password";
+
+std::string library_in(const std::filesystem::path& scratch) {
+  std::string library = (scratch / "library").string();
+  const auto run = [&](const std::string& words) {
+    const auto ran = fixtures::run(words + " --library " + library, scratch);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+  };
+  run(kProgram + " demo --no-serve --modality mpr");
+  run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " user add mona --role mentor");
+  return library;
+}
+
+glm::dvec3 needle(const fixtures::Trainee& trainee) {
+  const Json at = trainee.now().value("needle_lps_mm", Json::array({0, 0, 0}));
+  return {at[0], at[1], at[2]};
+}
+
+// The needle moves by so much, or the time is over.
+bool moves(const fixtures::Trainee& trainee, double mm) {
+  const glm::dvec3 from = needle(trainee);
+  return until([&] { return glm::length(needle(trainee) - from) > mm; }, 15.0);
+}
+
+bool rests(const fixtures::Trainee& trainee) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const glm::dvec3 from = needle(trainee);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  return glm::length(needle(trainee) - from) < 0.5;
+}
+
+bool holds(const fixtures::Trainee& trainee, const char* tool) {
+  return until([&] { return trainee.now().value("held", "") == tool; }, 10.0);
+}
+
+void enter(fixtures::Trainee& trainee) {
+  ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
+  ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
+  trainee.screen().press("y");
+  ASSERT_TRUE(holds(trainee, "needle"));
+}
+
+TEST(TrainHands, AThreeDMouseLeadsTheNeedleAndRestsWhenItsDaemonIsGone) {
+  const auto scratch = fixtures::fresh_folder("train_space_mouse");
+  const std::string library = library_in(scratch);
+  fixtures::SpacenavDaemon daemon;
+  fixtures::Trainee trainee(kProgram, library, scratch);
+  daemon.ready();
+  ASSERT_NO_FATAL_FAILURE(enter(trainee));
+  daemon.motion({120, 0, 0}, {});
+  EXPECT_TRUE(moves(trainee, 10.0)) << trainee.now();
+  daemon.motion({0, 0, 0}, {});
+  EXPECT_TRUE(rests(trainee));
+  for (const char* tool : {"probe", "needle"}) {
+    daemon.button(1, true);
+    daemon.button(1, false);
+    EXPECT_TRUE(holds(trainee, tool)) << "a short press changes the tool";
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+  daemon.motion({-120, 0, 0}, {});
+  EXPECT_TRUE(moves(trainee, 5.0));
+  daemon.hang_up();
+  EXPECT_TRUE(rests(trainee)) << "nothing drifts on";
+  ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
+}
+
+TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
+  const auto scratch = fixtures::fresh_folder("train_gamepad");
+  const std::string library = library_in(scratch);
+  const auto says = [&](const std::string& words) {
+    std::ofstream(scratch / "pad.new") << words;
+    std::filesystem::rename(scratch / "pad.new", scratch / "pad");
+  };
+  const std::string still = "0 0 0 0 -1 -1";
+  says(still);
+  ::setenv("SELDINGER_FAKE_GAMEPAD", (scratch / "pad").c_str(), 1);
+  ::setenv("LD_PRELOAD", SELDINGER_FAKE_GAMEPAD_LIBRARY, 1);
+  fixtures::Trainee trainee(kProgram, library, scratch);
+  ::unsetenv("LD_PRELOAD");
+  ::unsetenv("SELDINGER_FAKE_GAMEPAD");
+  ASSERT_NO_FATAL_FAILURE(enter(trainee));
+  says("0.6 0 0 0 -1 -1");
+  EXPECT_TRUE(moves(trainee, 3.0)) << trainee.now();
+  says("");
+  EXPECT_TRUE(rests(trainee)) << "unplugged with its stick held";
+  says("0 0 0 0 -1 1");  // the right trigger pushes
+  EXPECT_TRUE(until([&] { return trainee.now().value("inserted_mm", 0.0) > 5.0; }, 30.0)) << trainee.now();
+  says(still);
+  EXPECT_TRUE(rests(trainee));
+  says(still + " 2");
+  EXPECT_TRUE(holds(trainee, "probe")) << "X takes the other tool";
+  says(still);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  says(still + " 0");
+  EXPECT_TRUE(until([&] { return trainee.now().value("fired", false); }, 10.0)) << "A fires";
+  says(still);
+  trainee.keep_picture();
+  ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
+}
+
+}  // namespace
+}  // namespace seldinger
