@@ -42,6 +42,8 @@ std::string name_of(Trainer& trainer) {
       return "debrief";
     case TrainerScreen::watch:
       return "watch";
+    case TrainerScreen::bench:
+      return "bench";
   }
   return "";
 }
@@ -54,6 +56,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       speaker_(options.sound),
       attempt_(window.context(), options, speaker_),
       watch_(window.context(), speaker_),
+      bench_(window.context()),
       pictures_(std::move(pictures)),
       trace_(trace),
       opened_s_(clock_s()),
@@ -91,6 +94,10 @@ void Desk::draw_screen() {
     case TrainerScreen::watch:
       watch_.draw(trainer_, keys);
       break;
+    case TrainerScreen::bench:
+      attempt_.end();
+      bench_.draw(trainer_, keys);
+      break;
   }
 }
 
@@ -109,6 +116,7 @@ void Desk::tell(const std::string& screen) {
     line.heap_mib = heap_mib();
   }
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
+  if (screen == "bench" && trainer_.bench() != nullptr) BenchPanel::tell(*trainer_.bench(), line);
   trace_.write(line);
   told_s_ = now_s;
   frames_ = 0;

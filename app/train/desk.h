@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/train/panel_attempt.h"
+#include "app/train/panel_bench.h"
 #include "app/train/panel_watch.h"
 #include "app/train/panels.h"
 #include "app/train/speaker.h"
@@ -41,6 +42,7 @@ class Desk {
   AttemptPanel attempt_;
   DebriefPanel debrief_;
   WatchPanel watch_;
+  BenchPanel bench_;
   std::optional<devices::SpaceMouse> space_mouse_;  // if one was there at the start
   std::filesystem::path pictures_;
   Trace& trace_;

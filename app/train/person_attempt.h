@@ -51,6 +51,7 @@ class PersonAttempt {
     std::shared_ptr<const Task> task{};  // as prepared for an attempt before; else it is prepared
     std::optional<Arms> arms{};
     PicturesBy by = PicturesBy::cpu;
+    LiveAttempt::Keep keep = LiveAttempt::Keep::stored;
   };
   enum class Phase { preparing, ready, running, storing, stored, refused };
 
@@ -64,7 +65,7 @@ class PersonAttempt {
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
   std::shared_ptr<const Task> task() const;  // from `ready` on (CHECKed)
   const base::Error& error() const;          // `refused` only (CHECKed)
-  const StoredAttempt& stored() const;       // `stored` only (CHECKed)
+  const StoredAttempt& stored() const;       // `stored` only (CHECKed), or over where it is not kept
 
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);

@@ -43,7 +43,10 @@ void Trainer::log_out() {
   watched_.reset();
   attempt_.reset();
   debrief_.reset();
+  bench_.reset();
+  trying_ = false;
   choices_.clear();
+  drafts_.clear();
   account_ = {};
   refusal_.clear();
   screen_ = TrainerScreen::log_in;
@@ -81,16 +84,61 @@ void Trainer::list_choices() {
       std::replace(choice.reached.begin(), choice.reached.end(), '_', ' ');
     }
   }
+  list_drafts(rows);
   for (const casedb::CaseRow& row : rows) {
     const bool listed = std::any_of(choices_.begin(), choices_.end(),
                                     [&](const Choice& choice) { return choice.case_id == row.case_id; });
-    // A mentor tries what is not published yet; everybody else practises what is.
-    const bool tries = account_.role == casedb::Role::mentor && row.state == "draft";
-    if (listed || (row.state != "published" && !tries)) continue;
+    if (listed || row.state != "published") continue;
     if (casedb::list_lesions(library_, row.case_id).empty()) continue;
     Choice& choice = add(row);
     choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));
   }
+}
+
+void Trainer::list_drafts(const std::vector<casedb::CaseRow>& rows) {
+  drafts_.clear();
+  if (account_.role != casedb::Role::mentor) return;
+  for (const casedb::CaseRow& row : rows)
+    if (row.state == "draft" || row.state == "review")
+      drafts_.push_back({row.case_id, row.title, row.state, row.modality, row.version});
+}
+
+void Trainer::open_bench(const std::string& case_id) {
+  const bool known =
+      std::any_of(drafts_.begin(), drafts_.end(), [&](const Draft& one) { return one.case_id == case_id; });
+  if (!known) return;
+  refusal_.clear();
+  bench_.reset();  // before the next: a case is large
+  bench_ = std::make_unique<CaseBench>(library_, case_id, account_.login_name);
+  screen_ = TrainerScreen::bench;
+}
+
+void Trainer::new_version(const std::string& case_id) {
+  if (account_.role != casedb::Role::mentor) return;
+  const auto made = casedb::new_version(library_, case_id, account_.login_name);
+  if (!made) {
+    refusal_ = made.error().text;
+    return;
+  }
+  list_choices();
+  open_bench(*made);
+}
+
+void Trainer::leave_bench() {
+  if (screen_ != TrainerScreen::bench) return;
+  bench_.reset();
+  list_choices();
+  screen_ = TrainerScreen::choose;
+}
+
+void Trainer::try_draft() {
+  if (screen_ != TrainerScreen::bench) return;
+  chosen_ = bench_->row();
+  expert_.clear();
+  help_ = chosen_.difficulty == casedb::Difficulty::easy ? kMostHelp : 0;
+  restarting_ = false;
+  trying_ = true;
+  prepare(nullptr);
 }
 
 void Trainer::choose(const std::string& case_id) {
@@ -105,7 +153,7 @@ void Trainer::choose(const std::string& case_id) {
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
   help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
-  restarting_ = false;
+  restarting_ = trying_ = false;
   prepare(nullptr);
 }
 
@@ -113,8 +161,9 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
-  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
-      library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_, by_});
+  attempt_ = std::make_unique<PersonAttempt>(
+      PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task),
+                            arms_, by_, trying_ ? LiveAttempt::Keep::not_kept : LiveAttempt::Keep::stored});
   screen_ = TrainerScreen::briefing;
 }
 
@@ -122,12 +171,19 @@ void Trainer::back() {
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   attempt_.reset();
   debrief_.reset();
+  if (trying_) {
+    trying_ = false;
+    screen_ = TrainerScreen::bench;
+    return;
+  }
   list_choices();
   screen_ = TrainerScreen::choose;
 }
 
 void Trainer::again() {
-  if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose) return;
+  if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose ||
+      screen_ == TrainerScreen::bench)
+    return;
   const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
   restarting_ = true;
   prepare(prepared ? attempt_->task() : nullptr);
@@ -155,20 +211,45 @@ void Trainer::stop_watching() {
   if (screen_ == TrainerScreen::watch) screen_ = watched_from_;
 }
 
+// Graded as a stored one would be.
+Debrief Trainer::debrief_of_try() {
+  const StoredAttempt& made = attempt_->stored();
+  const std::shared_ptr<const Task> task = attempt_->task();
+  casedb::AttemptRow row;
+  static_cast<casedb::AttemptHead&>(row) =
+      head_of(*task, std::string(casedb::kPersonOperator), 0, account_.person_id);
+  row.case_title = task->row.title;
+  row.lesion = task->lesion.lesion;
+  row.end = made.end;
+  row.metrics = made.metrics;
+  return {row, casedb::Grader(library_).look_at(row), made.steps};
+}
+
 void Trainer::look() {
   if (watched_ && screen_ != TrainerScreen::watch) watched_.reset();
   if (watched_ && watched_->phase() == WatchedAttempt::Phase::refused) {
     refusal_ = watched_->error().text;
     stop_watching();
   }
+  if (bench_ && screen_ == TrainerScreen::bench) bench_->look();
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();
   if (phase == PersonAttempt::Phase::refused) {
     refusal_ = attempt_->error().text;
     attempt_.reset();
+    if (trying_) {
+      trying_ = false;
+      screen_ = TrainerScreen::bench;
+      return;
+    }
     list_choices();
     screen_ = TrainerScreen::choose;
   } else if (phase == PersonAttempt::Phase::stored && !debrief_ && screen_ == TrainerScreen::attempt) {
+    if (trying_) {
+      debrief_ = debrief_of_try();
+      screen_ = TrainerScreen::debrief;
+      return;
+    }
     const std::string id = attempt_->stored().attempt_id;
     const auto row = casedb::find_attempt(library_, id);
     if (!row) {
