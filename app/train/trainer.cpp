@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "casedb/changeable_case.h"
 #include "casedb/expert_replay.h"
 
 namespace seldinger::app {
@@ -18,6 +19,11 @@ std::size_t passes_among(casedb::Grader& grader, const std::vector<casedb::Attem
     if (grader.grade(attempt).verdict == assessment::Verdict::passed) ++passes;
   }
   return passes;
+}
+
+bool has_attempts(casedb::Library& library, const casedb::CaseRow& row) {
+  const auto changeable = casedb::changeable_case(library, row.case_id);
+  return !changeable && changeable.error().code == "has_attempts";
 }
 
 }  // namespace
@@ -88,7 +94,11 @@ void Trainer::list_choices() {
   for (const casedb::CaseRow& row : rows) {
     const bool listed = std::any_of(choices_.begin(), choices_.end(),
                                     [&](const Choice& choice) { return choice.case_id == row.case_id; });
-    if (listed || row.state != "published") continue;
+    // A mentor may also practise a draft that attempts have frozen; any other is for the bench, where trying it
+    // freezes nothing.
+    const bool frozen =
+        account_.role == casedb::Role::mentor && row.state == "draft" && has_attempts(library_, row);
+    if (listed || (row.state != "published" && !frozen)) continue;
     if (casedb::list_lesions(library_, row.case_id).empty()) continue;
     Choice& choice = add(row);
     choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));

@@ -70,7 +70,7 @@ TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   ASSERT_FALSE(HasFailure());
   const fixtures::Screen& screen = mentor_->screen();
   ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword));
-  screen.click(1208, 185);  // the second draft
+  screen.click(fixtures::kSecondDraft.first, fixtures::kSecondDraft.second);
   ASSERT_TRUE(mentor_->reaches("bench", 20.0));
   ASSERT_TRUE(check_is("failing", "lesion_present")) << mentor_->now();
   mentor_->keep_picture();
