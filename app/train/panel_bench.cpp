@@ -32,7 +32,7 @@ constexpr const char* kHelp =
     "Lesion: click – its middle; drag its middle or its rim. Structure: the same; a tube takes a point with each "
     "click "
     "and is done with Enter\n"
-    "Keys: V L T E R – tools · Ctrl Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
+    "Keys: V L T E R – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
     "remove what is chosen · Enter, Esc – finish, drop a tube\n"
     "Each change is stored at once, and the checks run again.";
 
@@ -40,10 +40,8 @@ constexpr const char* kHelp =
 
 void BenchPanel::read_keys(Trainer& trainer, const Keys& keys) {
   CaseBench& bench = *trainer.bench();
-  if (keys.control) {
-    if (keys.pressed('Z')) bench.undo();
-    return;
-  }
+  if (keys.pressed('Z')) bench.undo();  // with Ctrl or without: a slow frame may not have seen it go down
+  if (keys.control) return;
   for (const ToolButton& one : kTools)
     if (keys.pressed(one.key)) bench.tool = one.tool;
   if (keys.pressed('W')) {
@@ -83,7 +81,7 @@ void BenchPanel::draw_top(Trainer& trainer) {
     ImGui::SameLine();
   }
   ImGui::BeginDisabled(!bench.can_undo() || !bench.locked().empty());
-  if (ImGui::Button("Undo (Ctrl Z)")) bench.undo();
+  if (ImGui::Button("Undo (Z)")) bench.undo();
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered() && bench.can_undo()) ImGui::SetTooltip("%s", bench.undo_words().c_str());
   ImGui::SameLine();

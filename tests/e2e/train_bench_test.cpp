@@ -83,8 +83,8 @@ TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   EXPECT_EQ(bench()["lesions"], 1);
   const double before_mm = shown()["lesions"][0]["radius_mm"];
   const double grip_px = before_mm / bench()["mm_per_pixel"].get<double>();
-  screen.drag(kLiver.first + static_cast<int>(std::lround(grip_px)), kLiver.second, kLiver.first + 12,
-              kLiver.second);
+  screen.drag(kLiver.first + static_cast<int>(std::lround(grip_px)), kLiver.second, kLiver.first + 22,
+              kLiver.second, 1, 0.8);
   ASSERT_TRUE(
       fixtures::until([&] { return shown()["lesions"][0]["radius_mm"].get<double>() > before_mm + 1.0; }, 10.0))
       << "the rim was dragged";
