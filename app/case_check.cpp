@@ -67,12 +67,13 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
       {"lesion_inside_body", inside,
        which + (depth_mm < 0.0 ? ": its centre lies outside the body"
                 : inside       ? ": its centre lies " + mm(depth_mm) + " within its surface"
-                         : ": it sticks out of the body, its centre only " + mm(depth_mm) + " below the surface")});
+                         : ": it sticks out of the body, its centre only " + mm(depth_mm) + " below the surface"),
+       lesion.form.center_lps_mm});
   const double bone =
       bone_share(cases::shape_of(lesion.form), lesion.form.center_lps_mm, scene.volume, scene.classes);
   char share[64];
   std::snprintf(share, sizeof share, ": %.0f %% of it is bone", 100.0 * bone);
-  checks.push_back({"lesion_not_in_bone", bone <= kMostBoneShare, which + share});
+  checks.push_back({"lesion_not_in_bone", bone <= kMostBoneShare, which + share, lesion.form.center_lps_mm});
   if (row.clinic.defer) {
     checks.push_back({"lesion_reachable", true, which + ": not asked, the right decision is to defer"});
     return;
@@ -82,7 +83,8 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
   limits.max_depth_mm = scene.instrument.length_mm;
   const auto plan = assessment::plan_puncture(scene.volume, scene.skin_index, lesion.lesion.center_lps_mm, limits);
   checks.push_back({"lesion_reachable", plan.has_value(),
-                    which + ": " + (plan ? "a free way of " + mm(plan->depth_mm) : plan.error().text)});
+                    which + ": " + (plan ? "a free way of " + mm(plan->depth_mm) : plan.error().text),
+                    plan ? plan->entry_lps_mm : lesion.form.center_lps_mm});
 }
 
 }  // namespace
@@ -93,37 +95,47 @@ base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseR
   // Tissue: whether something is bone is a matter of class.
   const auto scene = build_case(library, row, std::nullopt, picture, Needs::touch);
   if (!scene) return scene.error();
+  return check_scene(*scene, row, casedb::list_lesions(library, row.case_id),
+                     casedb::list_structures(library, row.case_id));
+}
+
+CaseCheck check_scene(const cases::Case& scene, const casedb::CaseRow& row,
+                      const std::vector<casedb::LesionRow>& lesions,
+                      const std::vector<casedb::StructureRow>& structures) {
   CaseCheck checked;
   std::vector<Check>& checks = checked.checks;
-  const auto lesions = casedb::list_lesions(library, row.case_id);
   checks.push_back({"lesion_present", !lesions.empty(),
                     lesions.empty() ? "there is no lesion" : std::to_string(lesions.size()) + " placed"});
   for (std::size_t i = 0; i < lesions.size(); ++i)
-    check_lesion(*scene, row, lesions[i], "lesion " + std::to_string(i + 1), checks);
+    check_lesion(scene, row, lesions[i], "lesion " + std::to_string(i + 1), checks);
   if (row.planned_entry_lps_mm) {
-    const auto near = scene->skin_index.closest_skin(*row.planned_entry_lps_mm);
+    const auto near = scene.skin_index.closest_skin(*row.planned_entry_lps_mm);
     const double off_mm = std::abs(near.distance_mm);
-    checks.push_back(
-        {"entry_on_skin", off_mm <= kEntryNearSkinMm, "the planned entry is " + mm(off_mm) + " from it"});
+    checks.push_back({"entry_on_skin", off_mm <= kEntryNearSkinMm,
+                      "the planned entry is " + mm(off_mm) + " from it", row.planned_entry_lps_mm});
   }
-  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(scene->volume);
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(scene.volume);
   const auto inside = [&](const glm::dvec3& p) {
-    return volume::inside(scene->volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
+    return volume::inside(scene.volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
   };
-  for (const casedb::StructureRow& one : casedb::list_structures(library, row.case_id)) {
+  for (const casedb::StructureRow& one : structures) {
     if (one.kind != casedb::StructureKind::drawn) continue;
     bool within = true;
+    std::optional<glm::dvec3> where;
     if (const auto* tube = std::get_if<cases::Tube>(&one.drawn)) {
-      within = std::all_of(tube->points_lps_mm.begin(), tube->points_lps_mm.end(), inside);
+      const auto out = std::find_if_not(tube->points_lps_mm.begin(), tube->points_lps_mm.end(), inside);
+      within = out == tube->points_lps_mm.end();
+      where = within ? tube->points_lps_mm.front() : *out;
     } else {
       const cases::Bounds bounds = cases::bounds_of(one.drawn);
-      within = inside((bounds.low_lps_mm + bounds.high_lps_mm) / 2.0);
+      where = (bounds.low_lps_mm + bounds.high_lps_mm) / 2.0;
+      within = inside(*where);
     }
     checks.push_back({"structure_in_volume", within,
-                      one.name + (within ? " lies within the volume" : " reaches out of the volume")});
+                      one.name + (within ? " lies within the volume" : " reaches out of the volume"), where});
   }
   const assessment::Guidance guidance{
-      casedb::manner_of(row), assessment::absent_needs(scene->structures, row.planned_entry_lps_mm.has_value())};
+      casedb::manner_of(row), assessment::absent_needs(scene.structures, row.planned_entry_lps_mm.has_value())};
   check_rule(row, guidance, checks);
   checked.rule_may_name = assessment::meaningful_metrics(guidance);
   return checked;

@@ -8,6 +8,7 @@
 #include "casedb/case_checks.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
+#include "sim/case/case.h"
 
 namespace seldinger::app {
 
@@ -19,5 +20,10 @@ using casedb::Check;
 // decision is to defer); a planned entry on the skin; drawn structures within the volume; a rule whose metrics are
 // known and mean something under the case's guidance. Refused: damaged assets.
 base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row);
+
+// The same of a case that is built already, with classes and without a lesion.
+CaseCheck check_scene(const cases::Case& scene, const casedb::CaseRow& row,
+                      const std::vector<casedb::LesionRow>& lesions,
+                      const std::vector<casedb::StructureRow>& structures);
 
 }  // namespace seldinger::app

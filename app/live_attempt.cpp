@@ -25,8 +25,8 @@ constexpr double kPulsesLookedForHz = 500.0;
 
 }  // namespace
 
-LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene)
-    : library_(library), head_(std::move(head)), scene_(scene) {}
+LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene, Keep keep)
+    : library_(library), head_(std::move(head)), scene_(scene), keep_(keep) {}
 
 base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   const bool xray = scene_.picture.modality == cases::Modality::xray;
@@ -36,14 +36,25 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     room.emplace(scene_);
   else
     see = sight_of(scene_);
-  const auto attempt_id = casedb::open_attempt(library_, head_);
-  if (!attempt_id) return attempt_id.error();
-  const casedb::RunningMark mark(library_.folder(), *attempt_id);
-  auto recorders_library = casedb::Library::open(library_.folder());  // one thread at a time uses a library
-  if (!recorders_library) return recorders_library.error();
+  std::string attempt_id;
+  std::optional<casedb::RunningMark> mark;
+  std::optional<casedb::Library> recorders_library;  // one thread at a time uses a library
+  if (keep_ == Keep::stored) {
+    auto opened = casedb::open_attempt(library_, head_);
+    if (!opened) return opened.error();
+    attempt_id = std::move(*opened);
+    mark.emplace(library_.folder(), attempt_id);
+    auto library = casedb::Library::open(library_.folder());
+    if (!library) return library.error();
+    recorders_library.emplace(std::move(*library));
+  }
+  std::vector<cases::RecordingChunk> not_kept;  // the recorder's thread, until it has finished
   assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
-                                [&](const cases::RecordingChunk& chunk) {
-                                  return casedb::add_chunk(*recorders_library, *attempt_id, chunk);
+                                [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
+                                  if (recorders_library)
+                                    return casedb::add_chunk(*recorders_library, attempt_id, chunk);
+                                  not_kept.push_back(chunk);
+                                  return {};
                                 });
 
   AttemptTicks ticks(scene_);
@@ -115,15 +126,18 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
                 : recorder.fell_behind() ? casedb::AttemptEnd::interrupted
                 : with.done()            ? casedb::AttemptEnd::stopped
                                          : casedb::AttemptEnd::time_limit;
-  const auto recording = casedb::load_open_recording(library_, *attempt_id);
+  const auto recording = keep_ == Keep::stored ? casedb::load_open_recording(library_, attempt_id)
+                                               : cases::recording_from_chunks(not_kept);
   if (!recording) return recording.error();
   auto scored = score(scene_, *recording);
   if (!scored) return scored.error();
   outcome.metrics = std::move(scored->metrics);
   outcome.steps = std::move(scored->steps);
-  outcome.picture_png = picture_at_endpoint(scene_, *recording);
-  if (const auto closed = casedb::close_attempt(library_, *attempt_id, outcome); !closed) return closed.error();
-  return StoredAttempt{*attempt_id, outcome.metrics};
+  if (keep_ == Keep::stored) {
+    outcome.picture_png = picture_at_endpoint(scene_, *recording);
+    if (const auto closed = casedb::close_attempt(library_, attempt_id, outcome); !closed) return closed.error();
+  }
+  return StoredAttempt{std::move(attempt_id), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
 }
 
 namespace {

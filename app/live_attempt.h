@@ -17,8 +17,10 @@ namespace seldinger::app {
 constexpr double kMostLiveSeconds = 1800.0;
 
 struct StoredAttempt {
-  std::string attempt_id;
+  std::string attempt_id;  // empty: it was not kept
   std::vector<assessment::MetricValue> metrics;
+  std::vector<assessment::StepResult> steps{};
+  casedb::AttemptEnd end = casedb::AttemptEnd::stopped;
 };
 
 class LiveAttempt {
@@ -37,8 +39,12 @@ class LiveAttempt {
     std::function<void()> ended{};               // no tick comes any more; scoring and storing follow
   };
 
+  // Not kept: nothing of it comes into the library; a mentor tries a draft, which stays one that can be changed.
+  enum class Keep { stored, not_kept };
+
   // The library and the scene (with what its modality needs) must outlive it.
-  LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene);
+  LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene,
+              Keep keep = Keep::stored);
 
   // Until `done` says so, kMostLiveSeconds are over, or it cannot be recorded any more. Stored, scored and durable
   // when it returns. Refused as casedb::open_attempt and close_attempt.
@@ -48,6 +54,7 @@ class LiveAttempt {
   casedb::Library& library_;
   casedb::AttemptHead head_;
   const cases::Case& scene_;
+  Keep keep_;
 };
 
 // Attempts that a program left behind when it died: each becomes an attempt that says so, with the score of what

@@ -23,17 +23,21 @@ struct StructureRow {
   std::optional<double> hu;   // drawn: what is painted; nothing: what the CT says stays
   std::string labels_sha256;  // kind label
   int label = 0;              // kind label, 1 to 255
+  int position = 0;           // among the case's: later ones are painted over earlier ones
 };
 
 std::string name_of(StructureKind kind);
 
-// Ids are made here. `no_case`, `not_a_draft`, `has_attempts`, `bad_structure` (name empty, over 100 bytes or with
-// control characters, HU not a voxel's, geometry not sound or not touching the volume, no such class or label in
-// the case), `name_taken`.
+// Ids and positions are made here. `no_case`, `not_a_draft`, `has_attempts`, `bad_structure` (name empty, over 100
+// bytes or with control characters, HU not a voxel's, geometry not sound or not touching the volume, no such class
+// or label in the case), `name_taken`.
 base::Result<std::string> add_structure(Library& library, const StructureRow& structure);
 base::Result<void> remove_structure(Library& library, const std::string& case_id,
-                                    const std::string& name);                             // +
-                                                                                          // `no_structure`
+                                    const std::string& name);  // +
+                                                               // `no_structure`
+// In place of the structure of that id, or of one that was removed, at its position while that is free. Refuses as
+// add_structure.
+base::Result<void> put_structure(Library& library, const StructureRow& structure);
 std::vector<StructureRow> list_structures(Library& library, const std::string& case_id);  // in their order
 
 // Whether structures and setting of a case can be read: asked of rows that come from outside.
@@ -55,6 +59,9 @@ base::Result<void> set_setting(Library& library, const std::string& case_id, con
 base::Result<void> set_title(Library& library, const std::string& case_id,
                              const std::string& title);  // `bad_title`
 
+// In place of the lesion of that id, or of one that was removed: with its age, and so in its order. Refuses as
+// add_lesion, and `has_attempts`.
+base::Result<void> put_lesion(Library& library, const LesionRow& lesion);
 // `no_lesion`, `not_a_draft`, `has_attempts`.
 base::Result<void> remove_lesion(Library& library, const std::string& case_id, const std::string& lesion_id);
 

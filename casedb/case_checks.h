@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,8 @@ namespace seldinger::casedb {
 struct Check {
   std::string name;  // stable snake_case: lesion_inside_body
   bool holds = false;
-  std::string text;  // what was found, or why it does not hold
+  std::string text;                          // what was found, or why it does not hold
+  std::optional<glm::dvec3> place_lps_mm{};  // where to look, if there is such a place
 };
 
 struct CaseCheck {

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "casedb/authoring.h"
+#include "casedb/changeable_case.h"
 #include "casedb/new_assets.h"
 #include "casedb/question.h"
 #include "casedb/setting_columns.h"
@@ -174,6 +176,40 @@ double radius_of(const cases::LesionForm& form) {
   return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
 }
 
+base::Result<void> check_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
+  const auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != "draft") return kNotADraft;
+  if (!sound_lesion(*row, form))
+    return base::Error{"bad_lesion",
+                       "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "
+                       "from -1024 to 32767, roughness from 0 to 0.3 and an edge no wider than the lesion"};
+  return {};
+}
+
+void insert_lesion(Sqlite& database, const LesionRow& lesion) {
+  const cases::LesionForm& form = lesion.form;
+  const bool ellipsoid = form.kind == cases::LesionKind::ellipsoid;
+  question(database, "add_lesion")
+      .bind("lesion_id", lesion.lesion_id)
+      .bind("case_id", lesion.case_id)
+      .bind("center_x_lps_mm", form.center_lps_mm.x)
+      .bind("center_y_lps_mm", form.center_lps_mm.y)
+      .bind("center_z_lps_mm", form.center_lps_mm.z)
+      .bind("radius_mm", radius_of(form))
+      .bind("hu", form.hu)
+      .bind("kind", cases::kLesionKindNames[static_cast<std::size_t>(form.kind)])
+      .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
+      .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
+      .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
+      .bind("roughness", form.roughness)
+      .bind("seed", std::bit_cast<std::int64_t>(form.seed))
+      .bind("adds", form.adds ? 1 : 0)
+      .bind("edge_mm", form.edge_mm)
+      .bind("created_us", lesion.created_us)
+      .run();
+}
+
 }  // namespace
 
 std::string name_of(cases::Modality modality) {
@@ -308,36 +344,28 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
 
 base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
   Transaction transaction(library.database());
-  const auto row = find_case(library, case_id);
-  if (!row) return row.error();
-  if (row->state != "draft") return kNotADraft;
-  if (!sound_lesion(*row, form))
-    return base::Error{"bad_lesion",
-                       "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "
-                       "from -1024 to 32767, roughness from 0 to 0.3 and an edge no wider than the lesion"};
-  const std::int64_t created_us = now_us();
-  std::string lesion_id = new_uuid();
-  const bool ellipsoid = form.kind == cases::LesionKind::ellipsoid;
-  question(library.database(), "add_lesion")
-      .bind("lesion_id", lesion_id)
-      .bind("case_id", case_id)
-      .bind("center_x_lps_mm", form.center_lps_mm.x)
-      .bind("center_y_lps_mm", form.center_lps_mm.y)
-      .bind("center_z_lps_mm", form.center_lps_mm.z)
-      .bind("radius_mm", radius_of(form))
-      .bind("hu", form.hu)
-      .bind("kind", cases::kLesionKindNames[static_cast<std::size_t>(form.kind)])
-      .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
-      .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
-      .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
-      .bind("roughness", form.roughness)
-      .bind("seed", std::bit_cast<std::int64_t>(form.seed))
-      .bind("adds", form.adds ? 1 : 0)
-      .bind("edge_mm", form.edge_mm)
-      .bind("created_us", created_us)
-      .run();
+  if (const auto fit = check_lesion(library, case_id, form); !fit) return fit.error();
+  LesionRow lesion;
+  lesion.lesion_id = new_uuid();
+  lesion.case_id = case_id;
+  lesion.form = form;
+  lesion.created_us = now_us();
+  insert_lesion(library.database(), lesion);
   transaction.commit();
-  return lesion_id;
+  return lesion.lesion_id;
+}
+
+base::Result<void> put_lesion(Library& library, const LesionRow& lesion) {
+  Transaction transaction(library.database());
+  if (const auto fit = check_lesion(library, lesion.case_id, lesion.form); !fit) return fit.error();
+  if (const auto row = changeable_case(library, lesion.case_id); !row) return row.error();
+  question(library.database(), "remove_lesion")
+      .bind("case_id", lesion.case_id)
+      .bind("lesion_id", lesion.lesion_id)
+      .run();
+  insert_lesion(library.database(), lesion);
+  transaction.commit();
+  return {};
 }
 
 std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id) {

@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "casedb/authoring.h"
+#include "casedb/changeable_case.h"
 #include "casedb/new_assets.h"
 #include "casedb/question.h"
 #include "casedb/setting_columns.h"
@@ -26,19 +27,6 @@ bool sound_name(const std::string& name) {
 
 base::Error bad(const char* text) {
   return {"bad_structure", text};
-}
-
-// The case, when it may be changed. To be asked within the transaction that does.
-base::Result<CaseRow> changeable_case(Library& library, const std::string& case_id) {
-  auto row = find_case(library, case_id);
-  if (!row) return row.error();
-  if (row->state != "draft") return kNotADraft;
-  Statement attempts = question(library.database(), "attempts_of_case");
-  CHECK(attempts.bind("case_id", case_id).step());
-  if (attempts.integer("attempts") > 0)
-    return base::Error{"has_attempts",
-                       "attempts were made on this draft; `seldinger case version` makes the next one"};
-  return row;
 }
 
 // Whether its box and the volume's overlap.
@@ -95,6 +83,7 @@ std::optional<StructureRow> read_structure(const Statement& from) {
   StructureRow row;
   row.structure_id = from.text("structure_id");
   row.case_id = from.text("case_id");
+  row.position = from.small_integer("position");
   row.name = from.text("title");
   const auto rule = cases::structure_rule_from(from.text("rule"));
   const auto tissue = volume::tissue_of_name(from.text("tissue"));
@@ -116,29 +105,27 @@ std::optional<StructureRow> read_structure(const Statement& from) {
   return row;
 }
 
-}  // namespace
-
-std::string name_of(StructureKind kind) {
-  return kKinds[static_cast<std::size_t>(kind)];
+// Reading classes and labels takes a moment: not to be asked under the write lock.
+base::Result<void> check_structure(Library& library, const StructureRow& structure) {
+  if (!sound_name(structure.name)) return bad("a name has 1 to 100 bytes on one line");
+  const auto row = find_case(library, structure.case_id);
+  if (!row) return row.error();
+  return check_place(library, *row, structure);
 }
 
-base::Result<std::string> add_structure(Library& library, const StructureRow& structure) {
-  if (!sound_name(structure.name)) return bad("a name has 1 to 100 bytes on one line");
-  {  // reading classes and labels takes a moment: not under the write lock
-    const auto row = find_case(library, structure.case_id);
-    if (!row) return row.error();
-    if (const auto fit = check_place(library, *row, structure); !fit) return fit.error();
-  }
-  Transaction transaction(library.database());
-  const auto row = changeable_case(library, structure.case_id);
-  if (!row) return row.error();
-  for (const StructureRow& other : list_structures(library, structure.case_id))
-    if (other.name == structure.name) return base::Error{"name_taken", "the case has a structure of that name"};
-  std::string structure_id = new_uuid();
+const base::Error kNameTaken{"name_taken", "the case has a structure of that name"};
+bool has_name(const std::vector<StructureRow>& structures, const std::string& name) {
+  return std::any_of(structures.begin(), structures.end(),
+                     [&](const StructureRow& one) { return one.name == name; });
+}
+
+void insert_structure(Library& library, const StructureRow& structure, const std::string& structure_id,
+                      int position) {
   const bool drawn = structure.kind == StructureKind::drawn, label = structure.kind == StructureKind::label;
   question(library.database(), "add_structure")
       .bind("structure_id", structure_id)
       .bind("case_id", structure.case_id)
+      .bind("position", position)
       .bind("title", structure.name)
       .bind("rule", cases::name_of(structure.rule))
       .bind("tissue", volume::about(structure.tissue).name)
@@ -149,8 +136,57 @@ base::Result<std::string> add_structure(Library& library, const StructureRow& st
       .bind("label", label ? std::optional(structure.label) : std::nullopt)
       .bind("created_us", now_us())
       .run();
+}
+
+}  // namespace
+
+base::Result<CaseRow> changeable_case(Library& library, const std::string& case_id) {
+  auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != "draft") return kNotADraft;
+  Statement attempts = question(library.database(), "attempts_of_case");
+  CHECK(attempts.bind("case_id", case_id).step());
+  if (attempts.integer("attempts") > 0)
+    return base::Error{"has_attempts",
+                       "attempts were made on this draft; `seldinger case version` makes the next one"};
+  return row;
+}
+
+std::string name_of(StructureKind kind) {
+  return kKinds[static_cast<std::size_t>(kind)];
+}
+
+base::Result<std::string> add_structure(Library& library, const StructureRow& structure) {
+  if (const auto fit = check_structure(library, structure); !fit) return fit.error();
+  Transaction transaction(library.database());
+  if (const auto row = changeable_case(library, structure.case_id); !row) return row.error();
+  const auto others = list_structures(library, structure.case_id);
+  if (has_name(others, structure.name)) return kNameTaken;
+  std::string structure_id = new_uuid();
+  insert_structure(library, structure, structure_id, others.empty() ? 0 : others.back().position + 1);
   transaction.commit();
   return structure_id;
+}
+
+base::Result<void> put_structure(Library& library, const StructureRow& structure) {
+  if (const auto fit = check_structure(library, structure); !fit) return fit.error();
+  Transaction transaction(library.database());
+  if (const auto row = changeable_case(library, structure.case_id); !row) return row.error();
+  auto others = list_structures(library, structure.case_id);
+  for (const StructureRow& other : others)
+    if (other.structure_id == structure.structure_id)
+      question(library.database(), "remove_structure")
+          .bind("case_id", structure.case_id)
+          .bind("title", other.name)
+          .run();
+  std::erase_if(others, [&](const StructureRow& one) { return one.structure_id == structure.structure_id; });
+  if (has_name(others, structure.name)) return kNameTaken;
+  const bool taken = std::any_of(others.begin(), others.end(),
+                                 [&](const StructureRow& one) { return one.position == structure.position; });
+  insert_structure(library, structure, structure.structure_id,
+                   taken ? others.back().position + 1 : structure.position);
+  transaction.commit();
+  return {};
 }
 
 base::Result<void> remove_structure(Library& library, const std::string& case_id, const std::string& name) {

@@ -42,6 +42,8 @@ std::string name_of(Trainer& trainer) {
       return "debrief";
     case TrainerScreen::watch:
       return "watch";
+    case TrainerScreen::bench:
+      return "bench";
     case TrainerScreen::devices:
       return "devices";
   }
@@ -56,6 +58,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       speaker_(options.sound),
       attempt_(window.context(), options, speaker_),
       watch_(window.context(), speaker_),
+      bench_(window.context()),
       pictures_(std::move(pictures)),
       trace_(trace),
       opened_s_(clock_s()),
@@ -99,6 +102,10 @@ void Desk::draw_screen() {
     case TrainerScreen::watch:
       watch_.draw(trainer_, keys);
       break;
+    case TrainerScreen::bench:
+      attempt_.end();
+      bench_.draw(trainer_, keys);
+      break;
     case TrainerScreen::devices:
       devices_.draw(trainer_, keys, other_hands());
       return;  // F10 was to leave it
@@ -121,7 +128,8 @@ void Desk::tell(const std::string& screen) {
     line.heap_mib = heap_mib();
   }
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
-  if (screen == "devices" && trainer_.bench() != nullptr) devices_.tell(*trainer_.bench(), line);
+  if (screen == "bench" && trainer_.bench() != nullptr) BenchPanel::tell(*trainer_.bench(), line);
+  if (screen == "devices" && trainer_.device_bench() != nullptr) devices_.tell(*trainer_.device_bench(), line);
   trace_.write(line);
   told_s_ = now_s;
   frames_ = 0;

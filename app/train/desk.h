@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/train/panel_attempt.h"
+#include "app/train/panel_bench.h"
 #include "app/train/panel_device.h"
 #include "app/train/panel_watch.h"
 #include "app/train/panels.h"
@@ -43,6 +44,7 @@ class Desk {
   AttemptPanel attempt_;
   DebriefPanel debrief_;
   WatchPanel watch_;
+  BenchPanel bench_;
   DevicePanel devices_;
   std::optional<devices::SpaceMouse> space_mouse_;  // if one is there
   std::filesystem::path pictures_;

@@ -23,7 +23,7 @@ void draw_choices(Trainer& trainer, const std::string& curriculum) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   ImGui::TableHeadersRow();
-  std::string chosen;
+  std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
     if (choice.curriculum != curriculum) continue;
     ImGui::PushID(choice.case_id.c_str());
@@ -41,12 +41,49 @@ void draw_choices(Trainer& trainer, const std::string& curriculum) {
     ImGui::TextUnformatted(state_words(choice).c_str());
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(!choice.open);
-    if (ImGui::Button(choice.due ? "Next case" : "Open", {-1.0F, 0.0F})) chosen = choice.case_id;
+    const bool mentor = trainer.account().role == casedb::Role::mentor;
+    const float wide = mentor ? 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F) : -1.0F;
+    if (ImGui::Button(choice.due ? "Next case" : "Open", {wide, 0.0F})) chosen = choice.case_id;
     ImGui::EndDisabled();
+    if (mentor) {
+      ImGui::SameLine();
+      if (ImGui::Button("Edit", {-1.0F, 0.0F})) versioned = choice.case_id;
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
+    }
     ImGui::PopID();
   }
   ImGui::EndTable();
   if (!chosen.empty()) trainer.choose(chosen);
+  if (!versioned.empty()) trainer.new_version(versioned);
+}
+
+void draw_drafts(Trainer& trainer) {
+  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  ImGui::Spacing();
+  heading("On the bench");
+  if (!ImGui::BeginTable("drafts", 4, kTable)) return;
+  ImGui::TableSetupColumn("Draft", ImGuiTableColumnFlags_WidthStretch, 5.3F);
+  ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 3.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  ImGui::TableHeadersRow();
+  std::string opened;
+  for (const Draft& draft : trainer.drafts()) {
+    ImGui::PushID(draft.case_id.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(draft.title.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(modality_words(draft.modality).c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%s, version %d", draft.state == "review" ? "in review" : "draft", draft.version);
+    ImGui::TableNextColumn();
+    if (ImGui::Button("Bench", {-1.0F, 0.0F})) opened = draft.case_id;
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+  if (!opened.empty()) trainer.open_bench(opened);
 }
 
 }  // namespace
@@ -80,6 +117,7 @@ void ChoosePanel::draw(Trainer& trainer) {
     heading(curriculum.empty() ? "Free practice" : curriculum.c_str());
     draw_choices(trainer, curriculum);
   }
+  if (!trainer.drafts().empty()) draw_drafts(trainer);
   if (out) trainer.log_out();
   if (devices && !out) trainer.show_devices();
   end_screen();

@@ -101,10 +101,17 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::EndChild();
   if (ImGui::Button("Again (F5)") || keys.pressed(kF5)) trainer.again();
   ImGui::SameLine();
-  const bool watch = ImGui::Button("Watch it again (W)") || keys.pressed('W');
-  if (watch) trainer.watch(debrief.attempt.attempt_id);
-  ImGui::SameLine();
-  if (ImGui::Button("Cases")) trainer.back();
+  if (!trainer.trying()) {
+    const bool watch = ImGui::Button("Watch it again (W)") || keys.pressed('W');
+    if (watch) trainer.watch(debrief.attempt.attempt_id);
+    ImGui::SameLine();
+  }
+  if (ImGui::Button(trainer.trying() ? "Back to the bench (Esc)" : "Cases") ||
+      (trainer.trying() && keys.pressed(kEscape))) {
+    trainer.back();
+    end_screen();
+    return;
+  }
   ImGui::SameLine();
   if (ImGui::Button("Log out")) trainer.log_out();
   ImGui::SameLine();

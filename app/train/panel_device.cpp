@@ -46,7 +46,7 @@ void DevicePanel::draw_hands(Trainer& trainer, const OtherHands& other) {
          "virtual` two simulated ones.");
     return;
   }
-  DeviceBench& bench = *trainer.bench();
+  DeviceBench& bench = *trainer.device_bench();
   const Arms& arms = *trainer.arms();
   const devices::HaplyStatus status = bench.status();
   hand(arms.led ? "Simulated service" : "Haply Inverse service", status.connected,
@@ -101,8 +101,8 @@ void DevicePanel::draw_gains(Trainer& trainer) {
 }
 
 void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& other) {
-  if (trainer.bench() != bench_) {
-    bench_ = trainer.bench();
+  if (trainer.device_bench() != bench_) {
+    bench_ = trainer.device_bench();
     gains_.reset();
     styli_ = {};
     led_s_ = clock_s();
@@ -115,7 +115,7 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
   const ImVec2 all = ImGui::GetContentRegionAvail();
   ImGui::BeginChild("there", {0.36F * all.x, all.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_hands(trainer, other);
-  DeviceBench* bench = trainer.bench();  // an exchange made another
+  DeviceBench* bench = trainer.device_bench();  // an exchange made another
   if (bench != nullptr) {
     draw_gains(trainer);
     if (!trainer.refusal().empty()) ImGui::TextColored(kNot, "That did not work: %s", trainer.refusal().c_str());

@@ -153,7 +153,7 @@ void PersonAttempt::run() {
     }
     LiveAttempt live(*library,
                      head_of(*task_, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
-                     task_->scene);
+                     task_->scene, wanted_.keep);
     const auto stored =
         live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
                   .read = [this] { return hands_->read(); },

@@ -52,6 +52,7 @@ class PersonAttempt {
     std::shared_ptr<const Task> task{};  // as prepared for an attempt before; else it is prepared
     std::optional<Arms> arms{};
     PicturesBy by = PicturesBy::cpu;
+    LiveAttempt::Keep keep = LiveAttempt::Keep::stored;
   };
   enum class Phase { preparing, ready, running, storing, stored, refused };
 
@@ -65,7 +66,7 @@ class PersonAttempt {
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
   std::shared_ptr<const Task> task() const;  // from `ready` on (CHECKed)
   const base::Error& error() const;          // `refused` only (CHECKed)
-  const StoredAttempt& stored() const;       // `stored` only (CHECKed)
+  const StoredAttempt& stored() const;       // `stored` only (CHECKed), or over where it is not kept
 
   // By the window's thread, before `begin`: the arms are others, or stand elsewhere.
   void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,21 @@
 
 namespace seldinger::app {
 
+// What is on the mentor's bench.
+struct BenchTrace {
+  std::string state, refusal;
+  bool checking = false, entry = false;
+  std::size_t lesions = 0, structures = 0;
+  std::vector<std::string> failing, holding;  // checks
+  glm::dvec3 cursor_lps_mm{0.0};
+  double mm_per_pixel = 0.0;
+};
+
 // Since the line before.
 struct TraceLine {
   double t_s = 0.0;  // since the window opened
-  std::string
-      screen;  // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "watch", "devices"
+  // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "watch", "bench", "devices"
+  std::string screen;
   double frames_s = 0.0;                                                           // the window's
   double pictures_s = 0.0;                                                         // the guidance's
   std::string method;                                                              // how these are made
@@ -30,8 +41,9 @@ struct TraceLine {
   glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face
   double heap_mib = 0.0;                             // what the program holds; told outside attempts only
   std::vector<std::string> sounds;                   // that began, heard or not
-  std::vector<std::string> arms;                     // left, right: "ok", "late", "lost"; empty: none are used
-  std::string asks;                                  // what the device page asks its user for
+  std::optional<BenchTrace> bench{};
+  std::vector<std::string> arms;  // left, right: "ok", "late", "lost"; empty: none are used
+  std::string asks;               // what the device page asks its user for
 };
 
 std::string json_of(const TraceLine& line);

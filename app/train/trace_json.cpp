@@ -27,6 +27,19 @@ std::string json_of(const TraceLine& line) {
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});
   if (line.heap_mib > 0.0) json["heap_mib"] = line.heap_mib;
   if (!line.sounds.empty()) json["sounds"] = line.sounds;
+  if (line.bench) {
+    const BenchTrace& bench = *line.bench;
+    json["bench"] = {{"state", bench.state},
+                     {"refusal", bench.refusal},
+                     {"checking", bench.checking},
+                     {"entry", bench.entry},
+                     {"lesions", bench.lesions},
+                     {"structures", bench.structures},
+                     {"failing", bench.failing},
+                     {"holding", bench.holding},
+                     {"cursor_lps_mm", {bench.cursor_lps_mm.x, bench.cursor_lps_mm.y, bench.cursor_lps_mm.z}},
+                     {"mm_per_pixel", bench.mm_per_pixel}};
+  }
   if (!line.arms.empty()) json["arms"] = line.arms;
   if (!line.asks.empty()) json["asks"] = line.asks;
   return json.dump();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "casedb/changeable_case.h"
 #include "casedb/expert_replay.h"
 #include "sim/base/failure.h"
 
@@ -19,6 +20,11 @@ std::size_t passes_among(casedb::Grader& grader, const std::vector<casedb::Attem
     if (grader.grade(attempt).verdict == assessment::Verdict::passed) ++passes;
   }
   return passes;
+}
+
+bool has_attempts(casedb::Library& library, const casedb::CaseRow& row) {
+  const auto changeable = casedb::changeable_case(library, row.case_id);
+  return !changeable && changeable.error().code == "has_attempts";
 }
 
 }  // namespace
@@ -65,12 +71,12 @@ void Trainer::show_devices() {
   devices_from_ = screen_;
   refusal_.clear();
   screen_ = TrainerScreen::devices;
-  if (arms_) bench_ = std::make_unique<DeviceBench>(*arms_);
+  if (arms_) device_bench_ = std::make_unique<DeviceBench>(*arms_);
 }
 
 void Trainer::leave_devices() {
   if (screen_ != TrainerScreen::devices) return;
-  bench_.reset();  // the arms are an attempt's again
+  device_bench_.reset();  // the arms are an attempt's again
   if (attempt_ &&
       (attempt_->phase() == PersonAttempt::Phase::preparing || attempt_->phase() == PersonAttempt::Phase::ready))
     attempt_->use(arms_);
@@ -98,8 +104,8 @@ bool Trainer::change_station(const std::function<void(Station&)>& change) {
 }
 
 bool Trainer::keep_calibration(std::size_t side, const devices::Calibration& calibration) {
-  if (!bench_) return false;
-  const auto ids = bench_->status().ids;
+  if (!device_bench_) return false;
+  const auto ids = device_bench_->status().ids;
   return change_station([&](Station& station) {
     station[kSideNames.at(side)].calibration = calibration;
     // Which arm it was that was calibrated; and once one is named, the other must be.
@@ -109,23 +115,26 @@ bool Trainer::keep_calibration(std::size_t side, const devices::Calibration& cal
 }
 
 void Trainer::exchange_arms() {
-  if (!bench_) return;
-  const auto ids = bench_->status().ids;
+  if (!device_bench_) return;
+  const auto ids = device_bench_->status().ids;
   const bool kept = change_station([&](Station& station) {
     for (std::size_t side = 0; side < 2; ++side) station[kSideNames[side]].ids = ids[side];
     std::swap(station["left"], station["right"]);
   });
   if (!kept) return;
-  bench_.reset();
-  bench_ = std::make_unique<DeviceBench>(*arms_);
+  device_bench_.reset();
+  device_bench_ = std::make_unique<DeviceBench>(*arms_);
 }
 
 void Trainer::log_out() {
-  bench_.reset();
+  device_bench_.reset();
   watched_.reset();
   attempt_.reset();
   debrief_.reset();
+  bench_.reset();
+  trying_ = false;
   choices_.clear();
+  drafts_.clear();
   account_ = {};
   refusal_.clear();
   screen_ = TrainerScreen::log_in;
@@ -163,16 +172,65 @@ void Trainer::list_choices() {
       std::replace(choice.reached.begin(), choice.reached.end(), '_', ' ');
     }
   }
+  list_drafts(rows);
   for (const casedb::CaseRow& row : rows) {
     const bool listed = std::any_of(choices_.begin(), choices_.end(),
                                     [&](const Choice& choice) { return choice.case_id == row.case_id; });
-    // A mentor tries what is not published yet; everybody else practises what is.
-    const bool tries = account_.role == casedb::Role::mentor && row.state == "draft";
-    if (listed || (row.state != "published" && !tries)) continue;
+    // A mentor may also practise a draft that attempts have frozen; any other is for the bench, where trying it
+    // freezes nothing.
+    const bool frozen =
+        account_.role == casedb::Role::mentor && row.state == "draft" && has_attempts(library_, row);
+    if (listed || (row.state != "published" && !frozen)) continue;
     if (casedb::list_lesions(library_, row.case_id).empty()) continue;
     Choice& choice = add(row);
     choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));
   }
+}
+
+void Trainer::list_drafts(const std::vector<casedb::CaseRow>& rows) {
+  drafts_.clear();
+  if (account_.role != casedb::Role::mentor) return;
+  for (const casedb::CaseRow& row : rows)
+    if (row.state == "draft" || row.state == "review")
+      drafts_.push_back({row.case_id, row.title, row.state, row.modality, row.version});
+}
+
+void Trainer::open_bench(const std::string& case_id) {
+  const bool known =
+      std::any_of(drafts_.begin(), drafts_.end(), [&](const Draft& one) { return one.case_id == case_id; });
+  if (!known) return;
+  refusal_.clear();
+  bench_.reset();  // before the next: a case is large
+  bench_ = std::make_unique<CaseBench>(library_, case_id, account_.login_name);
+  screen_ = TrainerScreen::bench;
+}
+
+void Trainer::new_version(const std::string& case_id) {
+  if (account_.role != casedb::Role::mentor) return;
+  const auto made = casedb::new_version(library_, case_id, account_.login_name);
+  if (!made) {
+    refusal_ = made.error().text;
+    return;
+  }
+  list_choices();
+  open_bench(*made);
+}
+
+void Trainer::leave_bench() {
+  if (screen_ != TrainerScreen::bench) return;
+  bench_.reset();
+  list_choices();
+  screen_ = TrainerScreen::choose;
+}
+
+void Trainer::try_draft() {
+  if (screen_ != TrainerScreen::bench) return;
+  chosen_ = bench_->row();
+  expert_.clear();
+  help_ = chosen_.difficulty == casedb::Difficulty::easy ? kMostHelp : 0;
+  restarting_ = false;
+  trying_ = true;
+  prepare(nullptr);
 }
 
 void Trainer::choose(const std::string& case_id) {
@@ -187,7 +245,7 @@ void Trainer::choose(const std::string& case_id) {
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
   help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
-  restarting_ = false;
+  restarting_ = trying_ = false;
   prepare(nullptr);
 }
 
@@ -195,8 +253,9 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
-  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
-      library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_, by_});
+  attempt_ = std::make_unique<PersonAttempt>(
+      PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task),
+                            arms_, by_, trying_ ? LiveAttempt::Keep::not_kept : LiveAttempt::Keep::stored});
   screen_ = TrainerScreen::briefing;
 }
 
@@ -204,12 +263,19 @@ void Trainer::back() {
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   attempt_.reset();
   debrief_.reset();
+  if (trying_) {
+    trying_ = false;
+    screen_ = TrainerScreen::bench;
+    return;
+  }
   list_choices();
   screen_ = TrainerScreen::choose;
 }
 
 void Trainer::again() {
-  if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose) return;
+  if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose ||
+      screen_ == TrainerScreen::bench)
+    return;
   const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
   restarting_ = true;
   prepare(prepared ? attempt_->task() : nullptr);
@@ -237,20 +303,45 @@ void Trainer::stop_watching() {
   if (screen_ == TrainerScreen::watch) screen_ = watched_from_;
 }
 
+// Graded as a stored one would be.
+Debrief Trainer::debrief_of_try() {
+  const StoredAttempt& made = attempt_->stored();
+  const std::shared_ptr<const Task> task = attempt_->task();
+  casedb::AttemptRow row;
+  static_cast<casedb::AttemptHead&>(row) =
+      head_of(*task, std::string(casedb::kPersonOperator), 0, account_.person_id);
+  row.case_title = task->row.title;
+  row.lesion = task->lesion.lesion;
+  row.end = made.end;
+  row.metrics = made.metrics;
+  return {row, casedb::Grader(library_).look_at(row), made.steps};
+}
+
 void Trainer::look() {
   if (watched_ && screen_ != TrainerScreen::watch) watched_.reset();
   if (watched_ && watched_->phase() == WatchedAttempt::Phase::refused) {
     refusal_ = watched_->error().text;
     stop_watching();
   }
+  if (bench_ && screen_ == TrainerScreen::bench) bench_->look();
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();
   if (phase == PersonAttempt::Phase::refused) {
     refusal_ = attempt_->error().text;
     attempt_.reset();
+    if (trying_) {
+      trying_ = false;
+      screen_ = TrainerScreen::bench;
+      return;
+    }
     list_choices();
     (screen_ == TrainerScreen::devices ? devices_from_ : screen_) = TrainerScreen::choose;
   } else if (phase == PersonAttempt::Phase::stored && !debrief_ && screen_ == TrainerScreen::attempt) {
+    if (trying_) {
+      debrief_ = debrief_of_try();
+      screen_ = TrainerScreen::debrief;
+      return;
+    }
     const std::string id = attempt_->stored().attempt_id;
     const auto row = casedb::find_attempt(library_, id);
     if (!row) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/train/case_bench.h"
 #include "app/train/device_bench.h"
 #include "app/train/person_attempt.h"
 #include "app/train/watched_attempt.h"
@@ -18,7 +19,7 @@
 
 namespace seldinger::app {
 
-enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, devices };
+enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, bench, devices };
 
 // A case that can be chosen, as a line of the list.
 struct Choice {
@@ -32,9 +33,16 @@ struct Choice {
   std::optional<int> attempts_left;
 };
 
+// A case that a mentor works on: a draft, or one in review.
+struct Draft {
+  std::string case_id, title, state;
+  cases::Modality modality = cases::Modality::mpr;
+  int version = 1;
+};
+
 // What an attempt came to.
 struct Debrief {
-  casedb::AttemptRow attempt;
+  casedb::AttemptRow attempt;  // without an id: it was tried and is not kept
   casedb::AttemptGrade grade;
   std::vector<assessment::StepResult> steps;
 };
@@ -66,7 +74,18 @@ class Trainer {
   // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
   // and less with each pass; where the target lies is never told.
   int help() const noexcept { return help_; }
-  void back();  // from briefing or debrief to the choice
+  void back();  // from briefing or debrief to the choice, or to the bench whose draft was tried
+
+  // --- the mentor's bench; empty, and nothing happens, for everybody else ---
+  const std::vector<Draft>& drafts() const noexcept { return drafts_; }
+  void open_bench(const std::string& case_id);  // of the drafts
+  // A draft like a case that was published or that attempts were made on, the next version, on the bench.
+  void new_version(const std::string& case_id);
+  CaseBench* bench() noexcept { return bench_.get(); }
+  void leave_bench();  // to the choice
+  // An attempt at what is on the bench: of no trainee, graded and forgotten.
+  void try_draft();
+  bool trying() const noexcept { return trying_; }
 
   // From briefing to attempt, once it is prepared; the sign-in is said with it. False: not yet.
   bool begin(bool left_handed);
@@ -86,7 +105,7 @@ class Trainer {
   void show_devices();
   void leave_devices();
   const std::optional<Arms>& arms() const noexcept { return arms_; }
-  DeviceBench* bench() noexcept { return bench_.get(); }  // of the arms, while they are shown
+  DeviceBench* device_bench() noexcept { return device_bench_.get(); }  // of the arms, while they are shown
   // What is known of the station becomes so, in its file too; false: refused, and nothing is changed.
   bool change_station(const std::function<void(Station&)>& change);
   // A side's arm is calibrated so, and is that arm from now on.
@@ -99,7 +118,9 @@ class Trainer {
 
  private:
   void list_choices();
+  void list_drafts(const std::vector<casedb::CaseRow>& rows);
   void prepare(std::shared_ptr<const Task> task);
+  Debrief debrief_of_try();
 
   casedb::Library library_;
   std::optional<Arms> arms_;
@@ -114,9 +135,11 @@ class Trainer {
   std::optional<Debrief> debrief_;
   std::unique_ptr<WatchedAttempt> watched_;
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
-  std::unique_ptr<DeviceBench> bench_;
+  std::vector<Draft> drafts_;
+  std::unique_ptr<CaseBench> bench_;
+  std::unique_ptr<DeviceBench> device_bench_;
   std::string first_case_;  // to be opened at log-in
-  bool restarting_ = false;
+  bool restarting_ = false, trying_ = false;
   int help_ = 0;
 };
 

@@ -1,8 +1,7 @@
--- A structure behind those there are. No row: its title is taken.
+-- A structure at a position that is free.
 INSERT INTO structure (
   structure_id, case_id, position, title, rule, tissue, kind, geometry, hu, labels_sha256, label, created_us
+) VALUES (
+  :structure_id, :case_id, :position, :title, :rule, :tissue, :kind, :geometry, :hu, :labels_sha256, :label,
+  :created_us
 )
-SELECT :structure_id, :case_id, coalesce(max(position) + 1, 0), :title, :rule, :tissue, :kind, :geometry, :hu,
-  :labels_sha256, :label, :created_us
-FROM structure
-WHERE case_id = :case_id

@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "casedb/versions.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 
@@ -48,6 +49,7 @@ class TrainerTest : public testing::Test {
     casedb::NewCase made;
     made.title = "Ball";
     made.origin = "import";
+    made.no_burned_in_text = true;
     made.volume = volume::rasterize(analytic);
     made.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
     made.difficulty = casedb::Difficulty::easy;
@@ -64,6 +66,10 @@ class TrainerTest : public testing::Test {
     ASSERT_TRUE(casedb::add_lesion(library, case_id_, lesion));
     ASSERT_TRUE(casedb::add_user(library, "mona", casedb::Role::mentor, kPassword));
     ASSERT_TRUE(casedb::add_user(library, "tina", casedb::Role::trainee, kPassword));
+  }
+  void publish() {
+    casedb::Library library = open();
+    ASSERT_TRUE(casedb::publish_case(library, case_id_, "mona", true));
   }
   casedb::Library open() { return std::move(casedb::Library::open(folder_).value()); }
   bool looks_until(Trainer& trainer, TrainerScreen screen) {
@@ -105,12 +111,57 @@ TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
   trainer.choose(case_id_);
   EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "what cannot be chosen is not";
   trainer.log_out();
+  EXPECT_TRUE(trainer.drafts().empty());
   trainer.log_in("mona", kPassword);
-  ASSERT_EQ(trainer.choices().size(), 1U);
-  EXPECT_EQ(trainer.choices()[0].title, "Ball");
+  EXPECT_TRUE(trainer.choices().empty()) << "a draft is for the bench";
+  ASSERT_EQ(trainer.drafts().size(), 1U);
+  EXPECT_EQ(trainer.drafts()[0].title, "Ball");
+}
+
+// A mentor tries what is on the bench: graded, and no attempt is kept, so that it can be changed afterwards.
+TEST_F(TrainerTest, ADraftIsTriedAndStaysADraft) {
+  Trainer trainer(open());
+  trainer.log_in("tina", kPassword);
+  trainer.open_bench(case_id_);
+  trainer.new_version(case_id_);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "no bench for a trainee";
+  EXPECT_EQ(trainer.bench(), nullptr);
+  trainer.log_out();
+  trainer.log_in("mona", kPassword);
+  trainer.open_bench(case_id_);
+  ASSERT_EQ(trainer.screen(), TrainerScreen::bench);
+  trainer.try_draft();
+  EXPECT_TRUE(trainer.trying());
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  ASSERT_TRUE(trainer.begin(false));
+  PersonAttempt& attempt = *trainer.attempt();
+  HandsTold told;
+  advance(attempt, told, kDepthMm);
+  told.sum.fire = true;
+  attempt.tell(told);
+  ASSERT_TRUE(until([&] {
+    const auto seen = attempt.seen();
+    return seen && seen->moment.state.fire.fired;
+  }));
+  attempt.end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  EXPECT_EQ(trainer.debrief()->grade.grade.verdict, assessment::Verdict::passed);
+  EXPECT_FALSE(trainer.debrief()->steps.empty());
+  trainer.back();
+  ASSERT_EQ(trainer.screen(), TrainerScreen::bench);
+  auto library = open();
+  EXPECT_TRUE(casedb::list_attempts(library).empty());
+  EXPECT_TRUE(casedb::list_open_attempts(library).empty());
+  CaseBench& bench = *trainer.bench();
+  cases::LesionForm form = bench.lesions().at(0).form;
+  form.radii_mm = glm::dvec3(7.0);
+  EXPECT_TRUE(bench.put_lesion(0, form)) << bench.refusal();
+  trainer.leave_bench();
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose);
 }
 
 TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
+  publish();
   Trainer trainer(open());
   trainer.log_in("mona", kPassword);
   trainer.choose(case_id_);
@@ -254,8 +305,8 @@ TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNe
   trainer.choose(case_id_);
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
   trainer.show_devices();
-  ASSERT_NE(trainer.bench(), nullptr);
-  ASSERT_TRUE(until([&] { return !trainer.bench()->status().ids[1].arm.empty(); }));
+  ASSERT_NE(trainer.device_bench(), nullptr);
+  ASSERT_TRUE(until([&] { return !trainer.device_bench()->status().ids[1].arm.empty(); }));
   std::vector<devices::TakenPoint> taken;
   const devices::Placement device = devices::inverse_of(LedArms::template_from_device(1));
   for (const devices::TemplatePoint& point : devices::template_points())
@@ -270,11 +321,11 @@ TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNe
   EXPECT_EQ(trainer.arms()->station.at("left").ids.arm, "sim-right");
   EXPECT_EQ(trainer.arms()->station.at("left").calibration.points.size(), 6U) << "it goes with its arm";
   ASSERT_TRUE(
-      until([&] { return trainer.bench()->seen().arms[0].reading.healthy; }));  // led by its id from here on
-  EXPECT_EQ(trainer.bench()->status().ids[0].arm, "sim-right");
+      until([&] { return trainer.device_bench()->seen().arms[0].reading.healthy; }));  // led by its id from here on
+  EXPECT_EQ(trainer.device_bench()->status().ids[0].arm, "sim-right");
   trainer.leave_devices();
   EXPECT_EQ(trainer.screen(), TrainerScreen::briefing) << "back where one was";
-  EXPECT_EQ(trainer.bench(), nullptr);
+  EXPECT_EQ(trainer.device_bench(), nullptr);
 
   // The mouse leads the arms, and these lead the tools.
   ASSERT_TRUE(trainer.begin(false));
@@ -296,7 +347,7 @@ TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNe
   ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
   trainer.show_devices();
   ASSERT_TRUE(until([&] {
-    const ArmsSeen& now = trainer.bench()->seen().arms;
+    const ArmsSeen& now = trainer.device_bench()->seen().arms;
     return now[0].reading.healthy && now[1].reading.healthy;
   })) << "the attempt has let the service go";
   // What cannot be kept is said, and nothing is changed.
@@ -309,6 +360,7 @@ TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNe
 }
 
 TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
+  publish();
   {
     Trainer trainer(open());
     trainer.log_in("mona", kPassword);

@@ -107,6 +107,42 @@ TEST_F(AuthoringTest, StructuresComeBackInTheirOrder) {
   EXPECT_EQ(list_structures(library_, case_id_).size(), 3U);
 }
 
+TEST_F(AuthoringTest, WhatIsPutInPlaceKeepsItsIdAndItsOrder) {
+  std::vector<std::string> ids;
+  cases::LesionForm form;
+  form.center_lps_mm = middle();
+  form.radii_mm = glm::dvec3(0.5);
+  for (int i = 0; i < 2; ++i) ids.push_back(add_lesion(library_, case_id_, form).value());
+  LesionRow first = list_lesions(library_, case_id_).front();
+  const std::string first_id = first.lesion_id;
+  first.form.radii_mm = glm::dvec3(0.7);
+  ASSERT_TRUE(put_lesion(library_, first));
+  EXPECT_EQ(list_lesions(library_, case_id_).front().lesion_id, first_id);
+  EXPECT_EQ(list_lesions(library_, case_id_).front().form.radii_mm.x, 0.7);
+  ASSERT_TRUE(remove_lesion(library_, case_id_, first_id));
+  ASSERT_TRUE(put_lesion(library_, first)) << "it comes back";
+  ASSERT_EQ(list_lesions(library_, case_id_).size(), 2U);
+  EXPECT_EQ(list_lesions(library_, case_id_).front().lesion_id, first_id);
+  first.form.radii_mm = glm::dvec3(0.0);
+  EXPECT_EQ(code(put_lesion(library_, first)), "bad_lesion");
+  EXPECT_EQ(list_lesions(library_, case_id_).front().form.radii_mm.x, 0.7);
+
+  for (const char* name : {"one", "two", "three"})
+    static_cast<void>(add_structure(library_, drawn(name, cases::Sphere{middle(), 1.0})).value());
+  StructureRow second = list_structures(library_, case_id_)[1];
+  second.name = "another";
+  second.drawn = cases::Sphere{middle(), 2.0};
+  ASSERT_TRUE(put_structure(library_, second));
+  EXPECT_EQ(list_structures(library_, case_id_)[1].name, "another");
+  second.name = "three";
+  EXPECT_EQ(code(put_structure(library_, second)), "name_taken");
+  EXPECT_EQ(list_structures(library_, case_id_)[1].name, "another") << "a refusal changes nothing";
+  second.name = "another";
+  ASSERT_TRUE(remove_structure(library_, case_id_, "another"));
+  ASSERT_TRUE(put_structure(library_, second));
+  EXPECT_EQ(list_structures(library_, case_id_)[1].structure_id, second.structure_id);
+}
+
 TEST_F(AuthoringTest, StructuresThatAreNotSoundAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(code(add_structure(library_, drawn("", cases::Sphere{middle(), 1.0}))), "bad_structure");
@@ -247,6 +283,8 @@ TEST_F(AuthoringTest, AnAttemptFreezesWhatItWasMadeOn) {
   EXPECT_EQ(code(add_structure(library_, drawn("b", cases::Sphere{middle(), 1.0}))), "has_attempts");
   EXPECT_EQ(code(remove_structure(library_, case_id_, "vein")), "has_attempts");
   EXPECT_EQ(code(remove_lesion(library_, case_id_, lesion_id)), "has_attempts");
+  EXPECT_EQ(code(put_lesion(library_, list_lesions(library_, case_id_).front())), "has_attempts");
+  EXPECT_EQ(code(put_structure(library_, list_structures(library_, case_id_).front())), "has_attempts");
   refuse("UPDATE training_case SET pass_rule = '{}'");
   refuse("UPDATE structure SET hu = 1");
   refuse("DELETE FROM structure");

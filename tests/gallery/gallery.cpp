@@ -89,6 +89,35 @@ TEST_F(Gallery, Fluoroscopy) {
   keep(trainee, "fluoroscopy");
 }
 
+// What a mentor has placed on a draft that can still be changed.
+TEST_F(Gallery, Bench) {
+  const std::string made = library("ultrasound");
+  const auto ask = [&](const std::string& words) {
+    const auto ran = fixtures::run(program + " " + words + " --library " + made, scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+    return ran.out;
+  };
+  const std::string demo = Json::parse(ask("case list --json"))["cases"][0]["case_id"];
+  const std::string draft = Json::parse(ask("case version " + demo + " --by mona --json"))["case_id"];
+  ask("case structure " + draft +
+      " --name vein --rule critical --tissue vessel --tube -70,-10,-30 --tube -80,0,0 --tube -75,10,30 --radius-mm "
+      "4");
+  ask("case setting " + draft + " --title 'Liver, intercostal' --entry-mm -160,10,-15 --pass 'hit >= 1'");
+  fixtures::Trainee trainee(program, made, scratch_);
+  ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
+  trainee.screen().click(fixtures::kSecondDraft.first, fixtures::kSecondDraft.second);
+  ASSERT_TRUE(trainee.reaches("bench", 20.0));
+  ASSERT_TRUE(fixtures::until(
+      [&] {
+        const Json bench = trainee.now().value("bench", Json::object());
+        return bench.contains("checking") && !bench["checking"].get<bool>() && !bench["holding"].empty();
+      },
+      60.0));
+  trainee.screen().press("e");
+  std::this_thread::sleep_for(std::chrono::seconds(6));  // the room is made
+  keep(trainee, "bench");
+}
+
 }  // namespace
 }  // namespace seldinger
 

@@ -1,5 +1,6 @@
 #include "sim/imaging/room/draw_list.h"
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,6 +16,7 @@ const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1
 const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
 const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F, 0.10F, 0.55F);
 const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
+constexpr float kGlass = 0.3F;
 constexpr double kGuideMm = 150.0, kLineRadiusMm = 0.6, kEntryRadiusMm = 3.0;
 constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
 
@@ -69,14 +71,19 @@ class Maker {
     skin.light_under_skin = {0.16F, 0.08F, 0.05F};
     skin.casts = Casts::still;
     skin.displaced = scene_.yields || scene_.breathing.has_value();
-    skin.cut = skin.both_sides = options_.mentor;
-    add(skin);
+    skin.cut = skin.both_sides = options_.mentor && !options_.glass;
+    if (glass()) skin.colour.a = kGlass;
+    if (!glass()) add(skin);  // else over what it shows
     RoomItem ends = skin;
     ends.part = RoomPart::cut_end;
     ends.mesh = room_.cut_ends;
     ends.colour = options_.mentor ? kInside : kDrape;
     ends.roughness = 0.9F;
     ends.light_under_skin = glm::vec3(0.0F);
+    if (glass()) {
+      glass_ = {skin, ends};
+      return;
+    }
     add(ends);
     if (options_.mentor) return;  // he looks at the body
     RoomItem drape = ends;
@@ -162,7 +169,7 @@ class Maker {
         scene_.lesions.empty() ? room_.frame.middle_lps_mm() : scene_.lesions[0].center_lps_mm;
     // The half on the operator's side is gone.
     const glm::dvec3 normal = room_.frame.across * operator_side(room_.frame, scene_);
-    list_.cut = CutPlane{normal, glm::dot(normal, through)};
+    if (!glass()) list_.cut = CutPlane{normal, glm::dot(normal, through)};
     RoomItem bone;
     bone.part = RoomPart::bone;
     bone.mesh = room_.bone;
@@ -185,6 +192,11 @@ class Maker {
       structure.roughness = 0.5F;
       add(structure);
     }
+    for (RoomItem& item : list_.items)
+      if (glass() &&
+          (item.part == RoomPart::bone || item.part == RoomPart::target || item.part == RoomPart::structure))
+        item.shadowed = false;  // light comes through
+    for (const RoomItem& item : glass_) add(item);
   }
 
   void help() {
@@ -207,6 +219,7 @@ class Maker {
   }
 
  private:
+  bool glass() const { return options_.mentor && options_.glass; }
   void add(const RoomItem& item) {
     if (item.mesh == kNoMesh) return;
     list_.items.push_back(item);
@@ -249,6 +262,7 @@ class Maker {
   const cases::State& state_;
   const RoomOptions& options_;
   DrawList& list_;
+  std::array<RoomItem, 2> glass_{};  // skin and ends, where they can be looked through
 };
 
 }  // namespace

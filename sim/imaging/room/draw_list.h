@@ -73,6 +73,7 @@ struct RoomOptions {
   int help = 0;
   // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
   bool mentor = false;
+  bool glass = false;                // with `mentor`: nothing is cut away, the skin can be looked through
   bool needle = true, probe = true;  // what hands hold
 };
 

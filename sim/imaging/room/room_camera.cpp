@@ -222,4 +222,10 @@ std::optional<glm::dvec2> pixel_of(const RoomProjection& projection, const glm::
   return glm::dvec2(0.5 * (1.0 + clip.x / clip.w) * width_px, 0.5 * (1.0 - clip.y / clip.w) * height_px);
 }
 
+glm::dvec3 ray_of(const RoomProjection& projection, const glm::dvec2& pixel, int width_px, int height_px) noexcept {
+  const glm::dvec4 clip(2.0 * pixel.x / width_px - 1.0, 1.0 - 2.0 * pixel.y / height_px, 0.0, 1.0);
+  const glm::dvec4 place = glm::inverse(projection.clip_from_eye * projection.eye_from_lps) * clip;
+  return glm::normalize(glm::dvec3(place) / place.w - projection.eye_lps_mm);
+}
+
 }  // namespace seldinger::imaging

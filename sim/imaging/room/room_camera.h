@@ -60,5 +60,7 @@ RoomProjection projection_of(const RoomCamera& camera, int eye, double width_per
 // Pixels from the picture's upper left corner; nothing behind the eye.
 std::optional<glm::dvec2> pixel_of(const RoomProjection& projection, const glm::dvec3& place_lps_mm, int width_px,
                                    int height_px) noexcept;
+// The unit direction in which such a pixel is seen from the eye.
+glm::dvec3 ray_of(const RoomProjection& projection, const glm::dvec2& pixel, int width_px, int height_px) noexcept;
 
 }  // namespace seldinger::imaging

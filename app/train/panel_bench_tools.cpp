@@ -1,0 +1,420 @@
+// What the tool in hand can set, as numbers and lists.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/train/panel_bench.h"
+#include "app/train/panels.h"
+#include "assessment/metrics/registry.h"
+#include "reports/metric_words.h"
+#include "sim/case/gauge.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr float kFieldPx = 170.0F;
+
+// A number in a field. True once it is entered, not while it is typed.
+bool number(const char* label, double& value, double step, const char* format, bool& in_hand) {
+  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::InputDouble(label, &value, step, 10.0 * step, format);
+  in_hand = in_hand || ImGui::IsItemActive();
+  return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+bool optional_number(const char* label, std::optional<double>& value, double usual, const char* format,
+                     bool& in_hand) {
+  ImGui::PushID(label);
+  bool told = value.has_value();
+  bool changed = ImGui::Checkbox("##told", &told);
+  if (changed) value = told ? std::optional(usual) : std::nullopt;
+  ImGui::SameLine();
+  double shown = value.value_or(usual);
+  ImGui::BeginDisabled(!told);
+  ImGui::SetNextItemWidth(kFieldPx - 36.0F);
+  ImGui::InputDouble(label, &shown, 0.0, 0.0, format);
+  in_hand = in_hand || ImGui::IsItemActive();
+  if (told && value) value = shown;
+  changed = changed || ImGui::IsItemDeactivatedAfterEdit();
+  ImGui::EndDisabled();
+  ImGui::PopID();
+  return changed;
+}
+
+template <std::size_t n, typename Value, typename Name>
+bool choice(const char* label, Value& value, const std::array<Value, n>& all, const Name& name) {
+  bool changed = false;
+  ImGui::SetNextItemWidth(kFieldPx);
+  if (!ImGui::BeginCombo(label, std::string(name(value)).c_str())) return false;
+  for (const Value one : all)
+    if (ImGui::Selectable(std::string(name(one)).c_str(), one == value)) {
+      value = one;
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+constexpr std::array<cases::Modality, 3> kModalities = {cases::Modality::mpr, cases::Modality::xray,
+                                                        cases::Modality::ultrasound};
+constexpr std::array<cases::Approach, 2> kApproaches = {cases::Approach::in_plane, cases::Approach::out_of_plane};
+constexpr std::array<cases::PatientPosition, 4> kPositions = {
+    cases::PatientPosition::supine, cases::PatientPosition::prone, cases::PatientPosition::lateral_left,
+    cases::PatientPosition::lateral_right};
+constexpr std::array<cases::InstrumentKind, 2> kInstruments = {cases::InstrumentKind::access,
+                                                               cases::InstrumentKind::core};
+constexpr std::array<casedb::Difficulty, 3> kDifficulties = {casedb::Difficulty::easy, casedb::Difficulty::moderate,
+                                                             casedb::Difficulty::hard};
+constexpr std::array<cases::LesionKind, 3> kLesionKinds = {cases::LesionKind::sphere, cases::LesionKind::ellipsoid,
+                                                           cases::LesionKind::irregular};
+constexpr std::array<cases::StructureRule, 6> kRules = {
+    cases::StructureRule::critical,   cases::StructureRule::major, cases::StructureRule::advisory,
+    cases::StructureRule::must_cross, cases::StructureRule::organ, cases::StructureRule::target};
+
+enum class Form { sphere, ellipsoid, tube, tissue };
+constexpr std::array<Form, 4> kForms = {Form::sphere, Form::ellipsoid, Form::tube, Form::tissue};
+const char* name_of(Form form) {
+  constexpr std::array<const char*, 4> kNames = {"sphere", "ellipsoid", "tube", "all of a tissue"};
+  return kNames[static_cast<std::size_t>(form)];
+}
+Form form_of(const casedb::StructureRow& row) {
+  if (row.kind == casedb::StructureKind::tissue_class) return Form::tissue;
+  return static_cast<Form>(std::min<std::size_t>(row.drawn.index(), 2));
+}
+void set_form(Form form, casedb::StructureRow& row) {
+  row.kind = form == Form::tissue ? casedb::StructureKind::tissue_class : casedb::StructureKind::drawn;
+  if (form == Form::sphere) row.drawn = cases::Sphere{{}, 6.0};
+  if (form == Form::ellipsoid) row.drawn = cases::Ellipsoid{{}, glm::dvec3(10.0, 8.0, 8.0)};
+  if (form == Form::tube) row.drawn = cases::Tube{{}, 3.0};
+}
+
+// Fills a text field when what it shows has changed elsewhere.
+template <std::size_t n>
+void fill(std::array<char, n>& field, std::string& of, const std::string& value) {
+  if (of == value) return;
+  of = value;
+  field.fill('\0');
+  value.copy(field.data(), n - 1);
+}
+
+std::string metric_words(const std::string& id) {
+  return reports::metric_label(id);
+}
+
+}  // namespace
+
+void BenchPanel::draw_lesion(CaseBench& bench) {
+  heading(bench.lesion < bench.lesions().size() ? "Lesion" : "A new lesion: click its middle in a plane");
+  for (std::size_t i = 0; i < bench.lesions().size(); ++i) {
+    const std::string label = (i == 0 ? "1, the target" : std::to_string(i + 1));
+    if (ImGui::RadioButton(label.c_str(), bench.lesion == i)) {
+      bench.lesion = i;
+      form_in_hand_ = false;
+      if (bench.scene()) bench.view.go_to(bench.scene()->scene.volume, bench.lesions()[i].form.center_lps_mm);
+    }
+    ImGui::SameLine();
+  }
+  if (ImGui::RadioButton("new", bench.lesion >= bench.lesions().size())) bench.lesion = bench.lesions().size();
+  const bool there = bench.lesion < bench.lesions().size();
+  if (!form_in_hand_) form_ = there ? bench.shown_lesions()[bench.lesion] : bench.new_lesion;
+  form_in_hand_ = false;
+  bool changed = choice("form", form_.kind, kLesionKinds, [](cases::LesionKind kind) {
+    return cases::kLesionKindNames[static_cast<std::size_t>(kind)];
+  });
+  if (changed && form_.kind != cases::LesionKind::irregular) form_.roughness = 0.0;
+  if (changed && form_.kind == cases::LesionKind::irregular) form_.roughness = 0.12;
+  if (form_.kind == cases::LesionKind::ellipsoid) {
+    changed = number("radius x mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number("radius y mm", form_.radii_mm.y, 0.5, "%.1f", form_in_hand_) || changed;
+    changed = number("radius z mm", form_.radii_mm.z, 0.5, "%.1f", form_in_hand_) || changed;
+  } else {
+    changed = number("radius mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
+    form_.radii_mm = glm::dvec3(form_.radii_mm.x);
+  }
+  if (form_.kind == cases::LesionKind::irregular)
+    changed = number("roughness", form_.roughness, 0.02, "%.2f", form_in_hand_) || changed;
+  changed = number(form_.adds ? "HU added" : "HU", form_.hu, 5.0, "%.0f", form_in_hand_) || changed;
+  ImGui::SameLine();
+  changed = ImGui::Checkbox("to the tissue", &form_.adds) || changed;
+  changed = number("soft edge mm", form_.edge_mm, 0.5, "%.1f", form_in_hand_) || changed;
+  if (!there) {
+    bench.new_lesion = form_;
+    return;
+  }
+  if (changed) {
+    bench.put_lesion(bench.lesion, form_);
+    form_in_hand_ = false;
+  }
+  const glm::dvec3& p = form_.center_lps_mm;
+  ImGui::Text("at %.1f, %.1f, %.1f mm", p.x, p.y, p.z);
+  ImGui::SameLine();
+  if (ImGui::Button("Remove (Del)")) bench.remove_lesion(bench.lesion);
+}
+
+void BenchPanel::draw_structure(CaseBench& bench) {
+  ImGui::SetNextItemWidth(kFieldPx);
+  const bool there = bench.structure < bench.structures().size();
+  if (ImGui::BeginCombo("structure", there ? bench.structures()[bench.structure].name.c_str() : "a new one")) {
+    for (std::size_t i = 0; i < bench.structures().size(); ++i)
+      if (ImGui::Selectable((bench.structures()[i].name + "##" + std::to_string(i)).c_str(),
+                            i == bench.structure)) {
+        bench.structure = i;
+        structure_in_hand_ = false;
+        const casedb::StructureRow& one = bench.structures()[i];
+        const cases::Bounds bounds = cases::bounds_of(one.drawn);
+        if (one.kind == casedb::StructureKind::drawn && bench.scene())
+          bench.view.go_to(bench.scene()->scene.volume, 0.5 * (bounds.low_lps_mm + bounds.high_lps_mm));
+      }
+    if (ImGui::Selectable("a new one", !there)) {
+      bench.structure = bench.structures().size();
+      structure_in_hand_ = false;
+    }
+    ImGui::EndCombo();
+  }
+  if (!structure_in_hand_)
+    structure_ = bench.structure < bench.structures().size() ? bench.shown_structures()[bench.structure]
+                                                             : bench.new_structure;
+  structure_in_hand_ = false;
+  const bool stored = bench.structure < bench.structures().size();
+  fill(name_, name_of_, structure_.name);
+  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::InputText("name", name_.data(), name_.size());
+  bool changed = ImGui::IsItemDeactivatedAfterEdit();
+  if (changed) structure_.name = name_of_ = name_.data();
+  changed =
+      choice("rule", structure_.rule, kRules, [](cases::StructureRule rule) { return cases::name_of(rule); }) ||
+      changed;
+  ImGui::SetNextItemWidth(kFieldPx);
+  if (ImGui::BeginCombo("tissue", volume::about(structure_.tissue).name)) {
+    for (std::size_t i = 0; i < volume::kTissueClasses; ++i) {
+      const auto tissue = static_cast<volume::TissueClass>(i);
+      if (!ImGui::Selectable(volume::about(tissue).name, tissue == structure_.tissue)) continue;
+      structure_.tissue = tissue;
+      if (structure_.hu) structure_.hu = volume::typical_hu(tissue);
+      changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  Form form = form_of(structure_);
+  if (stored && structure_.kind == casedb::StructureKind::label) {
+    ImGui::TextDisabled("label %d of a map", structure_.label);
+  } else if (stored) {
+    ImGui::TextDisabled("%s", name_of(form));
+  } else if (choice("form", form, kForms, [](Form one) { return std::string(name_of(one)); })) {
+    bench.drop_drawing();
+    set_form(form, structure_);
+  }
+  if (structure_.kind == casedb::StructureKind::drawn) {
+    if (auto* sphere = std::get_if<cases::Sphere>(&structure_.drawn))
+      changed = number("radius mm", sphere->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+    if (auto* tube = std::get_if<cases::Tube>(&structure_.drawn))
+      changed = number("radius mm", tube->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+    if (auto* ellipsoid = std::get_if<cases::Ellipsoid>(&structure_.drawn)) {
+      changed = number("radius x mm", ellipsoid->radii_mm.x, 0.5, "%.1f", structure_in_hand_) || changed;
+      changed = number("radius y mm", ellipsoid->radii_mm.y, 0.5, "%.1f", structure_in_hand_) || changed;
+      changed = number("radius z mm", ellipsoid->radii_mm.z, 0.5, "%.1f", structure_in_hand_) || changed;
+    }
+    bool painted = structure_.hu.has_value();
+    if (ImGui::Checkbox("shown, with HU", &painted)) {
+      structure_.hu = painted ? std::optional(volume::typical_hu(structure_.tissue)) : std::nullopt;
+      changed = true;
+    }
+    if (structure_.hu) {
+      ImGui::SameLine();
+      ImGui::SetNextItemWidth(90.0F);
+      ImGui::InputDouble("##hu", &*structure_.hu, 0.0, 0.0, "%.0f");
+      structure_in_hand_ = structure_in_hand_ || ImGui::IsItemActive();
+      changed = changed || ImGui::IsItemDeactivatedAfterEdit();
+    }
+  }
+  if (stored) {
+    if (changed) {
+      bench.put_structure(bench.structure, structure_);
+      structure_in_hand_ = false;
+    }
+    if (ImGui::Button("Remove (Del)")) bench.remove_structure(bench.structure);
+    return;
+  }
+  bench.new_structure = structure_;
+  if (structure_.kind != casedb::StructureKind::drawn) {
+    if (ImGui::Button("Add")) bench.add_structure(structure_);
+    quiet("All voxels of the CT that are of this tissue.");
+  } else if (bench.drawing()) {
+    if (ImGui::Button("Finish the tube (Enter)")) bench.finish_drawing();
+    ImGui::SameLine();
+    if (ImGui::Button("Drop it (Esc)")) bench.drop_drawing();
+  } else {
+    quiet(form == Form::tube ? "Click its points one after another, in any plane; Enter finishes it."
+                             : "Click its middle in a plane.");
+  }
+}
+
+void BenchPanel::draw_entry(CaseBench& bench) {
+  heading("Planned entry");
+  quiet("Click on the skin in the room, or near it in a plane: it goes onto the skin.");
+  const auto& entry = bench.row().planned_entry_lps_mm;
+  if (!entry) {
+    ImGui::TextUnformatted("none is planned");
+    return;
+  }
+  ImGui::Text("at %.1f, %.1f, %.1f mm", entry->x, entry->y, entry->z);
+  ImGui::SameLine();
+  if (ImGui::Button("Remove (Del)")) bench.set_entry(std::nullopt);
+  const auto scene = bench.scene();
+  if (!scene || !scene->way) return;
+  const PlannedWay& way = *scene->way;
+  ImGui::Text("%.0f mm to the target's middle, the needle has %.0f mm", way.length_mm,
+              bench.row().instrument.length_mm);
+  ImGui::Text("%.0f° off straight into the skin, %.0f° to the %s", way.skin_angle_deg, std::abs(way.head_deg),
+              way.head_deg < 0.0 ? "feet" : "head");
+  for (const WayPart& part : way.parts) {
+    const ImVec4 colour = part.forbidden ? ImVec4(1.0F, 0.45F, 0.35F, 1.0F) : ImVec4(0.75F, 0.80F, 0.84F, 1.0F);
+    ImGui::TextColored(colour, "%.0f to %.0f mm: %s", part.from_mm, part.from_mm + part.length_mm,
+                       part.what.c_str());
+  }
+  for (const std::string& one : way.not_crossed)
+    ImGui::TextColored({1.0F, 0.45F, 0.35F, 1.0F}, "does not cross %s", one.c_str());
+  if (way.free()) ImGui::TextColored({0.45F, 0.85F, 0.55F, 1.0F}, "free of bone, gas and structures");
+}
+
+void BenchPanel::draw_rule(CaseBench& bench) {
+  if (!setting_in_hand_) setting_ = bench.row();
+  setting_in_hand_ = false;
+  bool changed = false;
+  std::string words = "setting changed";
+  heading("To pass");
+  std::optional<std::size_t> drop;
+  for (std::size_t i = 0; i < setting_.rule.criteria.size(); ++i) {
+    assessment::Criterion& one = setting_.rule.criteria[i];
+    ImGui::PushID(static_cast<int>(i));
+    const assessment::MetricInfo* info = assessment::find_metric(one.metric);
+    ImGui::TextUnformatted(metric_words(one.metric).c_str());
+    if (info != nullptr && ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", info->id, info->definition);
+    ImGui::SetNextItemWidth(58.0F);
+    if (ImGui::BeginCombo("##sign", std::string(assessment::sign_of(one.comparison)).c_str())) {
+      for (const auto sign :
+           {assessment::Comparison::at_least, assessment::Comparison::at_most, assessment::Comparison::equal})
+        if (ImGui::Selectable(std::string(assessment::sign_of(sign)).c_str(), sign == one.comparison)) {
+          one.comparison = sign;
+          changed = true;
+        }
+      ImGui::EndCombo();
+    }
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(86.0F);
+    ImGui::InputDouble("##value", &one.value, 0.0, 0.0, "%.6g");
+    setting_in_hand_ = setting_in_hand_ || ImGui::IsItemActive();
+    changed = changed || ImGui::IsItemDeactivatedAfterEdit();
+    ImGui::SameLine();
+    ImGui::TextDisabled("%-5s", info != nullptr ? info->unit : "");
+    ImGui::SameLine();
+    changed = ImGui::Checkbox("critical", &one.critical) || changed;
+    ImGui::SameLine();
+    if (ImGui::Button("drop")) drop = i;
+    ImGui::PopID();
+  }
+  if (drop) {
+    setting_.rule.criteria.erase(setting_.rule.criteria.begin() + static_cast<std::ptrdiff_t>(*drop));
+    changed = true;
+  }
+  ImGui::SetNextItemWidth(-1.0F);
+  if (ImGui::BeginCombo("##more", "one more criterion …", ImGuiComboFlags_HeightLarge)) {
+    const auto scene = bench.scene();
+    for (const std::string& id : scene ? scene->check.rule_may_name : std::vector<std::string>{}) {
+      if (!ImGui::Selectable((metric_words(id) + "##" + id).c_str())) continue;
+      const assessment::MetricInfo* info = assessment::find_metric(id);
+      assessment::Criterion more;
+      more.metric = id;
+      if (info != nullptr) more.version = info->version;
+      const bool lower = info != nullptr && info->direction == assessment::Direction::lower_is_better;
+      more.comparison = lower ? assessment::Comparison::at_most : assessment::Comparison::at_least;
+      more.value = lower ? 0.0 : 1.0;
+      setting_.rule.criteria.push_back(more);
+      changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  if (changed) words = "pass rule changed";
+  ImGui::Spacing();
+  heading("The case");
+  fill(title_, title_of_, bench.row().title);
+  ImGui::SetNextItemWidth(-60.0F);
+  ImGui::InputText("title", title_.data(), title_.size());
+  const bool titled = ImGui::IsItemDeactivatedAfterEdit();
+  fill(indication_, indication_of_, setting_.clinic.indication);
+  ImGui::SetNextItemWidth(-60.0F);
+  ImGui::InputText("why", indication_.data(), indication_.size());
+  if (ImGui::IsItemDeactivatedAfterEdit()) {
+    setting_.clinic.indication = indication_of_ = indication_.data();
+    changed = true;
+  }
+  if (choice("guidance", setting_.modality, kModalities, [](cases::Modality one) { return modality_words(one); })) {
+    std::erase(setting_.further_modalities, setting_.modality);
+    changed = true;
+  }
+  changed = choice("approach", setting_.approach, kApproaches,
+                   [](cases::Approach one) { return casedb::name_of(one); }) ||
+            changed;
+  changed = choice("patient", setting_.position, kPositions,
+                   [](cases::PatientPosition one) { return casedb::name_of(one); }) ||
+            changed;
+  changed = choice("needle", setting_.instrument.kind, kInstruments,
+                   [](cases::InstrumentKind one) { return casedb::name_of(one); }) ||
+            changed;
+  ImGui::SetNextItemWidth(kFieldPx);
+  int gauge = 0;
+  for (const cases::Gauge& one : cases::kGauges)
+    if (std::abs(one.outer_mm - 2.0 * setting_.instrument.radius_mm) < 0.05) gauge = one.number;
+  if (ImGui::BeginCombo("gauge", gauge > 0 ? std::to_string(gauge).c_str() : "another")) {
+    for (const cases::Gauge& one : cases::kGauges)
+      if (ImGui::Selectable(std::to_string(one.number).c_str(), one.number == gauge)) {
+        setting_.instrument.radius_mm = one.outer_mm / 2.0;
+        changed = true;
+      }
+    ImGui::EndCombo();
+  }
+  changed = number("length mm", setting_.instrument.length_mm, 10.0, "%.0f", setting_in_hand_) || changed;
+  changed =
+      choice("difficulty", setting_.difficulty, kDifficulties,
+             [](casedb::Difficulty one) { return casedb::kDifficultyNames[static_cast<std::size_t>(one)]; }) ||
+      changed;
+  changed = optional_number("INR", setting_.clinic.inr, 1.0, "%.1f", setting_in_hand_) || changed;
+  changed = optional_number("platelets 10⁹/l", setting_.clinic.platelets_per_nl, 200.0, "%.0f", setting_in_hand_) ||
+            changed;
+  changed = optional_number("time limit s", setting_.time_limit_s, 300.0, "%.0f", setting_in_hand_) || changed;
+  changed = ImGui::Checkbox("the right decision is to defer", &setting_.clinic.defer) || changed;
+  changed = ImGui::Checkbox("tissue yields", &setting_.motion.yields) || changed;
+  if (titled) bench.set_title(title_.data());
+  if (!changed) return;
+  bench.set_setting(setting_, words);
+  setting_in_hand_ = false;
+}
+
+void BenchPanel::draw_tool(CaseBench& bench) {
+  ImGui::BeginDisabled(!bench.locked().empty());
+  switch (bench.tool) {
+    case BenchTool::look:
+      heading("Look");
+      quiet("Click: the cursor goes there, in all planes. Wheel: slice by slice. H: all keys.");
+      for (const casedb::Decision& one : bench.decisions())
+        ImGui::BulletText("%s%s%s", casedb::name_of(one.kind).c_str(), one.note.empty() ? "" : ": ",
+                          one.note.c_str());
+      break;
+    case BenchTool::lesion:
+      draw_lesion(bench);
+      break;
+    case BenchTool::structure:
+      draw_structure(bench);
+      break;
+    case BenchTool::entry:
+      draw_entry(bench);
+      break;
+    case BenchTool::rule:
+      draw_rule(bench);
+      break;
+  }
+  ImGui::EndDisabled();
+}
+
+}  // namespace seldinger::app

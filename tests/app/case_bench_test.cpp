@@ -1,0 +1,261 @@
+// The mentor's bench without its window: what is placed is stored and checked, what is refused changes nothing, and
+// every change can be taken back.
+#include "app/train/case_bench.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "casedb/store.h"
+#include "sim/imaging/room/room_camera.h"
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kBallMm = 50.0;
+
+class CaseBenchTest : public testing::Test {
+ protected:
+  // A ball of soft tissue with a rod of bone along z at x = −25, and no lesion yet.
+  void SetUp() override {
+    std::filesystem::remove_all(folder_);
+    library_.emplace(std::move(casedb::Library::open_or_create(folder_).value()));
+    volume::AnalyticVolume analytic;
+    analytic.size_voxels = {60, 60, 60};
+    analytic.spacing_mm = {2, 2, 2};
+    analytic.origin_mm = {-59, -59, -59};
+    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, kBallMm}, 50.0, ""});
+    analytic.shapes.push_back({volume::Sphere{{-25, 0, 0}, 8.0}, 900.0, ""});
+    casedb::NewCase made;
+    made.title = "Ball";
+    made.origin = "phantom:test";
+    made.volume = volume::rasterize(analytic);
+    made.skin = fixtures::sphere_mesh({0, 0, 0}, kBallMm, 4);
+    assessment::Criterion hit;
+    hit.metric = "hit";
+    hit.value = 1.0;
+    made.rule.criteria = {hit};
+    case_id_ = casedb::add_case(*library_, made);
+    ASSERT_TRUE(casedb::add_user(*library_, "mona", casedb::Role::mentor, "a long password"));
+    bench_.emplace(*library_, case_id_, "mona");
+    ASSERT_TRUE(checked());
+  }
+  bool checked() {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    do {
+      bench_->look();
+      if (!bench_->checking() && bench_->scene()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    } while (std::chrono::steady_clock::now() < end);
+    return false;
+  }
+  const Check* check(const std::string& name) const {
+    for (const Check& one : bench_->scene()->check.checks)
+      if (one.name == name) return &one;
+    return nullptr;
+  }
+  bool holds(const std::string& name) const { return check(name) != nullptr && check(name)->holds; }
+  std::size_t stored_lesions() { return casedb::list_lesions(*library_, case_id_).size(); }
+
+  std::filesystem::path folder_ = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "case_bench" /
+                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::optional<casedb::Library> library_;
+  std::string case_id_;
+  std::optional<CaseBench> bench_;
+};
+
+TEST_F(CaseBenchTest, AClickPlacesALesionAndTheChecksSeeIt) {
+  EXPECT_FALSE(holds("lesion_present"));
+  bench_->tool = BenchTool::lesion;
+  bench_->new_lesion.radii_mm = glm::dvec3(6.0);
+  bench_->click({-25.0, 0.0, 0.0});
+  ASSERT_EQ(stored_lesions(), 1U);
+  ASSERT_TRUE(checked());
+  EXPECT_TRUE(holds("lesion_present"));
+  EXPECT_FALSE(holds("lesion_not_in_bone"));
+  ASSERT_TRUE(check("lesion_not_in_bone")->place_lps_mm);
+  EXPECT_EQ(*check("lesion_not_in_bone")->place_lps_mm, glm::dvec3(-25.0, 0.0, 0.0));
+  bench_->click({15.0, 0.0, 0.0});
+  EXPECT_EQ(stored_lesions(), 1U) << "the chosen one is moved";
+  ASSERT_TRUE(checked());
+  EXPECT_TRUE(bench_->scene()->check.holds());
+  const auto spot = bench_->spot({16.0, 0.0, 0.0});
+  ASSERT_TRUE(spot && spot->hu);
+  EXPECT_EQ(*spot->hu, bench_->new_lesion.hu);
+  EXPECT_EQ(spot->in, std::vector<std::string>{"lesion 1"});
+  EXPECT_NEAR(spot->depth_mm, kBallMm - 16.0, 1.0);
+  // The command line's own check says the same.
+  const auto row = casedb::find_case(*library_, case_id_).value();
+  const auto asked = check_case(*library_, row).value();
+  ASSERT_EQ(asked.checks.size(), bench_->scene()->check.checks.size());
+  for (std::size_t i = 0; i < asked.checks.size(); ++i) {
+    EXPECT_EQ(asked.checks[i].name, bench_->scene()->check.checks[i].name);
+    EXPECT_EQ(asked.checks[i].text, bench_->scene()->check.checks[i].text);
+  }
+}
+
+TEST_F(CaseBenchTest, WhatIsRefusedSaysWhyAndChangesNothing) {
+  bench_->tool = BenchTool::lesion;
+  bench_->click({500.0, 0.0, 0.0});
+  EXPECT_FALSE(bench_->refusal().empty());
+  EXPECT_EQ(stored_lesions(), 0U);
+  EXPECT_FALSE(bench_->can_undo());
+  bench_->click({0.0, 0.0, 0.0});
+  EXPECT_TRUE(bench_->refusal().empty()) << bench_->refusal();
+  cases::LesionForm form = bench_->lesions().at(0).form;
+  form.radii_mm = glm::dvec3(-1.0);
+  EXPECT_FALSE(bench_->put_lesion(0, form));
+  EXPECT_EQ(casedb::list_lesions(*library_, case_id_).at(0).form.radii_mm.x, bench_->new_lesion.radii_mm.x);
+  EXPECT_FALSE(bench_->set_title(""));
+  EXPECT_EQ(bench_->row().title, "Ball");
+}
+
+TEST_F(CaseBenchTest, ARimIsDraggedAndStoredWhenItIsLetGo) {
+  bench_->tool = BenchTool::lesion;
+  bench_->click({0.0, 0.0, 4.0});
+  const std::string lesion_id = bench_->lesions().at(0).lesion_id;
+  bench_->view.set_cursor(bench_->scene()->scene.volume, {0.0, 0.0, 4.0});
+  ASSERT_TRUE(bench_->grab(0, {8.0, 0.0, 4.0}, 1.0)) << "its rim";
+  bench_->drag(0, {12.0, 0.0, 4.0});
+  EXPECT_EQ(bench_->shown_lesions().at(0).radii_mm.x, 12.0);
+  EXPECT_EQ(bench_->lesions().at(0).form.radii_mm.x, 8.0) << "not stored yet";
+  bench_->let_go();
+  EXPECT_EQ(casedb::list_lesions(*library_, case_id_).at(0).form.radii_mm.x, 12.0);
+  ASSERT_TRUE(bench_->grab(0, {1.0, 0.0, 4.0}, 2.0)) << "its middle";
+  bench_->drag(0, {5.0, 6.0, 4.0});
+  bench_->let_go();
+  EXPECT_EQ(bench_->lesions().at(0).form.center_lps_mm, glm::dvec3(5.0, 6.0, 4.0));
+  EXPECT_EQ(bench_->lesions().at(0).lesion_id, lesion_id) << "it is the same lesion";
+  EXPECT_FALSE(bench_->grab(0, {40.0, 0.0, 4.0}, 2.0)) << "nothing is there";
+  for (int i = 0; i < 3; ++i) bench_->undo();
+  EXPECT_EQ(stored_lesions(), 0U);
+  EXPECT_FALSE(bench_->can_undo());
+}
+
+TEST_F(CaseBenchTest, StructuresAreDrawnMovedAndTakenBackInTheirOrder) {
+  bench_->tool = BenchTool::structure;
+  bench_->new_structure.name = "vein";
+  bench_->new_structure.drawn = cases::Tube{{}, 3.0};
+  bench_->click({10.0, 0.0, -10.0});
+  bench_->click({10.0, 0.0, 10.0});
+  EXPECT_TRUE(bench_->drawing());
+  EXPECT_TRUE(bench_->structures().empty()) << "not finished";
+  bench_->finish_drawing();
+  ASSERT_EQ(bench_->structures().size(), 1U) << bench_->refusal();
+  EXPECT_EQ(std::get<cases::Tube>(bench_->structures()[0].drawn).points_lps_mm.size(), 2U);
+  bench_->structure = 1;
+  bench_->new_structure.drawn = cases::Sphere{{}, 5.0};
+  bench_->click({0.0, 20.0, 0.0});
+  ASSERT_EQ(bench_->structures().size(), 2U) << bench_->refusal();
+  casedb::StructureRow twice = bench_->structures()[1];
+  twice.name = "vein";
+  EXPECT_FALSE(bench_->put_structure(1, twice)) << "a name is taken once";
+  ASSERT_TRUE(bench_->grab(0, {10.0, 0.0, -10.0}, 2.0));
+  EXPECT_EQ(bench_->structure, 0U);
+  bench_->drag(0, {14.0, 2.0, -10.0});
+  bench_->let_go();
+  EXPECT_EQ(std::get<cases::Tube>(bench_->structures()[0].drawn).points_lps_mm[0], glm::dvec3(14.0, 2.0, -10.0));
+  ASSERT_TRUE(bench_->remove_structure(0));
+  bench_->undo();
+  ASSERT_EQ(bench_->structures().size(), 2U);
+  EXPECT_EQ(bench_->structures()[0].name, "vein") << "painted in the order in which it was";
+  ASSERT_TRUE(checked());
+  const auto in = bench_->spot({0.0, 20.0, 0.0})->in;
+  ASSERT_EQ(in.size(), 1U);
+  EXPECT_EQ(in[0], bench_->structures()[1].name);
+}
+
+TEST_F(CaseBenchTest, AnEntryGoesOntoTheSkinAndTheWayToTheTargetIsTold) {
+  bench_->tool = BenchTool::lesion;
+  bench_->click({0.0, 0.0, 0.0});
+  ASSERT_TRUE(checked());
+  EXPECT_FALSE(bench_->scene()->way);
+  bench_->tool = BenchTool::entry;
+  bench_->click({0.0, -40.0, 0.0});
+  ASSERT_TRUE(bench_->row().planned_entry_lps_mm);
+  EXPECT_NEAR(glm::length(*bench_->row().planned_entry_lps_mm), kBallMm, 0.3);
+  ASSERT_TRUE(checked());
+  EXPECT_TRUE(holds("entry_on_skin"));
+  ASSERT_TRUE(bench_->scene()->way);
+  EXPECT_NEAR(bench_->scene()->way->length_mm, kBallMm, 0.3);
+  EXPECT_LT(bench_->scene()->way->skin_angle_deg, 5.0);
+  EXPECT_TRUE(bench_->scene()->way->free());
+  // Through the bone.
+  bench_->click({-60.0, 0.0, 0.0});
+  ASSERT_TRUE(checked());
+  ASSERT_EQ(bench_->scene()->way->parts.size(), 1U);
+  const WayPart& bone = bench_->scene()->way->parts[0];
+  EXPECT_EQ(bone.what, "bone");
+  EXPECT_NEAR(bone.from_mm, kBallMm - 25.0 - 8.0, 1.5);
+  EXPECT_NEAR(bone.length_mm, 16.0, 2.0);
+  EXPECT_FALSE(bench_->scene()->way->free());
+  bench_->undo();
+  bench_->undo();
+  EXPECT_FALSE(bench_->row().planned_entry_lps_mm);
+}
+
+TEST_F(CaseBenchTest, OnlyWhatHoldsIsPublishedAndThenNothingIsChanged) {
+  bench_->publish(true, "");
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(bench_->row().state, "draft") << "there is no lesion";
+  EXPECT_FALSE(bench_->refusal().empty());
+  bench_->tool = BenchTool::lesion;
+  bench_->click({0.0, 0.0, 0.0});
+  bench_->publish(false, "");
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(bench_->row().state, "draft") << "nobody has reviewed it";
+  bench_->publish(true, "");
+  ASSERT_TRUE(checked());
+  EXPECT_EQ(bench_->row().state, "published") << bench_->refusal();
+  EXPECT_FALSE(bench_->locked().empty());
+  EXPECT_FALSE(bench_->can_undo());
+  bench_->click({10.0, 0.0, 0.0});
+  EXPECT_EQ(casedb::list_lesions(*library_, case_id_).at(0).form.center_lps_mm, glm::dvec3(0.0));
+}
+
+TEST_F(CaseBenchTest, PlanesLookThroughOneCursor) {
+  const volume::Volume& volume = bench_->scene()->scene.volume;
+  BenchView view;
+  const glm::dvec2 px(400.0, 300.0);
+  view.fit(volume, px);
+  view.set_cursor(volume, {10.0, -6.0, 8.0});
+  for (std::size_t plane = 0; plane < 3; ++plane) {
+    const glm::dvec2 at = view.pixel(plane, px, {10.0, -6.0, 8.0});
+    EXPECT_LT(glm::distance(view.place(plane, px, at), glm::dvec3(10.0, -6.0, 8.0)), 1e-9) << plane;
+    const glm::dvec3 held = view.place(plane, px, {30.0, 40.0});
+    view.zoom(plane, px, {30.0, 40.0}, 0.5);
+    EXPECT_LT(glm::distance(view.place(plane, px, {30.0, 40.0}), held), 1e-9) << plane;
+    view.zoom(plane, px, {30.0, 40.0}, 2.0);
+  }
+  view.scroll(volume, 0, 2);
+  EXPECT_NEAR(std::abs(view.cursor_lps_mm().z - 8.0), 4.0, 1e-9) << "two slices of 2 mm";
+  view.set_cursor(volume, {1000.0, 0.0, 0.0});
+  EXPECT_NEAR(view.cursor_lps_mm().x, 59.0, 1e-9) << "never outside the CT";
+  view.go_to(volume, {20.0, 20.0, 20.0});
+  for (std::size_t plane = 0; plane < 3; ++plane)
+    EXPECT_LT(glm::distance(view.pixel(plane, px, {20.0, 20.0, 20.0}), 0.5 * px), 1e-9);
+}
+
+TEST_F(CaseBenchTest, AClickInTheRoomFindsTheSkinThatIsSeen) {
+  const cases::Case& scene = bench_->scene()->scene;
+  imaging::RoomCamera camera;
+  camera.eye_lps_mm = {0.0, -400.0, 0.0};
+  const auto projection = imaging::projection_of(camera, 0, 1.0);
+  const glm::dvec3 mark(20.0, -std::sqrt(kBallMm * kBallMm - 500.0), 10.0);
+  const auto pixel = imaging::pixel_of(projection, mark, 300, 300);
+  ASSERT_TRUE(pixel);
+  const glm::dvec3 ray = imaging::ray_of(projection, *pixel, 300, 300);
+  const auto found = skin_under(scene, projection.eye_lps_mm, ray, std::nullopt);
+  ASSERT_TRUE(found);
+  EXPECT_LT(glm::distance(*found, mark), 0.6);
+  const imaging::CutPlane cut{{1.0, 0.0, 0.0}, 0.0};
+  EXPECT_FALSE(skin_under(scene, projection.eye_lps_mm, ray, cut)) << "what is cut away is not clicked";
+  EXPECT_FALSE(skin_under(scene, projection.eye_lps_mm, {0.0, -1.0, 0.0}, std::nullopt));
+}
+
+}  // namespace
+}  // namespace seldinger::app
