@@ -123,7 +123,8 @@ base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseR
                       one.name + (within ? " lies within the volume" : " reaches out of the volume")});
   }
   const assessment::Guidance guidance{
-      casedb::manner_of(row), assessment::absent_needs(scene->structures, row.planned_entry_lps_mm.has_value())};
+      casedb::manner_of(row),
+      assessment::absent_needs(scene->structures, row.planned_entry_lps_mm.has_value(), row.subject)};
   check_rule(row, guidance, checks);
   checked.rule_may_name = assessment::meaningful_metrics(guidance);
   return checked;
