@@ -62,9 +62,10 @@ class PersonAttempt {
   PersonAttempt& operator=(const PersonAttempt&) = delete;
 
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
-  std::shared_ptr<const Task> task() const;  // from `ready` on (CHECKed)
-  const base::Error& error() const;          // `refused` only (CHECKed)
-  const StoredAttempt& stored() const;       // `stored` only (CHECKed)
+  double prepared() const noexcept { return prepared_; }  // 0 to 1
+  std::shared_ptr<const Task> task() const;               // from `ready` on (CHECKed)
+  const base::Error& error() const;                       // `refused` only (CHECKed)
+  const StoredAttempt& stored() const;                    // `stored` only (CHECKed)
 
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);
@@ -91,6 +92,7 @@ class PersonAttempt {
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
+  std::atomic<double> prepared_{0.0};
   std::shared_ptr<const Task> task_;
   std::optional<base::Error> error_;
   std::optional<StoredAttempt> stored_;

@@ -93,10 +93,26 @@ void Trainer::list_choices() {
   }
 }
 
-void Trainer::choose(const std::string& case_id) {
+const Choice* Trainer::next() const noexcept {
+  const auto due = std::find_if(choices_.begin(), choices_.end(),
+                                [](const Choice& choice) { return choice.due && choice.open; });
+  return due == choices_.end() ? nullptr : &*due;
+}
+
+const Choice* Trainer::find_choice(const std::string& case_id) const noexcept {
   const auto choice =
       std::find_if(choices_.begin(), choices_.end(), [&](const Choice& one) { return one.case_id == case_id; });
-  if (choice == choices_.end() || !choice->open) return;
+  return choice == choices_.end() ? nullptr : &*choice;
+}
+
+bool Trainer::once_more() const noexcept {
+  const Choice* choice = find_choice(chosen_.case_id);
+  return choice != nullptr && choice->open;
+}
+
+void Trainer::choose(const std::string& case_id) {
+  const Choice* choice = find_choice(case_id);
+  if (choice == nullptr || !choice->open) return;
   const auto row = casedb::find_case(library_, case_id);
   if (!row) {
     refusal_ = row.error().text;
@@ -104,13 +120,15 @@ void Trainer::choose(const std::string& case_id) {
   }
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
-  help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
   restarting_ = false;
   prepare(nullptr);
 }
 
 void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
+  const Choice* choice = find_choice(chosen_.case_id);
+  const bool easy = choice != nullptr && choice->difficulty == casedb::Difficulty::easy;
+  help_ = easy ? std::max(0, kMostHelp - choice->passes) : 0;
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
   attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
@@ -128,6 +146,7 @@ void Trainer::back() {
 
 void Trainer::again() {
   if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose) return;
+  if (screen_ == TrainerScreen::debrief && !once_more()) return;
   const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
   restarting_ = true;
   prepare(prepared ? attempt_->task() : nullptr);
@@ -138,7 +157,7 @@ bool Trainer::begin(bool left_handed) {
     return false;
   restarting_ = false;
   attempt_->begin(left_handed);
-  attempt_->say(cases::EventKind::sign_in);
+  if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
 }
@@ -176,6 +195,7 @@ void Trainer::look() {
       return;
     }
     debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id)};
+    list_choices();  // what it opened
     screen_ = TrainerScreen::debrief;
   }
 }

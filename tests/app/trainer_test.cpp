@@ -8,6 +8,7 @@
 #include <functional>
 #include <thread>
 
+#include "casedb/versions.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 
@@ -116,8 +117,10 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   trainer.choose(case_id_);
   ASSERT_EQ(trainer.screen(), TrainerScreen::briefing);
   EXPECT_FALSE(trainer.begin(false)) << "not prepared yet";
+  EXPECT_LT(trainer.prepared(), 1.0);
   EXPECT_EQ(trainer.help(), 2) << "an easy case that was not passed yet";
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_EQ(trainer.prepared(), 1.0);
   ASSERT_TRUE(trainer.begin(false));
   PersonAttempt& attempt = *trainer.attempt();
   for (const cases::EventKind kind :
@@ -156,10 +159,30 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   std::optional<Moment> last;
   while (const auto moment = watched.moment()) last = moment;
   ASSERT_TRUE(last);
+  const std::uint64_t all_ticks = last->state.tick;
+  // Back and forth by time, standing still there; the same at the end however one came there.
+  watched.set_speed(0.0);
+  const auto stands_at = [&](double t_s) {
+    return until([&] {
+      while (const auto moment = watched.moment()) last = moment;
+      return std::abs(last->state.t_s - t_s) < 0.002;
+    });
+  };
+  watched.go_to(0.5 * watched.duration_s());
+  EXPECT_TRUE(stands_at(0.5 * watched.duration_s())) << last->state.t_s;
+  EXPECT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::playing; }));
+  watched.go_to(0.25 * watched.duration_s());
+  EXPECT_TRUE(stands_at(0.25 * watched.duration_s())) << last->state.t_s;
+  watched.go_to(10.0 * watched.duration_s());
+  ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
+  while (const auto moment = watched.moment()) last = moment;
+  EXPECT_EQ(last->state.tick, all_ticks);
   EXPECT_TRUE(last->state.fire.fired);
   EXPECT_EQ(last->state.fire.tip_lps_mm, watched.recording().endpoint->tip_lps_mm) << "the very same";
   trainer.stop_watching();
   EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
+  trainer.again();
+  EXPECT_EQ(trainer.help(), 1) << "help fades at once";
   trainer.back();
   ASSERT_EQ(trainer.choices().size(), 1U);
   EXPECT_EQ(trainer.choices()[0].attempts, 1);
@@ -220,6 +243,33 @@ TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
   }
   EXPECT_GT(seen, 3);
   EXPECT_GT(passed, 3);
+}
+
+TEST_F(TrainerTest, WhatIsDueComesNextAndAttemptsAreUsedUp) {
+  {
+    casedb::Library library = open();
+    ASSERT_TRUE(casedb::add_user(library, "dora", casedb::Role::director, kPassword));
+    static_cast<void>(casedb::confirm_no_burned_in_text(library, case_id_, std::nullopt));
+    ASSERT_TRUE(casedb::publish_case(library, case_id_, "mona", true));
+    const std::string id = casedb::add_curriculum(library, "First", "mona").value();
+    ASSERT_TRUE(casedb::add_curriculum_item(library, id, case_id_, 1, {}, "mona"));
+    ASSERT_TRUE(casedb::publish_curriculum(library, id, "dora"));
+  }
+  Trainer trainer(open());
+  trainer.log_in("tina", kPassword);
+  ASSERT_NE(trainer.next(), nullptr);
+  EXPECT_EQ(trainer.next()->case_id, case_id_);
+  trainer.choose(std::string(trainer.next()->case_id));
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_TRUE(trainer.once_more());
+  ASSERT_TRUE(trainer.begin(false));
+  ASSERT_TRUE(until([&] { return trainer.attempt()->seen().has_value(); }));
+  trainer.attempt()->end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  EXPECT_FALSE(trainer.once_more()) << "one was all";
+  EXPECT_EQ(trainer.next(), nullptr);
+  trainer.again();
+  EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
 }
 
 TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
