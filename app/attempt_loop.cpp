@@ -162,6 +162,7 @@ base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cas
     if (glm::length(way) > 0.0)
       setting.plan = assessment::PlannedEntry{*scene.planned_entry_lps_mm, glm::normalize(way)};
   }
+  setting.subject = scene.subject;
   setting.position = scene.position;
   setting.defer_is_right = scene.defer_is_right;
   setting.breathes = scene.breathing.has_value();

@@ -109,9 +109,10 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.instrument = row.instrument;
   scene.picture = picture;
   scene.approach = row.approach;
+  scene.subject = row.subject;
   scene.position = row.position;
   scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
-  scene.defer_is_right = row.clinic.defer;
+  if (row.subject == cases::Subject::patient) scene.defer_is_right = row.clinic.defer;
   scene.breathing = row.motion.breathing();
   scene.yields = row.motion.yields;
 

@@ -81,6 +81,11 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
     for (const std::string& name : arguments.all("--also"))
       if (name != "none") setting.further_modalities.push_back(modality_named("--also", name));
   }
+  if (arguments.has("--subject")) {
+    const auto subject = casedb::subject_from(arguments.text("--subject"));
+    if (!subject) throw UsageError("--subject is patient or phantom");
+    setting.subject = *subject;
+  }
   if (arguments.has("--position")) {
     const auto position = casedb::position_from(arguments.text("--position"));
     if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");

@@ -62,7 +62,7 @@ int run_simulate(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   auto simulation = Simulation::prepare(*library, case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
-  simulation->set_scenario(std::move(scenario));
+  if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
   std::vector<SimulatedAttempt> attempts;
   casedb::Grader grader(*library);  // against the experts as they were before this run
   const auto stored = [&](SimulatedAttempt attempt) {

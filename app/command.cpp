@@ -76,6 +76,7 @@ constexpr Option kSettingOptions[] = {
     {"--title", "TEXT", "the case's title"},
     {"--modality", "mpr|xray|ultrasound", "what it is practised with"},
     {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else", true},
+    {"--subject", "patient|phantom", "phantom: a block to practise on; nothing is asked around a patient"},
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies"},
     {"--approach", "in_plane|out_of_plane", "of needle to picture"},
     {"--instrument", "access|core", "access: the tip decides; core: the fired notch"},

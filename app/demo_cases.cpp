@@ -80,11 +80,11 @@ assessment::PassRule rule(std::initializer_list<const char*> pass, std::initiali
 DemoCase drill(int number, const char* title, const char* task, DemoSource source, volume::GelBlock block,
                double x_mm, double z_mm) {
   DemoCase made{number, title, source, {}, {}, {}};
+  made.setting.subject = cases::Subject::phantom;
   made.setting.modality = cases::Modality::ultrasound;
   made.setting.instrument = access(18);
   made.setting.difficulty = casedb::Difficulty::easy;
-  made.setting.clinic.indication =
-      std::string("A block of gel, no patient: no anaesthetic, no held breath. ") + task;
+  made.setting.clinic.indication = task;
   const volume::Sphere ball = volume::gel_ball(block);
   cases::LesionForm form = sphere(ball.center_mm, ball.radius_mm, 0.0);
   form.adds = true;

@@ -21,6 +21,13 @@ base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std
   return Simulation(library, std::move(*task));
 }
 
+base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
+  if (!events.empty() && task_.scene.subject == cases::Subject::phantom)
+    return base::Error{"no_patient", "nothing happens to a phantom: --event is for patients"};
+  scenario_ = std::move(events);
+  return {};
+}
+
 base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::OperatorProfile& profile,
                                                         std::uint64_t seed) {
   if (task_.scene.picture.modality == cases::Modality::xray)

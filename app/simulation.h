@@ -34,8 +34,8 @@ class Simulation {
                                           std::optional<cases::InstrumentKind> kind = std::nullopt,
                                           std::optional<cases::Modality> modality = std::nullopt);
 
-  // What a mentor lets happen in each of the attempts, by rising time.
-  void set_scenario(std::vector<cases::Event> events) { scenario_ = std::move(events); }
+  // What a mentor lets happen in each of the attempts, by rising time. Refused: `no_patient` of a phantom.
+  base::Result<void> set_scenario(std::vector<cases::Event> events);
 
   // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,

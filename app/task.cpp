@@ -8,10 +8,18 @@
 #include "app/version.h"
 
 namespace seldinger::app {
+namespace {
+
+// What loading takes of the whole; the rest is the plan.
+double built_share(cases::Modality modality) {
+  return modality == cases::Modality::ultrasound ? 0.5 : 0.9;
+}
+
+}  // namespace
 
 base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
-                                std::optional<cases::InstrumentKind> kind,
-                                std::optional<cases::Modality> modality) {
+                                std::optional<cases::InstrumentKind> kind, std::optional<cases::Modality> modality,
+                                const std::function<void(double share)>& told) {
   const auto row = casedb::find_case(library, case_id);
   if (!row) return row.error();
   const casedb::LesionRow* found = nullptr;
@@ -27,10 +35,16 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   if (picture.modality != row->modality &&
       std::find(further.begin(), further.end(), picture.modality) == further.end())
     return base::Error{"other_modality", "the case is not practised with this modality"};
+  const auto tell = [&told](double share) {
+    if (told) told(share);
+  };
+  const double built = built_share(picture.modality);
   auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
   if (!scene) return scene.error();
+  tell(built);
   scene->instrument.kind = kind.value_or(row->instrument.kind);
   assessment::PathLimits limits = assessment::path_limits(*scene);
+  limits.told = [&](double share) { tell(built + (1.0 - built) * share); };
   if (picture.modality == cases::Modality::ultrasound)
     limits.looks_from = [&](const assessment::PuncturePlan& plan) {
       return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
@@ -38,7 +52,8 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();
   if (plan->picture) scene->picture = *plan->picture;
-  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl};
+  tell(1.0);
+  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
   return Task{*row, *found, std::move(*scene), *plan};
 }
 

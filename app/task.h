@@ -2,6 +2,7 @@
 // operator and for a person.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,10 +22,12 @@ struct Task {
 
 // An empty lesion id takes the case's first lesion; a kind other than the case's keeps the needle's measures; the
 // modality is the case's unless given. Refused: `no_case`, `no_lesion`, `no_path`, `other_modality` (not one of the
-// case's), damaged assets.
+// case's), damaged assets. `told`: how far it is, from 0 to 1 and rising, by the shares of the time that its stages
+// take.
 base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
                                 std::optional<cases::InstrumentKind> kind = std::nullopt,
-                                std::optional<cases::Modality> modality = std::nullopt);
+                                std::optional<cases::Modality> modality = std::nullopt,
+                                const std::function<void(double share)>& told = {});
 
 // Of an attempt at it that begins now.
 casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::uint64_t seed,

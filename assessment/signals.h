@@ -38,6 +38,7 @@ struct AttemptSetting {
   cases::Approach approach = cases::Approach::in_plane;
   std::optional<PlannedEntry> plan{};
   std::span<const cases::Structure> structures{};
+  cases::Subject subject = cases::Subject::patient;
   cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
   bool breathes = false, yields = false;                             // what moves the case's tissue

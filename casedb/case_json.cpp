@@ -102,6 +102,7 @@ void add_authoring(const CaseParts& parts, Json& json) {
   json["reviewed_by"] = review ? Json(review->pseudonym) : Json(nullptr);
   json["decisions"] = decisions;
   json["further_modalities"] = further;
+  json["subject"] = name_of(row.subject);
   json["approach"] = name_of(row.approach);
   json["instrument"] = json_of_instrument(row.instrument);
   json["clinic"] = {{"inr", maybe(row.clinic.inr)},

@@ -35,6 +35,7 @@ struct Motion {
 struct CaseSetting {
   cases::Modality modality = cases::Modality::mpr;  // what it is practised with
   std::vector<cases::Modality> further_modalities;  // what it may be practised with too
+  cases::Subject subject = cases::Subject::patient;
   cases::PatientPosition position = cases::PatientPosition::supine;
   cases::Instrument instrument;
   cases::Approach approach = cases::Approach::in_plane;
@@ -52,10 +53,13 @@ inline assessment::Manner manner_of(const CaseSetting& setting) {
 }
 
 std::string name_of(cases::InstrumentKind kind);
+std::string name_of(cases::Subject subject);
+std::optional<cases::Subject> subject_from(const std::string& name);
 std::string name_of(cases::Approach approach);
 
 // `bad_setting` with all that is not sound: lengths, laboratory values, limits, a modality twice, texts over 200
-// bytes or with control characters. The rule's metrics are looked at by the case's check.
+// bytes or with control characters, and what a phantom cannot have. The rule's metrics are looked at by the case's
+// check.
 base::Result<void> check_setting(const CaseSetting& setting);
 
 }  // namespace seldinger::casedb

@@ -37,6 +37,16 @@ std::string name_of(cases::Approach approach) {
   return approach == cases::Approach::out_of_plane ? "out_of_plane" : "in_plane";
 }
 
+std::string name_of(cases::Subject subject) {
+  return std::string(cases::kSubjectNames[static_cast<std::size_t>(subject)]);
+}
+
+std::optional<cases::Subject> subject_from(const std::string& name) {
+  for (std::size_t i = 0; i < cases::kSubjectNames.size(); ++i)
+    if (cases::kSubjectNames[i] == name) return static_cast<cases::Subject>(i);
+  return std::nullopt;
+}
+
 std::optional<cases::Breathing> Motion::breathing() const {
   if (!(breath_depth > 0.0)) return std::nullopt;
   cases::Breathing made;
@@ -74,6 +84,10 @@ base::Result<void> check_setting(const CaseSetting& setting) {
   if (!within(motion.breath_depth, 0.0, 2.0) || !within(motion.breath_period_s, 1.0, 20.0) ||
       !within(motion.breath_irregularity, 0.0, 0.4))
     wrong("a breath is up to twice as deep as a quiet one, 1 to 20 s long, and up to 0.4 irregular");
+  if (setting.subject == cases::Subject::phantom &&
+      (clinic.inr || clinic.platelets_per_nl || !clinic.allergy.empty() || clinic.defer ||
+       motion.breath_depth > 0.0))
+    wrong("a phantom has neither laboratory values nor an allergy, does not breathe, and is not deferred");
   if (!sound_text(clinic.allergy) || !sound_text(clinic.indication))
     wrong("allergy and indication are one line of at most 200 bytes");
   if (setting.planned_entry_lps_mm)
@@ -124,6 +138,7 @@ void bind_setting(Statement& statement, const CaseSetting& setting) {
   const auto entry = [&](int axis) {
     return setting.planned_entry_lps_mm ? std::optional((*setting.planned_entry_lps_mm)[axis]) : std::nullopt;
   };
+  statement.bind("subject", name_of(setting.subject));
   statement.bind("modality", name_of(setting.modality)).bind("patient_position", name_of(setting.position));
   statement.bind("further_modalities", further);
   bind_needle(statement, setting.instrument, setting.approach);
@@ -144,6 +159,7 @@ void bind_setting(Statement& statement, const CaseSetting& setting) {
 void read_setting(const Statement& from, CaseSetting& setting) {
   // The schema takes no others.
   setting.modality = *modality_from(from.text("modality"));
+  setting.subject = *subject_from(from.text("subject"));
   setting.position = *position_from(from.text("patient_position"));
   const std::string further = from.text("further_modalities");
   for (std::size_t at = 0; at < further.size();) {

@@ -37,6 +37,20 @@ std::string approach_text(cases::Approach approach) {
   return approach == cases::Approach::in_plane ? "In plane" : "Out of plane";
 }
 
+std::string position_text(cases::PatientPosition position) {
+  switch (position) {
+    case cases::PatientPosition::supine:
+      return "supine";
+    case cases::PatientPosition::prone:
+      return "prone";
+    case cases::PatientPosition::lateral_left:
+      return "on the left side";
+    case cases::PatientPosition::lateral_right:
+      return "on the right side";
+  }
+  return "";
+}
+
 std::string person_text(const std::string& person_id) {
   // The end of a UUIDv7 is random; its beginning would tell when the account was made.
   return "Person " + person_id.substr(person_id.size() < 6 ? 0 : person_id.size() - 6);

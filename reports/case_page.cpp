@@ -27,7 +27,7 @@ std::string state_text(const casedb::CaseRow& row) {
 std::string guidance_text(const casedb::CaseRow& row) {
   std::string text = casedb::name_of(row.modality) + ", ";
   if (row.modality != cases::Modality::xray) text += words(casedb::name_of(row.approach)) + ", ";
-  text += "patient " + words(casedb::name_of(row.position));
+  text += row.subject == cases::Subject::phantom ? "phantom" : "patient " + words(casedb::name_of(row.position));
   for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
   return text;
 }

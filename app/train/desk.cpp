@@ -87,7 +87,7 @@ void Desk::draw_screen() {
       log_in_.draw(trainer_);
       break;
     case TrainerScreen::choose:
-      choose_.draw(trainer_);
+      choose_.draw(trainer_, keys);
       break;
     case TrainerScreen::briefing:
       if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);

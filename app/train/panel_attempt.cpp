@@ -36,6 +36,8 @@ constexpr std::array<Saying, 7> kSayings = {{
 
 bool asked_for(const Saying& saying, const cases::Case& scene) {
   if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
+  if (saying.kind == EventKind::note_plan) return true;
+  if (scene.subject == cases::Subject::phantom) return false;
   if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
   return true;
 }
@@ -75,7 +77,8 @@ void AttemptPanel::begin(Trainer& trainer) {
   method_ = trainer.attempt()->monitor().method();
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
-  decided_ = fired_ = leaving_ = false;
+  decided_ = scene.subject == cases::Subject::phantom;  // nobody is asked
+  fired_ = leaving_ = false;
   said_.clear();
 }
 
@@ -84,7 +87,7 @@ void AttemptPanel::say(PersonAttempt& attempt, EventKind kind, const char* words
 }
 
 void AttemptPanel::finish(PersonAttempt& attempt) {
-  attempt.say(EventKind::sign_out);
+  if (attempt.task()->scene.subject == cases::Subject::patient) attempt.say(EventKind::sign_out);
   attempt.end();
 }
 
@@ -173,14 +176,15 @@ void AttemptPanel::draw_steps(Trainer& trainer) {
     used += wide;
     if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
   }
-  if (trainer.account().role == casedb::Role::mentor)
+  const bool patient = scene.subject == cases::Subject::patient;
+  if (patient && trainer.account().role == casedb::Role::mentor)
     for (const cases::EventInfo& event : cases::event_kinds()) {
       if (event.source != cases::EventSource::mentor) continue;
       if (ImGui::Button(event.words)) say(attempt, event.kind, event.words);
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
       ImGui::SameLine();
     }
-  if (ImGui::Button("F9  Sign out and finish")) finish(attempt);
+  if (ImGui::Button(patient ? "F9  Sign out and finish" : "F9  Finish")) finish(attempt);
   ImGui::SameLine();
   ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
 }

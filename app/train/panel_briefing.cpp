@@ -1,7 +1,5 @@
 #include <imgui.h>
 
-#include <cmath>
-
 #include "app/train/panels.h"
 #include "assessment/grading/debrief.h"
 #include "assessment/metrics/registry.h"
@@ -23,12 +21,63 @@ void fact(const char* what, const std::string& value) {
   ImGui::BulletText("%s: %s", what, value.c_str());
 }
 
+// What the hands do, for who has not done it before.
+void draw_hands(const casedb::CaseRow& row) {
+  struct Line {
+    const char *key, *words;
+  };
+  constexpr Line kLines[] = {
+      {"Tab", "takes the other tool: needle or probe"},
+      {"left drag", "moves it; the probe follows the skin"},
+      {"right drag", "turns the needle; tilts and rocks the probe"},
+      {"middle drag", "rotates the probe"},
+      {"wheel", "pushes the needle on and draws it back; presses the probe on"},
+      {"Shift", "makes everything ten times finer"},
+      {"G", "puts the needle into the probe's guide"},
+      {"Space", "fires; an access needle is declared to be there"},
+      {"1 – 7", "views of the room; with Alt the mouse turns the view"},
+      {"Esc, F5", "pause; begin again"},
+  };
+  constexpr Line kBeam = {"P", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"};
+  heading("Your hands");
+  const auto line = [](const Line& one) {
+    ImGui::TextColored({0.86F, 0.80F, 0.58F, 1.0F}, "%s", one.key);
+    ImGui::SameLine(7.0F * ImGui::GetFontSize());
+    ImGui::TextWrapped("%s", one.words);
+  };
+  const bool xray = row.modality == cases::Modality::xray;
+  for (const Line& one : kLines) line(one);
+  if (xray) line(kBeam);
+}
+
 std::string unit_of(const std::string& metric_id) {
   const assessment::MetricInfo* info = assessment::find_metric(metric_id);
   return info != nullptr ? info->unit : "";
 }
 
 }  // namespace
+
+bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
+  heading("Sign-in");
+  laboratory("INR", row.clinic.inr, "", 1);
+  laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
+  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
+  ImGui::Spacing();
+  bool all = true;
+  for (std::size_t i = 0; i < kSignIn.size(); ++i) {
+    ImGui::Checkbox(kSignIn[i], &checked_[i]);
+    all = all && checked_[i];
+  }
+  if (ImGui::Button("All checked")) checked_.fill(true);
+  ImGui::Spacing();
+  quiet(
+      "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
+      "is "
+      "decided in the room: proceed or defer.");
+  ImGui::Spacing();
+  draw_hands(row);
+  return all;
+}
 
 bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   const casedb::CaseRow& row = trainer.chosen();
@@ -48,7 +97,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   fact("Guidance", modality_words(row.modality));
   if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
   fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
-  fact("Patient", casedb::name_of(row.position));
+  const bool phantom = row.subject == cases::Subject::phantom;
+  if (phantom)
+    fact("On the table", "a block of gel, no patient: no sign-in, no anaesthetic, no held breath");
+  else
+    fact("Patient", reports::position_text(row.position));
   if (row.motion.breathing()) fact("Breathing", "the organ moves with every breath");
   if (row.time_limit_s) fact("Time limit", reports::number_text(*row.time_limit_s, 0) + " s");
   ImGui::Spacing();
@@ -61,22 +114,8 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-  heading("Sign-in");
-  laboratory("INR", row.clinic.inr, "", 1);
-  laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
-  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
-  ImGui::Spacing();
-  bool all = true;
-  for (std::size_t i = 0; i < kSignIn.size(); ++i) {
-    ImGui::Checkbox(kSignIn[i], &checked_[i]);
-    all = all && checked_[i];
-  }
-  if (ImGui::Button("All checked")) checked_.fill(true);
-  ImGui::Spacing();
-  quiet(
-      "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
-      "is "
-      "decided in the room: proceed or defer.");
+  const bool all = phantom || draw_sign_in(row);
+  if (phantom) draw_hands(row);
   ImGui::EndChild();
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
   if (ImGui::Button("Back")) {
@@ -98,8 +137,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndDisabled();
   if (!ready) {
     ImGui::SameLine();
-    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {220.0F, 0.0F},
-                       "preparing the case …");
+    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {220.0F, 0.0F}, "preparing the case …");
   }
   end_screen();
   return begin;

@@ -13,7 +13,7 @@ std::string state_words(const Choice& choice) {
   return words;
 }
 
-void draw_choices(Trainer& trainer, const std::string& curriculum) {
+void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
   ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
@@ -36,14 +36,19 @@ void draw_choices(Trainer& trainer, const std::string& curriculum) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(casedb::kDifficultyNames[static_cast<std::size_t>(choice.difficulty)].data());
     ImGui::TableNextColumn();
-    ImGui::Text("%d of %d", choice.passes, choice.attempts);
+    if (choice.attempts > 0)
+      ImGui::Text("%d of %d", choice.passes, choice.attempts);
+    else
+      ImGui::TextDisabled("–");
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(state_words(choice).c_str());
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(!choice.open);
+    const bool next = trainer.next() == &choice;
     const bool mentor = trainer.account().role == casedb::Role::mentor;
     const float wide = mentor ? 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F) : -1.0F;
-    if (ImGui::Button(choice.due ? "Next case" : "Open", {wide, 0.0F})) chosen = choice.case_id;
+    if (ImGui::Button(next ? "Next (Enter)" : "Open", {wide, 0.0F}) || (next && keys.pressed(kEnter)))
+      chosen = choice.case_id;
     ImGui::EndDisabled();
     if (mentor) {
       ImGui::SameLine();
@@ -88,7 +93,7 @@ void draw_drafts(Trainer& trainer) {
 
 }  // namespace
 
-void ChoosePanel::draw(Trainer& trainer) {
+void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
   ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
@@ -115,7 +120,7 @@ void ChoosePanel::draw(Trainer& trainer) {
     curriculum = choice.curriculum;
     ImGui::Spacing();
     heading(curriculum.empty() ? "Free practice" : curriculum.c_str());
-    draw_choices(trainer, curriculum);
+    draw_choices(trainer, keys, curriculum);
   }
   if (!trainer.drafts().empty()) draw_drafts(trainer);
   if (out) trainer.log_out();

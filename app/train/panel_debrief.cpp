@@ -23,6 +23,31 @@ const char* mark_of(const assessment::CriterionResult& result) {
   return result.outcome == assessment::Outcome::missed ? "missed" : "not measured";
 }
 
+ImVec4 colour_of(const assessment::CriterionResult& result) {
+  if (result.outcome == assessment::Outcome::met) return {0.45F, 0.85F, 0.55F, 1.0F};
+  if (result.outcome == assessment::Outcome::missed) return {0.96F, 0.58F, 0.40F, 1.0F};
+  return {0.80F, 0.82F, 0.84F, 1.0F};
+}
+
+// The experts' band on a line, where the trainee's value lies to it (a dot), and what was asked (a stroke).
+void draw_band(const assessment::MetricBand& band, double value, const assessment::CriterionResult& result) {
+  const double asked = result.criterion.value;
+  const double low = std::min({band.low, value, asked}), high = std::max({band.high, value, asked});
+  if (!(high > low)) return;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float wide = ImGui::GetContentRegionAvail().x - 6.0F, high_px = 14.0F, y = corner.y + 0.5F * high_px;
+  const auto x = [&](double at) {
+    return corner.x + 6.0F + (wide - 12.0F) * static_cast<float>((at - low) / (high - low));
+  };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddLine({x(low), y}, {x(high), y}, IM_COL32(90, 100, 110, 255));
+  draw->AddRectFilled({x(band.low), y - 4.0F}, {std::max(x(band.high), x(band.low) + 2.0F), y + 4.0F},
+                      IM_COL32(70, 130, 160, 255), 2.0F);
+  draw->AddLine({x(asked), y - 7.0F}, {x(asked), y + 7.0F}, IM_COL32(230, 230, 230, 255), 1.5F);
+  draw->AddCircleFilled({x(value), y}, 4.5F, ImGui::ColorConvertFloat4ToU32(colour_of(result)));
+  ImGui::Dummy({wide, high_px});
+}
+
 void draw_criteria(const Debrief& debrief) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   if (!ImGui::BeginTable("criteria", 5, kTable)) return;
@@ -43,11 +68,21 @@ void draw_criteria(const Debrief& debrief) {
     const casedb::MetricValue* value = reports::find_metric(debrief.attempt.metrics, criterion.metric);
     ImGui::TextUnformatted(value != nullptr ? reports::value_text(*value).c_str() : "–");
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(reports::band_text(debrief.grade.experts, criterion.metric, criterion.version).c_str());
+    const std::string band = reports::band_text(debrief.grade.experts, criterion.metric, criterion.version);
+    if (!band.empty()) {
+      ImGui::TextUnformatted(band.c_str());
+      if (value != nullptr && value->value)
+        draw_band(*debrief.grade.experts.find(criterion.metric, criterion.version), *value->value, result);
+    }
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(mark_of(result));
+    ImGui::TextColored(colour_of(result), "%s", mark_of(result));
   }
   ImGui::EndTable();
+  const assessment::ExpertSet& experts = debrief.grade.experts;
+  quiet(experts.bands.empty() ? "No band of experts yet: it takes five of them on this case."
+                              : ("Experts: " + reports::experts_text(experts) +
+                                 ". Bar: 10th to 90th percentile; dot: yours; stroke: asked.")
+                                    .c_str());
 }
 
 void draw_steps(const Debrief& debrief) {
@@ -117,6 +152,12 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::SameLine();
   quiet(kTrainingOnly);
   end_screen();
+  if (wish == Wish::next) trainer.choose(std::string(next->case_id));
+  if (wish == Wish::again) trainer.again();
+  if (wish == Wish::watch) trainer.watch(std::string(debrief.attempt.attempt_id));
+  if (wish == Wish::expert) trainer.watch(std::string(trainer.expert_attempt()));
+  if (wish == Wish::cases) trainer.back();
+  if (wish == Wish::log_out) trainer.log_out();
 }
 
 }  // namespace seldinger::app

@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -7,9 +9,10 @@ namespace seldinger::app {
 void LogInPanel::draw(Trainer& trainer) {
   begin_screen("log in");
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float width = 0.33F * room.x;
+  const float width = std::clamp(0.33F * room.x, std::min(360.0F, room.x), 620.0F);
   ImGui::SetCursorPos({0.5F * (room.x - width), 0.28F * room.y});
-  ImGui::BeginChild("account", {width, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::BeginChild("account", {width, 20.0F * ImGui::GetFontSize()}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding);
   ImGui::Spacing();
   heading("Seldinger");
   quiet("Image-guided needle puncture, practised where nobody is hurt.");

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kHelp = 3;  // who watches sees where it goes
 constexpr std::array<double, 3> kSpeeds = {1.0, 2.0, 4.0};
+constexpr double kLeapS = 5.0;
 
 // What was said or happened last, for a few seconds.
 std::string said_at(const cases::Recording& recording, double t_s) {
@@ -31,18 +32,27 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
   WatchedAttempt& watched = *trainer.watched();
   const double t_s = seen_.moment.state.t_s, all_s = std::max(0.1, watched.duration_s());
   char words[64];
-  std::snprintf(words, sizeof words, "%.0f of %.0f s", t_s, all_s);
-  ImGui::ProgressBar(static_cast<float>(std::min(1.0, t_s / all_s)), {-1.0F, 0.0F}, words);
-  const bool standing = watched.speed() <= 0.0;
-  if (ImGui::Button(standing ? "Go on (Space)" : "Stop (Space)") || keys.pressed(kSpace))
-    watched.set_speed(standing ? 1.0 : 0.0);
+  std::snprintf(words, sizeof words, "%%.0f of %.0f s", all_s);
+  auto at_s = static_cast<float>(std::min(t_s, all_s));
+  ImGui::SetNextItemWidth(-1.0F);
+  if (ImGui::SliderFloat("##time", &at_s, 0.0F, static_cast<float>(all_s), words)) watched.go_to(at_s);
+  const bool over = watched.phase() == WatchedAttempt::Phase::over, standing = watched.speed() <= 0.0;
+  if (ImGui::Button(over       ? "From the beginning (Space)"
+                    : standing ? "Go on (Space)"
+                               : "Stop (Space)") ||
+      keys.pressed(kSpace)) {
+    if (over) watched.go_to(0.0);
+    watched.set_speed(over || standing ? 1.0 : 0.0);
+  }
   for (const double speed : kSpeeds) {
     ImGui::SameLine();
     std::snprintf(words, sizeof words, "%.0f ×", speed);
     if (ImGui::Button(words)) watched.set_speed(speed);
   }
   ImGui::SameLine();
-  if (ImGui::Button("From the beginning")) watched.begin_again();
+  if (ImGui::Button("Back 5 s (Left)") || keys.pressed(kLeft)) watched.go_to(t_s - kLeapS);
+  ImGui::SameLine();
+  if (ImGui::Button("On 5 s (Right)") || keys.pressed(kRight)) watched.go_to(t_s + kLeapS);
   const std::string said = said_at(watched.recording(), t_s);
   ImGui::TextDisabled("%s", said.empty() ? " " : said.c_str());
 }

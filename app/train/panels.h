@@ -27,7 +27,7 @@ class LogInPanel {
 
 class ChoosePanel {
  public:
-  void draw(Trainer& trainer);
+  void draw(Trainer& trainer, const Keys& keys);
 };
 
 class BriefingPanel {
@@ -36,6 +36,8 @@ class BriefingPanel {
   bool draw(Trainer& trainer, const Keys& keys);
 
  private:
+  bool draw_sign_in(const casedb::CaseRow& row);  // whether all of it is checked
+
   std::string case_id_;
   std::array<bool, 5> checked_{};
 };

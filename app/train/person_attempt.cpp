@@ -140,8 +140,10 @@ void PersonAttempt::run() {
     auto library = casedb::Library::open(wanted_.library);
     if (!library) return refuse(library.error());
     task_ = wanted_.task;
+    if (task_) prepared_ = 1.0;
     if (!task_) {
-      auto task = prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality);
+      auto task = prepare_task(*library, wanted_.case_id, "", std::nullopt, wanted_.modality,
+                               [this](double share) { prepared_ = share; });
       if (!task) return refuse(task.error());
       task_ = std::make_shared<const Task>(std::move(*task));
     }

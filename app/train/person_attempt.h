@@ -64,9 +64,10 @@ class PersonAttempt {
   PersonAttempt& operator=(const PersonAttempt&) = delete;
 
   Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
-  std::shared_ptr<const Task> task() const;  // from `ready` on (CHECKed)
-  const base::Error& error() const;          // `refused` only (CHECKed)
-  const StoredAttempt& stored() const;       // `stored` only (CHECKed), or over where it is not kept
+  double prepared() const noexcept { return prepared_; }  // 0 to 1
+  std::shared_ptr<const Task> task() const;               // from `ready` on (CHECKed)
+  const base::Error& error() const;                       // `refused` only (CHECKed)
+  const StoredAttempt& stored() const;                    // `stored` only (CHECKed), or over where it is not kept
 
   // By the window's thread, before `begin`: the arms are others, or stand elsewhere.
   void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
@@ -97,6 +98,7 @@ class PersonAttempt {
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
+  std::atomic<double> prepared_{0.0};
   std::shared_ptr<const Task> task_;
   std::optional<base::Error> error_;
   std::optional<StoredAttempt> stored_;

@@ -45,9 +45,10 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
   list_choices();
   screen_ = TrainerScreen::choose;
   if (first_case_.empty()) return;
-  const auto choice =
-      std::find_if(choices_.begin(), choices_.end(), [&](const Choice& one) { return one.case_id == first_case_; });
-  if (choice == choices_.end())
+  open_bench(first_case_);  // a mentor's draft
+  if (screen_ == TrainerScreen::bench) return;
+  const Choice* choice = find_choice(first_case_);
+  if (choice == nullptr)
     refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
   else if (!choice->open)
     refusal_ =
@@ -187,6 +188,12 @@ void Trainer::list_choices() {
   }
 }
 
+const Choice* Trainer::next() const noexcept {
+  const auto due = std::find_if(choices_.begin(), choices_.end(),
+                                [](const Choice& choice) { return choice.due && choice.open; });
+  return due == choices_.end() ? nullptr : &*due;
+}
+
 void Trainer::list_drafts(const std::vector<casedb::CaseRow>& rows) {
   drafts_.clear();
   if (account_.role != casedb::Role::mentor) return;
@@ -227,16 +234,26 @@ void Trainer::try_draft() {
   if (screen_ != TrainerScreen::bench) return;
   chosen_ = bench_->row();
   expert_.clear();
-  help_ = chosen_.difficulty == casedb::Difficulty::easy ? kMostHelp : 0;
   restarting_ = false;
   trying_ = true;
   prepare(nullptr);
 }
 
-void Trainer::choose(const std::string& case_id) {
+const Choice* Trainer::find_choice(const std::string& case_id) const noexcept {
   const auto choice =
       std::find_if(choices_.begin(), choices_.end(), [&](const Choice& one) { return one.case_id == case_id; });
-  if (choice == choices_.end() || !choice->open) return;
+  return choice == choices_.end() ? nullptr : &*choice;
+}
+
+bool Trainer::once_more() const noexcept {
+  if (trying_) return true;
+  const Choice* choice = find_choice(chosen_.case_id);
+  return choice != nullptr && choice->open;
+}
+
+void Trainer::choose(const std::string& case_id) {
+  const Choice* choice = find_choice(case_id);
+  if (choice == nullptr || !choice->open) return;
   const auto row = casedb::find_case(library_, case_id);
   if (!row) {
     refusal_ = row.error().text;
@@ -244,13 +261,15 @@ void Trainer::choose(const std::string& case_id) {
   }
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
-  help_ = row->difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - choice->passes) : 0;
   restarting_ = trying_ = false;
   prepare(nullptr);
 }
 
 void Trainer::prepare(std::shared_ptr<const Task> task) {
   refusal_.clear();
+  const Choice* choice = find_choice(chosen_.case_id);
+  const int passes = choice != nullptr && !trying_ ? choice->passes : 0;
+  help_ = chosen_.difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - passes) : 0;
   debrief_.reset();
   attempt_.reset();  // before the next: a case is large
   attempt_ = std::make_unique<PersonAttempt>(
@@ -276,6 +295,7 @@ void Trainer::again() {
   if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose ||
       screen_ == TrainerScreen::bench)
     return;
+  if (screen_ == TrainerScreen::debrief && !once_more()) return;
   const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
   restarting_ = true;
   prepare(prepared ? attempt_->task() : nullptr);
@@ -286,7 +306,7 @@ bool Trainer::begin(bool left_handed) {
     return false;
   restarting_ = false;
   attempt_->begin(left_handed);
-  attempt_->say(cases::EventKind::sign_in);
+  if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
 }
@@ -349,6 +369,7 @@ void Trainer::look() {
       return;
     }
     debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id)};
+    list_choices();  // what it opened
     screen_ = TrainerScreen::debrief;
   }
 }

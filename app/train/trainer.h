@@ -68,6 +68,8 @@ class Trainer {
 
   const std::vector<Choice>& choices() const noexcept { return choices_; }
   void choose(const std::string& case_id);  // of the choices; else nothing happens
+  // What comes next, by what was reached when the choices were listed: the first that is due. Null: nothing is.
+  const Choice* next() const noexcept;
   const casedb::CaseRow& chosen() const noexcept { return chosen_; }
   // An attempt at it that an expert passed, to watch before one's own; empty: there is none.
   const std::string& expert_attempt() const noexcept { return expert_; }
@@ -87,11 +89,15 @@ class Trainer {
   void try_draft();
   bool trying() const noexcept { return trying_; }
 
-  // From briefing to attempt, once it is prepared; the sign-in is said with it. False: not yet.
+  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet.
   bool begin(bool left_handed);
   // The same case once more, to begin as soon as it is ready; a running attempt is stopped and stored.
   void again();
   bool restarting() const noexcept { return restarting_; }
+  // How far the chosen case is prepared, 0 to 1.
+  double prepared() const noexcept { return attempt_ ? attempt_->prepared() : 0.0; }
+  // Whether the chosen case may be begun once more: attempts can be used up. From the debrief on.
+  bool once_more() const noexcept;
   // Nothing before a case was chosen, and none after a refusal.
   PersonAttempt* attempt() noexcept { return attempt_.get(); }
 
@@ -119,6 +125,7 @@ class Trainer {
  private:
   void list_choices();
   void list_drafts(const std::vector<casedb::CaseRow>& rows);
+  const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const Task> task);
   Debrief debrief_of_try();
 

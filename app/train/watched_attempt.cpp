@@ -55,23 +55,39 @@ double WatchedAttempt::duration_s() const {
   return static_cast<double>(recording().inputs.size()) * recording_.dt_s;
 }
 
-bool WatchedAttempt::play() {
-  Room room(*scene_);
-  again_ = false;
-  auto due = Clock::now();
-  const auto ticks = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
-  for (std::size_t tick = 0; tick < recording_.inputs.size() && !again_;) {
-    if (ending_) return false;
-    const double speed = speed_;
-    if (speed > 0.0) {
-      const std::size_t end = std::min(recording_.inputs.size(), tick + ticks);
-      for (; tick < end; ++tick) {
-        room.advance(recording_.inputs[tick], recording_.dt_s);
-        if (room.state().fluoroscopy.frame_due) monitor_->show(room.moment());
+void WatchedAttempt::play() {
+  const std::size_t ticks = recording_.inputs.size();
+  const auto piece = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
+  std::optional<Room> room(std::in_place, *scene_);
+  std::size_t tick = 0;
+  std::optional<Moment> pulse;  // a fluoroscope's picture stays until its next
+  const auto advance = [&] {
+    room->advance(recording_.inputs[tick++], recording_.dt_s);
+    if (room->state().fluoroscopy.frame_due) pulse = room->moment();
+  };
+  const auto show = [&] {
+    if (pulse) monitor_->show(*pulse);
+    pulse.reset();
+    const Moment moment = room->moment();
+    moments_.put(moment);
+    monitor_->show(moment);
+  };
+  for (auto due = Clock::now(); !ending_;) {
+    if (const double wanted_s = wanted_s_.exchange(kNowhere); wanted_s != kNowhere) {
+      const auto to = std::min(ticks, static_cast<std::size_t>(wanted_s / recording_.dt_s));
+      if (to < tick) {
+        room.emplace(*scene_);
+        tick = 0;
       }
-      const Moment moment = room.moment();
-      moments_.put(moment);
-      monitor_->show(moment);
+      while (tick < to && !ending_ && wanted_s_ == kNowhere) advance();
+      if (tick > 0) show();
+      due = Clock::now();
+    }
+    phase_.store(tick < ticks ? Phase::playing : Phase::over, std::memory_order_release);
+    const double speed = tick < ticks ? speed_.load() : 0.0;
+    if (speed > 0.0) {
+      for (const std::size_t end = std::min(ticks, tick + piece); tick < end;) advance();
+      show();
     }
     // A machine that cannot keep up shows it slower, and does not leap.
     due = std::max(due, Clock::now() - std::chrono::milliseconds(50)) +
@@ -79,7 +95,6 @@ bool WatchedAttempt::play() {
               std::chrono::duration<double>(speed > 0.0 ? kPieceS / speed : kPieceS));
     std::this_thread::sleep_until(due);
   }
-  return true;
 }
 
 void WatchedAttempt::run() {
@@ -103,12 +118,8 @@ void WatchedAttempt::run() {
   } catch (const base::Failure& failure) {
     return refuse({failure.code(), failure.what()});
   }
-  do {
-    phase_.store(Phase::playing, std::memory_order_release);
-    if (!play()) return;
-    if (!again_) phase_.store(Phase::over, std::memory_order_release);
-    while (!again_ && !ending_) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  } while (!ending_);
+  phase_.store(Phase::playing, std::memory_order_release);
+  play();
 }
 
 }  // namespace seldinger::app

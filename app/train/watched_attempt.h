@@ -36,11 +36,12 @@ class WatchedAttempt {
   double duration_s() const;
   void set_speed(double times) noexcept { speed_ = times; }  // 0: it stands
   double speed() const noexcept { return speed_; }
-  void begin_again() noexcept { again_ = true; }
+  // From there on, forwards or back: what lies before is stepped through as fast as it goes.
+  void go_to(double t_s) noexcept { wanted_s_ = t_s < 0.0 ? 0.0 : t_s; }
 
  private:
   void run();
-  bool play();  // false: it is to end
+  void play();  // until it is to end
 
   std::filesystem::path library_;
   std::string attempt_id_;
@@ -52,8 +53,9 @@ class WatchedAttempt {
   cases::Recording recording_;
   std::unique_ptr<Monitor> monitor_;
   base::Snapshot<Moment> moments_;
-  std::atomic<double> speed_{1.0};
-  std::atomic<bool> again_{false}, ending_{false};
+  static constexpr double kNowhere = -1.0;
+  std::atomic<double> speed_{1.0}, wanted_s_{kNowhere};
+  std::atomic<bool> ending_{false};
   std::thread thread_;  // last: it uses the rest
 };
 

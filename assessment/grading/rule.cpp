@@ -78,7 +78,8 @@ std::optional<Criterion> criterion_from(std::string_view text) {
   return std::nullopt;
 }
 
-std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry) {
+std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
+                           cases::Subject subject) {
   using enum cases::StructureRule;
   std::uint32_t absent = planned_entry ? 0U : std::uint32_t{kPlan};
   const std::pair<cases::StructureRule, std::uint32_t> needs[] = {
@@ -88,6 +89,7 @@ std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool pl
     if (!has_rule(structures, rule)) absent |= need;
   if (!has_rule(structures, critical) && !has_rule(structures, major) && !has_rule(structures, advisory))
     absent |= kNoGo;
+  if (subject == cases::Subject::phantom) absent |= kPatient | kDecision | kBreathes;
   return absent;
 }
 

@@ -42,7 +42,8 @@ struct Guidance {
   Manner manner;
   std::uint32_t absent = 0;  // Need, or-ed: no critical structure, no planned entry, …
 };
-std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry);
+std::uint32_t absent_needs(std::span<const cases::Structure> structures, bool planned_entry,
+                           cases::Subject subject = cases::Subject::patient);
 
 // What a rule may name there: the ids of the metrics that can have a value.
 std::vector<std::string> meaningful_metrics(const Guidance& guidance);

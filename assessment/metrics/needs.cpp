@@ -79,6 +79,8 @@ constexpr NeedInfo kNeeds[] = {
     {kMustCross, "a structure to be crossed", "no_must_cross_structure", &of_structures<StructureRule::must_cross>},
     {kOrgan, "the target's organ", "no_organ_structure", &of_structures<StructureRule::organ>},
     {kLumen, "the lumen to be reached", "no_target_structure", &of_structures<StructureRule::target>},
+    {kPatient, "a patient", "no_patient",
+     [](const Signals& s) { return s.setting.subject == cases::Subject::patient; }},
     {kBreathes, "a patient who breathes", "patient_lies_still",
      [](const Signals& s) { return s.setting.breathes; }},
     {kYields, "tissue that yields", "tissue_lies_still", [](const Signals& s) { return s.setting.yields; }},
@@ -114,7 +116,7 @@ bool applies(std::uint32_t needs, const Manner& manner) {
 bool absent_from_case(std::string_view reason) {
   constexpr std::uint32_t of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory |
                                     kMustCross | kOrgan | kLumen | kSkin | kForces | kDecision | kBreathes |
-                                    kYields;
+                                    kYields | kPatient;
   return std::any_of(std::begin(kNeeds), std::end(kNeeds),
                      [&](const NeedInfo& info) { return (info.need & of_case) != 0 && reason == info.reason; });
 }

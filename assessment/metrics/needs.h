@@ -51,6 +51,7 @@ enum Need : std::uint32_t {
   kDecision = 1U << 25U,
   kBreathes = 1U << 26U,
   kYields = 1U << 27U,
+  kPatient = 1U << 28U,
 };
 
 struct NeedInfo {

@@ -44,8 +44,9 @@ constexpr MetricInfo kMetrics[] = {
      &steps_done},
     {"steps_violated", 2, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
      "Graded steps (steps.md) that were violated.", kSteps, &steps_violated},
-    {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better, kEvents | kSkin,
-     "How often the patient felt pain: skin punctured where it was not numb, bone met.", kSteps, &pain_reactions},
+    {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
+     kPatient | kEvents | kSkin, "How often the patient felt pain: skin punctured where it was not numb, bone met.",
+     kSteps, &pain_reactions},
 };
 
 }  // namespace

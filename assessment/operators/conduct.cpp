@@ -20,6 +20,7 @@ bool forbids(const Brief& brief) noexcept {
 
 Conduct::Conduct(const Skills& skills, const Brief& brief, bool with_probe, std::uint64_t seed)
     : skills_(skills),
+      patient_(brief.subject == cases::Subject::patient),
       forbidden_(forbids(brief)),
       with_probe_(with_probe),
       rng_(base::hash_combine(seed, kStream)) {}
@@ -28,6 +29,7 @@ void Conduct::begin(Part part) {
   steps_.clear();
   next_ = 0;
   const auto add = [this](EventKind step) {
+    if (!patient_ && step != EventKind::probe_checked && step != EventKind::note_plan) return false;
     const bool skipped = rng_.uniform() < skills_.skip_step_share;
     if (!skipped) steps_.push_back(step);
     return !skipped;
@@ -53,8 +55,8 @@ void Conduct::begin(Part part) {
       breath_asked_ = add(EventKind::breath_hold_request);
       break;
     case Part::ask_breath:
-      steps_.push_back(EventKind::breath_hold_request);
-      breath_asked_ = true;
+      if (patient_) steps_.push_back(EventKind::breath_hold_request);
+      breath_asked_ = patient_;
       break;
     case Part::finish:
       if (breath_asked_) steps_.push_back(EventKind::breathe_again);

@@ -9,12 +9,14 @@
 #include "assessment/operators/profile.h"
 #include "sim/base/rng.h"
 #include "sim/case/event.h"
+#include "sim/case/subject.h"
 
 namespace seldinger::assessment {
 
-// What is known of the patient before.
+// What is known of the patient before. Around a phantom only the probe is checked and the plan noted.
 struct Brief {
   std::optional<double> inr, platelets_per_nl;  // 10⁹/l
+  cases::Subject subject = cases::Subject::patient;
 };
 
 // SIR 2019, high-risk biopsy: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l (clinical.md).
@@ -41,7 +43,7 @@ class Conduct {
 
  private:
   Skills skills_;
-  bool forbidden_, with_probe_;
+  bool patient_, forbidden_, with_probe_;
   base::Rng rng_;
   std::vector<cases::EventKind> steps_;
   std::size_t next_ = 0;

@@ -167,7 +167,9 @@ base::Result<PuncturePlan> plan_puncture(const volume::Volume& volume, const cas
   }
   std::optional<PuncturePlan> best;
   double best_score = 0.0;
-  for (const Way& way : ways) {
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const Way& way = ways[i];
+    if (limits.told) limits.told(static_cast<double>(i) / static_cast<double>(ways.size()));
     PuncturePlan plan;
     plan.target_lps_mm = target;
     plan.entry_lps_mm = target + way.outward * way.depth_mm;

@@ -64,6 +64,8 @@ struct PathLimits {
   double behind_target_mm = 0.0;        // how far beyond the target's centre the tip may come
   // Here HU do not count: a target, or the lumen it is in, may be full of contrast agent.
   std::vector<cases::Shape> open{};
+  // How far the making of the plan is, 0 to 1: the share of the ways that were judged.
+  std::function<void(double share)> told{};
   // How far a C-arm may turn to look along the path; beyond 180°, 90° are none.
   double max_lao_deg = 180.0, max_cranial_deg = 90.0;
 };

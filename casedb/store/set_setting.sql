@@ -1,6 +1,6 @@
 -- The setting of a draft.
 UPDATE training_case SET
-  modality = :modality, patient_position = :patient_position, further_modalities = :further_modalities,
+  subject = :subject, modality = :modality, patient_position = :patient_position, further_modalities = :further_modalities,
   approach = :approach, instrument_kind = :instrument_kind, instrument_length_mm = :instrument_length_mm,
   instrument_radius_mm = :instrument_radius_mm, instrument_inner_radius_mm = :instrument_inner_radius_mm,
   instrument_hu = :instrument_hu, instrument_throw_mm = :instrument_throw_mm, instrument_notch_mm =

@@ -14,6 +14,7 @@
 #include "sim/case/mesh_index.h"
 #include "sim/case/patient_position.h"
 #include "sim/case/structure.h"
+#include "sim/case/subject.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 
@@ -74,13 +75,15 @@ struct Case {
   Instrument instrument;
   Picture picture;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
+  Subject subject = Subject::patient;
   PatientPosition position = PatientPosition::supine;
   std::optional<glm::dvec3> planned_entry_lps_mm{};  // on the skin
   // What moves its tissue; neither: it lies as still as the CT.
   std::optional<Breathing> breathing{};
-  bool yields = false;                   // to probe and needle
-  std::optional<bool> defer_is_right{};  // what has to be decided at the sign-in; nothing: nobody said
-  Fluoroscope fluoroscope;               // used under xray only
+  bool yields = false;  // to probe and needle
+  std::optional<bool>
+      defer_is_right{};     // what has to be decided at the sign-in; nothing: nobody said, or nobody is asked
+  Fluoroscope fluoroscope;  // used under xray only
 };
 
 }  // namespace seldinger::cases

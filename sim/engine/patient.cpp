@@ -50,6 +50,7 @@ void Patient::note(EventKind kind) noexcept {
 }
 
 EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& state) noexcept {
+  if (scene_.subject == cases::Subject::phantom) return EventKind::none;
   const cases::NeedleState& needle = state.needle;
   if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty())
     numb_lps_mm_[numbed_++ % numb_lps_mm_.size()] = pointed_at(needle);

@@ -1,5 +1,5 @@
 // How the patient reacts to what is done and asked: pain where the needle meets bone or skin that is not numb, and
-// holding the breath. Same inputs, same reactions, on every machine.
+// holding the breath. A phantom never does. Same inputs, same reactions, on every machine.
 #pragma once
 
 #include <array>

@@ -167,8 +167,10 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   trainer.choose(case_id_);
   ASSERT_EQ(trainer.screen(), TrainerScreen::briefing);
   EXPECT_FALSE(trainer.begin(false)) << "not prepared yet";
+  EXPECT_LT(trainer.prepared(), 1.0);
   EXPECT_EQ(trainer.help(), 2) << "an easy case that was not passed yet";
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_EQ(trainer.prepared(), 1.0);
   ASSERT_TRUE(trainer.begin(false));
   PersonAttempt& attempt = *trainer.attempt();
   for (const cases::EventKind kind :
@@ -207,10 +209,30 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   std::optional<Moment> last;
   while (const auto moment = watched.moment()) last = moment;
   ASSERT_TRUE(last);
+  const std::uint64_t all_ticks = last->state.tick;
+  // Back and forth by time, standing still there; the same at the end however one came there.
+  watched.set_speed(0.0);
+  const auto stands_at = [&](double t_s) {
+    return until([&] {
+      while (const auto moment = watched.moment()) last = moment;
+      return std::abs(last->state.t_s - t_s) < 0.002;
+    });
+  };
+  watched.go_to(0.5 * watched.duration_s());
+  EXPECT_TRUE(stands_at(0.5 * watched.duration_s())) << last->state.t_s;
+  EXPECT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::playing; }));
+  watched.go_to(0.25 * watched.duration_s());
+  EXPECT_TRUE(stands_at(0.25 * watched.duration_s())) << last->state.t_s;
+  watched.go_to(10.0 * watched.duration_s());
+  ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
+  while (const auto moment = watched.moment()) last = moment;
+  EXPECT_EQ(last->state.tick, all_ticks);
   EXPECT_TRUE(last->state.fire.fired);
   EXPECT_EQ(last->state.fire.tip_lps_mm, watched.recording().endpoint->tip_lps_mm) << "the very same";
   trainer.stop_watching();
   EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
+  trainer.again();
+  EXPECT_EQ(trainer.help(), 1) << "help fades at once";
   trainer.back();
   ASSERT_EQ(trainer.choices().size(), 1U);
   EXPECT_EQ(trainer.choices()[0].attempts, 1);
@@ -280,16 +302,21 @@ TEST_F(TrainerTest, ACaseOfTheWorkstationIsOpenAtLogInOrItIsSaidWhyNot) {
   EXPECT_EQ(unknown->code, "no_case");
   EXPECT_FALSE(trainer.open_at_log_in(case_id_));
   trainer.log_in("mona", kPassword);
-  EXPECT_EQ(trainer.screen(), TrainerScreen::briefing);
-  EXPECT_EQ(trainer.chosen().case_id, case_id_);
-  EXPECT_TRUE(trainer.refusal().empty());
+  EXPECT_EQ(trainer.screen(), TrainerScreen::bench) << "a mentor's draft";
   trainer.log_out();
   trainer.log_in("tina", kPassword);
   EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "a draft is not hers";
   EXPECT_NE(trainer.refusal().find("tina"), std::string::npos) << trainer.refusal();
+  trainer.log_out();
+  publish();
+  trainer.log_in("tina", kPassword);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::briefing);
+  EXPECT_EQ(trainer.chosen().case_id, case_id_);
+  EXPECT_TRUE(trainer.refusal().empty());
 }
 
 TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNextAttempts) {
+  publish();
   const auto led = LedArms::start();
   ASSERT_TRUE(led);
   Arms arms;
@@ -357,6 +384,32 @@ TEST_F(TrainerTest, HandsAreShownFromAnyScreenButAnAttemptAndACalibrationIsTheNe
   EXPECT_FALSE(trainer.change_station([](Station& station) { station["left"].gains.force_share = 0.5; }));
   EXPECT_FALSE(trainer.refusal().empty());
   EXPECT_EQ(trainer.arms()->station.at("left").gains, before.at("left").gains);
+}
+
+TEST_F(TrainerTest, WhatIsDueComesNextAndAttemptsAreUsedUp) {
+  {
+    casedb::Library library = open();
+    ASSERT_TRUE(casedb::add_user(library, "dora", casedb::Role::director, kPassword));
+    ASSERT_TRUE(casedb::publish_case(library, case_id_, "mona", true));
+    const std::string id = casedb::add_curriculum(library, "First", "mona").value();
+    ASSERT_TRUE(casedb::add_curriculum_item(library, id, case_id_, 1, {}, "mona"));
+    ASSERT_TRUE(casedb::publish_curriculum(library, id, "dora"));
+  }
+  Trainer trainer(open());
+  trainer.log_in("tina", kPassword);
+  ASSERT_NE(trainer.next(), nullptr);
+  EXPECT_EQ(trainer.next()->case_id, case_id_);
+  trainer.choose(std::string(trainer.next()->case_id));
+  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+  EXPECT_TRUE(trainer.once_more());
+  ASSERT_TRUE(trainer.begin(false));
+  ASSERT_TRUE(until([&] { return trainer.attempt()->seen().has_value(); }));
+  trainer.attempt()->end();
+  ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
+  EXPECT_FALSE(trainer.once_more()) << "one was all";
+  EXPECT_EQ(trainer.next(), nullptr);
+  trainer.again();
+  EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
 }
 
 TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {

@@ -80,7 +80,7 @@ TEST_F(SchemaTest, ALibraryOfTheFirstSchemaKeepsEverything) {
   EXPECT_EQ(database.integer("SELECT count(*) FROM recording_chunk JOIN attempt USING (attempt_id)"), kAttempts);
   EXPECT_EQ(database.integer("SELECT count(*) FROM metric_value JOIN attempt USING (attempt_id)"), kAttempts);
   EXPECT_EQ(database.integer("SELECT count(*) FROM training_case WHERE modality = 'mpr' AND "
-                             "patient_position = 'supine' AND classes_sha256 IS NULL"),
+                             "patient_position = 'supine' AND subject = 'patient' AND classes_sha256 IS NULL"),
             1);
   EXPECT_EQ(database.integer("SELECT count(*) FROM attempt WHERE picture_probe IS NULL"), kAttempts);
   EXPECT_EQ(database.integer("SELECT count(*) FROM pragma_foreign_key_check"), 0);

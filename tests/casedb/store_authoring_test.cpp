@@ -254,6 +254,26 @@ TEST_F(AuthoringTest, TheSettingComesBack) {
   EXPECT_EQ(find_case(library_, add_case(library_, whole)).value().attempt_limit, 5);
 }
 
+TEST_F(AuthoringTest, APhantomHasNothingOfAPatient) {
+  CaseSetting setting = full_setting();
+  setting.subject = cases::Subject::phantom;
+  EXPECT_EQ(code(set_setting(library_, case_id_, setting)), "bad_setting");
+  setting.clinic = {{}, {}, "", "find the ball", false};
+  ASSERT_TRUE(set_setting(library_, case_id_, setting));
+  EXPECT_EQ(find_case(library_, case_id_).value().subject, cases::Subject::phantom);
+  for (const auto& spoil : std::vector<void (*)(CaseSetting&)>{
+           [](CaseSetting& s) { s.clinic.inr = 1.0; }, [](CaseSetting& s) { s.clinic.platelets_per_nl = 200.0; },
+           [](CaseSetting& s) { s.clinic.allergy = "latex"; }, [](CaseSetting& s) { s.clinic.defer = true; },
+           [](CaseSetting& s) { s.motion.breath_depth = 1.0; }}) {
+    CaseSetting bad = setting;
+    spoil(bad);
+    EXPECT_EQ(code(set_setting(library_, case_id_, bad)), "bad_setting");
+  }
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
+  refuse("UPDATE training_case SET subject = 'patient'");
+}
+
 TEST_F(AuthoringTest, SettingsThatAreNotSoundAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<CaseSetting> bad(13, full_setting());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "tests/fixtures/answers.h"
@@ -73,6 +74,7 @@ TEST_F(FirstHour, HasThreeDrillsThatHoldTheirCheck) {
     for (const Json& one : check.at("checks")) EXPECT_TRUE(one.at("holds").get<bool>()) << one;
     const Json shown = ask("case show " + drill.at("case_id").get<std::string>());
     EXPECT_EQ(shown.at("difficulty"), "easy");
+    EXPECT_EQ(shown.at("subject"), "phantom");
     EXPECT_EQ(shown.at("approach"), i == 2 ? "out_of_plane" : "in_plane");
   }
 }
@@ -88,6 +90,12 @@ TEST_F(FirstHour, EachHasAnExpertsPassToWatchThatReplaysTrue) {
     const Json shown = ask("case show " + drill.at("case_id").get<std::string>());
     EXPECT_TRUE(passes(attempt, shown.at("rule")));
     EXPECT_EQ(*fixtures::metric(attempt, "first_pass_success"), 1.0);
+    EXPECT_FALSE(fixtures::metric(attempt, "pain_reactions")) << "nobody is there";
+    std::set<std::string> not_asked;
+    for (const Json& step : attempt.at("steps"))
+      if (step.at("state") == "not_asked" && step.at("reason") == "no_patient") not_asked.insert(step.at("id"));
+    for (const char* step : {"sign_in", "decide", "anaesthetise", "sign_out"})
+      EXPECT_TRUE(not_asked.contains(step)) << step;
     EXPECT_EQ(ask("replay --verify " + attempt_id).at("verified"), true);
   }
 }

@@ -11,6 +11,7 @@ namespace seldinger::imaging {
 namespace {
 
 const glm::vec4 kSkin(0.56F, 0.32F, 0.23F, 1.0F), kDrape(0.06F, 0.21F, 0.26F, 1.0F);
+const glm::vec4 kGel(0.62F, 0.47F, 0.22F, 1.0F), kTray(0.50F, 0.52F, 0.54F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
 const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1.0F);
 const glm::vec4 kTarget(0.10F, 0.65F, 0.18F, 1.0F);
@@ -66,8 +67,9 @@ class Maker {
     RoomItem skin;
     skin.part = RoomPart::skin;
     skin.mesh = room_.skin;
-    skin.colour = kSkin;
-    skin.roughness = 0.52F;
+    const bool phantom = scene_.subject == cases::Subject::phantom;  // its walls are a tray's
+    skin.colour = phantom ? kGel : kSkin;
+    skin.roughness = phantom ? 0.35F : 0.52F;
     skin.light_under_skin = {0.16F, 0.08F, 0.05F};
     skin.casts = Casts::still;
     skin.displaced = scene_.yields || scene_.breathing.has_value();
@@ -77,8 +79,8 @@ class Maker {
     RoomItem ends = skin;
     ends.part = RoomPart::cut_end;
     ends.mesh = room_.cut_ends;
-    ends.colour = options_.mentor ? kInside : kDrape;
-    ends.roughness = 0.9F;
+    ends.colour = phantom ? kTray : options_.mentor ? kInside : kDrape;
+    ends.roughness = phantom ? 0.5F : 0.9F;
     ends.light_under_skin = glm::vec3(0.0F);
     if (glass()) {
       glass_ = {skin, ends};

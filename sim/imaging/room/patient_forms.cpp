@@ -160,6 +160,7 @@ PatientForms patient_forms(const cases::Case& scene, const RoomFrame& frame, std
       std::swap(corners.y, corners.z);
     mesh.triangles.push_back(corners);
   }
+  if (scene.subject == cases::Subject::phantom) return forms;  // nobody to be covered
   for (const double end : {-1.0, 1.0}) {
     const RoomMesh drape = drape_over(scene.skin, frame, end);
     forms.drapes.append(drape, glm::dmat4(1.0));

@@ -97,6 +97,18 @@ TEST(RuleTest, AMetricOfAStructureNeedsOne) {
     EXPECT_FALSE(has(meaningful_metrics(guidance), id)) << id;
 }
 
+TEST(RuleTest, OfAPhantomNothingIsAskedThatIsAPatients) {
+  Guidance guidance;
+  guidance.absent = absent_needs({}, true);
+  for (const char* id : {"pain_reactions", "decision_right", "hit", "steps_done"})
+    EXPECT_TRUE(has(meaningful_metrics(guidance), id)) << id;
+  guidance.absent = absent_needs({}, true, cases::Subject::phantom);
+  for (const char* id : {"pain_reactions", "decision_right"})
+    EXPECT_FALSE(has(meaningful_metrics(guidance), id)) << id;
+  for (const char* id : {"hit", "steps_done", "skin_punctures"})
+    EXPECT_TRUE(has(meaningful_metrics(guidance), id)) << id;
+}
+
 TEST(RuleTest, EachProblemHasItsCode) {
   const Guidance slices{};
   PassRule rule;

@@ -39,6 +39,17 @@ TEST(Conduct, TheExpertDoesEveryStepInOrder) {
   }
 }
 
+TEST(Conduct, AroundAPhantomThereIsNobodyToSpeakTo) {
+  for (const char* who : {"expert", "novice"})
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Conduct conduct(*named_profile(who), {{}, {}, cases::Subject::phantom}, true, seed);
+      for (const EventKind kind :
+           all_of(conduct, {Part::sign_in, Part::prepare, Part::hold_breath, Part::ask_breath, Part::finish}))
+        EXPECT_TRUE(kind == EventKind::probe_checked || kind == EventKind::note_plan) << static_cast<int>(kind);
+      EXPECT_FALSE(conduct.deferred());
+    }
+}
+
 TEST(Conduct, EachStepTakesItsTimeAndAHeldBreathMore) {
   Skills skills = *named_profile("expert");
   skills.step_s = 0.5;

@@ -307,6 +307,19 @@ TEST(Steps, OfBreathCountWhereTissueMovesOnly) {
   EXPECT_NEAR(counted(moving).at("steps_done"), (asked - 5.0) / (asked - 1.0), 1e-12);
 }
 
+TEST(Steps, AroundAPhantomOnlyHandsAndPicturesAreAskedFor) {
+  SampleAttempt sample = exemplary(kUltrasoundCore);
+  sample.setting.subject = cases::Subject::phantom;
+  sample.setting.breathes = false;
+  for (const char* id : {"sign_in", "decide", "anaesthetise", "nick", "keep_off_bone", "ask_breath_hold",
+                         "check_in_breath_hold", "sign_out"})
+    EXPECT_EQ(walked(sample).at(id).reason, "no_patient") << id;
+  for (const char* id : {"check_probe", "find_target", "note_depth", "insert", "reach_target", "sample"})
+    EXPECT_EQ(walked(sample).at(id).state, StepState::done) << id;
+  EXPECT_EQ(counted(sample).at("steps_done"), 1.0);
+  EXPECT_EQ(counted(sample).count("pain_reactions"), 0U);
+}
+
 TEST(Steps, EachCanBeSkippedOrViolated) {
   std::set<std::string> reached;
   for (const Fault& fault : faults()) {

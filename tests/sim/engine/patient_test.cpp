@@ -74,6 +74,15 @@ TEST(Patient, SkinThatIsNotNumbHurtsAtEachPuncture) {
   EXPECT_EQ(trial.kinds(), (Kinds{EventKind::pain_skin, EventKind::pain_skin}));
 }
 
+TEST(Patient, APhantomFeelsNothing) {
+  cases::Case scene = body();
+  scene.subject = cases::Subject::phantom;
+  Trial trial(scene);
+  trial.move(-120, -57);
+  trial.wait(1.0, -57);
+  EXPECT_TRUE(trial.told.empty());
+}
+
 TEST(Patient, NumbSkinDoesNotHurtFifteenMillimetresAround) {
   const cases::Case scene = body();
   for (const double beside_mm : {0.0, 10.0, 14.0, 17.0, 40.0}) {

@@ -227,17 +227,32 @@ TEST(RoomScene, ShowsFewerTrianglesNearTheSkinTheyStandFor) {
   }
 }
 
-TEST(RoomScene, CoversWhereTheCtEndsAndOnlyThere) {
+// Cut off flat towards the head.
+cases::Case cut_ball() {
   cases::Case scene = ball_case();
-  EXPECT_EQ(make_room_scene(scene).drapes, kNoMesh);
-  // The ball cut off flat towards the head.
   for (glm::vec3& vertex : scene.skin.vertices_lps_mm) vertex.z = std::min(vertex.z, 60.0F);
   for (std::size_t t = 0; t < scene.skin.triangles.size(); ++t) {
     const glm::uvec3& corners = scene.skin.triangles[t];
     scene.skin.cut[t] = std::min({scene.skin.vertices_lps_mm[corners.x].z, scene.skin.vertices_lps_mm[corners.y].z,
                                   scene.skin.vertices_lps_mm[corners.z].z}) >= 60.0F;
   }
-  const RoomScene room = make_room_scene(scene);
+  return scene;
+}
+
+TEST(RoomScene, NobodyCoversAPhantom) {
+  cases::Case scene = cut_ball();
+  const DrawList patient = list_of(scene, ball_state());
+  ASSERT_NE(find(patient, RoomPart::drape), nullptr);
+  scene.subject = cases::Subject::phantom;
+  const DrawList phantom = list_of(scene, ball_state());
+  EXPECT_EQ(find(phantom, RoomPart::drape), nullptr);
+  EXPECT_NE(find(phantom, RoomPart::skin)->colour, find(patient, RoomPart::skin)->colour);
+  EXPECT_NE(find(phantom, RoomPart::cut_end)->colour, find(patient, RoomPart::cut_end)->colour);
+}
+
+TEST(RoomScene, CoversWhereTheCtEndsAndOnlyThere) {
+  EXPECT_EQ(make_room_scene(ball_case()).drapes, kNoMesh);
+  const RoomScene room = make_room_scene(cut_ball());
   ASSERT_NE(room.drapes, kNoMesh);
   for (const auto& vertex : room.meshes[room.drapes].vertices) {
     EXPECT_GT(vertex.place_mm.z, 45.0F);
