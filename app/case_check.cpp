@@ -135,7 +135,8 @@ CaseCheck check_scene(const cases::Case& scene, const casedb::CaseRow& row,
                       one.name + (within ? " lies within the volume" : " reaches out of the volume"), where});
   }
   const assessment::Guidance guidance{
-      casedb::manner_of(row), assessment::absent_needs(scene.structures, row.planned_entry_lps_mm.has_value())};
+      casedb::manner_of(row),
+      assessment::absent_needs(scene.structures, row.planned_entry_lps_mm.has_value(), row.subject)};
   check_rule(row, guidance, checks);
   checked.rule_may_name = assessment::meaningful_metrics(guidance);
   return checked;

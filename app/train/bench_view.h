@@ -4,22 +4,11 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <string_view>
 
 #include "app/plane_lines.h"
 #include "app/train/plane_painter.h"
 
 namespace seldinger::app {
-
-struct WindowPreset {
-  std::string_view name;
-  HuWindow window;
-};
-// As radiologists' consoles have them.
-constexpr std::array<WindowPreset, 4> kWindowPresets = {{{"soft tissue", {40.0, 400.0}},
-                                                         {"liver", {90.0, 160.0}},
-                                                         {"lung", {-600.0, 1500.0}},
-                                                         {"bone", {400.0, 1800.0}}}};
 
 class BenchView {
  public:
@@ -44,7 +33,7 @@ class BenchView {
   void zoom(std::size_t plane, glm::dvec2 plane_px, glm::dvec2 at_px, double factor);
 
   double mm_per_pixel() const noexcept { return mm_per_pixel_; }
-  HuWindow window{kWindowPresets[0].window};
+  HuWindow window = kHuWindows[0];
 
  private:
   glm::dvec3 cursor_lps_mm_{0.0};

@@ -46,9 +46,9 @@ void BenchPanel::read_keys(Trainer& trainer, const Keys& keys) {
     if (keys.pressed(one.key)) bench.tool = one.tool;
   if (keys.pressed('W')) {
     std::size_t next = 0;
-    for (std::size_t i = 0; i < kWindowPresets.size(); ++i)
-      if (kWindowPresets[i].window.center_hu == bench.view.window.center_hu) next = (i + 1) % kWindowPresets.size();
-    bench.view.window = kWindowPresets[next].window;
+    for (std::size_t i = 0; i < kHuWindows.size(); ++i)
+      if (kHuWindows[i].center_hu == bench.view.window.center_hu) next = (i + 1) % kHuWindows.size();
+    bench.view.window = kHuWindows[next];
   }
   if (keys.pressed(kHome) && bench.scene()) bench.view.fit(bench.scene()->scene.volume, planes_.size_px());
   if (keys.pressed('C')) room_.toggle_glass();
@@ -85,17 +85,13 @@ void BenchPanel::draw_top(Trainer& trainer) {
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered() && bench.can_undo()) ImGui::SetTooltip("%s", bench.undo_words().c_str());
   ImGui::SameLine();
-  const WindowPreset* preset = nullptr;
-  for (const WindowPreset& one : kWindowPresets)
-    if (one.window.center_hu == bench.view.window.center_hu && one.window.width_hu == bench.view.window.width_hu)
-      preset = &one;
+  const HuWindow& stands = bench.view.window;
   char window[64];
-  std::snprintf(window, sizeof window, "%s %.0f / %.0f", preset != nullptr ? preset->name.data() : "window",
-                bench.view.window.center_hu, bench.view.window.width_hu);
+  std::snprintf(window, sizeof window, "%s %.0f / %.0f", stands.name, stands.center_hu, stands.width_hu);
   ImGui::SetNextItemWidth(180.0F);
   if (ImGui::BeginCombo("##window", window)) {
-    for (const WindowPreset& one : kWindowPresets)
-      if (ImGui::Selectable(one.name.data(), &one == preset)) bench.view.window = one.window;
+    for (const HuWindow& one : kHuWindows)
+      if (ImGui::Selectable(one.name, one.center_hu == stands.center_hu)) bench.view.window = one;
     ImGui::EndCombo();
   }
   ImGui::SameLine();

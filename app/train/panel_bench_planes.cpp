@@ -271,6 +271,7 @@ void BenchPlanes::take_mouse(std::size_t plane, CaseBench& bench, const Keys& ke
   if (ImGui::IsItemActive() && (io.MouseDelta.x != 0.0F || io.MouseDelta.y != 0.0F)) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) bench.view.pan(plane, {io.MouseDelta.x, io.MouseDelta.y});
     if (ImGui::IsMouseDown(ImGuiMouseButton_Middle)) {
+      bench.view.window.name = "window";
       bench.view.window.width_hu = std::max(10.0, bench.view.window.width_hu + 2.0 * io.MouseDelta.x);
       bench.view.window.center_hu -= io.MouseDelta.y;
     }

@@ -134,22 +134,25 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   heading("Steps");
   draw_steps(debrief);
   ImGui::EndChild();
-  if (ImGui::Button("Again (F5)") || keys.pressed(kF5)) trainer.again();
-  ImGui::SameLine();
-  if (!trainer.trying()) {
-    const bool watch = ImGui::Button("Watch it again (W)") || keys.pressed('W');
-    if (watch) trainer.watch(debrief.attempt.attempt_id);
+  // Done after the screen is drawn: what it shows goes with the debrief.
+  enum class Wish { none, next, again, watch, expert, cases, log_out } wish = Wish::none;
+  const auto button = [&](const char* words, int key, Wish its) {
+    if (ImGui::Button(words) || (key != 0 && keys.pressed(key))) wish = its;
     ImGui::SameLine();
-  }
-  if (ImGui::Button(trainer.trying() ? "Back to the bench (Esc)" : "Cases") ||
-      (trainer.trying() && keys.pressed(kEscape))) {
-    trainer.back();
-    end_screen();
-    return;
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Log out")) trainer.log_out();
-  ImGui::SameLine();
+  };
+  const Choice* next = trainer.next();
+  if (next != nullptr && !trainer.trying() && next->case_id != trainer.chosen().case_id)
+    button(("Next: " + next->title + " (Enter)").c_str(), kEnter, Wish::next);
+  ImGui::BeginDisabled(!trainer.once_more());
+  button(trainer.once_more() ? "Again (F5)" : "No attempt left", kF5, Wish::again);
+  ImGui::EndDisabled();
+  if (!trainer.trying()) button("Watch it again (W)", 'W', Wish::watch);
+  if (!trainer.expert_attempt().empty()) button("Watch an expert (E)", 'E', Wish::expert);
+  if (trainer.trying())
+    button("Back to the bench (Esc)", kEscape, Wish::cases);
+  else
+    button("Cases", 0, Wish::cases);
+  button("Log out", 0, Wish::log_out);
   quiet(kTrainingOnly);
   end_screen();
   if (wish == Wish::next) trainer.choose(std::string(next->case_id));

@@ -11,13 +11,10 @@
 #include <vector>
 
 #include "app/body_planes.h"
+#include "app/slice_picture.h"
 #include "app/train/draft_scene.h"
 
 namespace seldinger::app {
-
-struct HuWindow {
-  double center_hu = 40.0, width_hu = 400.0;
-};
 
 // One plane as it is asked for.
 struct PlaneWish {
@@ -25,7 +22,7 @@ struct PlaneWish {
   std::vector<cases::Lesion> lesions;  // as they are drawn now; those in the volume are in it already
   PlaneFrame frame;
   int width_px = 0, height_px = 0;
-  HuWindow window;
+  HuWindow window = kHuWindows[0];
 };
 
 struct PaintedPlane {
