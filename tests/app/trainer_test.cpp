@@ -243,6 +243,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
 
 // What the console was turned to is in the recording, and what is told of the pictures is of them as they stood.
 TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
+  publish();
   Trainer trainer(open());
   trainer.log_in("mona", kPassword);
   trainer.choose(case_id_);
