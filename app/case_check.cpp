@@ -25,7 +25,8 @@ void check_rule(const casedb::CaseRow& row, const assessment::Guidance& guidance
     checks.push_back({"rule_present", false, "there is no criterion to pass by"});
     return;
   }
-  checks.push_back({"rule_present", true, std::to_string(row.rule.criteria.size()) + " criteria"});
+  const std::size_t count = row.rule.criteria.size();
+  checks.push_back({"rule_present", true, count == 1 ? "1 criterion" : std::to_string(count) + " criteria"});
   const auto problems = assessment::problems_of(row.rule, guidance);
   for (const base::Problem& problem : problems)
     checks.push_back({"rule_meaningful", false, problem.code + ": " + problem.text});

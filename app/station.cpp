@@ -10,7 +10,9 @@ namespace seldinger::app {
 base::Result<Station> change_station(const std::filesystem::path& file,
                                      const std::function<void(Station&)>& change) {
   const auto folder = std::filesystem::absolute(file).parent_path();
-  casedb::without_paths([&] { return std::filesystem::create_directories(folder); });
+  // Only where nobody named it: a folder that was mistyped is not made.
+  if (file == usual_station_file())
+    casedb::without_paths([&] { return std::filesystem::create_directories(folder); });
   const casedb::FolderLock lock(folder);
   Station station;
   if (std::filesystem::exists(file)) {

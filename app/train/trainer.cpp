@@ -45,9 +45,9 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
   list_choices();
   screen_ = TrainerScreen::choose;
   if (first_case_.empty()) return;
-  open_bench(first_case_);  // a mentor's draft
-  if (screen_ == TrainerScreen::bench) return;
   const Choice* choice = find_choice(first_case_);
+  if (choice == nullptr) open_bench(first_case_);  // a mentor's draft
+  if (screen_ == TrainerScreen::bench) return;
   if (choice == nullptr)
     refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
   else if (!choice->open)

@@ -56,7 +56,8 @@ class Trainer {
   void set_pictures_by(PicturesBy by) noexcept { by_ = by; }
 
   TrainerScreen screen() const noexcept { return screen_; }
-  // Whoever logs in finds this case's briefing open at once, or is told why not. Refused: `no_case`.
+  // Whoever logs in finds this case's briefing open at once (a mentor a draft on the bench), or is told why not.
+  // Refused: `no_case`.
   std::optional<base::Error> open_at_log_in(const std::string& case_id);
   // The last thing that was refused, in words for the screen; empty: nothing was.
   const std::string& refusal() const noexcept { return refusal_; }
