@@ -123,6 +123,15 @@ TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAtte
   desk.go_down_to(30.0);
   const auto inserted_mm = [&] { return trainee.now().value("inserted_mm", 0.0); };
   ASSERT_TRUE(until([&] { return inserted_mm() > 10.0 && desk.asked_n() > 0.2; }, 20.0)) << trainee.now();
+  // The hand is there: else its own way would count as the fault's.
+  ASSERT_TRUE(until(
+      [&] {
+        const double was_mm = inserted_mm();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+        return std::abs(inserted_mm() - was_mm) < 0.3;
+      },
+      30.0))
+      << trainee.now();
   trainee.keep_picture();
 
   struct Fault {
