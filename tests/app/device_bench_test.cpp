@@ -17,7 +17,8 @@ namespace {
 
 using Work = DeviceBench::Work;
 
-bool until(const std::function<bool()>& holds, double most_s = 30.0) {
+bool until(const std::function<bool()>& holds,
+           double most_s = 120.0) {  // under sanitizers an arm is lost now and then
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
   while (!holds()) {
     if (std::chrono::steady_clock::now() > end) return false;
