@@ -105,8 +105,8 @@ class Session final : public WebSocketLink, public std::enable_shared_from_this<
       self->next_.reset();
       self->queue(next, self->next_raw_);
     };
-    if (raw)
-      asio::async_write(beast::get_lowest_layer(stream_), asio::buffer(text_), done);
+    if (raw)  // by the socket: the stream may be answering a close or a ping, and allows one writer
+      asio::async_write(beast::get_lowest_layer(stream_).socket(), asio::buffer(text_), done);
     else
       stream_.async_write(asio::buffer(text_), done);
   }
