@@ -63,8 +63,7 @@ std::string check_asks(const devices::DeviceCheck& check) {
     case CheckStep::push:
       return formatted(
           "Hold the stylus loosely and still. The arm pushes gently, by %.0f N, along each of its axes: push %zu "
-          "of "
-          "6 is next, along %s.",
+          "of 6 is next, along %s.",
           devices::kCheckForceN, check.pushing() + 1, kAlong[std::min<std::size_t>(check.pushing(), 5)]);
     case CheckStep::done:
       return check.holds() ? "This arm is fit for an attempt." : "This arm is not fit for an attempt.";
@@ -80,12 +79,14 @@ std::vector<CheckLine> check_lines(const devices::DeviceCheck& check) {
   lines.push_back(line(done || check.step() == CheckStep::push || check.reach_holds(), check.reach_holds(),
                        formatted("Reached %.0f × %.0f × %.0f mm of %.0f each way", reach.x, reach.y, reach.z,
                                  devices::kCheckReachMm)));
-  std::string still, wrong;
+  std::string still, wrong, untried;
   for (std::size_t i = 0; i < check.pushes().size(); ++i) {
+    if (check.pushes()[i] == PushFound::not_yet) untried += std::string(" ") + kAlong[i];
     if (check.pushes()[i] == PushFound::still) still += std::string(" ") + kAlong[i];
     if (check.pushes()[i] == PushFound::wrong_way) wrong += std::string(" ") + kAlong[i];
   }
   std::string pushes = "Pushes where it is told to";
+  if (done && !untried.empty()) pushes = "Not tried along" + untried;
   if (!still.empty()) pushes = "Does not push along" + still + ": held too fast, or a motor is off";
   if (!wrong.empty())
     pushes = "Pushes another way than told along" + wrong + (still.empty() ? "" : "; none along" + still);
@@ -96,9 +97,9 @@ std::vector<CheckLine> check_lines(const devices::DeviceCheck& check) {
                            : formatted("From force to answer %.1f ms in 99 of 100, at most %.1f", late_ms(check),
                                        1e3 * devices::kCheckLateS)));
   lines.push_back(line(done, check.lost() == 0,
-                       check.lost() == 0
-                           ? std::string("Was never lost")
-                           : formatted("Was lost %llu times", static_cast<unsigned long long>(check.lost()))));
+                       check.lost() == 0 ? std::string("Was never lost")
+                                         : formatted(check.lost() == 1 ? "Was lost once" : "Was lost %llu times",
+                                                     static_cast<unsigned long long>(check.lost()))));
   return lines;
 }
 

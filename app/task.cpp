@@ -10,9 +10,18 @@
 namespace seldinger::app {
 namespace {
 
-// What loading takes of the whole; the rest is the plan.
+// What loading takes of the whole; the rest is the plan. Measured on the built-in torso and the contrast abdomen:
+// 0.28 and 0.34, 0.84 and 0.84, 0.62 and 0.66.
 double built_share(cases::Modality modality) {
-  return modality == cases::Modality::ultrasound ? 0.5 : 0.9;
+  switch (modality) {
+    case cases::Modality::ultrasound:
+      return 0.3;
+    case cases::Modality::xray:
+      return 0.84;
+    case cases::Modality::mpr:
+      break;
+  }
+  return 0.65;
 }
 
 }  // namespace

@@ -44,18 +44,21 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
   account_ = *account;
   list_choices();
   screen_ = TrainerScreen::choose;
-  if (first_case_.empty()) return;
-  const Choice* choice = find_choice(first_case_);
-  if (choice == nullptr) open_bench(first_case_);  // a mentor's draft
-  if (screen_ == TrainerScreen::bench) return;
-  if (choice == nullptr)
-    refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
-  else if (!choice->open)
+  if (!first_case_.empty()) open_first();
+}
+
+// A case to practise is chosen, a mentor's draft is opened on the bench; else the list stays, with the reason.
+void Trainer::open_first() {
+  if (const Choice* choice = find_choice(first_case_)) {
+    if (choice->open) return choose(first_case_);
     refusal_ =
         "“" + choice->title + "” is not open for " + account_.login_name + ": " +
         (choice->attempts_left.value_or(1) > 0 ? "what comes before it is not passed yet." : "no attempt is left.");
-  else
-    choose(first_case_);
+    return;
+  }
+  open_bench(first_case_);
+  if (screen_ != TrainerScreen::bench)
+    refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
 }
 
 std::optional<base::Error> Trainer::open_at_log_in(const std::string& case_id) {

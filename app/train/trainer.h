@@ -126,6 +126,7 @@ class Trainer {
  private:
   void list_choices();
   void list_drafts(const std::vector<casedb::CaseRow>& rows);
+  void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const Task> task);
   Debrief debrief_of_try();

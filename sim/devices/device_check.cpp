@@ -47,12 +47,14 @@ glm::dvec3 DeviceCheck::advance(const DeviceReading& reading, double elapsed_s) 
   if (!reading.healthy) {
     if (was_healthy_) ++lost_;
     was_healthy_ = false;
-    // A push that was interrupted begins again; for who never answers there is an end.
-    in_step_s_ = step_ == CheckStep::answer ? in_step_s_ + elapsed_s : 0.0;
-    if (step_ == CheckStep::answer && in_step_s_ > kCheckWaitS) step_ = CheckStep::done;
+    // A push that was interrupted begins again; for who does not answer, or is lost again and again, there is an end.
+    in_step_s_ = 0.0;
+    silent_s_ += elapsed_s;
+    if (silent_s_ > kCheckWaitS || lost_ >= kMostLost) step_ = CheckStep::done;
     return glm::dvec3(0.0);
   }
   was_healthy_ = true;
+  silent_s_ = 0.0;
   if (reading.count != last_count_) {
     last_count_ = reading.count;
     lateness_.add(static_cast<std::uint64_t>(std::max(0.0, reading.round_trip_s + reading.age_s) * 1e9));

@@ -23,12 +23,13 @@ inline constexpr double kCheckReachMm = 100.0, kCheckForceN = 1.0, kCheckLateS =
 // let in over kPushRiseS and judged after kPushS. A held stylus gives way by some mm to 1 N; one that moves by less
 // than kPushMovedMm is held fast or has no motor, and one whose way is more than 45° off has its axes wrong.
 inline constexpr double kPushRiseS = 0.2, kPushS = 0.6, kPushRestS = 0.4, kRestMm = 0.3, kPushMovedMm = 0.8;
-inline constexpr double kCheckWaitS = 10.0;  // for an answer
+inline constexpr double kCheckWaitS = 10.0;  // for an answer, each time
+inline constexpr std::uint64_t kMostLost = 20;  // then it is as unfit as it can be shown to be
 
 class DeviceCheck {
  public:
   // One tick: what the motors are to give, N in the device's axes. Of an arm that is not healthy: nothing, and
-  // the step waits. Allocates nothing.
+  // the step waits, for kCheckWaitS and kMostLost times. Allocates nothing.
   glm::dvec3 advance(const DeviceReading& reading, double elapsed_s) noexcept;
   // Goes on to the pushes without the whole reach: the user cannot, or need not.
   void enough_reach() noexcept;
@@ -51,7 +52,7 @@ class DeviceCheck {
   glm::dvec3 push(const DeviceReading& reading) noexcept;
 
   CheckStep step_ = CheckStep::answer;
-  double in_step_s_ = 0.0;
+  double in_step_s_ = 0.0, silent_s_ = 0.0;
   bool answered_ = false, was_healthy_ = false;
   std::uint64_t lost_ = 0, last_count_ = 0;
   glm::dvec3 least_mm_{0.0}, most_mm_{0.0}, from_mm_{0.0};

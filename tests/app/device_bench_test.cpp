@@ -127,6 +127,13 @@ TEST(DeviceBench, ASelfTestAsksForReachPushesAndSaysWhatItFound) {
   })) << check_asks(desk.bench->seen().check);
   EXPECT_NEAR(most_n, devices::kCheckForceN, 1e-9);
   const devices::DeviceCheck check = desk.bench->seen().check;
+  if (check.lost() == devices::kMostLost) {  // a program too slow for an arm's milliseconds is told so
+#ifndef __SANITIZE_ADDRESS__
+    ADD_FAILURE() << "lost too often";
+#endif
+    EXPECT_EQ(check_asks(check), "This arm is not fit for an attempt.");
+    return;
+  }
   EXPECT_TRUE(check.pushes_hold());
   const auto lines = check_lines(check);
   ASSERT_EQ(lines.size(), 5U);
@@ -169,6 +176,8 @@ TEST(DeviceWords, ACheckThatFailedSaysWhere) {
   EXPECT_EQ(check_asks(check), "This arm is not fit for an attempt.");
   EXPECT_EQ(check_lines(check)[0].words, "No answer");
   EXPECT_EQ(check_lines(check)[0].state, CheckLine::State::fails);
+  EXPECT_EQ(check_lines(check)[2].words, "Not tried along +x −x +y −y +z −z");
+  EXPECT_EQ(check_lines(check)[2].state, CheckLine::State::fails);
 
   // Held fast: it reaches, and gives way to no push.
   check = {};

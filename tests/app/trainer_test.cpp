@@ -98,6 +98,16 @@ class TrainerTest : public testing::Test {
       return false;
     })) << seen.inserted_mm;
   }
+  void fire_at_the_target(PersonAttempt& attempt) {
+    HandsTold told;
+    advance(attempt, told, kDepthMm);
+    told.sum.fire = true;
+    attempt.tell(told);
+    ASSERT_TRUE(until([&] {
+      const auto seen = attempt.seen();
+      return seen && seen->moment.state.fire.fired;
+    }));
+  }
 };
 
 TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
@@ -135,14 +145,7 @@ TEST_F(TrainerTest, ADraftIsTriedAndStaysADraft) {
   ASSERT_TRUE(ready(trainer)) << trainer.refusal();
   ASSERT_TRUE(trainer.begin(false));
   PersonAttempt& attempt = *trainer.attempt();
-  HandsTold told;
-  advance(attempt, told, kDepthMm);
-  told.sum.fire = true;
-  attempt.tell(told);
-  ASSERT_TRUE(until([&] {
-    const auto seen = attempt.seen();
-    return seen && seen->moment.state.fire.fired;
-  }));
+  ASSERT_NO_FATAL_FAILURE(fire_at_the_target(attempt));
   attempt.end();
   ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
   EXPECT_EQ(trainer.debrief()->grade.grade.verdict, assessment::Verdict::passed);
@@ -176,14 +179,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   for (const cases::EventKind kind :
        {cases::EventKind::proceed, cases::EventKind::aspirate, cases::EventKind::anaesthetic})
     EXPECT_TRUE(attempt.say(kind));
-  HandsTold told;
-  advance(attempt, told, kDepthMm);
-  told.sum.fire = true;
-  attempt.tell(told);
-  ASSERT_TRUE(until([&] {
-    const auto seen = attempt.seen();
-    return seen && seen->moment.state.fire.fired;
-  }));
+  ASSERT_NO_FATAL_FAILURE(fire_at_the_target(attempt));
   ShownPicture shown;
   EXPECT_TRUE(until([&] { return attempt.monitor().take(shown) && shown.picture.width_px > 0; })) << "a picture";
   attempt.say(cases::EventKind::sign_out);

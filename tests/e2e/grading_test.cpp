@@ -4,34 +4,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
-using fixtures::run;
-
-const std::string kProgram = SELDINGER_PROGRAM;
 
 class GradingCommands : public testing::Test {
  protected:
-  std::filesystem::path scratch_ = fixtures::fresh_folder(
-      std::string("grading_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  std::string library_ = (scratch_ / "library").string();
+  const fixtures::CommandLibrary library_{fixtures::fresh_folder(
+      std::string("grading_") + testing::UnitTest::GetInstance()->current_test_info()->name())};
 
-  fixtures::Ran call(const std::string& words) {
-    return run("printf 'a password\\n' | " + kProgram + " " + words + " --library '" + library_ + "'", scratch_);
-  }
-  void done(const std::string& words) {
-    const auto ran = call(words);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-  }
-  Json answer(const std::string& words) {
-    const auto ran = call(words + " --json");
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-    return Json::parse(ran.out, nullptr, false);
-  }
+  fixtures::Ran call(const std::string& words) const { return library_.call(words); }
+  void done(const std::string& words) const { library_.done(words); }
+  Json answer(const std::string& words) const { return library_.ask(words); }
   std::string code_of(const std::string& words) {
     const auto ran = call(words);
     return ran.exit_code == 3 ? ran.err.substr(7, ran.err.find(':', 7) - 7) : std::to_string(ran.exit_code);
@@ -74,7 +61,8 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
     }
   }
 
-  const Json side = answer("attempt compare --case " + id + " --out '" + (scratch_ / "side.html").string() + "'");
+  const Json side =
+      answer("attempt compare --case " + id + " --out '" + (library_.folder() / "side.html").string() + "'");
   const Json& groups = side.at("groups");
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].at("operator"), "expert");
@@ -88,7 +76,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
   }
   EXPECT_GT(groups[0].at("passed").get<int>(), groups[1].at("passed").get<int>())
       << "the simulated expert is built to do better";
-  const std::string page = fixtures::whole_file(scratch_ / "side.html");
+  const std::string page = fixtures::whole_file(library_.folder() / "side.html");
   for (const char* text : {"Simulated expert", "Simulated novice", "What each attempt was told",
                            "Training only — not for planning a patient’s procedure.", "not a standard"})
     EXPECT_NE(page.find(text), page.npos) << text;

@@ -9,17 +9,15 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
 
-using fixtures::run;
+using fixtures::kPassword;
 using fixtures::until;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
 constexpr double kWarmUpShare = 0.2;  // of the time: caches, arenas and a driver's shaders fill
 
 double wanted_s() {
@@ -70,17 +68,9 @@ double third(const std::vector<Held>& held, double Held::*what, bool last) {
 class Soak : public testing::Test {
  protected:
   void SetUp() override {
-    scratch_ = fixtures::fresh_folder("soak");
-    const std::string library = (scratch_ / "library").string();
-    for (const char* words : {"demo --no-serve --json", "demo --no-serve --json --modality xray"}) {
-      const auto made = run(kProgram + " " + words + " --library " + library, scratch_);
-      ASSERT_EQ(made.exit_code, 0) << made.err;
-    }
-    const auto added = run(std::string("printf '") + kPassword + "\\n' | " + kProgram +
-                               " user add mona --role mentor --library " + library,
-                           scratch_);
-    ASSERT_EQ(added.exit_code, 0) << added.err;
-    trainee_ = std::make_unique<fixtures::Trainee>(kProgram, library, scratch_);
+    for (const char* words : {"demo --no-serve", "demo --no-serve --modality xray", "user add mona --role mentor"})
+      library_.done(words);
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder());
   }
 
   void attempt(bool ultrasound) {
@@ -130,7 +120,7 @@ class Soak : public testing::Test {
             static_cast<int>(status_of(id, "Threads")), descriptors_of(id)};
   }
 
-  std::filesystem::path scratch_;
+  fixtures::CommandLibrary library_{fixtures::fresh_folder("soak")};
   std::unique_ptr<fixtures::Trainee> trainee_;
 };
 
@@ -142,7 +132,7 @@ TEST_F(Soak, HalfAnHourOfAttemptsGrowsNothing) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   };
   std::vector<Held> warm;
-  std::ofstream table(scratch_ / "held.csv");
+  std::ofstream table(library_.folder() / "held.csv");
   table << "t_s,resident_mib,heap_mib,threads,descriptors\n";
   int rounds = 0;
   while (passed_s() < all_s) {

@@ -7,17 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/answers.h"
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
-using fixtures::run;
-
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
+using fixtures::kPassword;
 
 // Of the axial plane at z = 0, where the cursor begins: air, the liver, skin on the right side.
 constexpr std::pair<int, int> kOutside{30, 100}, kLiver{115, 225}, kFlank{45, 235};
@@ -25,29 +22,15 @@ constexpr std::pair<int, int> kOutside{30, 100}, kLiver{115, 225}, kFlank{45, 23
 class TrainBenchTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fixtures::fresh_folder("train_bench");
-    library_ = (folder_ / "library").string();
-    const auto made = run(kProgram + " demo --no-serve --json --library " + library_, folder_);
-    ASSERT_EQ(made.exit_code, 0) << made.err;
-    const std::string demo = Json::parse(made.out)["case_id"];
-    for (const char* user : {"mona --role mentor", "tina --role trainee"}) done("user add " + std::string(user));
-    case_id_ = ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
-    done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
-    done("case setting " + case_id_ + " --title 'From the bench' --pass 'hit >= 1'");
-    mentor_ = std::make_unique<fixtures::Trainee>(kProgram, library_, folder_);
+    const std::string demo = library_.ask("demo --no-serve")["case_id"];
+    for (const char* user : {"mona --role mentor", "tina --role trainee"})
+      library_.done(std::string("user add ") + user);
+    case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
+    library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
+    library_.done("case setting " + case_id_ + " --title 'From the bench' --pass 'hit >= 1'");
+    mentor_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder());
   }
-  void done(const std::string& words) {
-    const auto ran =
-        run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " " + words + " --library " + library_,
-            folder_);
-    ASSERT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-  }
-  Json ask(const std::string& words) {
-    const auto ran = run(kProgram + " " + words + " --json --library " + library_, folder_);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-    return Json::parse(ran.out, nullptr, false);
-  }
-  Json shown() { return ask("case show " + case_id_); }
+  Json shown() const { return library_.ask("case show " + case_id_); }
   Json bench() const { return mentor_->now().value("bench", Json::object()); }
   // Once what was done last is checked.
   bool check_is(const std::string& list, const std::string& name) {
@@ -61,8 +44,8 @@ class TrainBenchTest : public testing::Test {
   }
   void click_axial(int x, int y) const { mentor_->screen().click(x, y); }
 
-  std::filesystem::path folder_;
-  std::string library_, case_id_;
+  fixtures::CommandLibrary library_{fixtures::fresh_folder("train_bench")};
+  std::string case_id_;
   std::unique_ptr<fixtures::Trainee> mentor_;
 };
 
@@ -98,7 +81,7 @@ TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
       fixtures::until([&] { return bench().value("entry", false) && !bench().value("checking", true); }, 60.0));
   ASSERT_TRUE(bench()["failing"].empty()) << bench();
   mentor_->keep_picture();
-  const auto checked = run(kProgram + " case check " + case_id_ + " --library " + library_, folder_);
+  const auto checked = library_.call("case check " + case_id_);
   EXPECT_EQ(checked.exit_code, 0) << "the command line says the same\n" << checked.out;
 
   screen.click(972, 695);  // try it
@@ -109,7 +92,7 @@ TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   ASSERT_TRUE(mentor_->reaches("debrief", 30.0));
   screen.press("Escape");
   ASSERT_TRUE(mentor_->reaches("bench", 10.0));
-  const Json attempts = ask("attempt list");
+  const Json attempts = library_.ask("attempt list");
   for (const Json& attempt : attempts["attempts"])
     EXPECT_TRUE(attempt["synthetic"].get<bool>()) << "it was only tried";
   EXPECT_TRUE(attempts["running"].empty());

@@ -5,36 +5,25 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 
 #include "casedb/store.h"
 #include "tests/fixtures/answers.h"
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
-using fixtures::run;
-
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
+using fixtures::kPassword;
 
 class TrainConsoleTest : public testing::Test {
  protected:
   // The demo's case by this guidance, and a mentor who may try it as it is.
   void begin(const std::string& modality) {
-    scratch_ = fixtures::fresh_folder("train_console_" + modality);
-    library_ = (scratch_ / "library").string();
-    const auto made =
-        run(kProgram + " demo --no-serve --modality " + modality + " --library " + library_, scratch_);
-    ASSERT_EQ(made.exit_code, 0) << made.err;
-    ASSERT_EQ(run(std::string("printf '") + kPassword + "\\n' | " + kProgram +
-                      " user add mona --role mentor --library " + library_,
-                  scratch_)
-                  .exit_code,
-              0);
-    trainee_ = std::make_unique<fixtures::Trainee>(kProgram, library_, scratch_);
+    library_ = fixtures::library_to_try("train_console_" + modality, modality);
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), library_->folder());
     ASSERT_NO_FATAL_FAILURE(trainee_->log_in("mona", kPassword));
     ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
     ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
@@ -45,7 +34,7 @@ class TrainConsoleTest : public testing::Test {
   }
   // By key: the guidance's picture alone.
   fixtures::RgbPicture guidance() {
-    const auto file = scratch_ / ("guidance-" + std::to_string(++guidances_) + ".png");
+    const auto file = library_->folder() / ("guidance-" + std::to_string(++guidances_) + ".png");
     press("t");
     EXPECT_TRUE(fixtures::until(
         [&] { return std::filesystem::exists(file) && std::filesystem::file_size(file) > 1000; }, 10.0));
@@ -53,25 +42,18 @@ class TrainConsoleTest : public testing::Test {
   }
   // What the only person's newest attempt recorded, once it is stored.
   void stored(Json& shown, cases::Recording& recording) {
-    const auto listed =
-        Json::parse(run(kProgram + " attempt list --json --library " + library_, scratch_).out, nullptr, false);
-    std::string id;
-    for (const Json& attempt : listed["attempts"])
-      if (!attempt["synthetic"].get<bool>()) id = attempt["attempt_id"];
+    const std::string id = library_->persons_attempt();
     ASSERT_FALSE(id.empty());
-    shown = Json::parse(run(kProgram + " attempt show " + id + " --json --library " + library_, scratch_).out);
-    const auto verified =
-        Json::parse(run(kProgram + " replay " + id + " --verify --json --library " + library_, scratch_).out);
-    EXPECT_EQ(verified["verified"], true);
-    auto library = casedb::Library::open(library_);
+    shown = library_->ask("attempt show " + id);
+    EXPECT_EQ(library_->ask("replay " + id + " --verify")["verified"], true);
+    auto library = casedb::Library::open(library_->path());
     ASSERT_TRUE(library.has_value());
     auto loaded = casedb::load_recording(*library, id);
     ASSERT_TRUE(loaded.has_value());
     recording = std::move(*loaded);
   }
 
-  std::filesystem::path scratch_;
-  std::string library_;
+  std::optional<fixtures::CommandLibrary> library_;
   std::unique_ptr<fixtures::Trainee> trainee_;
   int guidances_ = 0;
 };

@@ -10,17 +10,16 @@
 
 #include "app/device_simulation/led_arms.h"
 #include "sim/devices/device_hand.h"
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
+using fixtures::kPassword;
+using fixtures::kProgram;
 using fixtures::until;
-
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
 
 // A simulated service; port 0: of its own choice.
 class Service {
@@ -63,18 +62,6 @@ double way_mm(const fixtures::Trainee& trainee, const char* field, double second
   return glm::length(most - least);
 }
 
-// A library with the demo's case and a mentor who may try it.
-std::string library_in(const std::filesystem::path& scratch) {
-  std::string library = (scratch / "library").string();
-  const auto run = [&](const std::string& words) {
-    const auto ran = fixtures::run(words + " --library " + library, scratch);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-  };
-  run(kProgram + " demo --no-serve --modality mpr");
-  run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " user add mona --role mentor");
-  return library;
-}
-
 // Its state of both arms, or that of one.
 bool arms_are(const fixtures::Trainee& trainee, const Json& states) {
   return trainee.now().value("arms", Json::array()) == states;
@@ -105,13 +92,12 @@ struct AtTheEntry {
 // However an arm is lost while its needle is in tissue: its force is gone, its tool stays, the attempt goes on, and
 // when it is back the tool goes on from where it is, and pushes back again.
 TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemptGoesOn) {
-  const auto scratch = fixtures::fresh_folder("train_device_faults");
-  const std::string library = library_in(scratch);
+  const auto library = fixtures::library_to_try("train_device_faults", "mpr");
   AtTheEntry desk;
   app::HaplySimulation& service = desk.led->service();
-  fixtures::Trainee trainee(kProgram, library, scratch,
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder(),
                             {"--device", "haply", "--device-port", std::to_string(service.port()), "--station",
-                             (scratch / "station.json").string()});
+                             (library.folder() / "station.json").string()});
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
@@ -183,26 +169,16 @@ TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAtte
   desk.go_down_to(-20.0);
   EXPECT_TRUE(until([&] { return inserted_mm() <= 0.0; }, 20.0)) << trainee.now();
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
-  const auto ran = fixtures::run(kProgram + " attempt list --json --library " + library, scratch);
-  for (const Json& attempt : Json::parse(ran.out)["attempts"])
-    if (!attempt["synthetic"].get<bool>()) {
-      const std::string mine = attempt["attempt_id"].get<std::string>();
-      const auto replay =
-          fixtures::run(kProgram + " replay " + mine + " --verify --json --library " + library, scratch);
-      EXPECT_EQ(Json::parse(replay.out)["verified"], true) << replay.err;
-    }
+  EXPECT_EQ(library.ask("replay " + library.persons_attempt() + " --verify")["verified"], true);
 }
 
 // The device page by its keys, with arms that have no hardware.
 TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfterwards) {
-  const auto scratch = fixtures::fresh_folder("train_device_page");
-  const std::string library = library_in(scratch);
-  const auto station = scratch / "station.json";
-  const Json cases =
-      Json::parse(fixtures::run(kProgram + " case list --json --library " + library, scratch).out)["cases"];
-  const std::string case_id = cases.at(0)["case_id"];
-  EXPECT_EQ(fixtures::run(kProgram + " train --case nonsense --library " + library, scratch).exit_code, 3);
-  fixtures::Trainee trainee(kProgram, library, scratch,
+  const auto library = fixtures::library_to_try("train_device_page", "mpr");
+  const auto station = library.folder() / "station.json";
+  const std::string case_id = library.ask("case list")["cases"].at(0)["case_id"];
+  EXPECT_EQ(library.call("train --case nonsense").exit_code, 3);
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder(),
                             {"--device", "virtual", "--station", station.string(), "--case", case_id});
   const auto asks = [&](const char* words) {
     return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
@@ -257,22 +233,14 @@ TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfte
 }
 
 TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
-  const auto scratch = fixtures::fresh_folder("train_device");
-  const std::string library = (scratch / "library").string();
-  const auto run = [&](const std::string& words) {
-    const auto ran = fixtures::run(words + " --library " + library, scratch);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-    return ran.out;
-  };
-  run(kProgram + " demo --no-serve --json");
-  run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " user add mona --role mentor");
-  const auto before = Json::parse(run(kProgram + " attempt list --json"))["attempts"].size();
+  const auto library = fixtures::library_to_try("train_device", "ultrasound");
+  const auto before = library.ask("attempt list")["attempts"].size();
 
-  auto service = std::make_unique<Service>(scratch, "0");
+  auto service = std::make_unique<Service>(library.folder(), "0");
   const std::string port = service->port();
   fixtures::Trainee trainee(
-      kProgram, library, scratch,
-      {"--device", "haply", "--device-port", port, "--station", (scratch / "station.json").string()});
+      kProgram, library.path(), library.folder(),
+      {"--device", "haply", "--device-port", port, "--station", (library.folder() / "station.json").string()});
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
@@ -298,21 +266,18 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   for (int i = 0; i < 8; ++i) trainee.screen().press("Page_Up");
   EXPECT_TRUE(until([&] { return glm::length(place(trainee.now(), "needle_lps_mm") - stayed) > 0.5; }, 10.0));
 
-  service = std::make_unique<Service>(scratch, port);
+  service = std::make_unique<Service>(library.folder(), port);
   ASSERT_TRUE(until([&] { return both_are("ok"); }, 20.0)) << trainee.now();
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
   EXPECT_GT(way_mm(trainee, "probe_lps_mm", 4.0), 25.0);
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
 
-  const Json listed = Json::parse(run(kProgram + " attempt list --json"))["attempts"];
-  ASSERT_EQ(listed.size(), before + 1);
-  std::string mine;
-  for (const Json& attempt : listed)
-    if (!attempt["synthetic"].get<bool>()) mine = attempt["attempt_id"].get<std::string>();
-  const Json shown = Json::parse(run(kProgram + " attempt show " + mine + " --json"));
+  ASSERT_EQ(library.ask("attempt list")["attempts"].size(), before + 1);
+  const std::string mine = library.persons_attempt();
+  const Json shown = library.ask("attempt show " + mine);
   ASSERT_TRUE(shown.contains("servo")) << shown;
   EXPECT_GT(shown["servo"].value("ticks", 0), 10000) << shown["servo"];
-  EXPECT_EQ(Json::parse(run(kProgram + " replay " + mine + " --verify --json"))["verified"], true);
+  EXPECT_EQ(library.ask("replay " + mine + " --verify")["verified"], true);
 }
 
 }  // namespace

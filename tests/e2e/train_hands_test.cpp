@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/spacenav_daemon.h"
 #include "tests/fixtures/trainee.h"
 
@@ -15,21 +15,9 @@ namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
+using fixtures::kPassword;
+using fixtures::kProgram;
 using fixtures::until;
-
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
-
-std::string library_in(const std::filesystem::path& scratch) {
-  std::string library = (scratch / "library").string();
-  const auto run = [&](const std::string& words) {
-    const auto ran = fixtures::run(words + " --library " + library, scratch);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-  };
-  run(kProgram + " demo --no-serve --modality mpr");
-  run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " user add mona --role mentor");
-  return library;
-}
 
 glm::dvec3 needle(const fixtures::Trainee& trainee) {
   const Json at = trainee.now().value("needle_lps_mm", Json::array({0, 0, 0}));
@@ -62,10 +50,9 @@ void enter(fixtures::Trainee& trainee) {
 }
 
 TEST(TrainHands, AThreeDMouseLeadsTheNeedleAndRestsWhenItsDaemonIsGone) {
-  const auto scratch = fixtures::fresh_folder("train_space_mouse");
-  const std::string library = library_in(scratch);
+  const auto library = fixtures::library_to_try("train_space_mouse", "mpr");
   fixtures::SpacenavDaemon daemon;
-  fixtures::Trainee trainee(kProgram, library, scratch);
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder());
   daemon.ready();
   ASSERT_NO_FATAL_FAILURE(enter(trainee));
   daemon.motion({120, 0, 0}, {});
@@ -86,8 +73,8 @@ TEST(TrainHands, AThreeDMouseLeadsTheNeedleAndRestsWhenItsDaemonIsGone) {
 }
 
 TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
-  const auto scratch = fixtures::fresh_folder("train_gamepad");
-  const std::string library = library_in(scratch);
+  const auto library = fixtures::library_to_try("train_gamepad", "mpr");
+  const auto& scratch = library.folder();
   const auto says = [&](const std::string& words) {
     std::ofstream(scratch / "pad.new") << words;
     std::filesystem::rename(scratch / "pad.new", scratch / "pad");
@@ -96,7 +83,7 @@ TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
   says(still);
   ::setenv("SELDINGER_FAKE_GAMEPAD", (scratch / "pad").c_str(), 1);
   ::setenv("LD_PRELOAD", SELDINGER_FAKE_GAMEPAD_LIBRARY, 1);
-  fixtures::Trainee trainee(kProgram, library, scratch);
+  fixtures::Trainee trainee(kProgram, library.path(), library.folder());
   ::unsetenv("LD_PRELOAD");
   ::unsetenv("SELDINGER_FAKE_GAMEPAD");
   ASSERT_NO_FATAL_FAILURE(enter(trainee));

@@ -6,36 +6,31 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "casedb/store.h"
 #include "sim/case/mesh_index.h"
 #include "tests/fixtures/answers.h"
-#include "tests/fixtures/process.h"
+#include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
-using fixtures::run;
-
-const std::string kProgram = SELDINGER_PROGRAM;
-constexpr const char* kPassword = "a password";
+using fixtures::kPassword;
 
 class TrainTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scratch_ = fixtures::fresh_folder("train");
-    library_ = (scratch_ / "library").string();
-    const auto made = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
-    ASSERT_EQ(made.exit_code, 0) << made.err;
-    const Json answer = Json::parse(made.out);
-    case_id_ = answer["case_id"];
-    for (const char* user : {"mona --role mentor", "tina --role trainee"}) done("user add " + std::string(user));
-    case_id_ = ask("case version " + case_id_ + " --by mona")["case_id"];  // the demo's has attempts
+    library_.emplace(fixtures::fresh_folder("train"));
+    const std::string demo = library_->ask("demo --no-serve")["case_id"];
+    for (const char* user : {"mona --role mentor", "tina --role trainee"})
+      library_->done(std::string("user add ") + user);
+    case_id_ = library_->ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     // The entry above the target, where straight down leads to it.
-    auto library = casedb::Library::open(library_);
+    auto library = casedb::Library::open(library_->path());
     ASSERT_TRUE(library.has_value());
     const auto row = casedb::find_case(*library, case_id_);
     const cases::MeshIndex skin(casedb::load_skin(*library, *row).value());
@@ -45,33 +40,22 @@ class TrainTest : public testing::Test {
     char place[96];
     std::snprintf(place, sizeof place, "%.3f,%.3f,%.3f", entry.point_lps_mm.x, entry.point_lps_mm.y,
                   entry.point_lps_mm.z);
-    done("case setting " + case_id_ + " --entry-mm " + place +
-         " --inr 1.1 --platelets 210 --pass 'hit >= 1' --pass 'skin_punctures <= 1'");
-    done("case publish " + case_id_ + " --by mona --own-cohort");
-  }
-  static void done(const std::string& words) {
-    const auto ran =
-        run(std::string("printf '") + kPassword + "\\n' | " + kProgram + " " + words + " --library " + library_,
-            scratch_);
-    ASSERT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-  }
-  static Json ask(const std::string& words) {
-    const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
-    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
-    return Json::parse(ran.out, nullptr, false);
+    library_->done("case setting " + case_id_ + " --entry-mm " + place +
+                   " --inr 1.1 --platelets 210 --pass 'hit >= 1' --pass 'skin_punctures <= 1'");
+    library_->done("case publish " + case_id_ + " --by mona --own-cohort");
   }
 
   void SetUp() override {
-    folder_ = scratch_ / testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = library_->folder() / testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
-    trainee_ = std::make_unique<fixtures::Trainee>(kProgram, library_, folder_);
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_->path(), folder_);
     ASSERT_FALSE(HasFailure());
   }
   Json now() const { return trainee_->now(); }
   fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
-  static inline std::filesystem::path scratch_;
-  static inline std::string library_, case_id_;
+  static inline std::optional<fixtures::CommandLibrary> library_;
+  static inline std::string case_id_;
   static inline double depth_mm_ = 0.0;
   std::filesystem::path folder_;
   std::unique_ptr<fixtures::Trainee> trainee_;
@@ -120,12 +104,9 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   trainee_->screen().press("Escape");
   ASSERT_TRUE(trainee_->reaches("debrief", 10.0));
 
-  const Json listed = ask("attempt list");
-  const Json* mine = nullptr;
-  for (const Json& attempt : listed["attempts"])
-    if (!attempt["synthetic"].get<bool>()) mine = &attempt;
-  ASSERT_NE(mine, nullptr);
-  const Json shown = ask("attempt show " + mine->at("attempt_id").get<std::string>());
+  const std::string mine = library_->persons_attempt();
+  ASSERT_FALSE(mine.empty());
+  const Json shown = library_->ask("attempt show " + mine);
   EXPECT_EQ(shown["end"], "fired");
   EXPECT_EQ(fixtures::metric(shown, "hit"), 1.0);
   EXPECT_EQ(fixtures::metric(shown, "skin_punctures"), 1.0);
@@ -135,7 +116,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
     if (step["state"] == "done") done_steps.insert(step["id"].get<std::string>());
   for (const char* step : {"sign_in", "decide", "check_probe", "note_depth", "anaesthetise", "insert", "sign_out"})
     EXPECT_TRUE(done_steps.contains(step)) << step;
-  EXPECT_EQ(ask("replay " + mine->at("attempt_id").get<std::string>() + " --verify")["verified"], true);
+  EXPECT_EQ(library_->ask("replay " + mine + " --verify")["verified"], true);
 }
 
 TEST_F(TrainTest, WhoIsNotKnownDoesNotGetIn) {
@@ -151,7 +132,7 @@ TEST_F(TrainTest, WhoIsNotKnownDoesNotGetIn) {
 
 // Restart is one key; a pause stops the clock; and a window that is closed in the middle loses nothing.
 TEST_F(TrainTest, RestartPauseAndAClosedWindowLoseNothing) {
-  const std::size_t before = ask("attempt list")["attempts"].size();
+  const std::size_t before = library_->ask("attempt list")["attempts"].size();
   ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
@@ -169,7 +150,7 @@ TEST_F(TrainTest, RestartPauseAndAClosedWindowLoseNothing) {
   trainee_->program().signal(SIGTERM);
   ASSERT_TRUE(fixtures::until([&] { return trainee_->program().ended(); }, 20.0));
   EXPECT_EQ(trainee_->program().exit_code(), 0);
-  const Json listed = ask("attempt list");
+  const Json listed = library_->ask("attempt list");
   EXPECT_EQ(listed["attempts"].size(), before + 2);
   EXPECT_TRUE(listed["running"].empty()) << listed["running"];
 }

@@ -34,12 +34,15 @@ TEST(Rng, uniform_numbers_lie_in_the_unit_interval_and_fill_it_evenly) {
   }
 }
 
+// A function, as a lambda would be constexpr and worked out by the compiler, for half a minute.
+template <class A, class B>
+double correlation(A a, B b) {
+  double sum = 0.0;
+  for (std::uint64_t n = 0; n < kDraws; ++n) sum += (a(n) - 0.5) * (b(n) - 0.5);
+  return 12.0 * sum / kDraws;
+}
+
 TEST(Rng, successive_numbers_and_neighbouring_seeds_are_uncorrelated) {
-  const auto correlation = [](auto a, auto b) {
-    double sum = 0.0;
-    for (std::uint64_t n = 0; n < kDraws; ++n) sum += (a(n) - 0.5) * (b(n) - 0.5);
-    return 12.0 * sum / kDraws;
-  };
   const auto of = [](std::uint64_t seed, std::uint64_t step) {
     return [=](std::uint64_t n) { return uniform_at(seed, n + step); };
   };

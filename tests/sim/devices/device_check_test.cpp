@@ -127,5 +127,23 @@ TEST(DeviceCheck, AnArmThatNeverAnswersEndsIt) {
   EXPECT_FALSE(check.holds());
 }
 
+TEST(DeviceCheck, AnArmThatGoesSilentOrIsLostAgainAndAgainEndsIt) {
+  for (const int well_ms : {100, 1'000'000}) {  // of each second; or once, and then never again
+    DeviceCheck check;
+    DeviceReading reading;
+    int ms = 0;
+    for (; ms < 60'000 && check.step() != CheckStep::done; ++ms) {
+      reading.healthy = well_ms == 100 ? ms % 1000 < well_ms : ms < 3000;
+      ++reading.count;
+      check.advance(reading, 0.001);
+    }
+    EXPECT_EQ(check.step(), CheckStep::done);
+    EXPECT_TRUE(check.answered());
+    EXPECT_FALSE(check.holds());
+    EXPECT_EQ(check.lost(), well_ms == 100 ? kMostLost : 1U);
+    EXPECT_LT(ms, well_ms == 100 ? 20'000 : 14'000);
+  }
+}
+
 }  // namespace
 }  // namespace seldinger::devices

@@ -18,8 +18,8 @@ struct Babbler final : WebSocketPeer {
   void ticked(WebSocketLink* link) override {
     if (link != nullptr) link->say_raw(bytes);
   }
-  std::string bytes = std::string(1 << 20, 'x');  // more than a socket takes at once: they are still being sent when
-                                                  // the other end says that it closes, which is to be answered
+  std::string bytes = std::string(1 << 20, 'x');  // more than a socket takes at once: they are still being sent
+                                                  // when the other end says that it closes, which is to be answered
   std::atomic<int> ended = 0;
 };
 
