@@ -59,8 +59,8 @@ int run_train(const Arguments& arguments) {
     if (const auto refused = trainer.open_at_log_in(arguments.text("--case"))) return refuse(*refused);
   Window::Settings settings;
   settings.title = "Seldinger";
-  settings.width = static_cast<int>(arguments.whole("--width", 1280, 640, 16384));
-  settings.height = static_cast<int>(arguments.whole("--height", 800, 480, 16384));
+  settings.width = static_cast<int>(arguments.whole("--width", 1280, kLeastWidth, 16384));
+  settings.height = static_cast<int>(arguments.whole("--height", 800, kLeastHeight, 16384));
   settings.whole_screen = arguments.has("--whole-screen");
   const std::string backend = arguments.text("--backend", "auto");
   if (backend != "gpu" && backend != "cpu" && backend != "auto") throw UsageError("--backend is gpu, cpu or auto");

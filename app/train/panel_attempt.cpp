@@ -344,8 +344,12 @@ void AttemptPanel::draw_rates() {
   char words[96];
   std::snprintf(words, sizeof words, "%.0f /s   behind the hand: room %.0f ms, picture %.0f ms", frames_s_,
                 1e3 * room_lag_s_, 1e3 * picture_lag_s_);
-  const ImVec2 corner = ImGui::GetWindowPos();
-  ImGui::GetWindowDrawList()->AddText({corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(40, 50, 60, 255), words);
+  const ImVec2 window = ImGui::GetWindowPos(), corner{window.x + 8.0F, window.y + 6.0F};
+  const ImVec2 size = ImGui::CalcTextSize(words);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({corner.x - 4.0F, corner.y - 2.0F}, {corner.x + size.x + 4.0F, corner.y + size.y + 2.0F},
+                      IM_COL32(236, 240, 243, 190), 3.0F);  // the room may be dark there
+  draw->AddText(corner, IM_COL32(40, 50, 60, 255), words);
 }
 
 void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other) {

@@ -12,13 +12,18 @@ namespace {
 constexpr std::array<const char*, 5> kSignIn = {"Identity", "Consent", "Imaging seen", "Allergies",
                                                 "INR and platelets"};
 
+// A line of a list, wrapped.
+void line(const std::string& words) {
+  ImGui::Bullet();
+  ImGui::TextWrapped("%s", words.c_str());
+}
+
 void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
-  ImGui::BulletText("%s: %s%s", what, value ? reports::number_text(*value, digits).c_str() : "not told",
-                    value ? unit : "");
+  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not told"));
 }
 
 void fact(const char* what, const std::string& value) {
-  ImGui::BulletText("%s: %s", what, value.c_str());
+  line(std::string(what) + ": " + value);
 }
 
 // What the hands do, for who has not done it before.
@@ -108,9 +113,8 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   heading("To pass");
   if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
   for (const assessment::Criterion& criterion : row.rule.criteria)
-    ImGui::BulletText("%s: %s%s", reports::metric_label(criterion.metric).c_str(),
-                      assessment::limit_text(criterion, unit_of(criterion.metric)).c_str(),
-                      criterion.critical ? " (critical)" : "");
+    line(reports::metric_label(criterion.metric) + ": " +
+         assessment::limit_text(criterion, unit_of(criterion.metric)) + (criterion.critical ? " (critical)" : ""));
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);

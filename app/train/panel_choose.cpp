@@ -15,13 +15,15 @@ std::string state_words(const Choice& choice) {
 
 void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  constexpr float kOpenPx = 122.0F, kEditPx = 58.0F;
+  const bool mentor = trainer.account().role == casedb::Role::mentor;
   if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
   ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.3F);
   ImGui::TableSetupColumn("Difficulty", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("Passed", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, mentor ? kOpenPx + 8.0F + kEditPx : kOpenPx);
   ImGui::TableHeadersRow();
   std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
@@ -45,14 +47,12 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
-    const bool mentor = trainer.account().role == casedb::Role::mentor;
-    const float wide = mentor ? 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F) : -1.0F;
-    if (ImGui::Button(next ? "Next (Enter)" : "Open", {wide, 0.0F}) || (next && keys.pressed(kEnter)))
+    if (ImGui::Button(next ? "Next (Enter)" : "Open", {kOpenPx, 0.0F}) || (next && keys.pressed(kEnter)))
       chosen = choice.case_id;
     ImGui::EndDisabled();
     if (mentor) {
       ImGui::SameLine();
-      if (ImGui::Button("Edit", {-1.0F, 0.0F})) versioned = choice.case_id;
+      if (ImGui::Button("Edit", {kEditPx, 0.0F})) versioned = choice.case_id;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
     }
     ImGui::PopID();

@@ -123,7 +123,8 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::Spacing();
   if (picture != nullptr && picture->width_px() > 0) {
     const float across = std::min(ImGui::GetContentRegionAvail().x, 420.0F);
-    quiet("The picture when the trigger fell:");
+    quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
+                                                           : "The last picture:");
     ImGui::Image(
         reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->name())),
         {across, across * static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())});

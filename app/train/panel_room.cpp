@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -52,9 +53,31 @@ constexpr float kSoftwareShare = 0.8F;
 
 void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
   end();
-  room_ = std::make_unique<Room>(context_, scene, left_handed);
+  left_handed_ = left_handed;
+  has_inside_ = false;
+  inside_ = RoomInside::whole;
+  room_ = std::make_unique<Room>(context_, imaging::make_room_scene(scene), left_handed);
   view_ = imaging::RoomView::operator_side;
   begun_ = false;
+}
+
+void RoomPanel::look_inside(std::shared_ptr<const cases::Case> scene) {
+  constexpr std::array kNext = {RoomInside::cut_away, RoomInside::looked_through, RoomInside::whole};
+  inside_ = kNext[static_cast<std::size_t>(inside_)];
+  if (has_inside_ || making_.valid()) return;
+  making_ = std::async(std::launch::async, [scene = std::move(scene)] {
+    imaging::RoomWish wish;
+    wish.mentor = true;
+    return imaging::make_room_scene(*scene, wish);
+  });
+}
+
+void RoomPanel::take_made() {
+  if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  auto made = std::make_unique<Room>(context_, making_.get(), left_handed_);
+  made->camera = room_->camera;
+  room_ = std::move(made);
+  has_inside_ = true;
 }
 
 devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const {
@@ -137,6 +160,7 @@ void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer
 
 void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
   if (!room_ || !begun_) return;
+  take_made();
   imaging::RoomPicture picture;
   const float share = context_.software() ? kSoftwareShare : 1.0F;
   picture.width_px = std::max(16, static_cast<int>(share * size_px_[0]));
@@ -146,6 +170,8 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
   picture.quality = imaging::room_quality(context_);
   imaging::RoomOptions options;
   options.help = help;
+  options.mentor = has_inside_ && inside_ != RoomInside::whole;
+  options.glass = inside_ == RoomInside::looked_through;
   imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
   const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
   drawn_.emplace(context_);

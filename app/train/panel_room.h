@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -21,6 +22,9 @@ struct OtherHands {
   std::optional<devices::SpaceMouseReading> space_mouse;
 };
 
+// What of the patient is in the way; all but the whole for a mentor who looks back.
+enum class RoomInside { whole, cut_away, looked_through };
+
 class RoomPanel {
  public:
   explicit RoomPanel(gpu::Context& context) : context_(context) {}
@@ -29,6 +33,7 @@ class RoomPanel {
   void begin(const cases::Case& scene, bool left_handed);
   void end() noexcept {
     drawn_.reset();
+    making_ = {};
     room_.reset();
   }
 
@@ -47,14 +52,14 @@ class RoomPanel {
   bool stereo() const noexcept { return stereo_; }
   void set_stereo(bool stereo) noexcept { stereo_ = stereo; }
   void set_view(imaging::RoomView view) noexcept { view_ = view; }
+  RoomInside inside() const noexcept { return inside_; }
+  void look_inside(
+      std::shared_ptr<const cases::Case> scene);  // the next of them; what is inside takes a moment to be made
 
  private:
   struct Room {
-    Room(gpu::Context& context, const cases::Case& drawn, bool left_handed)
-        : scene(imaging::make_room_scene(drawn)),
-          renderer(context, scene),
-          mouse(left_handed),
-          gamepad(left_handed) {}
+    Room(gpu::Context& context, imaging::RoomScene made, bool left_handed)
+        : scene(std::move(made)), renderer(context, scene), mouse(left_handed), gamepad(left_handed) {}
     imaging::RoomScene scene;
     imaging::RoomRenderer renderer;
     imaging::RoomCamera camera;
@@ -69,8 +74,13 @@ class RoomPanel {
                    double elapsed_s);
   devices::HandView hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const;
 
+  void take_made();
+
   gpu::Context& context_;
   std::unique_ptr<Room> room_;
+  std::future<imaging::RoomScene> making_;  // the room with what is inside
+  RoomInside inside_ = RoomInside::whole;
+  bool left_handed_ = false, has_inside_ = false;
   std::optional<imaging::RoomView> view_;  // asked for
   bool stereo_ = false, begun_ = false;
   std::array<float, 2> corner_px_{}, size_px_{};  // where it is placed

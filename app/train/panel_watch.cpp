@@ -53,6 +53,13 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
   if (ImGui::Button("Back 5 s (Left)") || keys.pressed(kLeft)) watched.go_to(t_s - kLeapS);
   ImGui::SameLine();
   if (ImGui::Button("On 5 s (Right)") || keys.pressed(kRight)) watched.go_to(t_s + kLeapS);
+  // The others have to find the way by the pictures.
+  if (trainer.account().role == casedb::Role::mentor) {
+    constexpr std::array kInside = {"Cut away (I)", "Look through (I)", "Whole (I)"};
+    ImGui::SameLine();
+    if (ImGui::Button(kInside[static_cast<std::size_t>(room_.inside())]) || keys.pressed('I'))
+      room_.look_inside(watched.kept_scene());
+  }
   const std::string said = said_at(watched.recording(), t_s);
   ImGui::TextDisabled("%s", said.empty() ? " " : said.c_str());
 }

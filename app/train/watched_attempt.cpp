@@ -113,7 +113,7 @@ void WatchedAttempt::run() {
     if (!scene) return refuse(scene.error());
     attempt_ = std::move(*attempt);
     recording_ = std::move(*recording);
-    scene_.emplace(std::move(*scene));
+    scene_ = std::make_shared<const cases::Case>(std::move(*scene));
     monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed, by_);
   } catch (const base::Failure& failure) {
     return refuse({failure.code(), failure.what()});

@@ -29,6 +29,7 @@ class WatchedAttempt {
   const base::Error& error() const;  // `refused` only (CHECKed), as this all from `playing` on:
   const casedb::AttemptRow& attempt() const;
   const cases::Case& scene() const;
+  std::shared_ptr<const cases::Case> kept_scene() const { return scene_; }  // for who works on it beside
   const cases::Recording& recording() const;
   Monitor& monitor();
 
@@ -49,7 +50,7 @@ class WatchedAttempt {
   std::atomic<Phase> phase_{Phase::preparing};
   std::optional<base::Error> error_;
   std::optional<casedb::AttemptRow> attempt_;
-  std::optional<cases::Case> scene_;
+  std::shared_ptr<const cases::Case> scene_;
   cases::Recording recording_;
   std::unique_ptr<Monitor> monitor_;
   base::Snapshot<Moment> moments_;

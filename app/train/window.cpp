@@ -103,6 +103,8 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
     glfwTerminate();
     throw base::Failure("gl", "no window with OpenGL 4.3 can be had");
   }
+  if (mode == nullptr)
+    glfwSetWindowSizeLimits(parts_->window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(parts_->window);
   parts_->context.emplace(gpu::Context::of_window());
   glfwSwapInterval(parts_->context->software() ? 0 : 1);  // software has nobody's beam to wait for

@@ -52,11 +52,14 @@ class Keys {
   bool typing_ = false;
 };
 
+// In less the screens' columns do not fit beside each other.
+inline constexpr int kLeastWidth = 960, kLeastHeight = 640;
+
 class Window {
  public:
   struct Settings {
     std::string title;
-    int width = 1280, height = 800;
+    int width = 1280, height = 800;  // kLeastWidth and kLeastHeight at least
     bool whole_screen = false;
   };
   // Throws base::Failure("display") where there is none, or ("gl") where it has no GL 4.3.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -57,6 +58,16 @@ class TrainConsoleTest : public testing::Test {
   std::unique_ptr<fixtures::Trainee> trainee_;
   int guidances_ = 0;
 };
+
+// Share of a part of the window that looks another way.
+double changed(const fixtures::RgbPicture& one, const fixtures::RgbPicture& other, int left, int top, int right,
+               int bottom) {
+  int count = 0;
+  for (int row = top; row < bottom; ++row)
+    for (int column = left; column < right; ++column)
+      if (std::abs(one.at(column, row)[0] - other.at(column, row)[0]) > 12) ++count;
+  return count / static_cast<double>((right - left) * (bottom - top));
+}
 
 double mean(const fixtures::RgbPicture& picture) {
   return std::accumulate(picture.rgb.begin(), picture.rgb.end(), 0.0) / static_cast<double>(picture.rgb.size());
@@ -138,6 +149,18 @@ TEST_F(TrainConsoleTest, ThePedalMakesPulsesAndDoseInTheStoredAttempt) {
   EXPECT_GE(open, 4U) << "7.5 a second";
   EXPECT_GE(collimated, 4U);
   EXPECT_EQ(pulses, open + collimated);
+
+  // Looking back a mentor sees inside the patient.
+  press("w");
+  ASSERT_TRUE(trainee_->reaches("watch", 30.0)) << now();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  press("space");
+  const auto look = [&] { return fixtures::read_png(trainee_->keep_picture()); };
+  const auto whole = look();
+  for (const char* inside : {"cut away", "looked through"}) {
+    press("i");
+    EXPECT_TRUE(fixtures::until([&] { return changed(look(), whole, 20, 60, 720, 620) > 0.05; }, 20.0)) << inside;
+  }
   EXPECT_LE(pulses, 60U) << "and none while the pedal is up";
   EXPECT_GT(air_kerma_mgy, 0.0);
   EXPECT_NEAR(*fixtures::metric(shown, "air_kerma"), air_kerma_mgy, 1e-6 * air_kerma_mgy);
