@@ -92,6 +92,7 @@ class PersonAttemptRace : public testing::Test {
     Trainer trainer(std::move(casedb::Library::open(folder_).value()), std::move(arms));
     trainer.log_in("mona", fixtures::kBallPassword);
     trainer.choose(case_id);
+    ASSERT_EQ(trainer.screen(), TrainerScreen::briefing) << trainer.refusal();
     ASSERT_TRUE(ready(trainer)) << trainer.refusal();
     ASSERT_TRUE(trainer.begin(false));
     frames(trainer, speaker, 1.0, false);

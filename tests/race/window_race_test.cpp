@@ -58,6 +58,7 @@ class WindowRace : public testing::Test {
 };
 
 TEST_F(WindowRace, AMinuteByUltrasoundAndFluoroscopyHasNone) {
+  ASSERT_FALSE(HasFailure());
   ASSERT_NO_FATAL_FAILURE(trainee_->log_in("mona", fixtures::kBallPassword));
   ASSERT_NO_FATAL_FAILURE(begin(0));
   screen().wheel(6, 100);  // the needle, pushed
