@@ -84,9 +84,11 @@ void Desk::draw_screen() {
   const Keys& keys = window_.keys();
   switch (trainer_.screen()) {
     case TrainerScreen::log_in:
+      bench_.end();
       log_in_.draw(trainer_);
       break;
     case TrainerScreen::choose:
+      bench_.end();
       choose_.draw(trainer_, keys);
       break;
     case TrainerScreen::briefing:

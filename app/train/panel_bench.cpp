@@ -193,16 +193,12 @@ void BenchPanel::draw_actions(Trainer& trainer) {
   } else {
     ImGui::Dummy({half, 0.0F});
   }
-  if (!draft || !bench.locked().empty()) {
-    if (draft || review) ImGui::SameLine();
-    if (!review && ImGui::Button("New version", {half, 0.0F})) {
-      const std::string case_id = row.case_id;
-      trainer.new_version(case_id);
-      return;
-    }
-    if (review) ImGui::Dummy({half, 0.0F});
+  if (draft || review) ImGui::SameLine();
+  if (!review && (!draft || !bench.locked().empty()) && ImGui::Button("New version", {half, 0.0F})) {
+    const std::string case_id = row.case_id;
+    trainer.new_version(case_id);
+    return;
   }
-  if (draft && bench.locked().empty()) ImGui::SameLine();
   if (ImGui::Button("Cases", {half, 0.0F})) trainer.leave_bench();
 }
 

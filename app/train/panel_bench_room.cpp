@@ -84,7 +84,7 @@ void BenchRoom::draw(CaseBench& bench, const Keys&, float width, float height) {
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   if (bench.scene()) prepare(bench);
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  if (!room_) {
+  if (!room_ || !bench.scene()) {
     draw->AddRectFilled(corner, {corner.x + width, corner.y + height}, IM_COL32(60, 64, 68, 255));
     draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, IM_COL32(220, 230, 235, 255), "the room is being made …");
     return;

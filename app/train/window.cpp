@@ -11,6 +11,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "app/train/typed_queue.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/window_surface.h"
 
@@ -75,6 +76,26 @@ struct Window::Parts {
   std::vector<int> pressed;  // since the frame began
   std::optional<gpu::Context> context;
   float scale = 1.0F;
+  TypedQueue typed;
+  std::optional<int> given;  // the queue's key, down for this frame
+
+  // Whether the queue has it, and Dear ImGui not yet. Letters come as such, too; F keys are no field's.
+  bool queued(int key) {
+    if (key < kEscape || key >= kF1) return false;
+    if (!typed.waits() && !(key == kTab && ImGui::GetIO().WantTextInput)) return false;
+    typed.key(key);
+    return true;
+  }
+  void give_typed() {
+    ImGuiIO& io = ImGui::GetIO();
+    if (given) io.KeysDown[*given] = false;
+    given.reset();
+    if (io.InputQueueCharacters.Size > 0) return;  // what came before the queue
+    const TypedQueue::Given now = typed.next_frame(kTab);
+    for (const unsigned int letter : now.letters) io.AddInputCharacter(letter);
+    given = now.key;
+    if (given) io.KeysDown[*given] = true;
+  }
 
   void read(Keys& into) const {
     into.pressed_ = pressed;
@@ -109,8 +130,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
   parts_->context.emplace(gpu::Context::of_window());
   glfwSwapInterval(parts_->context->software() ? 0 : 1);  // software has nobody's beam to wait for
   glfwSetWindowUserPointer(parts_->window, parts_.get());
-  // Dear ImGui calls it, too, when it takes the callbacks over.
-  glfwSetKeyCallback(parts_->window, [](GLFWwindow* window, int key, int, int action, int) {
+  glfwSetKeyCallback(parts_->window, [](GLFWwindow* window, int key, int code, int action, int modifiers) {
     auto* parts = static_cast<Parts*>(glfwGetWindowUserPointer(window));
     std::vector<int>& down = parts->down;
     if (action == GLFW_PRESS) {
@@ -119,14 +139,30 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
     } else if (action == GLFW_RELEASE) {
       down.erase(std::remove(down.begin(), down.end(), key), down.end());
     }
+    if (action == GLFW_PRESS && key >= 0 && parts->queued(key)) {
+      parts->pressed.pop_back();
+      return;
+    }
+    ImGui_ImplGlfw_KeyCallback(window, key, code, action, modifiers);
   });
+  glfwSetCharCallback(parts_->window, [](GLFWwindow* window, unsigned int letter) {
+    auto* parts = static_cast<Parts*>(glfwGetWindowUserPointer(window));
+    if (parts->typed.waits())
+      parts->typed.letter(letter);
+    else
+      ImGui_ImplGlfw_CharCallback(window, letter);
+  });
+  glfwSetMouseButtonCallback(parts_->window, ImGui_ImplGlfw_MouseButtonCallback);
+  glfwSetScrollCallback(parts_->window, ImGui_ImplGlfw_ScrollCallback);
+  glfwSetWindowFocusCallback(parts_->window, ImGui_ImplGlfw_WindowFocusCallback);
+  glfwSetCursorEnterCallback(parts_->window, ImGui_ImplGlfw_CursorEnterCallback);
   float scale_y = 1.0F;
   glfwGetWindowContentScale(parts_->window, &parts_->scale, &scale_y);
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // nothing of a person stays at the workstation
   set_style(parts_->scale);
-  ImGui_ImplGlfw_InitForOpenGL(parts_->window, true);
+  ImGui_ImplGlfw_InitForOpenGL(parts_->window, false);
   ImGui_ImplOpenGL3_Init("#version 430");
 }
 
@@ -163,12 +199,14 @@ void Window::begin_frame() {
   glfwPollEvents();
   for (const int key : parts_->pressed)
     if (key >= 0) down[key] = true;
+  parts_->give_typed();
   parts_->read(parts_->keys);
   parts_->pressed.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
-  parts_->keys.typing_ = parts_->between.typing_ = ImGui::GetIO().WantTextInput;
+  parts_->keys.typing_ = parts_->between.typing_ =
+      ImGui::GetIO().WantTextInput || parts_->typed.waits() || parts_->given;
 }
 
 void Window::end_frame() {

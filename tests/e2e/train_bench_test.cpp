@@ -28,7 +28,9 @@ class TrainBenchTest : public testing::Test {
     case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
     library_.done("case setting " + case_id_ + " --title 'From the bench' --pass 'hit >= 1'");
-    mentor_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder());
+  }
+  void sit_down(const std::vector<std::string>& options = {}) {
+    mentor_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(), options);
   }
   Json shown() const { return library_.ask("case show " + case_id_); }
   Json bench() const { return mentor_->now().value("bench", Json::object()); }
@@ -50,6 +52,7 @@ class TrainBenchTest : public testing::Test {
 };
 
 TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
+  sit_down();
   ASSERT_FALSE(HasFailure());
   const fixtures::Screen& screen = mentor_->screen();
   ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword));
@@ -108,6 +111,57 @@ TEST_F(TrainBenchTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   ASSERT_NO_FATAL_FAILURE(mentor_->log_in("tina", kPassword));
   mentor_->keep_picture();
   ASSERT_NO_FATAL_FAILURE(mentor_->open_first_case());
+}
+
+// Submitted, returned, submitted again, approved by another, published; and edited afterwards, which is a new
+// draft.
+TEST_F(TrainBenchTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
+  const std::string demo = library_.ask("case list")["cases"].at(0)["case_id"];
+  const std::string whole = library_.ask("case version " + demo + " --by mona")["case_id"];
+  library_.done("case setting " + whole + " --title Reviewed --pass 'hit >= 1' --difficulty easy");
+  library_.done("user add rita --role mentor");
+  sit_down({"--case", whole});
+  ASSERT_FALSE(HasFailure());
+  const fixtures::Screen& screen = mentor_->screen();
+  const auto state = [&] { return library_.ask("case show " + whole)["state"].get<std::string>(); };
+  const auto becomes = [&](const char* wanted) {
+    return fixtures::until([&] { return bench().value("state", "") == wanted && !bench().value("checking", true); },
+                           60.0) &&
+           state() == wanted;
+  };
+  const auto log_out = [&] {
+    screen.click(1115, 727);  // cases, beside it
+    ASSERT_TRUE(mentor_->reaches("choose", 10.0)) << mentor_->now();
+    screen.click(1200, 23);
+    ASSERT_TRUE(mentor_->reaches("log_in", 10.0));
+  };
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword, "bench"));
+  ASSERT_TRUE(becomes("draft")) << mentor_->now();
+  ASSERT_TRUE(bench()["failing"].empty()) << bench();
+  screen.click(1115, 695);  // submit for review
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  mentor_->keep_picture();
+  screen.click(1115, 695);  // return to draft
+  ASSERT_TRUE(becomes("draft")) << mentor_->now();
+  screen.click(1115, 695);
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  screen.click(972, 727);  // approve: not for who made it
+  ASSERT_TRUE(fixtures::until([&] { return !bench().value("refusal", "").empty(); }, 10.0)) << mentor_->now();
+  ASSERT_NO_FATAL_FAILURE(log_out());
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("rita", kPassword, "bench"));
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  screen.click(972, 727);  // approve
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  screen.click(972, 727);  // publish
+  ASSERT_TRUE(becomes("published")) << mentor_->now();
+  mentor_->keep_picture();
+  screen.click(972, 727);  // cases
+  ASSERT_TRUE(mentor_->reaches("choose", 10.0));
+  mentor_->keep_picture();
+  screen.click(1240, 161);  // edit, of the second one that may be practised
+  ASSERT_TRUE(mentor_->reaches("bench", 30.0)) << mentor_->now();
+  EXPECT_TRUE(fixtures::until([&] { return bench().value("state", "") == "draft"; }, 10.0)) << mentor_->now();
+  EXPECT_EQ(state(), "published") << "trainees keep what they have";
 }
 
 }  // namespace
