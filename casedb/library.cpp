@@ -163,6 +163,11 @@ Library::Library(Library&&) noexcept = default;
 Library& Library::operator=(Library&&) noexcept = default;
 Library::~Library() = default;
 
+void Library::shrink() {
+  parts_->database.run("PRAGMA shrink_memory");
+  parts_->identities.run("PRAGMA shrink_memory");
+}
+
 Sqlite& Library::database() noexcept {
   return parts_->database;
 }

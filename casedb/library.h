@@ -37,6 +37,8 @@ class Library {
   Sqlite& database() noexcept;    // cases, attempts, accounts
   Sqlite& identities() noexcept;  // names only
   const std::filesystem::path& folder() const noexcept;
+  // Gives back the pages that SQLite keeps (up to 2 MB a database): for who stays open long and reads seldom.
+  void shrink();
 
   // Stores bytes under their SHA-256 (hex, 64 characters): temporary name, fsync, rename, fsync of the folder.
   // `created` tells whether the file is new, so that a failed transaction can take it back with remove_asset.

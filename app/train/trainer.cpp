@@ -189,6 +189,7 @@ void Trainer::list_choices() {
     Choice& choice = add(row);
     choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));
   }
+  library_.shrink();  // a workstation is on for days
 }
 
 const Choice* Trainer::next() const noexcept {

@@ -2,11 +2,13 @@
 // say.
 #include "casedb/library.h"
 
+#include <sqlite3.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "casedb/credentials.h"
+#include "casedb/sqlite.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
@@ -62,6 +64,18 @@ TEST_F(LibraryTest, NamesAreReadableByTheirOwnerOnly) {
   }
   ASSERT_EQ(::stat((library_ / "seldinger.sqlite").c_str(), &about), 0);
   EXPECT_EQ(about.st_mode & 07U, 0U);  // password hashes are nothing for everybody
+}
+
+TEST_F(LibraryTest, GivesBackThePagesItKeeps) {
+  Library library = open_library(library_);
+  library.database().run(
+      "CREATE TABLE filler AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 400) "
+      "SELECT i, zeroblob(4000) AS bytes FROM n");
+  ASSERT_EQ(library.database().integer("SELECT count(*) FROM filler WHERE length(bytes) = 4000"), 400);
+  const auto before = sqlite3_memory_used();
+  library.shrink();
+  EXPECT_LT(sqlite3_memory_used(), before - (1 << 20)) << "of 1.6 MB that were written and read";
+  EXPECT_EQ(library.database().integer("SELECT count(*) FROM filler"), 400) << "and goes on";
 }
 
 TEST_F(LibraryTest, AMissingFolderIsNoLibraryAndIsNotMade) {
