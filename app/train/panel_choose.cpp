@@ -15,7 +15,7 @@ std::string state_words(const Choice& choice) {
 
 void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
-  constexpr float kOpenPx = 122.0F, kEditPx = 58.0F;
+  const float em_px = ImGui::GetFontSize(), open_px = 7.6F * em_px, edit_px = 3.6F * em_px;  // of their words
   const bool mentor = trainer.account().role == casedb::Role::mentor;
   if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
   ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
@@ -23,7 +23,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
   ImGui::TableSetupColumn("Difficulty", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("Passed", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, mentor ? kOpenPx + 8.0F + kEditPx : kOpenPx);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, mentor ? open_px + 8.0F + edit_px : open_px);
   ImGui::TableHeadersRow();
   std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
@@ -47,12 +47,12 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
-    if (ImGui::Button(next ? "Next (Enter)" : "Open", {kOpenPx, 0.0F}) || (next && keys.pressed(kEnter)))
+    if (ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F}) || (next && keys.pressed(kEnter)))
       chosen = choice.case_id;
     ImGui::EndDisabled();
     if (mentor) {
       ImGui::SameLine();
-      if (ImGui::Button("Edit", {kEditPx, 0.0F})) versioned = choice.case_id;
+      if (ImGui::Button("Edit", {edit_px, 0.0F})) versioned = choice.case_id;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
     }
     ImGui::PopID();

@@ -53,8 +53,8 @@ class RoomPanel {
   void set_stereo(bool stereo) noexcept { stereo_ = stereo; }
   void set_view(imaging::RoomView view) noexcept { view_ = view; }
   RoomInside inside() const noexcept { return inside_; }
-  void look_inside(
-      std::shared_ptr<const cases::Case> scene);  // the next of them; what is inside takes a moment to be made
+  // The next of them; what is inside takes a moment to be made.
+  void look_inside(std::shared_ptr<const cases::Case> scene);
 
  private:
   struct Room {
