@@ -156,10 +156,18 @@ TEST_F(TrainConsoleTest, ThePedalMakesPulsesAndDoseInTheStoredAttempt) {
   std::this_thread::sleep_for(std::chrono::seconds(3));
   press("space");
   const auto look = [&] { return fixtures::read_png(trainee_->keep_picture()); };
-  const auto whole = look();
-  for (const char* inside : {"cut away", "looked through"}) {
+  auto before = look();
+  for (const char* inside : {"cut away", "looked through", "whole"}) {
     press("i");
-    EXPECT_TRUE(fixtures::until([&] { return changed(look(), whole, 20, 60, 720, 620) > 0.05; }, 20.0)) << inside;
+    fixtures::RgbPicture now;
+    EXPECT_TRUE(fixtures::until(
+        [&] {
+          now = look();
+          return changed(now, before, 20, 60, 720, 620) > 0.05;
+        },
+        20.0))
+        << inside;
+    before = std::move(now);
   }
   EXPECT_LE(pulses, 60U) << "and none while the pedal is up";
   EXPECT_GT(air_kerma_mgy, 0.0);
