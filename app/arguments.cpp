@@ -31,7 +31,8 @@ std::optional<glm::dvec3> parse_point(const std::string& text) {
   return point;
 }
 
-Arguments::Arguments(const Command& command, const std::vector<std::string>& words) {
+Arguments::Arguments(const Command& command, const std::vector<std::string>& words)
+    : command_(command.name), words_(words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word.size() < 3 || word.rfind("--", 0) != 0) {

@@ -24,6 +24,8 @@ class Arguments {
   Arguments(const Command& command, const std::vector<std::string>& words);
 
   const std::string& positional(std::size_t i) const { return positionals_.at(i); }
+  const std::string& command() const noexcept { return command_; }           // "goals haptics"
+  const std::vector<std::string>& words() const noexcept { return words_; }  // as they were typed
   std::size_t positionals() const noexcept { return positionals_.size(); }
   bool has(const std::string& option) const { return values_.contains(option); }
   // The option's value; `fallback` when it was not given.
@@ -35,6 +37,8 @@ class Arguments {
   long long whole(const std::string& option, long long fallback, long long min, long long max) const;
 
  private:
+  std::string command_;
+  std::vector<std::string> words_;
   std::vector<std::string> positionals_;
   std::map<std::string, std::vector<std::string>> values_;
 };

@@ -1,6 +1,5 @@
 // haptics insert: force against depth of a needle in one tissue, without hardware. haptics fit: the way back, from
-// a measured curve to a tissue's row. haptics stability: does what the hand feels come to rest? haptics selftest:
-// does the servo keep time here?
+// a measured curve to a tissue's row. haptics selftest: does the servo keep time here?
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -17,7 +16,6 @@
 #include "app/fit_answer.h"
 #include "app/servo_answer.h"
 #include "app/servo_trial.h"
-#include "app/stability_answer.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/haptics/insertion.h"
 #include "sim/volume/classes.h"
@@ -108,12 +106,6 @@ int run_haptics_fit(const Arguments& arguments) {
   else
     std::printf("%s\nResiduals: %s\n", text_of_fit(answer).c_str(), page.c_str());
   return kDone;
-}
-
-int run_haptics_stability(const Arguments& arguments) {
-  const haptics::StabilitySurvey survey = haptics::survey_stability();
-  std::fputs((arguments.has("--json") ? json_of_stability(survey) : markdown_of_stability(survey)).c_str(), stdout);
-  return survey.holds() ? kDone : kCheckFailed;
 }
 
 int run_haptics_selftest(const Arguments& arguments) {

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "app/bench_stages.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -234,9 +236,7 @@ constexpr Option kDeviceSimulateOptions[] = {
     {"--damage-every", "S", "says something broken every S seconds"},
     {"--swap", nullptr, "tells of the arms in the other order"}};
 constexpr Option kBenchOptions[] = {
-    {"--stage", "a,b",
-     "import, mpr, xray, breathing, ultrasound, room, displacement, haptics, step, library, assessment; default "
-     "all"},
+    {"--stage", "a,b", kBenchStageHelp.data()},
     {"--quick", nullptr, "fewer repetitions"},
     {"--ct", "SOURCE", "what import reads, and a patient for xray, ultrasound and room; default the built-in case"},
     {"--volume", "FILE", "xray: in place of the projector phantom"},
@@ -399,7 +399,7 @@ constexpr Command kCommands[] = {
     {"haptics stability", "", 0, 0, kJsonOnly,
      "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
      "(docs/stability.md).",
-     &run_haptics_stability},
+     &run_measure},
     {"haptics selftest", "", 0, 0, kSelftestOptions,
      "Runs the 1 kHz servo with two virtual devices on the built-in torso; 1 when it misses too many ticks.",
      &run_haptics_selftest},
@@ -410,13 +410,13 @@ constexpr Command kCommands[] = {
     {"device simulate", "", 0, 0, kDeviceSimulateOptions,
      "Is a Haply Inverse service without hardware: two virtual hands on virtual arms, with faults on request.",
      &run_device_simulate},
-    {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_bench},
+    {"bench", "", 0, 0, kBenchOptions, "Measures time against error of every stage with a choice.", &run_measure},
     {"goals ultrasound", "", 0, 0, kGoalsOptions,
      "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
-     &run_goals_ultrasound},
+     &run_measure},
     {"goals haptics", "", 0, 0, kJsonOnly,
      "Measures what the hand feels against published lines and under simulated hands; 1 when a goal is missed.",
-     &run_goals_haptics},
+     &run_measure},
     {"doctor", "", 0, 0, kLibraryJson,
      "Tells what this machine can do: GL, devices, real-time rights, disk, schema.", &run_doctor},
     {"demo", "", 0, 0, kDemoOptions, "The main job, end to end, on real or built-in CT.", &run_demo},

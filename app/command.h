@@ -87,14 +87,12 @@ int run_user_disable(const Arguments& arguments);
 int run_haptics_insert(const Arguments& arguments);
 int run_haptics_fit(const Arguments& arguments);
 int run_haptics_calibrate(const Arguments& arguments);
-int run_haptics_stability(const Arguments& arguments);
 int run_haptics_selftest(const Arguments& arguments);
 int run_device_list(const Arguments& arguments);
 int run_device_probe(const Arguments& arguments);
 int run_device_simulate(const Arguments& arguments);
-int run_bench(const Arguments& arguments);
-int run_goals_ultrasound(const Arguments& arguments);
-int run_goals_haptics(const Arguments& arguments);
+// bench, goals and haptics stability: becomes seldinger-measure, which lies beside this program.
+int run_measure(const Arguments& arguments);
 int run_doctor(const Arguments& arguments);
 int run_demo(const Arguments& arguments);
 int run_serve(const Arguments& arguments);

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/ultrasound_goals/goal.h"
+#include "app/measure/ultrasound_goals/goal.h"
 #include "sim/imaging/ultrasound/fan.h"
 
-namespace seldinger::app::goals {
+namespace seldinger::measure {
 namespace {
 
 using imaging::Inserted;
@@ -115,4 +115,4 @@ TEST(UltrasoundGoals, AnEmptyPictureHoldsNothing) {
 }
 
 }  // namespace
-}  // namespace seldinger::app::goals
+}  // namespace seldinger::measure

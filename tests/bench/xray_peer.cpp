@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/measure/rigs/projector_phantom.h"
 #include "sim/base/failure.h"
 #include "sim/imaging/xray/projection.h"
-#include "sim/volume/projector_phantom.h"
 
 namespace seldinger::bench {
 namespace {
@@ -48,7 +48,7 @@ XrayGeometry geometry(int number) {
 }
 
 int write_volume(const std::string& path) {
-  const volume::Volume volume = volume::make_projector_phantom();
+  const volume::Volume volume = measure::make_projector_phantom();
   const glm::dvec3 first_mm(volume.lps_from_voxel[3]);
   std::ofstream file(path, std::ios::binary);
   file << "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
@@ -98,7 +98,7 @@ std::string difference(const PathLengths& ours, const std::vector<float>& peers)
 }
 
 int time_ours(int threads, int runs, const std::string& folder) {
-  const volume::Volume volume = volume::make_projector_phantom();
+  const volume::Volume volume = measure::make_projector_phantom();
   const auto measure = [&](ProjectionMethod method, const std::string& backend, auto project) {
     const bool exact = method == ProjectionMethod::exact;
     for (const int number : {1, 2}) {

@@ -1,13 +1,20 @@
-// Tests of sim/engine/motion_trials: hands at tissue that moves get no more than moves it (haptics.md, S15, S18).
+// Tests of touch by motion_trials: hands on moving tissue gain no more energy than moves the tissue.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/engine/motion_trials.h"
+#include "app/measure/rigs/motion_trials.h"
 #include "tests/sim/haptics/bodies.h"
 
 namespace seldinger::engine {
 namespace {
+
+using measure::breathing_trial;
+using measure::coupled_trial;
+using measure::EnergyTrial;
+using measure::indentation_trial;
+using measure::motion_readings;
+using measure::TrialPlace;
 
 // Into the kidney of the layered body, beside its middle, where breath moves most; the probe 18 mm beside.
 TrialPlace place() {
@@ -54,7 +61,7 @@ TEST(TissueEnergy, AClosedIndentationLoopGivesNone) {
 TEST(TissueEnergy, TheGoalsHoldHere) {
   const auto readings = motion_readings(haptics::flat_body(), place());
   EXPECT_EQ(readings.size(), 8U);
-  for (const haptics::ForceReading& one : readings)
+  for (const measure::ForceReading& one : readings)
     EXPECT_TRUE(one.holds()) << one.what << ", " << one.where << ": " << one.measured;
 }
 

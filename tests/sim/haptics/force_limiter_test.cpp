@@ -7,11 +7,17 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "sim/haptics/needle_trials.h"
+#include "app/measure/rigs/needle_trials.h"
 #include "tests/fixtures/allocations.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::needle_situations;
+using measure::NeedleSituation;
+using measure::settle;
+using measure::Settling;
+using measure::Trial;
 
 constexpr ForceLimits kOmni{3.3, 0.88};
 constexpr double kTick = 0.001;

@@ -1,10 +1,16 @@
 // The counts of haptics.md §3.4 S8 and S10 in full.
 #include <gtest/gtest.h>
 
-#include "sim/haptics/surface_trials.h"
+#include "app/measure/rigs/surface_trials.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::bumpy_sphere;
+using measure::Crossings;
+using measure::Glide;
+using measure::glide;
+using measure::sweep;
 
 TEST(SurfaceProxyLong, AMillionTicksWithoutASnagAndAHundredThousandSweepsWithoutACrossing) {
   const cases::MeshIndex mesh(bumpy_sphere(448, 224));

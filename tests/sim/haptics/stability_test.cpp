@@ -5,14 +5,32 @@
 #include <cmath>
 #include <string>
 
-#include "sim/haptics/needle_trials.h"
-#include "sim/haptics/probe_trials.h"
-#include "sim/haptics/thesis_needle.h"
-#include "sim/haptics/wall.h"
-#include "sim/haptics/wall_map.h"
+#include "app/measure/rigs/needle_trials.h"
+#include "app/measure/rigs/probe_trials.h"
+#include "app/measure/rigs/thesis_needle.h"
+#include "app/measure/rigs/wall.h"
+#include "app/measure/rigs/wall_map.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::drive_needle;
+using measure::drive_thesis;
+using measure::kMapDampingNSMm;
+using measure::kMapStiffnessNMm;
+using measure::needle_situations;
+using measure::NeedleSituation;
+using measure::probe_situations;
+using measure::ProbeSituation;
+using measure::settle;
+using measure::settle_needle;
+using measure::settle_probe;
+using measure::Settling;
+using measure::ThesisNeedle;
+using measure::Trial;
+using measure::Wall;
+using measure::wall_map;
+using measure::WallCell;
 
 using volume::TissueClass;
 

@@ -6,13 +6,19 @@
 #include <cmath>
 #include <limits>
 
+#include "app/measure/rigs/surface_trials.h"
 #include "sim/base/rng.h"
-#include "sim/haptics/surface_trials.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::bumpy_sphere;
+using measure::Crossings;
+using measure::Glide;
+using measure::glide;
+using measure::sweep;
 
 using cases::Mesh;
 using cases::MeshIndex;

@@ -6,13 +6,17 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "app/measure/rigs/settling.h"
 #include "sim/base/rng.h"
 #include "sim/base/vectors.h"
-#include "sim/haptics/settling.h"
 #include "tests/sim/haptics/bodies.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::settle;
+using measure::Settling;
+using measure::Trial;
 
 struct Situation {
   const char* name;

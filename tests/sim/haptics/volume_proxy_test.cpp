@@ -5,12 +5,18 @@
 
 #include <cmath>
 
+#include "app/measure/rigs/volume_trials.h"
 #include "sim/base/rng.h"
-#include "sim/haptics/volume_trials.h"
 #include "tests/fixtures/allocations.h"
 
 namespace seldinger::haptics {
 namespace {
+
+using measure::ct_of;
+using measure::Slide;
+using measure::slide;
+using measure::Solid;
+using measure::SolidInCt;
 
 TEST(VolumeProxyS7, SlidesOnABallACylinderAndAPlaneWithoutSteps) {
   for (const Solid shape : {Solid::ball, Solid::cylinder, Solid::plane})

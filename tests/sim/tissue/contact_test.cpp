@@ -7,14 +7,20 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "app/measure/rigs/contact_peers.h"
+#include "app/measure/rigs/hertz_reference.h"
 #include "sim/base/rng.h"
 #include "sim/haptics/soft_contact.h"
-#include "sim/tissue/contact_peers.h"
 #include "sim/tissue/displacement.h"
-#include "sim/tissue/hertz_reference.h"
 
 namespace seldinger::tissue {
 namespace {
+
+using measure::AxisDisplacement;
+using measure::BallContact;
+using measure::contact_peers;
+using measure::contact_radius_mm;
+using measure::hertz_reference;
 
 constexpr double kPi = std::numbers::pi;
 

@@ -12,9 +12,9 @@ PolarPicture flat(const UltrasoundView& view, float level) {
 
 TEST(Goal14, ARampOfSixtyDecibelsIsAllGreys) {
   for (const Probe& probe : kProbes) {
-    app::goals::Setting setting = practised(probe);
-    setting.quality = app::goals::Quality::reference;  // half a level is rounding, and nothing beyond
-    expect_holds(setting, &app::goals::measure_grey);
+    measure::Setting setting = practised(probe);
+    setting.quality = measure::Quality::reference;  // half a level is rounding, and nothing beyond
+    expect_holds(setting, &measure::measure_grey);
   }
 }
 

@@ -1,17 +1,17 @@
 // The scanner by elements against closed forms, then the picture against it (goal 16).
-#include "app/ultrasound_goals/element_level.h"
+#include "app/measure/ultrasound_goals/element_level.h"
 
-#include "app/ultrasound_goals/elements.h"
+#include "app/measure/ultrasound_goals/elements.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {
 
-using app::goals::Apodisation;
-using app::goals::ElementLevel;
-using app::goals::likeness_to_elements;
-using app::goals::PlaneScatterer;
+using measure::Apodisation;
+using measure::ElementLevel;
+using measure::likeness_to_elements;
+using measure::PlaneScatterer;
 
 PlaneScatterer point_at(const UltrasoundView& view, double beam, double depth_mm) {
   const glm::dvec3 p = point_of(view, beam, depth_mm);
@@ -115,8 +115,8 @@ TEST(ElementLevel, AtItsFocusOneFocusIsAsGoodAsMany) {
 TEST(Goal16, ThePictureIsLikeTheScannersByElements) {
   for (const Probe& probe : kRealProbes)
     for (const double focus_mm : {0.0, 0.5 * practised(probe).depth_mm()}) {
-      const app::goals::Setting setting = practised(probe);
-      const app::goals::Likeness found =
+      const measure::Setting setting = practised(probe);
+      const measure::Likeness found =
           likeness_to_elements(setting, Apodisation::even, focus_mm, {0.5 * setting.depth_mm(), 2.0, 8});
       printf("goal 16: %s, focus %.0f mm: NCC %.4f of %zu scatterers\n", std::string(probe.name).c_str(), focus_mm,
              found.ncc, found.scatterers);

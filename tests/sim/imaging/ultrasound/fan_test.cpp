@@ -65,7 +65,7 @@ TEST(Probe, AFocusIsSharpestAndNeverSharperThanEverywhere) {
 }
 
 TEST(Goal1, ScanConversionPutsPointsWhereTheyAre) {
-  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_scan_conversion);
+  for (const Probe& probe : kProbes) expect_holds(practised(probe), &measure::measure_scan_conversion);
 }
 
 TEST(ScanConverter, TheWholeFieldFitsAndNothingElseShows) {

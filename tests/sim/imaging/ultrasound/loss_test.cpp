@@ -10,7 +10,7 @@ double impedance(TissueClass tissue) {
 }
 
 TEST(Goal2, AttenuationOfThePictureIsTwoWay) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_attenuation);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_attenuation);
 }
 
 TEST(Goal2, TheSumsAreExact) {
@@ -75,7 +75,7 @@ TEST(Goal3, TheEdgeOfAShadowIsWithinHalfABeam) {
 }
 
 TEST(Goal3, EdgeAndDepthOfAShadowInThePicture) {
-  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_shadow);
+  for (const Probe& probe : kProbes) expect_holds(practised(probe), &measure::measure_shadow);
 }
 
 TEST(Goal4, ReflectionIsThatOfTheImpedances) {
@@ -129,17 +129,17 @@ TEST(Goal4, TheEchoOfThePictureIsTheLines) {
 
 TEST(Goal4, EchoesOfThePictureAreThoseOfTheImpedances) {
   for (const Probe& probe : kRealProbes) {
-    app::goals::Setting setting = practised(probe);
+    measure::Setting setting = practised(probe);
     setting.quick = true;
     // The tenth pair is weaker than the speckle around it and needs hundreds of frames: `seldinger goals`.
-    const app::goals::Readings readings = readings_of(setting, &app::goals::measure_reflection);
+    const measure::Readings readings = readings_of(setting, &measure::measure_reflection);
     ASSERT_EQ(readings.size(), 2U);
     expect_holds(setting, readings[0]);
   }
 }
 
 TEST(Goal5, TheEchoesOfThePictureFollowTheLaw) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_angle_law);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_angle_law);
 }
 
 TEST(Goal5, AnglesFollowTheLaw) {
@@ -183,7 +183,7 @@ TEST(Goal5, AnglesFollowTheLaw) {
 }
 
 TEST(Goal10, BehindACystItIsBrighter) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_enhancement);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_enhancement);
 }
 
 }  // namespace

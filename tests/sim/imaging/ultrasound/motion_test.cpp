@@ -173,7 +173,7 @@ TEST(UltrasoundMotion, UnderAPressedProbeAnInterfaceIsNearerByWhatTheTissueGaveW
       view.origin_lps_mm = {0.0, press_mm, 0.0};
       const PolarPicture picture = moved(s, view, displacement);
       const double expected_mm = tissue::displaced(displacement, {0.0, 30.0, 0.0}).y - press_mm;
-      const auto peak = app::goals::peak_of(picture, view, view.beams / 2);
+      const auto peak = measure::peak_of(picture, view, view.beams / 2);
       EXPECT_NEAR(peak.depth_mm, expected_mm, 0.3) << view.probe.name << ' ' << press_mm;
       EXPECT_GT(30.0 - expected_mm, 0.6 * press_mm) << "nearer than at rest";
     }

@@ -1,5 +1,5 @@
 // The needle in the picture (goals 11 to 13, hard cases of ultrasound.md §4c).
-#include "app/ultrasound_goals/needle.h"
+#include "app/measure/ultrasound_goals/needle.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "ultrasound_scene.h"
 
@@ -11,18 +11,18 @@ const Scene& water() {
   return kWater;
 }
 
-using app::goals::needle_at;
-using app::goals::needle_grey;
-using app::goals::peak_of;
+using measure::needle_at;
+using measure::needle_grey;
+using measure::peak_of;
 
 TEST(Goal11, TheNeedleIsWhereItIs) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_needle_place);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_needle_place);
 }
 
 TEST(Goal12, TheNeedleFadesWithItsTilt) {
   for (const Probe& probe : kRealProbes) {
-    const app::goals::Setting setting = practised(probe);
-    expect_holds(setting, &app::goals::measure_needle_fading);
+    const measure::Setting setting = practised(probe);
+    expect_holds(setting, &measure::measure_needle_fading);
     double before = needle_grey(setting, 0.0, false);
     EXPECT_NEAR(before, 1.0, 0.001);
     for (const double tilt_deg : {10.0, 20.0, 30.0, 40.0, 50.0, 60.0}) {
@@ -37,7 +37,7 @@ TEST(Goal12, TheNeedleFadesWithItsTilt) {
 }
 
 TEST(Goal13, TheSliceIsAsThickAsTheBeam) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_slice);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_slice);
 }
 
 TEST(Needle, AcrossThePlaneItIsADot) {

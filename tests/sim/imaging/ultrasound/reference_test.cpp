@@ -2,7 +2,7 @@
 // place, summed for every sample of a beam. No tiles, tables, fine samples or whole numbers.
 #include <complex>
 
-#include "app/ultrasound_goals/plane_scatterers.h"
+#include "app/measure/ultrasound_goals/plane_scatterers.h"
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/imaging/ultrasound/scatterers.h"
 #include "ultrasound_scene.h"
@@ -23,7 +23,7 @@ TEST(Reference, TheFastSumIsTheDefinition) {
     const ScattererField field(view, tissue_at);
     const PolarPicture fast = polar_of(liver, view);
     const double wavelength_mm = shaders::us_wavelength_mm(view.probe.frequency_mhz);
-    const std::vector<app::goals::PlaneScatterer> scatterers = app::goals::scatterers_in(
+    const std::vector<measure::PlaneScatterer> scatterers = measure::scatterers_in(
         view, field,
         {-8.0, view.beams + 8.0, 0.0, view.depth_mm,
          4.0 * std::max(beam_width(view.probe, view.probe.frequency_mhz, 0, 0.01).elevation_sigma_mm,
@@ -33,7 +33,7 @@ TEST(Reference, TheFastSumIsTheDefinition) {
     std::vector<double> wanted, found;
     for (const int beam : {0, 1, 30, 63, 64, 101, 127}) {
       std::vector<std::complex<double>> signal(static_cast<std::size_t>(view.samples));
-      for (const app::goals::PlaneScatterer& s : scatterers) {
+      for (const measure::PlaneScatterer& s : scatterers) {
         const BeamWidth w = beam_width(view.probe, view.probe.frequency_mhz, 0, std::max(s.depth_mm, 0.01));
         const double u = (s.beam - beam) * fan.beam_spacing_mm(s.depth_mm) / w.lateral_sigma_mm,
                      v = s.y_mm / w.elevation_sigma_mm;

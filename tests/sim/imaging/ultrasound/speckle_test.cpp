@@ -1,7 +1,7 @@
 // Statistics of speckle and how it moves (goals 6 to 9 and 15).
 #include "sim/imaging/ultrasound/scatterers.h"
 
-#include "app/ultrasound_goals/speckle.h"
+#include "app/measure/ultrasound_goals/speckle.h"
 #include "ultrasound_scene.h"
 
 namespace seldinger::imaging {
@@ -19,21 +19,21 @@ UltrasoundView lossless(UltrasoundView view) {
 
 TEST(Goal6, SpeckleIsRayleighAtFiveDepths) {
   for (const Probe& probe : kRealProbes) {
-    const app::goals::Setting setting = practised(probe);
-    const auto at_depths = app::goals::speckle_statistics(setting);
-    app::goals::Readings readings;
-    app::goals::read_statistics(setting, at_depths, readings);
+    const measure::Setting setting = practised(probe);
+    const auto at_depths = measure::speckle_statistics(setting);
+    measure::Readings readings;
+    measure::read_statistics(setting, at_depths, readings);
     ASSERT_EQ(readings.size(), 3U);
-    for (const app::goals::Reading& reading : readings) expect_holds(setting, reading);
-    for (const app::goals::SpeckleStatistics& found : at_depths) {
-      EXPECT_GE(found.cells, app::goals::kLeastCells) << probe.name << " " << found.depth_mm;
+    for (const measure::Reading& reading : readings) expect_holds(setting, reading);
+    for (const measure::SpeckleStatistics& found : at_depths) {
+      EXPECT_GE(found.cells, measure::kLeastCells) << probe.name << " " << found.depth_mm;
       EXPECT_NEAR(found.mean_square, 1.0, 0.06) << probe.name << " " << found.depth_mm;  // unit energy of the PSF
     }
   }
 }
 
 TEST(Goal7, SpeckleIsAsWideAsTheBeam) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_widths);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_widths);
 }
 
 // Rows of one picture around a depth, `beams_off` further on.
@@ -45,7 +45,7 @@ std::vector<double> window(const PolarPicture& picture, int middle, int beams_of
 }
 
 TEST(Goal8, SpeckleStaysWithTheTissueAcrossAndChangesOutOfThePlaneAsTheBeamIsThick) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_motion);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_motion);
 }
 
 TEST(Goal8, SpeckleStaysWithTheTissueWhenTheProbeIsPressedIn) {
@@ -84,11 +84,11 @@ TEST(Goal8, TurningTheProbeChangesNoScatterer) {
 }
 
 TEST(Goal9, ContrastOfTissuesIsTheirScatter) {
-  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &app::goals::measure_contrast);
+  for (const Probe& probe : kRealProbes) expect_holds(practised(probe), &measure::measure_contrast);
 }
 
 TEST(Goal15, TheSameBitsAgainAndForAnyNumberOfThreads) {
-  for (const Probe& probe : kProbes) expect_holds(practised(probe), &app::goals::measure_bits);
+  for (const Probe& probe : kProbes) expect_holds(practised(probe), &measure::measure_bits);
 }
 
 TEST(Goal15, AnotherSeedIsAnotherTissue) {

@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "app/ultrasound_goals/goal.h"
-#include "app/ultrasound_goals/polar_levels.h"
+#include "app/measure/ultrasound_goals/goal.h"
+#include "app/measure/ultrasound_goals/polar_levels.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
 
@@ -18,19 +18,19 @@ namespace seldinger::imaging {
 
 using volume::TissueClass;
 
-using app::goals::at;
-using app::goals::correlation;
-using app::goals::decibels;
-using app::goals::level_db;
-using app::goals::sample_at;
-using Scene = app::goals::TissueBlock;
+using measure::at;
+using measure::correlation;
+using measure::decibels;
+using measure::level_db;
+using measure::sample_at;
+using Scene = measure::TissueBlock;
 
 inline Scene scene(const std::function<TissueClass(const glm::dvec3&)>& class_at, glm::ivec3 size = {150, 120, 30},
                    double voxel_mm = 2.0) {
-  return app::goals::tissue_block(class_at, size, voxel_mm);
+  return measure::tissue_block(class_at, size, voxel_mm);
 }
 inline Scene all_of(TissueClass tissue) {
-  return app::goals::block_of(tissue);
+  return measure::block_of(tissue);
 }
 
 inline UltrasoundView curved_view(double depth_mm = 150.0) {
@@ -61,27 +61,27 @@ inline Line line_of(const Scene& s, const UltrasoundView& view, int beam, const 
 }
 
 // What a goal's function tells; `holds` asserts of one reading.
-inline app::goals::Readings readings_of(const app::goals::Setting& setting,
-                                        void (*measure)(const app::goals::Setting&, app::goals::Readings&)) {
-  app::goals::Readings readings;
+inline measure::Readings readings_of(const measure::Setting& setting,
+                                     void (*measure)(const measure::Setting&, measure::Readings&)) {
+  measure::Readings readings;
   measure(setting, readings);
-  for (const app::goals::Reading& reading : readings)
+  for (const measure::Reading& reading : readings)
     printf("goal %d: %s, %s: %.4g %s of %g\n", reading.goal, reading.probe.c_str(), reading.what.c_str(),
            reading.off, reading.unit, reading.tolerance(setting.quality));
   return readings;
 }
-inline void expect_holds(const app::goals::Setting& setting, const app::goals::Reading& reading) {
+inline void expect_holds(const measure::Setting& setting, const measure::Reading& reading) {
   EXPECT_TRUE(reading.holds(setting.quality))
       << reading.probe << ": " << reading.what << " is off by " << reading.off << " " << reading.unit;
 }
-inline void expect_holds(const app::goals::Setting& setting,
-                         void (*measure)(const app::goals::Setting&, app::goals::Readings&)) {
-  const app::goals::Readings readings = readings_of(setting, measure);
+inline void expect_holds(const measure::Setting& setting,
+                         void (*measure)(const measure::Setting&, measure::Readings&)) {
+  const measure::Readings readings = readings_of(setting, measure);
   ASSERT_FALSE(readings.empty());
-  for (const app::goals::Reading& reading : readings) expect_holds(setting, reading);
+  for (const measure::Reading& reading : readings) expect_holds(setting, reading);
 }
-inline app::goals::Setting practised(const Probe& probe) {
-  return app::goals::Setting::of(UltrasoundMethod::scatterers, probe, app::goals::Quality::fast);
+inline measure::Setting practised(const Probe& probe) {
+  return measure::Setting::of(UltrasoundMethod::scatterers, probe, measure::Quality::fast);
 }
 // Those that are learnt on; `seldinger goals` measures the thesis' two as well.
 constexpr Probe kRealProbes[] = {kC52v, kL115v};
