@@ -19,8 +19,8 @@ namespace seldinger::imaging {
 namespace {
 
 constexpr int kBands = 20;  // of depth, with one lattice and one thickness each
-// Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
-// samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
+// The most that the carrier may turn within a fine sample: keeps the lattice's mean out of the picture, and the
+// error of rounding scatterers to fine samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
 constexpr double kMostTurns = 0.25;
 constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
@@ -50,11 +50,11 @@ struct Chunk {
   std::uint32_t inside[kChunk];
   std::uint32_t phase[kChunk];  // steps of kPhases that the echo is turned by
 
-  // Of tissue that moves, too: `y` is where the scatterer is now, x, at_y and z where it is at rest. Its row's
-  // columns of the slab tell the difference, along the tile's axes, layer by layer.
+  // Used only where tissue moves: then `y` is where the scatterer is now; x, at_y and z are where it is at rest.
+  // The slab's column for its row gives the difference along the tile's axes, layer by layer.
   float at_y[kChunk];
-  std::int32_t column[kChunk];  // where that of its row begins, and then the layer below
-  float part[kChunk];           // of the way to the layer above
+  std::int32_t column[kChunk];  // where its row's column begins; later, the layer below it
+  float part[kChunk];           // of the way from there to the layer above
   float moved_x[kChunk], moved_y[kChunk], moved_z[kChunk];
 };
 struct Columns {
@@ -71,7 +71,7 @@ struct TileFrame {
   float from, to, half_thickness, first_beam, end_beam;
 };
 
-// Where the scatterer of each cube is: plain loops, which the compiler runs eight at a time.
+// Where each cube's scatterer lies: plain loops that the compiler vectorises, eight at a time.
 [[gnu::always_inline]] inline void rest(const TileFrame& f, std::uint32_t bits, float& x, float& y, float& z) {
   const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
   x = x + u * f.a[0] + v * f.b[0] + w * f.c[0];
@@ -108,7 +108,7 @@ template <bool curved>
     see<curved>(f, n, x, y, z, chunk);
   }
 }
-// In three loops: the one in the middle looks columns up, one scatterer at a time.
+// Three loops, so that only the middle one, which looks up columns, runs one scatterer at a time.
 template <bool curved>
 [[gnu::always_inline]] inline void place_moving(const TileFrame& f, const Columns& columns, Chunk& chunk) noexcept {
   const float low_mm = columns.low_mm, per_mm = columns.per_mm;
@@ -172,13 +172,14 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     band.to_mm = band.end_sample * fan_.sample_mm;
     const double middle_mm = 0.5 * (band.from_mm + band.to_mm);
     const BeamWidth width = widths(middle_mm);
-    // The widths go down to a focus and up again: the ends have the greatest.
+    // Widths fall towards the focus and rise beyond it, so a band is widest at one of its ends.
     band.half_thickness_mm = shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm,
                                                                 widths(band.to_mm).elevation_sigma_mm);
-    // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
+    // The lattice's spacing gives the wanted number of effective scatterers in a Gaussian PSF, which is
+    // density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ.
     const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
     const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
-    // A few steps an octave, not by the view's depth, so that a turned depth knob leaves most of the speckle.
+    // In quarter octaves, so that turning the depth knob leaves most of the speckle where it was.
     const double level = std::floor(4.0 * std::log2(std::max(wanted_mm, kLeastSpacingMm)));
     band.spacing_mm = std::exp2(0.25 * level);
     band.key = static_cast<std::uint32_t>(
@@ -253,8 +254,8 @@ ScattererField::Tile ScattererField::tile(const Band& band, double middle, doubl
   return t;
 }
 
-// Between which u lies in a box tells how far the box reaches at rest, which may ask for more of u: until nothing
-// more comes of it.
+// Grows a box until it holds, at rest, all tissue that now lies in the tile. The range of the displacement u over
+// the box says how far to grow, and a larger box may have a larger range: repeat until it no longer grows.
 void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept {
   const tissue::MovedSlab& slab = motion_->slab();
   const auto at = [&](const glm::dvec3& in_frame) {
