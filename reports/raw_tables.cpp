@@ -49,7 +49,9 @@ Column<Fact> attempt_name() {
 
 const std::vector<Column<AttemptFacts>>& attempt_columns() {
   using Facts = AttemptFacts;
+  // A long function, but a plain table: one entry for each column, in the order of the file.
   static const std::vector<Column<Facts>> columns = {
+      // Whose attempt it is.
       {{"attempt", "text", "", "", "this export's name of the attempt; says nothing of when or whose it was"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.attempt); }},
       {{"person", "text", "", "a simulation of nobody",
@@ -63,6 +65,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       {{"days_since_first", "number", "d", "a simulation of nobody",
         "from the start of the person's first attempt in the library to this one's; no date is exported"},
        [](CsvLine& line, const Facts& f) { line.number(f.days_since_first); }},
+      // Who or what moved the hands.
       {{"synthetic", "flag", "", "",
         "1: a simulated operator moved the hands: test data, which says nothing about people"},
        [](CsvLine& line, const Facts& f) { line.flag(synthetic(*f.row)); }},
@@ -73,12 +76,14 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) {
          synthetic(*f.row) ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
        }},
+      // The case.
       {{"case", "text", "", "", "this export's name of the case; its title is somebody's words and stays"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.case_id); }},
       {{"case_version", "integer", "", "", "version of the case within its family, from 1"},
        [](CsvLine& line, const Facts& f) { line.whole(std::int64_t{f.of_case->version}); }},
       {{"case_origin", "text", "", "", "import: a CT; phantom:VERSION: built in"},
        [](CsvLine& line, const Facts& f) { line.text(f.of_case->origin); }},
+      // The target.
       {{"target", "text", "", "", "this export's name of the lesion that was the target"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.target); }},
       {{"target_x_mm", "number", "mm", "", "the target's centre, LPS"},
@@ -89,6 +94,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.center_lps_mm.z); }},
       {{"target_radius_mm", "number", "mm", "", "of the sphere, or of the ball of its volume"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.radius_mm); }},
+      // The guidance.
       {{"modality", "text", "", "", "mpr: a CT slice under the probe; ultrasound; xray: fluoroscopy"},
        [](CsvLine& line, const Facts& f) { line.text(casedb::name_of(f.row->picture.modality)); }},
       {{"approach", "text", "", "", "in_plane or out_of_plane, of needle to picture; says nothing under xray"},
@@ -107,6 +113,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) {
          place(line, f.row->picture.modality != cases::Modality::xray, f.row->picture.rate_hz);
        }},
+      // The needle. Throw, notch and dead tip belong to core needles.
       {{"instrument", "text", "", "", "access: the tip decides; core: the fired notch"},
        [](CsvLine& line, const Facts& f) { line.text(core(*f.row) ? "core" : "access"); }},
       {{"needle_length_mm", "number", "mm", "", "the needle's length"},
@@ -119,6 +126,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.notch_mm); }},
       {{"dead_tip_mm", "number", "mm", "no core needle", "from the notch's end to the tip"},
        [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.dead_tip_mm); }},
+      // How long it took, and how it ended.
       {{"duration_s", "number", "s", "", "how long was recorded"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->duration_s); }},
       {{"end", "text", "", "stored before it was kept",
@@ -126,6 +134,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) {
          f.row->end ? line.text(casedb::name_of(*f.row->end)) : line.nothing();
        }},
+      // What recorded it.
       {{"program_version", "text", "", "", "of the program that recorded it"},
        [](CsvLine& line, const Facts& f) { line.text(f.row->program_version); }},
       {{"step_version", "integer", "", "", "of the simulation; a replay needs the same"},

@@ -94,8 +94,13 @@ class BenchPanel {
   void draw_tool(CaseBench& bench);
   void draw_lesion(CaseBench& bench);
   void draw_structure(CaseBench& bench);
+  void choose_structure(CaseBench& bench);
+  bool draw_structure_meaning();  // name, rule, tissue; true: changed
+  bool draw_drawn_structure();    // size and HU; true: changed
   void draw_entry(CaseBench& bench);
-  void draw_rule(CaseBench& bench);
+  void draw_rule_and_setting(CaseBench& bench);
+  bool draw_rule(const CaseBench& bench);  // true: changed
+  bool draw_setting(CaseBench& bench);     // true: changed
   void draw_checks(CaseBench& bench);
   void draw_help();
 

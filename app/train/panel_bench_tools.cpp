@@ -152,7 +152,7 @@ void BenchPanel::draw_lesion(CaseBench& bench) {
   if (ImGui::Button("Remove (Del)")) bench.remove_lesion(bench.lesion);
 }
 
-void BenchPanel::draw_structure(CaseBench& bench) {
+void BenchPanel::choose_structure(CaseBench& bench) {
   ImGui::SetNextItemWidth(kFieldPx);
   const bool there = bench.structure < bench.structures().size();
   if (ImGui::BeginCombo("structure", there ? bench.structures()[bench.structure].name.c_str() : "a new one")) {
@@ -172,11 +172,52 @@ void BenchPanel::draw_structure(CaseBench& bench) {
     }
     ImGui::EndCombo();
   }
+}
+
+void BenchPanel::draw_structure(CaseBench& bench) {
+  choose_structure(bench);
   if (!structure_in_hand_)
     structure_ = bench.structure < bench.structures().size() ? bench.shown_structures()[bench.structure]
                                                              : bench.new_structure;
   structure_in_hand_ = false;
   const bool stored = bench.structure < bench.structures().size();
+  bool changed = draw_structure_meaning();
+  // The form: chosen for a new structure, fixed for a stored one.
+  Form form = form_of(structure_);
+  if (stored && structure_.kind == casedb::StructureKind::label) {
+    ImGui::TextDisabled("label %d of a map", structure_.label);
+  } else if (stored) {
+    ImGui::TextDisabled("%s", name_of(form));
+  } else if (choice("form", form, kForms, [](Form one) { return std::string(name_of(one)); })) {
+    bench.drop_drawing();
+    set_form(form, structure_);
+  }
+  if (structure_.kind == casedb::StructureKind::drawn) changed = draw_drawn_structure() || changed;
+  // A stored structure is changed at once.
+  if (stored) {
+    if (changed) {
+      bench.put_structure(bench.structure, structure_);
+      structure_in_hand_ = false;
+    }
+    if (ImGui::Button("Remove (Del)")) bench.remove_structure(bench.structure);
+    return;
+  }
+  // A new one waits until it is added here or drawn in the planes.
+  bench.new_structure = structure_;
+  if (structure_.kind != casedb::StructureKind::drawn) {
+    if (ImGui::Button("Add")) bench.add_structure(structure_);
+    quiet("All voxels of the CT that are of this tissue.");
+  } else if (bench.drawing()) {
+    if (ImGui::Button("Finish the tube (Enter)")) bench.finish_drawing();
+    ImGui::SameLine();
+    if (ImGui::Button("Drop it (Esc)")) bench.drop_drawing();
+  } else {
+    quiet(form == Form::tube ? "Click its points one after another, in any plane; Enter finishes it."
+                             : "Click its middle in a plane.");
+  }
+}
+
+bool BenchPanel::draw_structure_meaning() {
   fill(name_, name_of_, structure_.name);
   ImGui::SetNextItemWidth(kFieldPx);
   ImGui::InputText("name", name_.data(), name_.size());
@@ -196,58 +237,33 @@ void BenchPanel::draw_structure(CaseBench& bench) {
     }
     ImGui::EndCombo();
   }
-  Form form = form_of(structure_);
-  if (stored && structure_.kind == casedb::StructureKind::label) {
-    ImGui::TextDisabled("label %d of a map", structure_.label);
-  } else if (stored) {
-    ImGui::TextDisabled("%s", name_of(form));
-  } else if (choice("form", form, kForms, [](Form one) { return std::string(name_of(one)); })) {
-    bench.drop_drawing();
-    set_form(form, structure_);
+  return changed;
+}
+
+bool BenchPanel::draw_drawn_structure() {
+  bool changed = false;
+  if (auto* sphere = std::get_if<cases::Sphere>(&structure_.drawn))
+    changed = number("radius mm", sphere->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+  if (auto* tube = std::get_if<cases::Tube>(&structure_.drawn))
+    changed = number("radius mm", tube->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
+  if (auto* ellipsoid = std::get_if<cases::Ellipsoid>(&structure_.drawn)) {
+    changed = number("radius x mm", ellipsoid->radii_mm.x, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number("radius y mm", ellipsoid->radii_mm.y, 0.5, "%.1f", structure_in_hand_) || changed;
+    changed = number("radius z mm", ellipsoid->radii_mm.z, 0.5, "%.1f", structure_in_hand_) || changed;
   }
-  if (structure_.kind == casedb::StructureKind::drawn) {
-    if (auto* sphere = std::get_if<cases::Sphere>(&structure_.drawn))
-      changed = number("radius mm", sphere->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
-    if (auto* tube = std::get_if<cases::Tube>(&structure_.drawn))
-      changed = number("radius mm", tube->radius_mm, 0.5, "%.1f", structure_in_hand_) || changed;
-    if (auto* ellipsoid = std::get_if<cases::Ellipsoid>(&structure_.drawn)) {
-      changed = number("radius x mm", ellipsoid->radii_mm.x, 0.5, "%.1f", structure_in_hand_) || changed;
-      changed = number("radius y mm", ellipsoid->radii_mm.y, 0.5, "%.1f", structure_in_hand_) || changed;
-      changed = number("radius z mm", ellipsoid->radii_mm.z, 0.5, "%.1f", structure_in_hand_) || changed;
-    }
-    bool painted = structure_.hu.has_value();
-    if (ImGui::Checkbox("shown, with HU", &painted)) {
-      structure_.hu = painted ? std::optional(volume::typical_hu(structure_.tissue)) : std::nullopt;
-      changed = true;
-    }
-    if (structure_.hu) {
-      ImGui::SameLine();
-      ImGui::SetNextItemWidth(90.0F);
-      ImGui::InputDouble("##hu", &*structure_.hu, 0.0, 0.0, "%.0f");
-      structure_in_hand_ = structure_in_hand_ || ImGui::IsItemActive();
-      changed = changed || ImGui::IsItemDeactivatedAfterEdit();
-    }
+  bool painted = structure_.hu.has_value();
+  if (ImGui::Checkbox("shown, with HU", &painted)) {
+    structure_.hu = painted ? std::optional(volume::typical_hu(structure_.tissue)) : std::nullopt;
+    changed = true;
   }
-  if (stored) {
-    if (changed) {
-      bench.put_structure(bench.structure, structure_);
-      structure_in_hand_ = false;
-    }
-    if (ImGui::Button("Remove (Del)")) bench.remove_structure(bench.structure);
-    return;
-  }
-  bench.new_structure = structure_;
-  if (structure_.kind != casedb::StructureKind::drawn) {
-    if (ImGui::Button("Add")) bench.add_structure(structure_);
-    quiet("All voxels of the CT that are of this tissue.");
-  } else if (bench.drawing()) {
-    if (ImGui::Button("Finish the tube (Enter)")) bench.finish_drawing();
+  if (structure_.hu) {
     ImGui::SameLine();
-    if (ImGui::Button("Drop it (Esc)")) bench.drop_drawing();
-  } else {
-    quiet(form == Form::tube ? "Click its points one after another, in any plane; Enter finishes it."
-                             : "Click its middle in a plane.");
+    ImGui::SetNextItemWidth(90.0F);
+    ImGui::InputDouble("##hu", &*structure_.hu, 0.0, 0.0, "%.0f");
+    structure_in_hand_ = structure_in_hand_ || ImGui::IsItemActive();
+    changed = changed || ImGui::IsItemDeactivatedAfterEdit();
   }
+  return changed;
 }
 
 void BenchPanel::draw_entry(CaseBench& bench) {
@@ -278,11 +294,19 @@ void BenchPanel::draw_entry(CaseBench& bench) {
   if (way.free()) ImGui::TextColored({0.45F, 0.85F, 0.55F, 1.0F}, "free of bone, gas and structures");
 }
 
-void BenchPanel::draw_rule(CaseBench& bench) {
+void BenchPanel::draw_rule_and_setting(CaseBench& bench) {
   if (!setting_in_hand_) setting_ = bench.row();
   setting_in_hand_ = false;
+  const bool rule_changed = draw_rule(bench);
+  ImGui::Spacing();
+  const bool setting_changed = draw_setting(bench);
+  if (!rule_changed && !setting_changed) return;
+  bench.set_setting(setting_, rule_changed ? "pass rule changed" : "setting changed");
+  setting_in_hand_ = false;
+}
+
+bool BenchPanel::draw_rule(const CaseBench& bench) {
   bool changed = false;
-  std::string words = "setting changed";
   heading("To pass");
   std::optional<std::size_t> drop;
   for (std::size_t i = 0; i < setting_.rule.criteria.size(); ++i) {
@@ -314,6 +338,7 @@ void BenchPanel::draw_rule(CaseBench& bench) {
     if (ImGui::Button("drop")) drop = i;
     ImGui::PopID();
   }
+  // Dropped once all are drawn: the list must not change under the loop.
   if (drop) {
     setting_.rule.criteria.erase(setting_.rule.criteria.begin() + static_cast<std::ptrdiff_t>(*drop));
     changed = true;
@@ -335,8 +360,11 @@ void BenchPanel::draw_rule(CaseBench& bench) {
     }
     ImGui::EndCombo();
   }
-  if (changed) words = "pass rule changed";
-  ImGui::Spacing();
+  return changed;
+}
+
+bool BenchPanel::draw_setting(CaseBench& bench) {
+  bool changed = false;
   heading("The case");
   fill(title_, title_of_, bench.row().title);
   ImGui::SetNextItemWidth(-60.0F);
@@ -349,6 +377,7 @@ void BenchPanel::draw_rule(CaseBench& bench) {
     setting_.clinic.indication = indication_of_ = indication_.data();
     changed = true;
   }
+  // How the case is punctured.
   if (choice("guidance", setting_.modality, kModalities, [](cases::Modality one) { return modality_words(one); })) {
     std::erase(setting_.further_modalities, setting_.modality);
     changed = true;
@@ -375,6 +404,7 @@ void BenchPanel::draw_rule(CaseBench& bench) {
     ImGui::EndCombo();
   }
   changed = number("length mm", setting_.instrument.length_mm, 10.0, "%.0f", setting_in_hand_) || changed;
+  // How hard it is, what the laboratory says, and how long it may take.
   changed =
       choice("difficulty", setting_.difficulty, kDifficulties,
              [](casedb::Difficulty one) { return casedb::kDifficultyNames[static_cast<std::size_t>(one)]; }) ||
@@ -386,9 +416,7 @@ void BenchPanel::draw_rule(CaseBench& bench) {
   changed = ImGui::Checkbox("the right decision is to defer", &setting_.clinic.defer) || changed;
   changed = ImGui::Checkbox("tissue yields", &setting_.motion.yields) || changed;
   if (titled) bench.set_title(title_.data());
-  if (!changed) return;
-  bench.set_setting(setting_, words);
-  setting_in_hand_ = false;
+  return changed;
 }
 
 void BenchPanel::draw_tool(CaseBench& bench) {
@@ -411,7 +439,7 @@ void BenchPanel::draw_tool(CaseBench& bench) {
       draw_entry(bench);
       break;
     case BenchTool::rule:
-      draw_rule(bench);
+      draw_rule_and_setting(bench);
       break;
   }
   ImGui::EndDisabled();

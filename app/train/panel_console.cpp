@@ -118,11 +118,9 @@ void MonitorPanel::draw_calipers_and_keep(bool calipers) {
   tip("keeps this picture as PNG, with its scale and no patient data");
 }
 
-void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen, bool turns) {
-  const float wide = ImGui::GetContentRegionAvail().x;
+bool MonitorPanel::draw_beam_knobs(float wide) {
   const imaging::UltrasoundView view = knobs_.view();
   bool turned = false;
-  ImGui::BeginDisabled(frozen || !turns);
   ImGui::SetNextItemWidth(0.20F * wide);
   const std::vector<imaging::ConsolePreset>& presets = knobs_.presets();
   if (ImGui::BeginCombo("##preset", knobs_.preset() < 0
@@ -150,8 +148,11 @@ void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen, bool turns) {
   if (knob("##frequency", frequency_mhz, view.probe.least_mhz, view.probe.most_mhz, "%.1f MHz", 0.20F * wide))
     knobs_.set_frequency_mhz(0.1 * std::round(10.0 * frequency_mhz));
   tip("frequency (, .): high resolves, low goes deep");
-  ImGui::EndDisabled();
+  return turned;
+}
 
+bool MonitorPanel::draw_screen_knobs(float wide) {
+  bool turned = false;
   imaging::UltrasoundKnobs& screen = knobs_.screen;
   turned =
       knob("##gain", screen.gain_db, -imaging::kMostGainDb, imaging::kMostGainDb, "gain %.0f dB", 0.30F * wide) ||
@@ -174,6 +175,7 @@ void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen, bool turns) {
   ImGui::SameLine();
   turned = ImGui::Checkbox("flip", &screen.flip) || turned;
   tip("left for right (X)");
+  // Time gain compensation, one slider for each layer of depth.
   for (std::size_t i = 0; i < screen.tgc_db.size(); ++i) {
     if (i > 0) ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));
@@ -183,8 +185,19 @@ void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen, bool turns) {
     ImGui::PopID();
     tip("time gain, from the skin to the depth");
   }
+  return turned;
+}
+
+void MonitorPanel::draw_ultrasound(Monitor& monitor, bool frozen, bool turns) {
+  const float wide = ImGui::GetContentRegionAvail().x;
+  ImGui::BeginDisabled(frozen || !turns);
+  bool turned = draw_beam_knobs(wide);
+  ImGui::EndDisabled();
+
+  turned = draw_screen_knobs(wide) || turned;
   if (turned) tell(monitor);
 
+  // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
   ImGui::SetNextItemWidth(0.32F * wide);
@@ -227,6 +240,7 @@ void MonitorPanel::draw_slices(Monitor& monitor, bool frozen, bool turns) {
 
 void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked) {
   const cases::FluoroscopyState& machine = state.fluoroscopy;
+  // Held keys drive the C-arm, with shift the table.
   const auto axis = [&](int more, int less) {
     return (keys.held(more) ? 1.0 : 0.0) - (keys.held(less) ? 1.0 : 0.0);
   };
@@ -234,6 +248,7 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
   asked.cranial_speed = keys.shift ? 0.0 : axis(kUp, kDown);
   asked.table_speed = keys.shift ? glm::dvec3(axis(kRight, kLeft), 0.0, axis(kUp, kDown)) : glm::dvec3(0.0);
   asked.sid_speed = axis('V', 'B');
+  // Pressed keys step the collimator, field and rate.
   const auto pressed = [&](int more, int less) {
     return (keys.pressed(more) ? 1 : 0) - (keys.pressed(less) ? 1 : 0);
   };
@@ -245,6 +260,7 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
   bool automatic = asked.automatic_exposure != keys.pressed('X');
   if (keys.pressed('H')) asked.hand_away = !asked.hand_away;
 
+  // Pedal, hand and automatic exposure.
   ImGui::Button("Pedal (P)");
   asked.pedal = ImGui::IsItemActive() || keys.held('P');
   tip("held, it makes pulses; let go, the last image stays");
@@ -262,6 +278,7 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
   }
   asked.automatic_exposure = automatic;
   const float wide = ImGui::GetContentRegionAvail().x;
+  // Pulse rate, field and collimator.
   static constexpr const char* kRates[] = {"3 /s", "7.5 /s", "15 /s"};
   ImGui::SetNextItemWidth(0.20F * wide);
   ImGui::Combo("##rate", &asked.pulse_rate, kRates, 3);
@@ -279,6 +296,7 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
   tip("collimator ([ ] both): what is shut off gets no dose, and blurs nothing");
   ImGui::SameLine();
   knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.25F * wide);
+  // Technique, by hand.
   if (!asked.automatic_exposure) {
     asked.kv = std::clamp(asked.kv + kKvStep * pressed('\'', ';'), machine_.kv_min, machine_.kv_max);
     asked.ma = std::clamp(asked.ma * std::pow(kMaStep, pressed('C', 'Z')), machine_.ma_min, machine_.ma_max);
@@ -288,12 +306,18 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
     knob("##ma", asked.ma, machine_.ma_min, machine_.ma_max, "%.0f mA", 0.48F * wide);
     tip("tube's current (Z C)");
   }
-  if (machine.fluoroscopy_time_s < dose_from_s_) dose_from_s_ = dose_from_mgy_ = 0.0;  // watched from the beginning
+  draw_exposure(machine);
+}
+
+void MonitorPanel::draw_exposure(const cases::FluoroscopyState& machine) {
+  // Dose rate, averaged over kDoseOverS of beam time; begun again when an attempt is watched from its start.
+  if (machine.fluoroscopy_time_s < dose_from_s_) dose_from_s_ = dose_from_mgy_ = 0.0;
   if (machine.fluoroscopy_time_s >= dose_from_s_ + kDoseOverS) {
     dose_mgy_min_ = 60.0 * (machine.air_kerma_mgy - dose_from_mgy_) / (machine.fluoroscopy_time_s - dose_from_s_);
     dose_from_s_ = machine.fluoroscopy_time_s;
     dose_from_mgy_ = machine.air_kerma_mgy;
   }
+  // What the machine shows: angles, technique, beam time and dose.
   ImGui::Text("%s %.0f°  %s %.0f°  SID %.0f cm   %.0f kV %.0f mA", machine.arm.lao_deg < 0.0 ? "RAO" : "LAO",
               std::abs(machine.arm.lao_deg), machine.arm.cranial_deg < 0.0 ? "CAUD" : "CRAN",
               std::abs(machine.arm.cranial_deg), 0.1 * machine.arm.sid_mm, machine.last_technique.kv,

@@ -44,8 +44,11 @@ class MonitorPanel {
   void draw_marks(float left, float top, float zoom, float ruler_x);
   void measure(float left, float top, float zoom);
   void draw_ultrasound(Monitor& monitor, bool frozen, bool turns);
+  bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
+  bool draw_screen_knobs(float wide);  // gain, range, grey map, flip, time gain; true: turned
   void draw_slices(Monitor& monitor, bool frozen, bool turns);
   void draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked);
+  void draw_exposure(const cases::FluoroscopyState& machine);
   void draw_calipers_and_keep(bool calipers);
   void roll(Monitor& monitor, int notches, bool frozen, bool watched);  // the wheel over the picture
   void tell(Monitor& monitor) const;                                    // what acts on the screen

@@ -15,22 +15,22 @@ namespace {
 
 constexpr double kStartMm = 60.0;  // the needle waits this far outside the entry
 constexpr double kDriftLowHz = 0.03, kDriftHighHz = 0.15;
-constexpr double kSweepMm = 15.0;    // the probe's first search, out of plane
-constexpr double kBackTimes = 10.0;  // so much slower than to the tip the probe comes back to the planned plane
-constexpr double kOutsideMm = 8.0;   // a full withdrawal ends this far outside
-constexpr double kLostMm = 1.0;      // a tip is missed from so far on after it should have appeared
-constexpr double kPatienceSeconds = 2.5;                      // of searching before something else is tried
-constexpr double kRetreatMm = 5.0;                            // first back, where it was seen, …
-constexpr double kCreepMm = 2.0;                              // … then on by so much, and searched again
+constexpr double kSweepMm = 15.0;         // the probe's first search, out of plane
+constexpr double kBackTimes = 10.0;       // slower back to the planned plane than to the tip
+constexpr double kOutsideMm = 8.0;        // a full withdrawal ends this far outside
+constexpr double kLostMm = 1.0;           // the tip counts as lost this far beyond where it should have appeared
+constexpr double kPatienceSeconds = 2.5;  // of searching before trying something else
+constexpr double kRetreatMm = 5.0;        // back first, to where it was seen, …
+constexpr double kCreepMm = 2.0;          // … then forward, and searched for again
 constexpr double kBeforeOrganMm = 3.0, kWithinOrganMm = 4.0;  // the aim is checked before, and corrected within
 constexpr double kPlaneThereMm = 0.5;
 constexpr double kPlaneStepMm = 3.0;  // dynamic tip positioning: the plane goes ahead, the tip follows into it
 constexpr double kJiggleMm = 1.5, kJiggleHz = 2.0, kJiggleSeconds = 1.0;
 constexpr double kLeaveMmS = 60.0;
-constexpr double kGrantSeconds = 4.0;                       // a hold that has not come by then is asked for again
-constexpr double kBreatherSeconds = 3.0;                    // before who could hold it no longer is asked again
-constexpr double kPauseLevel = 0.15;                        // of a breath: between two of them
-constexpr double kPauseMm = 20.0;                           // so far outside it is waited: skin comes and goes, too
+constexpr double kGrantSeconds = 4.0;     // after which a hold that has not come is asked for again
+constexpr double kBreatherSeconds = 3.0;  // before a patient who had to breathe is asked again
+constexpr double kPauseLevel = 0.15;      // of a breath: a level below it is the pause between two
+constexpr double kPauseMm = 20.0;         // outside, where the needle waits: the skin moves, too
 constexpr std::uint64_t kBreathStream = 0x627265617468ULL;  // apart from what the hands draw
 
 }  // namespace
@@ -46,7 +46,7 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
     stop_short_mm_ = instrument.throw_mm - instrument.dead_tip_mm - instrument.notch_mm / 2;
     thrown_mm_ = instrument.throw_mm;
   }
-  // Drawn one by one: the order of arguments' evaluation is the compiler's.
+  // Components are drawn one by one: the order in which arguments are evaluated is unspecified.
   const auto error = [this](double sd) {
     glm::dvec3 v(0.0);
     for (int axis = 0; axis < 3; ++axis) v[axis] = rng_.normal() * sd;
@@ -77,7 +77,7 @@ void ScriptedOperator::enter(Phase phase) {
   if (phase == Phase::finish) conduct_.begin(Conduct::Part::finish);
 }
 
-// Towards where the target is believed to be; each new aim is better than the last.
+// Aims at where the target is believed to be; each new aim is better than the last.
 void ScriptedOperator::aim() {
   const glm::dvec3 wanted = glm::normalize(target_now() - entry_);
   const auto [u, v] = base::perpendiculars(wanted);
@@ -86,7 +86,7 @@ void ScriptedOperator::aim() {
   direction_ = glm::normalize(wanted + u * off_u + v * off_v);
 }
 
-// Where it is believed to be in tissue that moved.
+// Where the target is believed to be, in tissue that has moved.
 glm::dvec3 ScriptedOperator::target_now() const {
   return believed_target_ + target_moved_mm_;
 }
@@ -99,15 +99,15 @@ double ScriptedOperator::goal_mm() const noexcept {
   return glm::dot(target_now() - entry_, direction_) - stop_short_mm_;
 }
 
-// A needle whose tip is searched for is moved a little to and fro, never beyond where it was.
+// While its tip is searched for, the needle is moved to and fro a little, never beyond where it was.
 double ScriptedOperator::jiggle_mm() const noexcept {
   const double since_s = t_s_ - lost_since_s_;
   if (!lost_ || going_blind_ || phase_ != Phase::advance || since_s > kJiggleSeconds) return 0.0;
   return -0.5 * kJiggleMm * (1.0 - base::exact_cos(2.0 * std::numbers::pi * kJiggleHz * since_s));
 }
 
-// How far the needle's line passes beside the target, as a look at both tells; seen together, the target is known
-// better. Nothing is known where the picture does not show the tip: 0.
+// By how much the needle's line is seen to miss the target; a look at both also makes the target better known. 0
+// while the picture does not show the tip: then nothing is known.
 double ScriptedOperator::seen_miss_mm(const cases::State& state) {
   if (!tip_seen()) return 0.0;
   if (picture()->target)
@@ -115,7 +115,7 @@ double ScriptedOperator::seen_miss_mm(const cases::State& state) {
   return glm::length(glm::cross(target_now() - state.needle.tip_lps_mm, state.needle.direction));
 }
 
-// Back, within the organ once it is entered, and again with a better aim.
+// Back, if possible within an organ that has been entered, and forward again with a better aim.
 void ScriptedOperator::redirect() {
   ++redirections_;
   const bool full = chance(profile_.full_withdrawal_share), out = chance(profile_.leaves_organ_share);
@@ -127,8 +127,8 @@ void ScriptedOperator::redirect() {
   enter(Phase::withdraw);
 }
 
-// Whether the patient's belly stands still, seen as late as anything; and whether it pauses between two breaths,
-// which a rhythm tells in time.
+// Whether the patient's belly is still, seen with the usual delay; and whether it pauses between two breaths, which
+// the rhythm tells in time.
 void ScriptedOperator::watch_breath(const cases::PatientBreath& breath) {
   breathes_ = breath.moves;
   pauses_ = !breath.moves || std::abs(breath.level) < kPauseLevel;
@@ -138,7 +138,7 @@ void ScriptedOperator::watch_breath(const cases::PatientBreath& breath) {
   if (t_s_ - still_changed_s_ >= profile_.reaction_delay_s) seen_still_ = still;
 }
 
-// From the skin on, by who asks for it early: what breath moves meets a needle that waits inside.
+// From the skin on, if this operator asks early: breathing would move tissue against a needle that waits inside.
 bool ScriptedOperator::wants_breath() const noexcept {
   return breathes_ && asks_early_ && inserted_mm_ >= -kPauseMm;
 }
@@ -152,19 +152,10 @@ bool ScriptedOperator::breath_will_do() const noexcept {
   return waits_ ? seen_still_ : asked_s_ >= 0.0 && conduct_.over();
 }
 
+// Whether it is time for the next phase. One function for each phase with more than one way out.
 void ScriptedOperator::decide(const cases::State& state) {
+  if (stops_for_breath()) return;
   const double since_s = t_s_ - phase_since_s_;
-  const bool looked = since_s >= 3.0 * profile_.reaction_delay_s;
-  const bool may_redirect = redirections_ < static_cast<int>(std::lround(profile_.max_redirections));
-  const bool on_the_way =
-      phase_ == Phase::approach || phase_ == Phase::advance || phase_ == Phase::check || phase_ == Phase::look;
-  if (on_the_way && wants_breath() && !breath_will_do()) {
-    before_breath_ = phase_;
-    const bool again = asked_s_ >= 0.0;
-    enter(Phase::await_breath);
-    if (!again) ask_for_breath();
-    return;
-  }
   switch (phase_) {
     case Phase::sign_in:
       if (conduct_.over()) enter(conduct_.deferred() ? Phase::finish : Phase::scan);
@@ -179,41 +170,13 @@ void ScriptedOperator::decide(const cases::State& state) {
       if (inserted_mm_ >= 0.0) enter(Phase::advance);
       break;
     case Phase::advance:
-      if (lost_ && !going_blind_ && t_s_ - lost_since_s_ > kPatienceSeconds && creep_to_mm_ <= inserted_mm_) {
-        lost_since_s_ = t_s_;
-        if (!retreated_ && inserted_mm_ > plan_.tip_shows_from_mm + kLostMm + kRetreatMm) {
-          retreated_ = true;
-          withdraw_to_mm_ = inserted_mm_ - kRetreatMm;
-          enter(Phase::retreat);
-        } else {
-          creep_to_mm_ = inserted_mm_ + kCreepMm;
-        }
-        break;
-      }
-      if (!checked_ && inserted_mm_ >= plan_.organ_from_mm - kBeforeOrganMm) {
-        checked_ = true;
-        if (plan_.organ_from_mm > 2.0 * kBeforeOrganMm && chance(profile_.checks_aim_share)) {
-          enter(Phase::check);
-          break;
-        }
-      }
-      if (inserted_mm_ >= goal_mm()) enter(Phase::look);
+      decide_in_advance();
       break;
     case Phase::check:
-      if (!looked) break;
-      if (seen_miss_mm(state) > profile_.accept_miss_mm && may_redirect)
-        redirect();
-      else
-        enter(Phase::advance);
+      if (looked()) enter_or_redirect(Phase::advance, state);
       break;
     case Phase::look:
-      if (!looked) break;
-      // Searched for before the trigger.
-      if (!tip_seen() && !going_blind_ && t_s_ - lost_since_s_ <= kPatienceSeconds) break;
-      if (seen_miss_mm(state) > profile_.accept_miss_mm && may_redirect)
-        redirect();
-      else
-        enter(breathes_ && asks_early_ ? Phase::fire : Phase::hold_breath);
+      decide_at_target(state);
       break;
     case Phase::withdraw:
       if (inserted_mm_ > withdraw_to_mm_) break;
@@ -233,13 +196,7 @@ void ScriptedOperator::decide(const cases::State& state) {
         ask_for_breath();
       break;
     case Phase::hold_breath:
-      if (breathes_ && waits_ && conduct_.over() && !seen_still_) {
-        if (t_s_ - std::max(asked_s_, phase_since_s_) >= kGrantSeconds) ask_for_breath();
-        break;
-      }
-      // Not before the tip is seen again, where it went while the breath was held.
-      if (conduct_.over() && (!lost_ || going_blind_ || t_s_ - lost_since_s_ > kPatienceSeconds))
-        enter(Phase::fire);
+      decide_in_held_breath();
       break;
     case Phase::fire:
       if (since_s >= kTriggerHoldSeconds) enter(Phase::leave);
@@ -255,13 +212,78 @@ void ScriptedOperator::decide(const cases::State& state) {
   }
 }
 
-// Where the hand means to put the plane, and how far beside that it comes to stand.
+// On the way in, an operator who asks for held breath early does not go on without it.
+bool ScriptedOperator::stops_for_breath() {
+  const bool on_the_way =
+      phase_ == Phase::approach || phase_ == Phase::advance || phase_ == Phase::check || phase_ == Phase::look;
+  if (!on_the_way || !wants_breath() || breath_will_do()) return false;
+  before_breath_ = phase_;
+  const bool again = asked_s_ >= 0.0;
+  enter(Phase::await_breath);
+  if (!again) ask_for_breath();
+  return true;
+}
+
+// A look takes a few reaction times.
+bool ScriptedOperator::looked() const noexcept {
+  return t_s_ - phase_since_s_ >= 3.0 * profile_.reaction_delay_s;
+}
+
+void ScriptedOperator::enter_or_redirect(Phase next, const cases::State& state) {
+  const bool misses = seen_miss_mm(state) > profile_.accept_miss_mm;
+  if (misses && redirections_ < static_cast<int>(std::lround(profile_.max_redirections)))
+    redirect();
+  else
+    enter(next);
+}
+
+void ScriptedOperator::decide_in_advance() {
+  // A tip searched for in vain: back once to where it was last seen, then forward in small steps.
+  if (lost_ && !going_blind_ && t_s_ - lost_since_s_ > kPatienceSeconds && creep_to_mm_ <= inserted_mm_) {
+    lost_since_s_ = t_s_;
+    if (!retreated_ && inserted_mm_ > plan_.tip_shows_from_mm + kLostMm + kRetreatMm) {
+      retreated_ = true;
+      withdraw_to_mm_ = inserted_mm_ - kRetreatMm;
+      enter(Phase::retreat);
+    } else {
+      creep_to_mm_ = inserted_mm_ + kCreepMm;
+    }
+    return;
+  }
+  // The aim is checked once before the organ, unless that lies right under the skin.
+  if (!checked_ && inserted_mm_ >= plan_.organ_from_mm - kBeforeOrganMm) {
+    checked_ = true;
+    if (plan_.organ_from_mm > 2.0 * kBeforeOrganMm && chance(profile_.checks_aim_share)) {
+      enter(Phase::check);
+      return;
+    }
+  }
+  if (inserted_mm_ >= goal_mm()) enter(Phase::look);
+}
+
+void ScriptedOperator::decide_at_target(const cases::State& state) {
+  if (!looked()) return;
+  // A tip that is not seen is searched for before the trigger.
+  if (!tip_seen() && !going_blind_ && t_s_ - lost_since_s_ <= kPatienceSeconds) return;
+  enter_or_redirect(breathes_ && asks_early_ ? Phase::fire : Phase::hold_breath, state);
+}
+
+void ScriptedOperator::decide_in_held_breath() {
+  if (breathes_ && waits_ && conduct_.over() && !seen_still_) {
+    if (t_s_ - std::max(asked_s_, phase_since_s_) >= kGrantSeconds) ask_for_breath();
+    return;
+  }
+  // Fires only once the tip is seen again, wherever it went while the breath was being held.
+  if (conduct_.over() && (!lost_ || going_blind_ || t_s_ - lost_since_s_ > kPatienceSeconds)) enter(Phase::fire);
+}
+
+// Where the hand means to put the plane, and by how much it misses.
 void ScriptedOperator::put_plane_at(double inserted_mm) {
   plane_at_mm_ = inserted_mm;
   plane_error_mm_ = rng_.normal() * profile_.follow_error_mm;
 }
 
-// Whether a tip that should be in the picture is not, and what is done about it.
+// Whether a tip that should be in the picture is missing, and whether the operator goes on all the same.
 void ScriptedOperator::judge_sight() {
   const bool expected = phase_ == Phase::look || phase_ == Phase::check || phase_ == Phase::hold_breath ||
                         (phase_ == Phase::advance && (across_ ? inserted_mm_ >= plane_at_mm_
@@ -280,7 +302,7 @@ void ScriptedOperator::judge_sight() {
 }
 
 void ScriptedOperator::move(double dt_s) {
-  // Back to a target that came nearer no hand goes at once; one that is known better is no motion.
+  // No hand jumps back to a target that came nearer; a target that became better known has not moved.
   const double back_mm = target_moved_mm_ == glm::dvec3(0.0) ? -1e300 : inserted_mm_ - profile_.advance_mm_s * dt_s;
   switch (phase_) {
     case Phase::approach:
@@ -289,7 +311,7 @@ void ScriptedOperator::move(double dt_s) {
       inserted_mm_ = std::min(0.0, inserted_mm_ + profile_.approach_mm_s * dt_s);
       break;
     case Phase::advance:
-      // Out of plane the tip follows into a plane that stands ahead of it; then that goes on.
+      // Out of plane the tip follows into a plane ahead of it; then the plane moves on.
       if (across_ && tip_seen() && inserted_mm_ >= plane_at_mm_) put_plane_at(inserted_mm_ + kPlaneStepMm);
       if (lost_ ? going_blind_ || inserted_mm_ < creep_to_mm_
                 : !across_ || std::abs(plane_at_mm_ - plane_now_mm_) < kPlaneThereMm)
@@ -307,8 +329,8 @@ void ScriptedOperator::move(double dt_s) {
   }
 }
 
-// Who stops because the tip is gone brings the probe over the needle, as its shaft outside and its marks tell, and
-// back to the target when the tip is found.
+// When the tip is lost, the operator moves the probe over the needle, guided by the visible shaft and the depth
+// marks, and back to the target once the tip is found.
 void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
   const bool searching = lost_ && !going_blind_;
   const double share = std::min(1.0, dt_s / profile_.realign_s), back = share / kBackTimes;
@@ -318,7 +340,7 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
     PuncturePlan as_held = plan_;
     as_held.entry_lps_mm = entry_;
     as_held.direction = direction_;
-    // The plane waits ahead of a tip that advances, and goes back to one that is not found.
+    // The plane waits ahead of an advancing tip, and goes back to one that is not found.
     const double wanted_mm = phase_ == Phase::advance && !searching ? plane_at_mm_ : std::max(inserted_mm_, 0.0);
     const bool before =
         phase_ == Phase::sign_in || phase_ == Phase::scan || phase_ == Phase::prepare || phase_ == Phase::approach;
@@ -349,7 +371,7 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
     target_moved_mm_ = seen_.front().target_moved_mm;
   watch_breath(state.breath);
   cases::Inputs inputs;
-  // Skin is marked and numbed as it lies between two breaths.
+  // The skin is marked and numbed between two breaths.
   if (!(phase_ == Phase::prepare && waits_ && !pauses_)) inputs.event = conduct_.advance(dt_s);
   decide(state);
   judge_sight();

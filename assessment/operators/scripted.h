@@ -1,7 +1,7 @@
-// A simulated trainee who punctures under a probe: sees snapshots and pictures, late, and says where the hands want
-// to be and what is said. It sees what a person would: what pictures show, the needle outside the skin and its
-// marks; of the tip no more than whether the picture shows it, and where while it does. Deterministic: the same
-// plan, profile and seed act the same on every machine.
+// A simulated trainee who punctures under a probe: sees snapshots and pictures with a delay, and returns where the
+// hands want to be and what is said. It sees what a person would: the pictures, the needle outside the skin and its
+// depth marks; of the tip only whether the picture shows it, and where while it does. Deterministic: the same plan,
+// profile and seed act the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -25,11 +25,11 @@ class ScriptedOperator {
                    std::uint64_t seed);
 
   // What the hands want in this tick. `frame` is the picture that appeared in it, if one did; target_moved_mm: how
-  // far from its place at rest it shows the target, if it does.
+  // far from its place at rest that picture shows the target, if it does.
   cases::Inputs act(const cases::State& state, const cases::FrameTruth* frame, double dt_s,
                     const glm::dvec3& target_moved_mm = glm::dvec3(0.0));
 
-  // What was said or happened in the last tick: who should stops when the patient is in trouble.
+  // What was said or happened in the last tick: an operator with that skill stops when the patient is in trouble.
   void hear(cases::EventKind kind) { conduct_.hear(kind); }
 
   bool done() const noexcept { return phase_ == Phase::done; }
@@ -66,6 +66,12 @@ class ScriptedOperator {
   double seen_miss_mm(const cases::State& state);
   void redirect();
   void decide(const cases::State& state);
+  bool stops_for_breath();
+  bool looked() const noexcept;
+  void enter_or_redirect(Phase next, const cases::State& state);
+  void decide_in_advance();
+  void decide_at_target(const cases::State& state);
+  void decide_in_held_breath();
   void watch_breath(const cases::PatientBreath& breath);
   bool wants_breath() const noexcept;
   void ask_for_breath();

@@ -39,6 +39,7 @@ void put(int beam, int place, float depth_mm, float amplitude) {
 }
 
 void put_interface(int beam, UsBeam at, ivec4 here) {
+  // What is before and after the interface, and what was lost on the way to it.
   int k = here.x;
   int before_class = here.y & 255;
   float before = before_class == kUsGel ? kUsMatchedMrayl : parameters.of_class[before_class].x;
@@ -48,8 +49,9 @@ void put_interface(int beam, UsBeam at, ivec4 here) {
   float depth_mm = float(k) * parameters.sample_mm;
   float cosine = 1.0;
   if (k > 0) {
-    // The plane between what is before and after: its normal from the side that each neighbour is more like, its place
-    // from how many there are of each (line.cpp, plane_at).
+    // The plane between the two: its normal from which side each neighbour resembles more, its place from how many
+    // resemble each (line.cpp, plane_at). Twice over the neighbours: the wider surroundings give the normal, then the
+    // close ones the place.
     dvec3 index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz) +
                   double(k) * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
     vec3 from_origin_mm = at.start_mm.xyz + depth_mm * at.direction.xyz;
@@ -96,19 +98,20 @@ void put_interface(int beam, UsBeam at, ivec4 here) {
     float facing = abs(along);
 #endif
     cosine = told ? clamp(facing, 0.0, 1.0) : 1.0;
-    // Between voxels, so that a slanted wall is a line and no staircase; not where it is seen from its side.
+    // Placed between voxels, so that a slanted wall is a line, not a staircase; except where it is seen edge-on.
     if (told && square > 1e-9 && cosine > kUsLeastPlaceCosine) {
       float off_mm = dot(to_center.x * x_mm + to_center.y * y_mm + to_center.z * z_mm, normal) -
                      us_plane_off(sum, parameters.close_weight, square);
       depth_mm = max(0.0, depth_mm + clamp(off_mm / along, -parameters.most_shift_mm, parameters.most_shift_mm));
     }
   }
+  // Its echo, and the repeats of a strong one.
   float face = reflection * us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_to_db);
   put(beam, here.z, depth_mm, face);
   if (abs(reflection) < kUsRepeatsFrom) return;
   int room = float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
   for (int i = 1; i < room; ++i) {
-    // Gas comes again; at the face itself it rings in the lens. What room is left over stays silent.
+    // Gas repeats; right at the probe's face it rings in the lens. Places left over stay silent.
     bool rings = depth_mm <= 0.0;
     float again_mm = rings ? float(i) * kUsLensMm : float(i + 1) * depth_mm;
     float amplitude = rings ? us_lens_line(i) : i < kUsMostAgain ? face * us_repeat(i + 1, loss_to_db) : 0.0;

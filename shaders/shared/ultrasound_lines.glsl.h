@@ -1,5 +1,6 @@
-// The tissue along each beam, and what sound loses on the way: a work group a beam, an invocation a piece of it;
-// sums of dB, piece by piece in order. Interfaces that are worth their echo are listed for ultrasound_echoes.comp.
+// The tissue along each beam, and what sound loses on the way: one work group for each beam, one invocation for each
+// piece of it; dB are summed piece by piece, in order. Interfaces strong enough to be heard are listed for
+// ultrasound_echoes.comp.
 #include "ultrasound_line.glsl.h"
 #include "ultrasound_passes.glsl.h"
 
@@ -50,7 +51,7 @@ uint class_at_sample(UsBeam at, double sample_number) {
   return class_at(ivec3(floor(index)), from_origin_mm);
 }
 
-// How far below the border of two samples that of their tissues lies, in samples.
+// How far below the border between two samples the border between their tissues lies, in samples.
 float late_samples(UsBeam at, int k, uint last) {
   float above = -0.5;
   float below = 0.5;
@@ -63,7 +64,7 @@ float late_samples(UsBeam at, int k, uint last) {
   return 0.5 * (above + below);
 }
 
-// Room for the echoes of an interface: gas comes again, and at the face rings in the lens.
+// How many echoes an interface may have: gas repeats itself, and at the probe's face it rings in the lens.
 int echoes_of(float reflection, int k) {
   if (abs(reflection) < kUsRepeatsFrom) return 1;
   return float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
@@ -79,6 +80,7 @@ void main() {
   int first = piece * piece_words * 4;
   int end = min(samples, first + piece_words * 4);
 
+  // Each piece looks up the tissue class of its samples, four to a word.
   for (int word = 0; word < piece_words; ++word) {
     uint four = 0u;
     for (int i = 0; i < 4; ++i) {
@@ -89,7 +91,8 @@ void main() {
   }
   barrier();
   if (piece == 0) {
-    // Gel, unless there is gas beyond what a blurred skin can be; also past a corner of air that a beam clips.
+    // The air at the face is gel, unless it is thicker than a blurred skin can be; a beam that clips a corner of air
+    // goes on past it.
     int gel = 0;
     int last = min(samples - 1, int(kUsGelMm / parameters.sample_mm));
     for (int k = 0; k <= last; ++k) {
@@ -102,10 +105,11 @@ void main() {
   }
   barrier();
 
-  // Twice: sums of the pieces, then what stands at each sample.
+  // Each piece walks its samples twice: the first round sums what the piece loses and counts its interfaces; the
+  // second, starting from the sums of the pieces above it, writes what holds at each sample.
   float sum_db = 0.0;
-  // In double, as the CPU has it: shifts in tissue of one kind end half way between samples, where rounding would lay
-  // speckle on either.
+  // In double, as on the CPU: in uniform tissue shifts end half way between samples, where rounding would put speckle
+  // on either side.
   double sum_mm = 0.0lf;
   int interface_count = 0;
   int echo_count = 0;
@@ -115,12 +119,15 @@ void main() {
       vec4 tissue_now = parameters.of_class[now];
       uint last = class_of(max(k - 1, 0));
       bool past_gel = k >= gel_samples;
+      // The interface above the sample: impedance before and after it, and where between the samples it lies. Down to
+      // there the loss is that of the tissue above.
       float before = k > gel_samples ? parameters.of_class[last].x
                                      : us_is_matched(tissue_now.x) ? tissue_now.x : kUsMatchedMrayl;
       float late_mm = k > gel_samples && now != last ? late_samples(at, k, last) * parameters.sample_mm : 0.0;
       sum_db += late_mm * parameters.of_class[last].y;
       float reflection = past_gel ? us_reflection(before, tissue_now.x) : 0.0;
       bool is_interface = reflection != 0.0 && (k == 0 || us_is_heard(reflection)) && at.contact != 0;
+      // List it for ultrasound_echoes.comp, as long as there is room for its echoes and the needle's.
       int echo_end = echo_count + echoes_of(reflection, k);
       if (round == 1 && is_interface && interface_count < kUsMostInterfaces &&
           echo_end + kUsMostNeedleEchoes <= kUsMostEchoes) {
@@ -132,11 +139,13 @@ void main() {
       }
       interface_count += is_interface ? 1 : 0;
       echo_count = is_interface ? echo_end : echo_count;
+      // Losses at the interface, and at a needle that crosses the beam here.
       sum_db += us_step_loss_db(reflection) - late_mm * tissue_now.y;
       float middle_mm = (float(k) + 0.5) * parameters.sample_mm;
       bool needle_here = past_gel && at.needle_mm >= 0.0 && middle_mm >= at.needle_mm &&
                          !(k > gel_samples && middle_mm - parameters.sample_mm >= at.needle_mm);
       sum_db += needle_here ? at.needle_shadow_db : 0.0;
+      // Losses within the sample, half of them above its middle: there stands what is written.
       float step_db = past_gel ? tissue_now.y * parameters.sample_mm : 0.0;
       double step_mm = past_gel ? double(tissue_now.z) + double(tissue_now.w) : 0.0lf;
       if (round == 1) {
@@ -148,6 +157,7 @@ void main() {
       sum_db += step_db;
       sum_mm += step_mm;
     }
+    // Between the rounds the first invocation turns the pieces' sums into the sums of all pieces above each.
     if (round == 0) {
       piece_loss_db[piece] = sum_db;
       piece_shift_mm[piece] = sum_mm;

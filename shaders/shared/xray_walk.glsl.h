@@ -2,8 +2,8 @@
 // piece (XRAY_SLAB), and in whether water and mineral are summed apart (XRAY_TOTAL: not).
 //
 // Nothing is accumulated but the sums, and those block by block: a block's base comes from the ray's line in double, a
-// place within the block from the count of its layers by one fma in float, so positions keep 4e-6 voxel over any
-// length, and 1e-7 of their distance from a face that they hardly cross.
+// place within the block from the layer's number by one fma in float, so positions keep 4e-6 voxel over any length,
+// and 1e-7 of their distance from a face that they hardly cross.
 //
 // Measured on llvmpipe (Mesa 22.3, one thread, 512×512×62, milliseconds of processor time G1/G2 of tests/bench): this
 // 114/297. Pairs of voxels fetched as one 32-bit texel, two texelFetch a layer, 190/400. Groups of 16×16 3 % more than
@@ -33,6 +33,8 @@ dvec2 within(double low, double high, double at_x, double at, double slope) {
 void main() {
   int column = int(gl_GlobalInvocationID.x) + parameters.column_first;
   int row = int(gl_GlobalInvocationID.y) + parameters.row_first;
+  // The ray from source to pixel, in voxels, x the main axis of this pass. Rays steeper along another axis, or lost to
+  // it in a tie, are another pass's.
   dvec3 pixel = both(parameters.pixel_first, parameters.pixel_first_rest) +
                 double(column) * both(parameters.pixel_per_column, parameters.per_column_rest) +
                 double(row) * both(parameters.pixel_per_row, parameters.per_row_rest);
@@ -43,7 +45,7 @@ void main() {
               (parameters.wins_ties_z != 0 || steep.x > steep.z);
   of_x = of_x || parameters.only_x != 0;
 
-  // The part of x in which the ray runs, and within the box.
+  // The part of x in which the ray lies between its ends and within the box.
   double per_x = steep.x > 0.0lf ? 1.0lf / along.x : 0.0lf;
   double slope_y = along.y * per_x;
   double slope_z = along.z * per_x;
@@ -52,6 +54,8 @@ void main() {
   double x_in = max(max(min(pixel.x, pixel.x - along.x), double(parameters.clip_low.x)), max(in_y.x, in_z.x));
   double x_out = min(min(max(pixel.x, pixel.x - along.x), double(parameters.clip_high.x)), min(in_y.y, in_z.y));
 
+  // What holds for the whole ray: its slopes, how many layers it takes to cross a voxel sideways, and whether both
+  // slopes have the same sign.
   float dy = float(slope_y);
   float dz = float(slope_z);
   bool together = (dy >= 0.0) == (dz >= 0.0);
@@ -65,10 +69,11 @@ void main() {
   float water = 0.0;
   float mineral = 0.0;
   for (; block < block_end; ++block) {
+    // Where the ray stands at the block's first layer.
     double base_x = double(block * kXrayBlock);
     double base_y = pixel.y + (base_x - pixel.x) * slope_y;
     double base_z = pixel.z + (base_x - pixel.x) * slope_z;
-    // From the nearest face: a ray that hardly crosses one keeps all digits of how far it is from it.
+    // Relative to the nearest voxel face: a ray that hardly crosses it keeps all digits of its distance from it.
     double face_y = floor(base_y + 0.5lf);
     double face_z = floor(base_z + 0.5lf);
     int low_y = int(face_y);
@@ -78,7 +83,8 @@ void main() {
     float in_block = float(max(x_in - base_x, 0.0lf));
     float out_block = float(min(x_out - base_x, double(kXrayBlock)));
 
-    // The cells that the ray meets in this block: at most two along each minor axis.
+    // The cells that the ray meets in this block, at most two along each minor axis. Layers are walked only if one of
+    // them holds anything.
     vec2 from = fma(vec2(in_block), vec2(dy, dz), vec2(y, z));
     vec2 to = fma(vec2(out_block), vec2(dy, dz), vec2(y, z));
     ivec2 first = ivec2(low_y, low_z) + ivec2(floor(min(from, to)));
@@ -88,6 +94,7 @@ void main() {
     uint wanted = 1u | (next.x ? 2u : 0u) | (next.y ? 4u : 0u) | (next.x && next.y ? 8u : 0u);
     bool full = (texelFetch(cells, ivec3(cell, block), 0).x & wanted) != 0u;
 
+    // Layer by layer: how the layer's piece of the ray is shared among four voxels, and their values.
     vec2 base_corner = vec2(low_y + 1, low_z + 1);
     float base_layer = float(block * kXrayBlock);
     float water_block = 0.0;
@@ -114,8 +121,8 @@ void main() {
       vec4 share = xray_exact_shares(length_x, (voxel_y + 1.0) - lowest_y, (voxel_z + 1.0) - lowest_z,
                                      layers_per_y, layers_per_z, together);
 #endif
-      // All four at once, at the corner that they share; beyond the box the sampler repeats its border, so that
-      // rounding reads nothing outside.
+      // All four at once, at the corner that they share; beyond the box the sampler repeats the border, so rounding
+      // never reads outside.
       vec2 corner = (base_corner + vec2(voxel_y, voxel_z)) * per_size;
       ivec4 value = ivec4(textureGather(voxels, vec3(corner, base_layer + float(layer))).wzxy);
 #ifdef XRAY_TOTAL
@@ -132,6 +139,7 @@ void main() {
   }
 
   if (of_x && column < parameters.width_px && row < parameters.height_px) {
+    // From sums along x to millimetres: times the length of a step of one layer.
     vec3 step = vec3(1.0, dy, dz);
     float mm = 0.001 * sqrt(dot(parameters.metric.xyz, step * step) +
                             dot(parameters.metric_mixed.xyz, vec3(dy, dz, dy * dz)));

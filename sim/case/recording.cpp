@@ -1,11 +1,11 @@
 #include "sim/case/recording.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "sim/base/codec.h"
 #include "sim/base/hash.h"
+#include "sim/case/recording_rows.h"
 
 namespace seldinger::cases {
 namespace {
@@ -30,158 +30,6 @@ static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
 enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4 };
-
-constexpr std::size_t kMaxPoseColumns = 19, kRestColumns = 3, kForceColumns = 4, kEventColumns = 2;
-constexpr std::size_t kInputColumns = 20, kFluoroscopeColumns = 17, kConsoleColumns = 4;
-constexpr std::size_t kMaxInputColumns = kInputColumns + kFluoroscopeColumns + kConsoleColumns;
-std::size_t pose_columns(bool moves) {
-  return moves ? kMaxPoseColumns : 16;
-}
-std::size_t input_columns(bool fluoroscope, bool console) {
-  return kInputColumns + (fluoroscope ? kFluoroscopeColumns : 0) + (console ? kConsoleColumns : 0);
-}
-std::size_t frame_columns(bool fluoroscope) {
-  return fluoroscope ? 11 : 3;
-}
-
-// Bits of a row's one word of yes and no.
-enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
-constexpr unsigned kEventShift = 8;  // its kind, eight bits
-enum FrameBit : unsigned {
-  kLive = 1,
-  kNeedleTip = 2,
-  kTarget = 4,
-  kBeam = 8,
-  kArmMoving = 16,
-  kHand = 32,
-  kNearPlane = 64,
-  kTip2Mm = 128,
-  kTarget2Mm = 256,
-  kTip5Mm = 512,
-  kTarget5Mm = 1024
-};
-
-std::uint64_t bits_of(const std::optional<NearPlane>& near_plane) {
-  if (!near_plane) return 0;
-  return kNearPlane | (near_plane->tip_2_mm ? kTip2Mm : 0U) | (near_plane->target_2_mm ? kTarget2Mm : 0U) |
-         (near_plane->tip_5_mm ? kTip5Mm : 0U) | (near_plane->target_5_mm ? kTarget5Mm : 0U);
-}
-std::optional<NearPlane> near_plane_of(std::uint64_t bits) {
-  if ((bits & kNearPlane) == 0) return std::nullopt;
-  return NearPlane{(bits & kTip2Mm) != 0, (bits & kTarget2Mm) != 0, (bits & kTip5Mm) != 0,
-                   (bits & kTarget5Mm) != 0};
-}
-
-void put(std::uint64_t*& at, double value) {
-  *at++ = std::bit_cast<std::uint64_t>(value);
-}
-void put(std::uint64_t*& at, const glm::dvec3& p) {
-  for (int axis = 0; axis < 3; ++axis) put(at, p[axis]);
-}
-void put(std::uint64_t*& at, const ToolPose& pose) {
-  put(at, pose.position_lps_mm);
-  put(at, pose.axis);
-  put(at, pose.side);
-}
-double get(const std::uint64_t*& at) {
-  return std::bit_cast<double>(*at++);
-}
-glm::dvec3 get_point(const std::uint64_t*& at) {
-  const double x = get(at), y = get(at), z = get(at);
-  return {x, y, z};
-}
-ToolPose get_pose(const std::uint64_t*& at) {
-  ToolPose pose;
-  pose.position_lps_mm = get_point(at);
-  pose.axis = get_point(at);
-  pose.side = get_point(at);
-  return pose;
-}
-
-void put(std::uint64_t*& at, const FluoroscopeInputs& asked, const ExposureReport& report) {
-  for (const double speed : {asked.lao_speed, asked.cranial_speed, asked.sid_speed}) put(at, speed);
-  put(at, asked.table_speed);
-  for (const double value : {asked.collimator.open_u, asked.collimator.open_v, asked.kv, asked.ma}) put(at, value);
-  *at++ = std::uint64_t{static_cast<std::uint32_t>(asked.magnification)} << 32U |
-          std::uint64_t{static_cast<std::uint32_t>(asked.pulse_rate)};
-  *at++ = report.frame;
-  for (const double value :
-       {report.air_kerma_mgy, report.dap_mgy_cm2, report.next.kv, report.next.ma, report.next.pulse_ms})
-    put(at, value);
-}
-void get(const std::uint64_t*& at, FluoroscopeInputs& asked, ExposureReport& report) {
-  for (double* speed : {&asked.lao_speed, &asked.cranial_speed, &asked.sid_speed}) *speed = get(at);
-  asked.table_speed = get_point(at);
-  for (double* value : {&asked.collimator.open_u, &asked.collimator.open_v, &asked.kv, &asked.ma}) *value = get(at);
-  const std::uint64_t settings = *at++;
-  asked.magnification = static_cast<int>(static_cast<std::uint32_t>(settings >> 32U));
-  asked.pulse_rate = static_cast<int>(static_cast<std::uint32_t>(settings));
-  report.frame = static_cast<std::uint32_t>(*at++);
-  for (double* value :
-       {&report.air_kerma_mgy, &report.dap_mgy_cm2, &report.next.kv, &report.next.ma, &report.next.pulse_ms})
-    *value = get(at);
-}
-
-void put(std::uint64_t*& at, const ConsoleSetting& console) {
-  for (const double value : {console.depth_mm, console.focus_mm, console.frequency_mhz, console.slice_mm})
-    put(at, value);
-}
-ConsoleSetting get_console(const std::uint64_t*& at) {
-  ConsoleSetting console;
-  for (double* value : {&console.depth_mm, &console.focus_mm, &console.frequency_mhz, &console.slice_mm})
-    *value = get(at);
-  return console;
-}
-
-void put(std::uint64_t*& at, const BeamTruth& beam) {
-  for (const double value : {beam.lao_deg, beam.cranial_deg, beam.kv, beam.ma, beam.air_kerma_mgy, beam.dap_mgy_cm2,
-                             beam.collimated_share, beam.beam_s})
-    put(at, value);
-}
-BeamTruth get_beam(const std::uint64_t*& at) {
-  BeamTruth beam;
-  for (double* value : {&beam.lao_deg, &beam.cranial_deg, &beam.kv, &beam.ma, &beam.air_kerma_mgy,
-                        &beam.dap_mgy_cm2, &beam.collimated_share, &beam.beam_s})
-    *value = get(at);
-  return beam;
-}
-
-// Rows of 64-bit words, written column by column as XOR with the row before and byte plane by byte plane: what
-// moves slowly becomes runs of zeros, which is what makes the compression worth it.
-void append_table(std::vector<std::byte>& out, const std::vector<std::uint64_t>& rows, std::size_t columns) {
-  const std::size_t count = rows.size() / columns;
-  const std::size_t start = out.size();
-  out.resize(start + rows.size() * 8);
-  std::byte* to = out.data() + start;
-  for (std::size_t column = 0; column < columns; ++column)
-    for (unsigned plane = 0; plane < 64; plane += 8) {
-      std::uint64_t before = 0;
-      for (std::size_t row = 0; row < count; ++row) {
-        const std::uint64_t word = rows[row * columns + column];
-        *to++ = static_cast<std::byte>((word ^ before) >> plane);
-        before = word;
-      }
-    }
-}
-
-std::vector<std::uint64_t> table_at(const std::byte*& from, std::size_t count, std::size_t columns) {
-  std::vector<std::uint64_t> rows(count * columns, 0);
-  for (std::size_t column = 0; column < columns; ++column)
-    for (unsigned plane = 0; plane < 64; plane += 8) {
-      std::uint64_t before = 0;
-      for (std::size_t row = 0; row < count; ++row) {
-        before ^= static_cast<std::uint64_t>(std::to_integer<unsigned>(*from++));
-        rows[row * columns + column] |= before << plane;
-      }
-    }
-  return rows;
-}
-
-// Rows first to end of one of a recording's tables.
-struct Rows {
-  std::size_t first = 0, end = 0;
-  std::uint32_t count() const { return static_cast<std::uint32_t>(end - first); }
-};
 
 struct Piece {
   Rows inputs, poses, forces, frames, events;
@@ -213,7 +61,7 @@ bool moves(const Recording& recording, const Piece& piece) {
   return piece.with_endpoint && recording.endpoint->rest_tip_lps_mm;
 }
 
-RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, const Piece& piece) {
+Header header_of(const Recording& recording, const Piece& piece, const ChunkLayout& layout) {
   Header header;
   header.step_version = recording.step_version;
   header.dt_s = recording.dt_s;
@@ -231,87 +79,117 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
       header.endpoint[4 + axis] = endpoint.direction[axis];
     }
   }
-  const bool fluoroscope = uses_fluoroscope(recording, piece);
-  const bool moving = moves(recording, piece);
-  const bool console = turns_console(recording, piece);
-  header.used = (fluoroscope ? kFluoroscope : 0U) | (moving ? kMoves : 0U) | (console ? kConsole : 0U);
+  header.used =
+      (layout.fluoroscope ? kFluoroscope : 0U) | (layout.moving ? kMoves : 0U) | (layout.console ? kConsole : 0U);
+  return header;
+}
+
+RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, const Piece& piece) {
+  ChunkLayout layout;
+  layout.fluoroscope = uses_fluoroscope(recording, piece);
+  layout.moving = moves(recording, piece);
+  layout.console = turns_console(recording, piece);
+  const Header header = header_of(recording, piece, layout);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
-
-  std::vector<std::uint64_t> rows(header.inputs * input_columns(fluoroscope, console));
-  std::uint64_t* at = rows.data();
-  for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i) {
-    const Inputs& inputs = recording.inputs[i];
-    const FluoroscopeInputs& asked = inputs.fluoroscope;
-    put(at, inputs.needle);
-    put(at, inputs.probe);
-    *at++ = (inputs.fire ? kFire : 0U) | (inputs.freeze ? kFreeze : 0U) | (asked.pedal ? kPedal : 0U) |
-            (fluoroscope && asked.automatic_exposure ? kAutomatic : 0U) | (asked.hand_away ? kHandAway : 0U) |
-            (inputs.exposure.hand_in_beam ? kHandInBeam : 0U) |
-            std::uint64_t{static_cast<std::uint8_t>(inputs.event)} << kEventShift;
-    *at++ = recording.hashes[i];
-    if (fluoroscope) put(at, asked, inputs.exposure);
-    if (console) put(at, inputs.console);
-  }
-  append_table(raw, rows, input_columns(fluoroscope, console));
-
-  rows.assign(header.poses * pose_columns(moving), 0);
-  at = rows.data();
-  for (std::size_t i = piece.poses.first; i < piece.poses.end; ++i) {
-    const PoseSample& pose = recording.poses[i];
-    put(at, pose.t_s);
-    put(at, pose.tip_lps_mm);
-    put(at, pose.needle_direction);
-    put(at, pose.probe_origin_lps_mm);
-    put(at, pose.probe_axial);
-    put(at, pose.probe_lateral);
-    if (moving) put(at, pose.tip_at_rest_lps_mm());
-  }
-  append_table(raw, rows, pose_columns(moving));
-
-  rows.assign(header.forces * kForceColumns, 0);
-  at = rows.data();
-  for (std::size_t i = piece.forces.first; i < piece.forces.end; ++i) {
-    const ForceSample& force = recording.forces[i];
-    for (const double value : {force.t_s, force.needle_axial_n, force.needle_lateral_n, force.probe_n})
-      put(at, value);
-  }
-  append_table(raw, rows, kForceColumns);
-
-  rows.assign(header.frames * frame_columns(fluoroscope), 0);
-  at = rows.data();
-  for (std::size_t i = piece.frames.first; i < piece.frames.end; ++i) {
-    const FrameTruth& frame = recording.frames[i];
-    put(at, frame.t_s);
-    put(at, frame.needle_length_mm);
-    const BeamTruth beam = frame.beam.value_or(BeamTruth{});
-    *at++ = (frame.live ? kLive : 0U) | (frame.needle_tip ? kNeedleTip : 0U) | (frame.target ? kTarget : 0U) |
-            (frame.beam ? kBeam : 0U) | (beam.arm_moving ? kArmMoving : 0U) | (beam.hand_in_beam ? kHand : 0U) |
-            bits_of(frame.near_plane);
-    if (fluoroscope) put(at, beam);
-  }
-  append_table(raw, rows, frame_columns(fluoroscope));
-
-  rows.assign(piece.events.count() * kEventColumns, 0);
-  at = rows.data();
-  for (std::size_t i = piece.events.first; i < piece.events.end; ++i) {
-    put(at, (*recording.events)[i].t_s);
-    *at++ = static_cast<std::uint8_t>((*recording.events)[i].kind);
-  }
-  append_table(raw, rows, kEventColumns);
-
-  if (moving && piece.with_endpoint) {
-    rows.assign(kRestColumns, 0);
-    at = rows.data();
-    put(at, recording.endpoint->tip_at_rest_lps_mm());
-    append_table(raw, rows, kRestColumns);
-  }
+  append_inputs(recording, piece.inputs, layout, raw);
+  append_poses(recording, piece.poses, layout, raw);
+  append_forces(recording, piece.forces, raw);
+  append_frames(recording, piece.frames, layout, raw);
+  append_events(recording, piece.events, raw);
+  if (layout.moving && piece.with_endpoint) append_endpoint_at_rest(recording, raw);
 
   RecordingChunk chunk;
   chunk.sequence = sequence;
   chunk.data = base::compress(raw);
   chunk.checksum = base::hash_bytes(chunk.data);
   return chunk;
+}
+
+std::size_t size_of_header(std::uint32_t format) {
+  return format > kFormatWithoutForces ? sizeof(Header) : kHeaderWithoutForces;
+}
+
+// The bits of `used` that a format knows.
+std::uint32_t used_bits(std::uint32_t format) {
+  if (format == kFormatWithoutFluoroscope) return 0;
+  if (format <= kFormatWithoutEvents) return kFluoroscope;
+  return format <= kFormatWithoutConsole ? kFluoroscope | kMoves : kFluoroscope | kMoves | kConsole;
+}
+
+// The header of a chunk in any known format, its later fields as the newest format would have them.
+base::Result<Header> read_header(const std::vector<std::byte>& raw, const std::string& where) {
+  const base::Error unreadable{"damaged", where + " cannot be read"};
+  if (raw.size() < kHeaderWithoutForces) return unreadable;
+  Header header;
+  std::memcpy(static_cast<void*>(&header), raw.data(), kHeaderWithoutForces);
+  const std::size_t size = size_of_header(header.format);
+  if (raw.size() < size) return unreadable;
+  std::memcpy(static_cast<void*>(&header), raw.data(), size);
+  if (header.magic != kMagic) return unreadable;
+  if (header.format < kFormatWithoutFluoroscope || header.format > kFormat)
+    return base::Error{"recording_version", where + " has an unknown format"};
+  if (header.used > used_bits(header.format)) return unreadable;
+  if (header.format <= kFormatWithoutEvents) header.events = kNotListened;
+  return header;
+}
+
+ChunkLayout layout_of(const Header& header) {
+  ChunkLayout layout;
+  layout.fluoroscope = (header.used & kFluoroscope) != 0;
+  layout.moving = (header.used & kMoves) != 0;
+  layout.console = (header.used & kConsole) != 0;
+  layout.listened = header.events != kNotListened;
+  layout.near_plane = header.format > kFormatWithoutNearPlane;
+  return layout;
+}
+
+// Whether the chunk's bytes are exactly the rows that its header counts.
+bool has_its_size(const Header& header, const ChunkLayout& layout, std::size_t bytes) {
+  const std::uint32_t events = layout.listened ? header.events : 0;
+  for (const std::uint32_t rows : {header.inputs, header.poses, header.frames, header.forces, events})
+    if (rows > kMaxRows) return false;
+  const std::size_t words = header.inputs * layout.input_columns() + header.poses * layout.pose_columns() +
+                            header.forces * kForceColumns + header.frames * layout.frame_columns() +
+                            events * kEventColumns + (layout.moving && header.has_endpoint != 0 ? kRestColumns : 0);
+  return bytes == size_of_header(header.format) + 8 * words;
+}
+
+// Adds what a chunk holds. `first`: nothing was added before it.
+base::Result<void> add_chunk(const RecordingChunk& chunk, const std::string& where, bool first,
+                             Recording& recording) {
+  const auto raw = base::decompress(chunk.data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kMaxPoseColumns));
+  if (!raw) return base::Error{"damaged", where + " cannot be read"};
+  const auto header = read_header(*raw, where);
+  if (!header) return header.error();
+  const ChunkLayout layout = layout_of(*header);
+  if (!has_its_size(*header, layout, raw->size())) return base::Error{"damaged", where + " has a wrong size"};
+
+  // What all chunks of a recording share.
+  if (!first && (header->step_version != recording.step_version || header->dt_s != recording.dt_s ||
+                 layout.listened != recording.events.has_value()))
+    return base::Error{"damaged", where + " belongs to another recording"};
+  if (!(header->dt_s > 0.0 && header->dt_s <= 1.0))
+    return base::Error{"damaged", where + " has no sound time step"};
+  recording.step_version = header->step_version;
+  recording.dt_s = header->dt_s;
+  if (layout.listened && !recording.events) recording.events.emplace();
+
+  const auto& fired = header->endpoint;
+  if (header->has_endpoint != 0)
+    recording.endpoint = Endpoint{fired[0], {fired[1], fired[2], fired[3]}, {fired[4], fired[5], fired[6]}, {}};
+
+  // The tables, in the order in which make_chunk writes them.
+  const std::byte* from = raw->data() + size_of_header(header->format);
+  const auto inputs = read_inputs(from, header->inputs, layout, recording);
+  if (!inputs) return base::Error{inputs.error().code, where + " " + inputs.error().text};
+  read_poses(from, header->poses, layout, recording);
+  read_forces(from, header->forces, recording);
+  read_frames(from, header->frames, layout, recording);
+  const auto events = read_events(from, layout.listened ? header->events : 0, recording);
+  if (!events) return base::Error{events.error().code, where + " " + events.error().text};
+  if (layout.moving && header->has_endpoint != 0) read_endpoint_at_rest(from, recording);
+  return {};
 }
 
 }  // namespace
@@ -359,130 +237,15 @@ RecordingChunk chunk_of(const Recording& piece, std::uint32_t sequence) {
 }
 
 base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> chunks) {
-  Recording recording;
   if (chunks.empty()) return base::Error{"incomplete", "the recording has no chunks"};
+  Recording recording;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const std::string where = "recording chunk " + std::to_string(i);
     if (chunks[i].sequence != i) return base::Error{"incomplete", where + " is missing"};
     if (chunks[i].checksum != base::hash_bytes(chunks[i].data))
       return base::Error{"damaged", where + " does not have its checksum"};
-    const auto raw =
-        base::decompress(chunks[i].data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kMaxPoseColumns));
-    Header header;
-    if (!raw || raw->size() < kHeaderWithoutForces) return base::Error{"damaged", where + " cannot be read"};
-    std::memcpy(static_cast<void*>(&header), raw->data(), kHeaderWithoutForces);
-    const std::size_t header_size = header.format > kFormatWithoutForces ? sizeof header : kHeaderWithoutForces;
-    if (raw->size() < header_size) return base::Error{"damaged", where + " cannot be read"};
-    std::memcpy(static_cast<void*>(&header), raw->data(), header_size);
-    if (header.magic != kMagic) return base::Error{"damaged", where + " cannot be read"};
-    if (header.format < kFormatWithoutFluoroscope || header.format > kFormat)
-      return base::Error{"recording_version", where + " has an unknown format"};
-    if (header.used > (header.format == kFormatWithoutFluoroscope ? 0U
-                       : header.format <= kFormatWithoutEvents    ? std::uint32_t{kFluoroscope}
-                       : header.format <= kFormatWithoutConsole   ? kFluoroscope | kMoves
-                                                                  : kFluoroscope | kMoves | kConsole))
-      return base::Error{"damaged", where + " cannot be read"};
-    const bool fluoroscope = (header.used & kFluoroscope) != 0, moving = (header.used & kMoves) != 0,
-               console = (header.used & kConsole) != 0;
-    const std::uint32_t rests = moving && header.has_endpoint != 0 ? 1 : 0;
-    if (header.format <= kFormatWithoutEvents) header.events = kNotListened;
-    const bool listened = header.events != kNotListened;
-    const std::uint32_t events = listened ? header.events : 0;
-    if (header.inputs > kMaxRows || header.poses > kMaxRows || header.frames > kMaxRows ||
-        header.forces > kMaxRows || events > kMaxRows ||
-        raw->size() != header_size + 8 * (header.inputs * input_columns(fluoroscope, console) +
-                                          header.poses * pose_columns(moving) + header.forces * kForceColumns +
-                                          header.frames * frame_columns(fluoroscope) + events * kEventColumns +
-                                          rests * kRestColumns))
-      return base::Error{"damaged", where + " has a wrong size"};
-    if (i > 0 && (header.step_version != recording.step_version || header.dt_s != recording.dt_s ||
-                  listened != recording.events.has_value()))
-      return base::Error{"damaged", where + " belongs to another recording"};
-    if (!(header.dt_s > 0.0 && header.dt_s <= 1.0))
-      return base::Error{"damaged", where + " has no sound time step"};
-    recording.step_version = header.step_version;
-    recording.dt_s = header.dt_s;
-    if (listened && !recording.events) recording.events.emplace();
-    if (header.has_endpoint != 0)
-      recording.endpoint = Endpoint{header.endpoint[0],
-                                    {header.endpoint[1], header.endpoint[2], header.endpoint[3]},
-                                    {header.endpoint[4], header.endpoint[5], header.endpoint[6]},
-                                    {}};
-    const std::byte* from = raw->data() + header_size;
-    const auto inputs = table_at(from, header.inputs, input_columns(fluoroscope, console));
-    const std::uint64_t* at = inputs.data();
-    for (std::uint32_t row = 0; row < header.inputs; ++row) {
-      Inputs& in = recording.inputs.emplace_back();
-      in.needle = get_pose(at);
-      in.probe = get_pose(at);
-      const std::uint64_t bits = *at++;
-      in.fire = (bits & kFire) != 0;
-      in.freeze = (bits & kFreeze) != 0;
-      if (listened) {
-        in.event = static_cast<EventKind>(bits >> kEventShift & 0xffU);
-        if (in.event != EventKind::none && find_event(in.event) == nullptr)
-          return base::Error{"damaged", where + " holds an unknown event"};
-      }
-      recording.hashes.push_back(static_cast<std::uint32_t>(*at++));
-      if (fluoroscope) {
-        in.fluoroscope.pedal = (bits & kPedal) != 0;
-        in.fluoroscope.automatic_exposure = (bits & kAutomatic) != 0;
-        in.fluoroscope.hand_away = (bits & kHandAway) != 0;
-        in.exposure.hand_in_beam = (bits & kHandInBeam) != 0;
-        get(at, in.fluoroscope, in.exposure);
-      }
-      if (console) in.console = get_console(at);
-    }
-    const auto poses = table_at(from, header.poses, pose_columns(moving));
-    at = poses.data();
-    for (std::uint32_t row = 0; row < header.poses; ++row) {
-      PoseSample& pose = recording.poses.emplace_back();
-      pose.t_s = get(at);
-      pose.tip_lps_mm = get_point(at);
-      pose.needle_direction = get_point(at);
-      pose.probe_origin_lps_mm = get_point(at);
-      pose.probe_axial = get_point(at);
-      pose.probe_lateral = get_point(at);
-      if (moving) pose.rest_tip_lps_mm = get_point(at);
-    }
-    const auto forces = table_at(from, header.forces, kForceColumns);
-    at = forces.data();
-    for (std::uint32_t row = 0; row < header.forces; ++row) {
-      ForceSample& force = recording.forces.emplace_back();
-      for (double* value : {&force.t_s, &force.needle_axial_n, &force.needle_lateral_n, &force.probe_n})
-        *value = get(at);
-    }
-    const auto frames = table_at(from, header.frames, frame_columns(fluoroscope));
-    at = frames.data();
-    for (std::uint32_t row = 0; row < header.frames; ++row) {
-      FrameTruth& frame = recording.frames.emplace_back();
-      frame.t_s = get(at);
-      frame.needle_length_mm = get(at);
-      const std::uint64_t bits = *at++;
-      frame.live = (bits & kLive) != 0;
-      frame.needle_tip = (bits & kNeedleTip) != 0;
-      frame.target = (bits & kTarget) != 0;
-      if (header.format > kFormatWithoutNearPlane) frame.near_plane = near_plane_of(bits);
-      if (!fluoroscope) continue;
-      const BeamTruth beam = get_beam(at);
-      if ((bits & kBeam) == 0) continue;
-      frame.beam = beam;
-      frame.beam->arm_moving = (bits & kArmMoving) != 0;
-      frame.beam->hand_in_beam = (bits & kHand) != 0;
-    }
-    const auto said = table_at(from, events, kEventColumns);
-    at = said.data();
-    for (std::uint32_t row = 0; row < events; ++row) {
-      Event& event = recording.events->emplace_back();
-      event.t_s = get(at);
-      const std::uint64_t kind = *at++;
-      event.kind = static_cast<EventKind>(kind);
-      if (kind > 0xffU || find_event(event.kind) == nullptr)
-        return base::Error{"damaged", where + " holds an unknown event"};
-    }
-    const auto rest = table_at(from, rests, kRestColumns);
-    at = rest.data();
-    if (rests > 0) recording.endpoint->rest_tip_lps_mm = get_point(at);
+    const auto added = add_chunk(chunks[i], where, i == 0, recording);
+    if (!added) return added.error();
   }
   return recording;
 }

@@ -19,8 +19,8 @@ namespace seldinger::imaging {
 namespace {
 
 constexpr int kBands = 20;  // of depth, with one lattice and one thickness each
-// Of the carrier in a fine sample: keeps the lattice's mean out of the picture, and rounding scatterers to fine
-// samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
+// The most that the carrier may turn within a fine sample: keeps the lattice's mean out of the picture, and the
+// error of rounding scatterers to fine samples 24 dB below them (tests/sim/imaging/ultrasound/reference_test.cpp).
 constexpr double kMostTurns = 0.25;
 constexpr int kTable = 1024;
 constexpr double kLeastSpacingMm = 0.1;
@@ -50,11 +50,11 @@ struct Chunk {
   std::uint32_t inside[kChunk];
   std::uint32_t phase[kChunk];  // steps of kPhases that the echo is turned by
 
-  // Of tissue that moves, too: `y` is where the scatterer is now, x, at_y and z where it is at rest. Its row's
-  // columns of the slab tell the difference, along the tile's axes, layer by layer.
+  // Used only where tissue moves: then `y` is where the scatterer is now; x, at_y and z are where it is at rest.
+  // The slab's column for its row gives the difference along the tile's axes, layer by layer.
   float at_y[kChunk];
-  std::int32_t column[kChunk];  // where that of its row begins, and then the layer below
-  float part[kChunk];           // of the way to the layer above
+  std::int32_t column[kChunk];  // where its row's column begins; later, the layer below it
+  float part[kChunk];           // of the way from there to the layer above
   float moved_x[kChunk], moved_y[kChunk], moved_z[kChunk];
 };
 struct Columns {
@@ -71,7 +71,7 @@ struct TileFrame {
   float from, to, half_thickness, first_beam, end_beam;
 };
 
-// Where the scatterer of each cube is: plain loops, which the compiler runs eight at a time.
+// Where each cube's scatterer lies: plain loops that the compiler vectorises, eight at a time.
 [[gnu::always_inline]] inline void rest(const TileFrame& f, std::uint32_t bits, float& x, float& y, float& z) {
   const float u = shaders::us_cube_u(bits), v = shaders::us_cube_v(bits), w = shaders::us_cube_w(bits);
   x = x + u * f.a[0] + v * f.b[0] + w * f.c[0];
@@ -108,7 +108,7 @@ template <bool curved>
     see<curved>(f, n, x, y, z, chunk);
   }
 }
-// In three loops: the one in the middle looks columns up, one scatterer at a time.
+// Three loops, so that only the middle one, which looks up columns, runs one scatterer at a time.
 template <bool curved>
 [[gnu::always_inline]] inline void place_moving(const TileFrame& f, const Columns& columns, Chunk& chunk) noexcept {
   const float low_mm = columns.low_mm, per_mm = columns.per_mm;
@@ -172,13 +172,14 @@ ScattererField::ScattererField(const UltrasoundView& view, const TissueAt& tissu
     band.to_mm = band.end_sample * fan_.sample_mm;
     const double middle_mm = 0.5 * (band.from_mm + band.to_mm);
     const BeamWidth width = widths(middle_mm);
-    // The widths go down to a focus and up again: the ends have the greatest.
+    // Widths fall towards the focus and rise beyond it, so a band is widest at one of its ends.
     band.half_thickness_mm = shaders::kUsReachSigmas * std::max(widths(band.from_mm).elevation_sigma_mm,
                                                                 widths(band.to_mm).elevation_sigma_mm);
-    // Scatterers that count in a Gaussian PSF, density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ, become those wanted.
+    // The lattice's spacing gives the wanted number of effective scatterers in a Gaussian PSF, which is
+    // density · Π(∫w²)²/∫w⁴ = density · Π √(2π)·σ.
     const double cell_mm3 = 15.749610 * width.axial_sigma_mm * width.lateral_sigma_mm * width.elevation_sigma_mm;
     const double wanted_mm = std::cbrt(cell_mm3 / view.scatterers_per_cell);
-    // A few steps an octave, not by the view's depth, so that a turned depth knob leaves most of the speckle.
+    // In quarter octaves, so that turning the depth knob leaves most of the speckle where it was.
     const double level = std::floor(4.0 * std::log2(std::max(wanted_mm, kLeastSpacingMm)));
     band.spacing_mm = std::exp2(0.25 * level);
     band.key = static_cast<std::uint32_t>(
@@ -253,8 +254,8 @@ ScattererField::Tile ScattererField::tile(const Band& band, double middle, doubl
   return t;
 }
 
-// Between which u lies in a box tells how far the box reaches at rest, which may ask for more of u: until nothing
-// more comes of it.
+// Grows a box until it holds, at rest, all tissue that now lies in the tile. The range of the displacement u over
+// the box says how far to grow, and a larger box may have a larger range: repeat until it no longer grows.
 void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept {
   const tissue::MovedSlab& slab = motion_->slab();
   const auto at = [&](const glm::dvec3& in_frame) {
@@ -285,164 +286,242 @@ void ScattererField::to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& h
   }
 }
 
-void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
-  const double middle = 0.5 * (first + end - 1);
-  const float reach = most_reach(band);
-  const Tile tile = this->tile(band, middle, 0.5 * (end - 1 - first) + static_cast<double>(reach));
-  const glm::dvec3 start = tile.start_lps_mm, x_axis = tile.axes[0], y_axis = tile.axes[1], z_axis = tile.axes[2];
-  const auto& axes = tile.axes;
-  const glm::dvec3 &half_box = tile.half_mm, &center_cell = tile.center_cell, &half_cells = tile.half_cells;
-  const double s = band.spacing_mm;
-  const int inner = tile.inner, outer = (inner + 1) % 3, middle_axis = (inner + 2) % 3;
+// Lays one band's scatterers into the beams first to end: finds the tile that these beams see of the band, walks
+// the lattice's rows through the tile, gathers the cubes of the rows in chunks, and adds each chunk's scatterers to
+// the beams that they reach.
+class ScattererField::BandWriter {
+ public:
+  BandWriter(const ScattererField& field, const Band& band, int first, int end, std::vector<std::int32_t>& out);
+  void write();
 
-  TileFrame f{};
-  f.radius = static_cast<float>(fan_.radius_mm);
-  f.per_radian = static_cast<float>(1.0 / fan_.beam_step);
-  f.beam_middle = static_cast<float>(middle);
+ private:
+  // Cubes of the lattice in a line along its inner axis; none: last < first.
+  struct Row {
+    int outer, middle;  // their numbers along the other two axes
+    int first, last;    // and along the inner one
+  };
+  Row row_in_box(int outer, int middle) const noexcept;
+  void add_row(const Row& row);
+  void choose_layers() noexcept;
+  void add_column(const Row& row);
+  void flush();
+  void lay_chunk() const;
+
+  const ScattererField& field_;
+  const Band& band_;
+  const int first_, end_;
+  std::vector<std::int32_t>& out_;
+  const bool moving_;
+  const double middle_beam_;
+  const float reach_;  // beams
+  const Tile tile_;
+  const int inner_, outer_, middle_;  // the lattice's axes
+  TileFrame frame_{};
+  Chunk chunk_;
+  Columns columns_;
+  int first_layer_ = 0;  // of the slab's, in the tile's box
+};
+
+ScattererField::BandWriter::BandWriter(const ScattererField& field, const Band& band, int first, int end,
+                                       std::vector<std::int32_t>& out)
+    : field_(field),
+      band_(band),
+      first_(first),
+      end_(end),
+      out_(out),
+      moving_(field.motion_ != nullptr),
+      middle_beam_(0.5 * (first + end - 1)),
+      reach_(field.most_reach(band)),
+      tile_(field.tile(band, middle_beam_, 0.5 * (end - 1 - first) + static_cast<double>(reach_))),
+      inner_(tile_.inner),
+      outer_((tile_.inner + 1) % 3),
+      middle_((tile_.inner + 2) % 3) {
+  TileFrame& f = frame_;
+  f.radius = static_cast<float>(field.fan_.radius_mm);
+  f.per_radian = static_cast<float>(1.0 / field.fan_.beam_step);
+  f.beam_middle = static_cast<float>(middle_beam_);
   for (int a = 0; a < 3; ++a) {
-    f.a[a] = static_cast<float>(s * axes[a].x);
-    f.b[a] = static_cast<float>(s * axes[a].y);
-    f.c[a] = static_cast<float>(s * axes[a].z);
+    f.a[a] = static_cast<float>(band.spacing_mm * tile_.axes[a].x);
+    f.b[a] = static_cast<float>(band.spacing_mm * tile_.axes[a].y);
+    f.c[a] = static_cast<float>(band.spacing_mm * tile_.axes[a].z);
   }
   f.from = static_cast<float>(band.from_mm);
   f.to = static_cast<float>(band.to_mm);
   f.half_thickness = static_cast<float>(band.half_thickness_mm);
-  f.first_beam = static_cast<float>(first) - reach;
-  f.end_beam = static_cast<float>(end - 1) + reach;
+  f.first_beam = static_cast<float>(first) - reach_;
+  f.end_beam = static_cast<float>(end - 1) + reach_;
+  if (moving_) choose_layers();
+}
 
-  const Tables& t = tables();
-  const float per_fine = static_cast<float>(fine_ / fan_.sample_mm);
-  const auto& phase = phases();
-  const float turns = static_cast<float>(2.0 / wavelength_mm_ * kPhases);
-  const auto samples = static_cast<std::size_t>(view_.samples) * static_cast<std::size_t>(fine_);  // fine
-  Chunk chunk;
-  std::array<int, kChunk> chosen;
-  const bool moving = motion_ != nullptr;
-  Columns columns;
-  const auto flush = [&] {
-    if (moving)
-      fan_.curved ? place_moving_curved(f, columns, chunk) : place_moving_straight(f, columns, chunk);
-    else
-      fan_.curved ? place_curved(f, chunk) : place_straight(f, chunk);
-    int kept = 0;
-    for (int n = 0; n < chunk.count; ++n) {
-      chosen[static_cast<std::size_t>(kept)] = n;
-      kept += static_cast<int>(chunk.inside[n]);
-    }
-    for (int m = 0; m < kept; ++m) {
-      const int n = chosen[static_cast<std::size_t>(m)];
-      const int fine = std::clamp(static_cast<int>(chunk.depth[n] * per_fine), band.first_sample * fine_,
-                                  band.end_sample * fine_ - 1);
-      const int k = fine / fine_;
-      const AtSample& at = at_sample_[static_cast<std::size_t>(k)];
-      const float q_y = chunk.y[n] * chunk.y[n] * at.elevation_scale;
-      if (q_y >= 0.5F * kTable) continue;
-      const float beam = chunk.beam[n];
-      const int from = std::max(first, static_cast<int>(std::ceil(beam - at.lateral_reach)));
-      const int to = std::min(end - 1, static_cast<int>(std::floor(beam + at.lateral_reach)));
-      if (from > to) continue;
-      const glm::dvec3 p = start + static_cast<double>(chunk.x[n]) * x_axis +
-                           static_cast<double>(moving ? chunk.at_y[n] : chunk.y[n]) * y_axis +
-                           static_cast<double>(chunk.z[n]) * z_axis;
-      const float tissue = tissue_at_.speckle(p);
-      if (tissue == 0.0F) continue;
-      const float amplitude = tissue * at.amplitude;
-      const auto& turn = phase[(static_cast<std::uint32_t>(chunk.depth[n] * turns) + chunk.phase[n]) % kPhases];
-      const float re = amplitude * turn[0], im = amplitude * turn[1];
-      std::int32_t* sum =
-          out.data() + (static_cast<std::size_t>(from - first) * samples + static_cast<std::size_t>(fine)) * 2;
-      float off = static_cast<float>(from) - beam;
-      for (int b = from; b <= to; ++b, off += 1.0F, sum += 2 * samples) {
-        const float w = t.gauss[static_cast<std::size_t>(off * off * at.lateral_scale + q_y)];
-        sum[0] += static_cast<std::int32_t>(std::lrintf(re * w));
-        sum[1] += static_cast<std::int32_t>(std::lrintf(im * w));
-      }
-    }
-    chunk.count = 0;
-    columns.count = 0;
+void ScattererField::BandWriter::write() {
+  const auto cubes = [&](int axis) {
+    return std::pair<int, int>{static_cast<int>(std::ceil(tile_.center_cell[axis] - tile_.half_cells[axis])),
+                               static_cast<int>(std::floor(tile_.center_cell[axis] + tile_.half_cells[axis]))};
   };
-  // What a row's scatterers go by: the slab's column at the row's middle, of the layers that the tile's box
-  // touches.
-  int first_layer = 0;
-  if (moving) {
-    const tissue::SlabPart& part = motion_->slab().part();
-    const int most = motion_->slab().size().z - 2;
-    const auto layer_at = [&](double y_mm) {
-      return std::clamp(static_cast<int>(std::floor((y_mm - part.low_mm.z) / part.layer_mm)), 0, most);
-    };
-    first_layer = layer_at(tile.center_mm.y - half_box.y);
-    columns.layers = layer_at(tile.center_mm.y + half_box.y) + 2 - first_layer;
-    columns.low_mm = static_cast<float>(part.low_mm.z + first_layer * part.layer_mm);
-    columns.per_mm = static_cast<float>(1.0 / part.layer_mm);
-    CHECK(columns.layers <= Columns::kRoom);
-  }
-  const auto add_column = [&](int i, int j) {
-    if (columns.count + columns.layers > Columns::kRoom) flush();
-    const auto at = motion_->slab().columns((i + 0.5) * s, (j + 0.5) * s);
-    const glm::vec3 x(x_axis), y(y_axis), z(z_axis);
-    for (int l = 0; l < columns.layers; ++l) {
-      const glm::vec3 u = at.at(first_layer + l);
-      float* mm = columns.mm[columns.count++];
-      mm[0] = glm::dot(u, x);
-      mm[1] = glm::dot(u, y);
-      mm[2] = glm::dot(u, z);
-    }
-  };
-
-  const auto cells = [&](int axis) {
-    return std::pair<int, int>{static_cast<int>(std::ceil(center_cell[axis] - half_cells[axis])),
-                               static_cast<int>(std::floor(center_cell[axis] + half_cells[axis]))};
-  };
-  constexpr std::uint32_t kSteps[3] = {shaders::kUsStepI, shaders::kUsStepJ, shaders::kUsStepK};
-  const std::uint32_t seed_step = kSteps[inner];
-  const auto [outer_first, outer_last] = cells(outer);
-  const auto [middle_first, middle_last] = cells(middle_axis);
+  const auto [outer_first, outer_last] = cubes(outer_);
+  const auto [middle_first, middle_last] = cubes(middle_);
   for (int i = outer_first; i <= outer_last; ++i)
     for (int j = middle_first; j <= middle_last; ++j) {
-      // Rows are cut by the box: |axis·(cell − centre)| ≤ half, on each of its three axes.
-      double k_low = -1e9, k_high = 1e9;
-      for (int a = 0; a < 3; ++a) {
-        const double fixed =
-            axes[a][outer] * (i - center_cell[outer]) + axes[a][middle_axis] * (j - center_cell[middle_axis]);
-        const double slope = axes[a][inner], half = half_box[a] / s;
-        if (std::abs(slope) < 1e-9) {
-          if (std::abs(fixed) > half) k_high = -1e10;
-          continue;
-        }
-        const double one = (-half - fixed) / slope, other = (half - fixed) / slope;
-        k_low = std::max(k_low, std::min(one, other));
-        k_high = std::min(k_high, std::max(one, other));
-      }
-      if (!(k_low + center_cell[inner] <= k_high + center_cell[inner])) continue;
-      const int k_first = static_cast<int>(std::ceil(k_low + center_cell[inner])),
-                k_last = static_cast<int>(std::floor(k_high + center_cell[inner]));
-      if (k_first > k_last) continue;
-      if (moving) add_column(i, j);
-      int column = columns.count - columns.layers;
-      glm::ivec3 cell;
-      cell[outer] = i, cell[middle_axis] = j, cell[inner] = k_first;
-      std::uint32_t seed = shaders::us_lattice_seed(band.key, cell.x, cell.y, cell.z);
-      glm::dvec3 corner;
-      corner[outer] = i * s, corner[middle_axis] = j * s, corner[inner] = k_first * s;
-      corner -= start;
-      glm::dvec3 at{glm::dot(corner, x_axis), glm::dot(corner, y_axis), glm::dot(corner, z_axis)};
-      const glm::dvec3 step{s * x_axis[inner], s * y_axis[inner], s * z_axis[inner]};
-      for (int k = k_first; k <= k_last; ++k, at += step, seed += seed_step) {
-        const int n = chunk.count++;
-        chunk.seed[n] = seed;
-        chunk.x[n] = static_cast<float>(at.x);
-        chunk.y[n] = static_cast<float>(at.y);
-        chunk.z[n] = static_cast<float>(at.z);
-        if (moving) chunk.column[n] = column;
-        if (chunk.count < kChunk) continue;
-        flush();
-        if (moving && k < k_last) {
-          add_column(i, j);
-          column = 0;
-        }
-      }
+      const Row row = row_in_box(i, j);
+      if (row.first <= row.last) add_row(row);
     }
-  if (chunk.count > 0) flush();
+  if (chunk_.count > 0) flush();
+}
+
+// The cubes of a row whose centres lie in the tile's box: |axis·(cube − centre)| ≤ half on each of the box's axes.
+ScattererField::BandWriter::Row ScattererField::BandWriter::row_in_box(int outer, int middle) const noexcept {
+  const glm::dvec3& center = tile_.center_cell;
+  double low = -1e9, high = 1e9;
+  for (int a = 0; a < 3; ++a) {
+    const glm::dvec3& axis = tile_.axes[a];
+    const double fixed = axis[outer_] * (outer - center[outer_]) + axis[middle_] * (middle - center[middle_]);
+    const double slope = axis[inner_], half = tile_.half_mm[a] / band_.spacing_mm;
+    if (std::abs(slope) < 1e-9) {
+      if (std::abs(fixed) > half) high = -1e10;
+      continue;
+    }
+    const double one = (-half - fixed) / slope, other = (half - fixed) / slope;
+    low = std::max(low, std::min(one, other));
+    high = std::min(high, std::max(one, other));
+  }
+  if (!(low + center[inner_] <= high + center[inner_])) return {outer, middle, 0, -1};
+  return {outer, middle, static_cast<int>(std::ceil(low + center[inner_])),
+          static_cast<int>(std::floor(high + center[inner_]))};
+}
+
+// Gathers a row's cubes, each one's seed and corner made from those of the one before it.
+void ScattererField::BandWriter::add_row(const Row& row) {
+  constexpr std::uint32_t kSteps[3] = {shaders::kUsStepI, shaders::kUsStepJ, shaders::kUsStepK};
+  const std::uint32_t seed_step = kSteps[inner_];
+  const glm::dvec3 &x_axis = tile_.axes[0], &y_axis = tile_.axes[1], &z_axis = tile_.axes[2];
+  const double s = band_.spacing_mm;
+  if (moving_) add_column(row);
+  int column = columns_.count - columns_.layers;
+  glm::ivec3 cube;
+  cube[outer_] = row.outer, cube[middle_] = row.middle, cube[inner_] = row.first;
+  std::uint32_t seed = shaders::us_lattice_seed(band_.key, cube.x, cube.y, cube.z);
+  glm::dvec3 corner;
+  corner[outer_] = row.outer * s, corner[middle_] = row.middle * s, corner[inner_] = row.first * s;
+  corner -= tile_.start_lps_mm;
+  glm::dvec3 at{glm::dot(corner, x_axis), glm::dot(corner, y_axis), glm::dot(corner, z_axis)};
+  const glm::dvec3 step{s * x_axis[inner_], s * y_axis[inner_], s * z_axis[inner_]};
+  for (int k = row.first; k <= row.last; ++k, at += step, seed += seed_step) {
+    const int n = chunk_.count++;
+    chunk_.seed[n] = seed;
+    chunk_.x[n] = static_cast<float>(at.x);
+    chunk_.y[n] = static_cast<float>(at.y);
+    chunk_.z[n] = static_cast<float>(at.z);
+    if (moving_) chunk_.column[n] = column;
+    if (chunk_.count < kChunk) continue;
+    // The columns went with the chunk: the rest of the row needs its own again.
+    flush();
+    if (moving_ && k < row.last) {
+      add_column(row);
+      column = 0;
+    }
+  }
+}
+
+// Which of the slab's layers the tile's box touches.
+void ScattererField::BandWriter::choose_layers() noexcept {
+  const tissue::MovedSlab& slab = field_.motion_->slab();
+  const tissue::SlabPart& part = slab.part();
+  const int most = slab.size().z - 2;
+  const auto layer_at = [&](double y_mm) {
+    return std::clamp(static_cast<int>(std::floor((y_mm - part.low_mm.z) / part.layer_mm)), 0, most);
+  };
+  first_layer_ = layer_at(tile_.center_mm.y - tile_.half_mm.y);
+  columns_.layers = layer_at(tile_.center_mm.y + tile_.half_mm.y) + 2 - first_layer_;
+  columns_.low_mm = static_cast<float>(part.low_mm.z + first_layer_ * part.layer_mm);
+  columns_.per_mm = static_cast<float>(1.0 / part.layer_mm);
+  CHECK(columns_.layers <= Columns::kRoom);
+}
+
+// All scatterers of a row move as the slab's column at the row's middle does.
+void ScattererField::BandWriter::add_column(const Row& row) {
+  if (columns_.count + columns_.layers > Columns::kRoom) flush();
+  const double s = band_.spacing_mm;
+  const auto at = field_.motion_->slab().columns((row.outer + 0.5) * s, (row.middle + 0.5) * s);
+  const glm::vec3 x(tile_.axes[0]), y(tile_.axes[1]), z(tile_.axes[2]);
+  for (int l = 0; l < columns_.layers; ++l) {
+    const glm::vec3 u = at.at(first_layer_ + l);
+    float* mm = columns_.mm[columns_.count++];
+    mm[0] = glm::dot(u, x);
+    mm[1] = glm::dot(u, y);
+    mm[2] = glm::dot(u, z);
+  }
+}
+
+// Finds where the chunk's scatterers lie, lays them, and empties the chunk.
+void ScattererField::BandWriter::flush() {
+  const bool curved = field_.fan_.curved;
+  if (moving_)
+    curved ? place_moving_curved(frame_, columns_, chunk_) : place_moving_straight(frame_, columns_, chunk_);
+  else
+    curved ? place_curved(frame_, chunk_) : place_straight(frame_, chunk_);
+  lay_chunk();
+  chunk_.count = 0;
+  columns_.count = 0;
+}
+
+void ScattererField::BandWriter::lay_chunk() const {
+  // Copies: the sums written below are integers too, and could as well be any of these.
+  const ScattererField& field = field_;
+  const int first = first_, end = end_, fine_per_sample = field.fine_;
+  const int first_fine = band_.first_sample * fine_per_sample, end_fine = band_.end_sample * fine_per_sample;
+  const bool moving = moving_;
+  const glm::dvec3 start = tile_.start_lps_mm, x_axis = tile_.axes[0], y_axis = tile_.axes[1],
+                   z_axis = tile_.axes[2];
+  const float per_fine = static_cast<float>(fine_per_sample / field.fan_.sample_mm);
+  const float turns = static_cast<float>(2.0 / field.wavelength_mm_ * kPhases);
+  const auto fine_samples =
+      static_cast<std::size_t>(field.view_.samples) * static_cast<std::size_t>(fine_per_sample);
+  const AtSample* const at_sample = field.at_sample_.data();
+  std::int32_t* const out = out_.data();
+  const float* const gauss = tables().gauss.data();
+  const auto& phase = phases();
+
+  // The scatterers that the tile holds.
+  std::array<int, kChunk> chosen;
+  int kept = 0;
+  for (int n = 0; n < chunk_.count; ++n) {
+    chosen[static_cast<std::size_t>(kept)] = n;
+    kept += static_cast<int>(chunk_.inside[n]);
+  }
+  for (int m = 0; m < kept; ++m) {
+    const int n = chosen[static_cast<std::size_t>(m)];
+    // The beams that it reaches at its depth, and how weak it is there for lying beside the plane.
+    const int fine = std::clamp(static_cast<int>(chunk_.depth[n] * per_fine), first_fine, end_fine - 1);
+    const AtSample& at = at_sample[fine / fine_per_sample];
+    const float q_y = chunk_.y[n] * chunk_.y[n] * at.elevation_scale;
+    if (q_y >= 0.5F * kTable) continue;
+    const float beam = chunk_.beam[n];
+    const int from = std::max(first, static_cast<int>(std::ceil(beam - at.lateral_reach)));
+    const int to = std::min(end - 1, static_cast<int>(std::floor(beam + at.lateral_reach)));
+    if (from > to) continue;
+    // Its amplitude, by the tissue in which it lies at rest, and its phase.
+    const glm::dvec3 p = start + static_cast<double>(chunk_.x[n]) * x_axis +
+                         static_cast<double>(moving ? chunk_.at_y[n] : chunk_.y[n]) * y_axis +
+                         static_cast<double>(chunk_.z[n]) * z_axis;
+    const float tissue = field.tissue_at_.speckle(p);
+    if (tissue == 0.0F) continue;
+    const float amplitude = tissue * at.amplitude;
+    const auto& turn = phase[(static_cast<std::uint32_t>(chunk_.depth[n] * turns) + chunk_.phase[n]) % kPhases];
+    const float re = amplitude * turn[0], im = amplitude * turn[1];
+    // Its share in each of these beams.
+    std::int32_t* sum =
+        out + (static_cast<std::size_t>(from - first) * fine_samples + static_cast<std::size_t>(fine)) * 2;
+    float off = static_cast<float>(from) - beam;
+    for (int b = from; b <= to; ++b, off += 1.0F, sum += 2 * fine_samples) {
+      const float w = gauss[static_cast<std::size_t>(off * off * at.lateral_scale + q_y)];
+      sum[0] += static_cast<std::int32_t>(std::lrintf(re * w));
+      sum[1] += static_cast<std::int32_t>(std::lrintf(im * w));
+    }
+  }
+}
+
+void ScattererField::add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const {
+  BandWriter(*this, band, first, end, out).write();
 }
 
 }  // namespace seldinger::imaging

@@ -57,6 +57,7 @@ class ScattererField final : public SpeckleField {
     float elevation_scale;  // of y²
     float amplitude;        // unit energy · lattice
   };
+  class BandWriter;
   void add_band(const Band& band, int first, int end, std::vector<std::int32_t>& out) const;
   void to_rest(const Tile& tile, glm::dvec3& low_mm, glm::dvec3& high_mm) const noexcept;
 

@@ -151,6 +151,7 @@ void MovedVolume::find_nodes(const Box& box) {
 }
 
 void MovedVolume::resample(const Box& box) {
+  // The moved volume: this box of the patient's, `joined_` voxels made one.
   const glm::vec3 joined(joined_), first = glm::vec3(box.low) + 0.5F * (joined - 1.0F);
   moved_.size_voxels = box.size;
   moved_.spacing_mm = rest_.spacing_mm * glm::dvec3(joined_);
@@ -160,6 +161,7 @@ void MovedVolume::resample(const Box& box) {
   moved_.hu.resize(static_cast<std::size_t>(box.size.x) * static_cast<std::size_t>(box.size.y) *
                    static_cast<std::size_t>(box.size.z));
 
+  // Trilinear interpolation at rest, for places from 0 to size − 1; at the last voxel the neighbour is itself.
   const glm::ivec3 size = rest_.size_voxels;
   const std::ptrdiff_t row_stride = size.x, slice_stride = std::ptrdiff_t{size.x} * size.y;
   const glm::ivec3 inner = glm::max(size - 2, 0);  // the last voxel with a neighbour above it
@@ -167,7 +169,7 @@ void MovedVolume::resample(const Box& box) {
                        next_z = size.z > 1 ? slice_stride : 0;
   const glm::vec3 low_face(-0.5F), high_face = glm::vec3(size) - 0.5F;
   const std::int16_t* hu = rest_.hu.data();
-  // Adding this makes cutting off rounding.
+  // HU + kAbove is positive, so that cutting it off rounds.
   constexpr float kAbove = 1024.5F;
   static_assert(volume::kAirHu == -1024);
   const auto trilinear = [&](float x, float y, float z) {
@@ -185,6 +187,8 @@ void MovedVolume::resample(const Box& box) {
     return static_cast<std::int16_t>(static_cast<int>(value + kAbove) - 1024);
   };
 
+  // Row by row: where the tissue at the row's cell borders lies at rest, from the nodes around. Within a cell,
+  // places go in equal steps from border to border.
   const int node_row = cells_.x + 1, node_slice = node_row * (cells_.y + 1);
   std::vector<glm::vec3> line(static_cast<std::size_t>(node_row));
   std::int16_t* out = moved_.hu.data();
@@ -201,12 +205,14 @@ void MovedVolume::resample(const Box& box) {
         line[static_cast<std::size_t>(i)] =
             first + joined * glm::vec3(i * cell_.x, j, k) + lower + tz * (upper - lower);
       }
+      // The row's voxels, cell by cell; the last cell may be cut short.
       for (int cell = 0; cell < cells_.x; ++cell) {
         const int count = std::min(cell_.x, box.size.x - cell * cell_.x);
         const glm::vec3 from = line[static_cast<std::size_t>(cell)];
         const glm::vec3 step = (line[static_cast<std::size_t>(cell) + 1] - from) / static_cast<float>(cell_.x);
         const glm::vec3 to = from + static_cast<float>(count) * step;
         const glm::vec3 least = glm::min(from, to), most = glm::max(from, to);
+        // All inside, all outside, or checked one by one.
         const glm::vec3 highest(size - 1);
         if (glm::all(glm::greaterThanEqual(least, glm::vec3(0.0F))) &&
             glm::all(glm::lessThanEqual(most, highest))) {

@@ -265,6 +265,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
   constexpr int W = V::kLanes;
   const PacketView& view = *job.view;
   const PacketVolume& volume = *job.volume;
+  // Each lane's ray from source to pixel, in voxels, and the share of it that lies in the box, axis by axis.
   alignas(64) double from[3][W], along[3][W], enter[W], leave[W], length_mm[W], per_main[W];
   for (int l = 0; l < W; ++l) {
     enter[l] = 0.0;
@@ -280,7 +281,8 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
       const double d = b - a;
       from[axis][l] = a;
       along[axis][l] = d;
-      // The lower face belongs to the box, the upper does not.
+      // A ray parallel to the axis is inside all along or not at all; the lower face belongs to the box, the upper
+      // does not.
       const bool parallel = d == 0.0, within = (a >= 0.0) & (a < size);
       const double inverse = 1.0 / (parallel ? 1.0 : d);
       const double one = (0.0 - a) * inverse, other = (size - a) * inverse;
@@ -290,12 +292,14 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
       leave[l] = leave[l] < t_out ? leave[l] : t_out;
     }
   }
+  // Nothing to do where no lane meets the box.
   bool any = false;
   for (int l = 0; l < W; ++l) any |= enter[l] < leave[l];
   for (int l = 0; l < W; ++l) water_mm[l] = mineral_mm[l] = 0.0;
   if (!any) return;
   const glm::dmat3& m = view.mm_from_voxel;
-  // Lanes that run the same way along the same main axis walk together: 0–2 upwards, 3–5 downwards.
+  // Each lane's length in millimetres, and its way: its steepest axis and the direction along it, 0–2 upwards, 3–5
+  // downwards.
   constexpr int kWays = 6;
   alignas(64) double way[W];
   bool used[kWays] = {};
@@ -310,11 +314,13 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
     way[l] = (size_x >= size_y) & (size_x >= size_z) ? x_way : rest;
   }
   for (int l = 0; l < W; ++l) used[static_cast<int>(way[l])] |= enter[l] < leave[l];
+  // Lanes that run the same way walk together, the others idle.
   for (int one_way = 0; one_way < kWays; ++one_way) {
     if (!used[one_way]) continue;
     const int main = one_way % 3;
     const double way_number = one_way;
     Packet<V> packet;
+    // Where each lane enters and leaves along the main axis, and the millimetres of one slab.
     for (int l = 0; l < W; ++l) {
       const double a = from[main][l], d = along[main][l];
       const bool live = (way[l] == way_number) & (enter[l] < leave[l]);
@@ -329,6 +335,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
       packet.base[l] = packet.shift[l] = 0;
       packet.shift_next[l] = 16;
     }
+    // The two minor axes as lines over the main axis. Exact rays that fall along one are mirrored: all rise.
     for (int i = 0; i < 2; ++i) {
       MinorAxis<W>& axis = packet.minor[i];
       const int which = i == 0 ? (main == 0 ? 1 : 0) : (main == 2 ? 1 : 2);
@@ -337,7 +344,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
       axis.size = size;
       for (int l = 0; l < W; ++l) {
         const double slope = along[which][l] * per_main[l];
-        // An idle lane stands anywhere that fits a 32-bit index.
+        // An idle lane may stand anywhere that fits a 32-bit index.
         const double at_zero = per_main[l] != 0.0 ? from[which][l] - from[main][l] * slope : 0.0;
         const double mirrored = slope < 0.0 ? mirroring : 0.0;
         const double steep = mirrored > 0.0 ? -slope : slope;
@@ -349,11 +356,12 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
         axis.inverse_f[l] = static_cast<float>(inverse);
         axis.slope_f[l] = static_cast<float>(steep);
       }
+      // Where a mirrored lane's voxels begin, and in which half of a 32-bit word of two its value lies.
       for (int l = 0; l < W; ++l) {
         const auto mirrored = static_cast<std::int32_t>(axis.mirrored[l]);
         axis.stride[l] = stride - 2 * mirrored * stride;
         packet.base[l] += mirrored * last * stride;
-        if (i == 0) {  // neighbours are read from the lower on
+        if (i == 0) {  // neighbours are read in pairs, from the lower one
           packet.base[l] -= mirrored;
           packet.shift[l] = 16 * mirrored;
           packet.shift_next[l] = 16 - 16 * mirrored;

@@ -153,6 +153,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
   const auto row_start = [&](int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(width); };
   const std::size_t pixels = row_start(height);
   CHECK(lengths.water_mm.size() == pixels);
+  // What the collimator leaves open; the rest of the picture stays black, so it is cleared only when that changes.
   const OpenField open = open_field(width, height, pulse.collimator);
   const int columns = open.end_column - open.first_column, rows = open.end_row - open.first_row;
   if (picture.open.first_column != open.first_column || picture.open.first_row != open.first_row ||
@@ -165,6 +166,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
   picture.height_px = height;
   picture.open = open;
 
+  // Quanta of the open beam in a pixel, the detector's blur, and the noise of this frame.
   const double pixel_mm = field_side_mm / width;
   const float open_quanta = static_cast<float>(beam.open_quanta_per_mas_mm2() * pulse.mas() * pixel_mm * pixel_mm *
                                                1e6 / (pulse.sid_mm * pulse.sid_mm));
@@ -201,7 +203,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       blur_row(values, columns, weights.data(), radius, blurred_row(row));
     }
   });
-  // Blur across the rows, logarithm.
+  // Blur across the rows, then the logarithm.
   over_rows(rows, settings.threads, [&](int first_row, int end_row) {
     for (int row = first_row; row < end_row; ++row) {
       float* const out =
@@ -214,6 +216,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       logs_of_quanta(out, columns, log_open);
     }
   });
+  // Grey, by the window asked for or by the picture's own.
   picture.window = settings.window ? *settings.window : window_of(picture.log_signal, width, open);
   over_rows(rows, settings.threads, [&](int first_row, int end_row) {
     for (int row = first_row; row < end_row; ++row) {
