@@ -125,12 +125,12 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
   }
   const auto row = casedb::find_case(library, answer.case_id);
   if (!row) return row.error();
-  if (row->state == "draft")
+  if (row->state == casedb::CaseState::draft)
     if (const auto fit = check(library, answer.case_id); !fit) return fit.error();
   progress("attempted", wanted.title.c_str());
   if (!answer.defer)
     if (const auto done = pass(library, *row, hits, answer); !done) return done.error();
-  if (row->state == "draft")
+  if (row->state == casedb::CaseState::draft)
     if (const auto done = publish(library, answer.case_id); !done) return done.error();
   const auto now = casedb::find_case(library, answer.case_id);
   if (!now) return now.error();
@@ -149,7 +149,7 @@ base::Result<DemoCurriculum> lead_through(casedb::Library& library, const char* 
     families.push_back(row->family_id);
   }
   for (const casedb::Curriculum& known : casedb::list_curricula(library)) {
-    if (known.title != title || known.state != "published") continue;
+    if (known.title != title || known.state != casedb::CurriculumState::published) continue;
     std::vector<std::string> its;
     for (const casedb::CurriculumItem& item : known.items) its.push_back(item.family_id);
     if (its == families) return DemoCurriculum{title, known.curriculum_id, its.size()};
@@ -194,7 +194,7 @@ base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, con
 
 void print(const std::vector<DemoCaseAnswer>& made) {
   for (const DemoCaseAnswer& one : made) {
-    std::printf("%s  %-10s %s\n", one.case_id.c_str(), one.state.c_str(), one.title.c_str());
+    std::printf("%s  %-10s %s\n", one.case_id.c_str(), casedb::name_of(one.state).c_str(), one.title.c_str());
     if (one.defer)
       std::puts("    the right decision is to defer");
     else

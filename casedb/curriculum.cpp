@@ -34,7 +34,7 @@ Curriculum read_curriculum(Sqlite& database, const Statement& from) {
   Curriculum made;
   made.curriculum_id = from.text("curriculum_id");
   made.title = from.text("title");
-  made.state = from.text("state");
+  made.state = *curriculum_state_from(from.view("state"));  // the schema takes no others
   made.made_us = from.integer("made_us");
   Statement items = question(database, "curriculum_items");
   for (items.bind("curriculum_id", made.curriculum_id); items.step();) {
@@ -50,11 +50,11 @@ Curriculum read_curriculum(Sqlite& database, const Statement& from) {
   return made;
 }
 
-void set_state(Sqlite& database, const std::string& curriculum_id, const char* state,
+void set_state(Sqlite& database, const std::string& curriculum_id, CurriculumState state,
                const std::string& person_id) {
   question(database, "set_curriculum_state")
       .bind("curriculum_id", curriculum_id)
-      .bind("state", state)
+      .bind("state", name_of(state))
       .bind("published_by", person_id)
       .bind("published_us", now_us())
       .run();
@@ -65,15 +65,16 @@ base::Error not_a_draft() {
 }
 
 struct Version {
-  std::string case_id, title, state;
+  std::string case_id, title;
+  CaseState state = CaseState::draft;
   int version = 0;
 };
 std::vector<Version> versions_of(Library& library, const std::string& family_id) {
   std::vector<Version> versions;
   Statement rows = question(library.database(), "versions_of_family");
   for (rows.bind("family_id", family_id); rows.step();)
-    versions.push_back(
-        {rows.text("case_id"), rows.text("title"), rows.text("state"), rows.small_integer("version")});
+    versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
+                        rows.small_integer("version")});
   return versions;
 }
 
@@ -94,7 +95,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
     const std::vector<Version> versions = versions_of(library, item.family_id);
     for (const Version& version : versions) {
       if (state.title.empty()) state.title = version.title;
-      if (past.available || version.state != "published") continue;
+      if (past.available || version.state != CaseState::published) continue;
       past.available = true;
       state.case_id = version.case_id;
       state.title = version.title;
@@ -148,10 +149,10 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state != "draft") return not_a_draft();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (row->state != "published") return base::Error{"not_published", "a curriculum holds published cases"};
+  if (row->state != CaseState::published) return base::Error{"not_published", "a curriculum holds published cases"};
   if (row->rule.criteria.empty()) return base::Error{"no_rule", "without a pass rule a case cannot be passed"};
   for (const CurriculumItem& item : curriculum->items)
     if (item.family_id == row->family_id)
@@ -190,14 +191,15 @@ base::Result<void> publish_curriculum(Library& library, const std::string& curri
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state != "draft") return not_a_draft();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
   if (curriculum->items.empty()) return base::Error{"no_items", "the curriculum has no item"};
   for (const CurriculumItem& item : curriculum->items) {
     const std::vector<Version> versions = versions_of(library, item.family_id);
-    if (std::none_of(versions.begin(), versions.end(), [](const auto& one) { return one.state == "published"; }))
+    if (std::none_of(versions.begin(), versions.end(),
+                     [](const auto& one) { return one.state == CaseState::published; }))
       return base::Error{"not_published", "a case of the curriculum was retired since"};
   }
-  set_state(library.database(), curriculum_id, "published", account->person_id);
+  set_state(library.database(), curriculum_id, CurriculumState::published, account->person_id);
   transaction.commit();
   return {};
 }
@@ -206,15 +208,16 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
   Transaction transaction(library.database());
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state == "retired") return base::Error{"bad_state", "the curriculum is retired already"};
-  const bool draft = curriculum->state == "draft";
+  if (curriculum->state == CurriculumState::retired)
+    return base::Error{"bad_state", "the curriculum is retired already"};
+  const bool draft = curriculum->state == CurriculumState::draft;
   const auto account = allowed(library, by, draft ? Role::mentor : Role::director,
                                draft ? "a mentor takes a draft away" : "a director retires a curriculum");
   if (!account) return account.error();
   if (draft)
     question(library.database(), "remove_curriculum").bind("curriculum_id", curriculum_id).run();
   else
-    set_state(library.database(), curriculum_id, "retired", account->person_id);
+    set_state(library.database(), curriculum_id, CurriculumState::retired, account->person_id);
   transaction.commit();
   return {};
 }

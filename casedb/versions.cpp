@@ -64,10 +64,10 @@ void decide(Library& library, const Wish& wish, DecisionKind kind, const std::st
       .run();
 }
 
-void set_state(Library& library, const Wish& wish, const char* state, bool own_cohort) {
+void set_state(Library& library, const Wish& wish, CaseState state, bool own_cohort) {
   question(library.database(), "set_state")
       .bind("case_id", wish.row.case_id)
-      .bind("state", state)
+      .bind("state", name_of(state))
       .bind("audience", own_cohort ? "own_cohort" : "everyone")
       .run();
 }
@@ -156,9 +156,9 @@ base::Result<void> submit_case(Library& library, const std::string& case_id, con
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
   if (wanted->by.role != Role::mentor) return not_allowed("a mentor submits a case to review");
-  if (wanted->row.state != "draft") return bad_state("only a draft is submitted to review");
+  if (wanted->row.state != CaseState::draft) return bad_state("only a draft is submitted to review");
   decide(library, *wanted, DecisionKind::submitted, note);
-  set_state(library, *wanted, "review", false);
+  set_state(library, *wanted, CaseState::review, false);
   transaction.commit();
   return {};
 }
@@ -170,14 +170,14 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
   if (!wanted) return wanted.error();
   if (wanted->by.role != Role::mentor && wanted->by.role != Role::director)
     return not_allowed("a mentor or a director reviews a case");
-  if (wanted->row.state != "review") return bad_state("the case is not in review");
+  if (wanted->row.state != CaseState::review) return bad_state("the case is not in review");
   const Decision* submitted = last_of(wanted->decisions, DecisionKind::submitted);
   if (submitted == nullptr || submitted->person_id == wanted->by.person_id) {
     // Who submitted may take it back, but not approve it.
     if (approve) return not_allowed("a second person reviews a case, not who submitted it");
   }
   decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
-  if (!approve) set_state(library, *wanted, "draft", false);
+  if (!approve) set_state(library, *wanted, CaseState::draft, false);
   transaction.commit();
   return {};
 }
@@ -187,16 +187,16 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
-  if (wanted->row.state != "draft" && wanted->row.state != "review")
+  if (wanted->row.state != CaseState::draft && wanted->row.state != CaseState::review)
     return bad_state("only a draft or a case in review is published");
-  const bool reviewed = wanted->row.state == "review" && review_of(wanted->decisions).has_value();
+  const bool reviewed = wanted->row.state == CaseState::review && review_of(wanted->decisions).has_value();
   if (wanted->by.role != Role::mentor && (wanted->by.role != Role::director || !reviewed))
     return not_allowed("a mentor publishes a case, a director what was reviewed");
   if (!reviewed && !own_cohort)
     return not_allowed("a second person has not approved the case; to his own cohort a mentor may publish it so");
   if (const auto fit = check_burned_in(wanted->row); !fit) return fit.error();
   decide(library, *wanted, DecisionKind::published, note);
-  set_state(library, *wanted, "published", !reviewed);
+  set_state(library, *wanted, CaseState::published, !reviewed);
   transaction.commit();
   return {};
 }
@@ -209,13 +209,9 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
   const Decision* published = last_of(wanted->decisions, DecisionKind::published);
   const bool own = published != nullptr && published->person_id == wanted->by.person_id;
   if (wanted->by.role != Role::admin && !own) return not_allowed("an admin, or who published it, retires a case");
-  if (wanted->row.state != "published") return bad_state("only a published case is retired");
+  if (wanted->row.state != CaseState::published) return bad_state("only a published case is retired");
   decide(library, *wanted, DecisionKind::retired, note);
-  question(library.database(), "set_state")
-      .bind("case_id", case_id)
-      .bind("state", "retired")
-      .bind("audience", wanted->row.own_cohort_only ? "own_cohort" : "everyone")
-      .run();
+  set_state(library, *wanted, CaseState::retired, wanted->row.own_cohort_only);
   transaction.commit();
   return {};
 }

@@ -35,10 +35,10 @@ bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept {
     case casedb::Role::mentor:
       return true;
     case casedb::Role::director:
-      return row.state != "draft";
+      return row.state != casedb::CaseState::draft;
     case casedb::Role::researcher:
     case casedb::Role::admin:
-      return row.state == "published" || row.state == "retired";
+      return row.state == casedb::CaseState::published || row.state == casedb::CaseState::retired;
     case casedb::Role::trainee:
       return false;
   }
@@ -51,9 +51,9 @@ bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum)
     case casedb::Role::director:
       return true;
     case casedb::Role::researcher:
-      return curriculum.state != "draft";
+      return curriculum.state != casedb::CurriculumState::draft;
     case casedb::Role::trainee:
-      return curriculum.state == "published";
+      return curriculum.state == casedb::CurriculumState::published;
     case casedb::Role::admin:
       return false;
   }

@@ -82,7 +82,7 @@ void draw_drafts(Trainer& trainer) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(modality_words(draft.modality).c_str());
     ImGui::TableNextColumn();
-    ImGui::Text("%s, version %d", draft.state == "review" ? "in review" : "draft", draft.version);
+    ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
     if (ImGui::Button("Bench", {-1.0F, 0.0F})) opened = draft.case_id;
     ImGui::PopID();

@@ -161,7 +161,7 @@ void Trainer::list_choices() {
     return choices_.emplace_back(std::move(choice));
   };
   for (const casedb::Curriculum& curriculum : casedb::list_curricula(library_)) {
-    if (curriculum.state != "published") continue;
+    if (curriculum.state != casedb::CurriculumState::published) continue;
     for (const casedb::ItemState& item : casedb::states_of(library_, curriculum, account_.person_id)) {
       const auto row = row_of(item.case_id);
       if (row == rows.end()) continue;
@@ -182,9 +182,9 @@ void Trainer::list_choices() {
                                     [&](const Choice& choice) { return choice.case_id == row.case_id; });
     // A mentor may also practise a draft that attempts have frozen; any other is for the bench, where trying it
     // freezes nothing.
-    const bool frozen =
-        account_.role == casedb::Role::mentor && row.state == "draft" && has_attempts(library_, row);
-    if (listed || (row.state != "published" && !frozen)) continue;
+    const bool frozen = account_.role == casedb::Role::mentor && row.state == casedb::CaseState::draft &&
+                        has_attempts(library_, row);
+    if (listed || (row.state != casedb::CaseState::published && !frozen)) continue;
     if (casedb::list_lesions(library_, row.case_id).empty()) continue;
     Choice& choice = add(row);
     choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));
@@ -202,7 +202,7 @@ void Trainer::list_drafts(const std::vector<casedb::CaseRow>& rows) {
   drafts_.clear();
   if (account_.role != casedb::Role::mentor) return;
   for (const casedb::CaseRow& row : rows)
-    if (row.state == "draft" || row.state == "review")
+    if (row.state == casedb::CaseState::draft || row.state == casedb::CaseState::review)
       drafts_.push_back({row.case_id, row.title, row.state, row.modality, row.version});
 }
 

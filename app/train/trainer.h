@@ -35,7 +35,8 @@ struct Choice {
 
 // A case that a mentor works on: a draft, or one in review.
 struct Draft {
-  std::string case_id, title, state;
+  std::string case_id, title;
+  casedb::CaseState state = casedb::CaseState::draft;
   cases::Modality modality = cases::Modality::mpr;
   int version = 1;
 };

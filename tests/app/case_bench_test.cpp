@@ -201,16 +201,16 @@ TEST_F(CaseBenchTest, AnEntryGoesOntoTheSkinAndTheWayToTheTargetIsTold) {
 TEST_F(CaseBenchTest, OnlyWhatHoldsIsPublishedAndThenNothingIsChanged) {
   bench_->publish(true, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "draft") << "there is no lesion";
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::draft) << "there is no lesion";
   EXPECT_FALSE(bench_->refusal().empty());
   bench_->tool = BenchTool::lesion;
   bench_->click({0.0, 0.0, 0.0});
   bench_->publish(false, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "draft") << "nobody has reviewed it";
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::draft) << "nobody has reviewed it";
   bench_->publish(true, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "published") << bench_->refusal();
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::published) << bench_->refusal();
   EXPECT_FALSE(bench_->locked().empty());
   EXPECT_FALSE(bench_->can_undo());
   bench_->click({10.0, 0.0, 0.0});

@@ -48,7 +48,7 @@ TEST_F(CurriculumTest, ComesBackAsItWasMade) {
   EXPECT_EQ(add_curriculum_item(library_, id, two, 5, {{0, Proficiency::proficient}}, "Mia").value(), 2);
   const Curriculum read = find_curriculum(library_, id).value();
   EXPECT_EQ(read.title, "First year");
-  EXPECT_EQ(read.state, "draft");
+  EXPECT_EQ(read.state, CurriculumState::draft);
   ASSERT_EQ(read.items.size(), 2U);
   EXPECT_EQ(read.items[1].family_id, two);
   EXPECT_EQ(read.items[1].attempt_limit, 5);
@@ -70,7 +70,7 @@ TEST_F(CurriculumTest, MentorsMakeAndDirectorsPublish) {
   EXPECT_EQ(code(publish_curriculum(library_, id, "Dan")), "none");
   for (const char* name : {"Tom", "Mia"}) EXPECT_EQ(code(remove_curriculum(library_, id, name)), "not_allowed");
   EXPECT_EQ(code(remove_curriculum(library_, id, "Dan")), "none");
-  EXPECT_EQ(find_curriculum(library_, id).value().state, "retired");
+  EXPECT_EQ(find_curriculum(library_, id).value().state, CurriculumState::retired);
   EXPECT_EQ(code(remove_curriculum(library_, id, "Dan")), "bad_state");
 }
 

@@ -34,7 +34,7 @@ class AuthoringTest : public testing::Test {
                                      {"tim", Role::trainee}})
       static_cast<void>(add_user(library_, name, role, "a password").value());
   }
-  std::string state() { return find_case(library_, case_id_).value().state; }
+  CaseState state() { return find_case(library_, case_id_).value().state; }
   void refuse(const std::string& sql) {
     EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(sql); })) << sql;
   }
@@ -321,13 +321,13 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(judge_case(library_, case_id_, "ben", true)), "bad_state");
   EXPECT_EQ(code(publish_case(library_, case_id_, "ann", false)), "not_allowed") << "nobody approved it";
   ASSERT_TRUE(submit_case(library_, case_id_, "ann", "please"));
-  EXPECT_EQ(state(), "review");
+  EXPECT_EQ(state(), CaseState::review);
   EXPECT_EQ(code(set_setting(library_, case_id_, full_setting())), "not_a_draft");
   EXPECT_EQ(code(add_lesion(library_, case_id_, sample_lesion())), "not_a_draft");
   EXPECT_EQ(code(judge_case(library_, case_id_, "ann", true)), "not_allowed") << "not who submitted it";
   EXPECT_EQ(code(judge_case(library_, case_id_, "adam", true)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "ben", false, "the vein is missing"));
-  EXPECT_EQ(state(), "draft");
+  EXPECT_EQ(state(), CaseState::draft);
   ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
   EXPECT_EQ(code(publish_case(library_, case_id_, "dora", false)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "dora", true));
@@ -335,7 +335,7 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(publish_case(library_, case_id_, "ann", false)), "burned_in_unchecked");
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish_case(library_, case_id_, "ann", false));
-  EXPECT_EQ(state(), "published");
+  EXPECT_EQ(state(), CaseState::published);
   EXPECT_FALSE(find_case(library_, case_id_).value().own_cohort_only);
   const auto decisions = list_decisions(library_, case_id_);
   ASSERT_EQ(decisions.size(), 5U);
@@ -352,7 +352,7 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(set_title(library_, case_id_, "x")), "not_a_draft");
   EXPECT_EQ(code(retire_case(library_, case_id_, "ben")), "not_allowed");
   ASSERT_TRUE(retire_case(library_, case_id_, "adam"));
-  EXPECT_EQ(state(), "retired");
+  EXPECT_EQ(state(), CaseState::retired);
   refuse("UPDATE training_case SET state = 'published'");
 }
 
@@ -387,7 +387,7 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
     const CaseRow row = find_case(library_, id).value();
     EXPECT_EQ(row.version, version);
     EXPECT_EQ(row.family_id, case_id_);
-    EXPECT_EQ(row.state, version == 1 ? "published" : "draft");
+    EXPECT_EQ(row.state, version == 1 ? CaseState::published : CaseState::draft);
     EXPECT_EQ(row.title, sample_case().title);
     EXPECT_EQ(row.attempt_limit, 5);
     EXPECT_EQ(row.attributes.size(), 3U);

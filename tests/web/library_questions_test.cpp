@@ -46,7 +46,7 @@ std::string add_small_attempt(casedb::Library& library, std::optional<std::strin
   casedb::NewAttempt attempt;
   attempt.case_id = case_id;
   attempt.lesion_id = lesion_id;
-  attempt.operator_name = person_id.has_value() ? "person" : "expert";
+  attempt.operator_name = person_id.has_value() ? casedb::kPersonOperator : "expert";
   attempt.person_id = std::move(person_id);
   attempt.program_version = "0.1.0";
   attempt.started_us = 1700000000000000;
@@ -93,7 +93,7 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
   casedb::NewAttempt attempt;
   attempt.case_id = case_id;
   attempt.lesion_id = lesion_id;
-  attempt.operator_name = "person";
+  attempt.operator_name = casedb::kPersonOperator;
   attempt.person_id = tom;
   attempt.started_us = 1700000000000000;
   attempt.recording.inputs.resize(3);
