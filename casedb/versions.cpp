@@ -182,8 +182,9 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
   return {};
 }
 
-base::Result<void> publish_case(Library& library, const std::string& case_id, const std::string& by,
-                                bool own_cohort, const std::string& note) {
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note) {
+  if (const auto ready = ready_to_publish(check); !ready) return ready.error();
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
@@ -195,6 +196,8 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
   if (!reviewed && !own_cohort)
     return not_allowed("a second person has not approved the case; to his own cohort a mentor may publish it so");
   if (const auto fit = check_burned_in(wanted->row); !fit) return fit.error();
+  if (check.content_mark != content_mark(library, case_id))
+    return base::Error{"checks_failed", "the case has changed since it was checked: check it again"};
   decide(library, *wanted, DecisionKind::published, note);
   set_state(library, *wanted, CaseState::published, !reviewed);
   transaction.commit();

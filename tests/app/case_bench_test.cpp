@@ -90,7 +90,7 @@ TEST_F(CaseBenchTest, AClickPlacesALesionAndTheChecksSeeIt) {
   EXPECT_NEAR(spot->depth_mm, kBallMm - 16.0, 1.0);
   // The command line's own check says the same.
   const auto row = casedb::find_case(*library_, case_id_).value();
-  const auto asked = check_case(*library_, row).value();
+  const auto asked = check_case(*library_, row.case_id).value();
   ASSERT_EQ(asked.checks.size(), bench_->scene()->check.checks.size());
   for (std::size_t i = 0; i < asked.checks.size(); ++i) {
     EXPECT_EQ(asked.checks[i].name, bench_->scene()->check.checks[i].name);

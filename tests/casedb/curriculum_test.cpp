@@ -3,6 +3,7 @@
 
 #include "casedb/versions.h"
 #include "tests/casedb/graded_library.h"
+#include "tests/fixtures/sound_check.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -24,7 +25,8 @@ class CurriculumTest : public GradedLibrary {
   }
   void publish(const std::string& case_id) {
     static_cast<void>(confirm_no_burned_in_text(library_, case_id, std::nullopt));
-    ASSERT_TRUE(publish_case(library_, case_id, "Mia", true).has_value());
+    const CaseCheck check = fixtures::sound_check(library_, case_id);
+    ASSERT_TRUE(publish_case(library_, case_id, check, "Mia", true).has_value());
   }
   std::string new_curriculum() { return add_curriculum(library_, "First year", "Mia").value(); }
   void done(bool passes) { attempt(person_, passes ? 1.0 : 0.0, 20.0); }
