@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/grading.h"
+#include "casedb/permissions.h"
 #include "casedb/question.h"
 #include "casedb/sqlite.h"
 #include "casedb/utf8.h"
@@ -14,15 +15,6 @@ namespace {
 
 constexpr std::size_t kMostTitle = 200;
 constexpr int kMostAttempts = 1000;
-
-base::Result<Account> allowed(Library& library, const std::string& name, Role role, const char* otherwise) {
-  for (Account& one : list_users(library))
-    if (one.login_name == name && one.enabled) {
-      if (one.role != role) return base::Error{"not_allowed", otherwise};
-      return std::move(one);
-    }
-  return base::Error{"no_user", "there is no such user, or the account is closed"};
-}
 
 bool is_title(const std::string& title) {
   return !title.empty() && title.size() <= kMostTitle && is_text(title) &&
@@ -128,7 +120,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
 base::Result<std::string> add_curriculum(Library& library, const std::string& title, const std::string& by) {
   if (!is_title(title)) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::mentor, "a mentor makes a curriculum");
+  const auto account = account_that_may(library, by, Action::make_curriculum);
   if (!account) return account.error();
   std::string curriculum_id = new_uuid();
   question(library.database(), "add_curriculum")
@@ -145,7 +137,7 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
                                       const std::string& case_id, std::optional<int> attempt_limit,
                                       const std::vector<assessment::Gate>& gates, const std::string& by) {
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::mentor, "a mentor makes a curriculum");
+  const auto account = account_that_may(library, by, Action::make_curriculum);
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
@@ -187,7 +179,7 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
 
 base::Result<void> publish_curriculum(Library& library, const std::string& curriculum_id, const std::string& by) {
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::director, "a director publishes a curriculum");
+  const auto account = account_that_may(library, by, Action::publish_curriculum);
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
@@ -211,8 +203,8 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
   if (curriculum->state == CurriculumState::retired)
     return base::Error{"bad_state", "the curriculum is retired already"};
   const bool draft = curriculum->state == CurriculumState::draft;
-  const auto account = allowed(library, by, draft ? Role::mentor : Role::director,
-                               draft ? "a mentor takes a draft away" : "a director retires a curriculum");
+  const auto account =
+      account_that_may(library, by, draft ? Action::remove_draft_curriculum : Action::retire_curriculum);
   if (!account) return account.error();
   if (draft)
     question(library.database(), "remove_curriculum").bind("curriculum_id", curriculum_id).run();
