@@ -16,7 +16,7 @@ enum class Action {
   // Attempts.
   see_attempt,
   see_operator_name,  // the log-in name of the person who made it; without it, a pseudonym
-  practise_case,      // a draft only once attempts have frozen it
+  practise_case,      // a draft only once attempts have frozen it (casedb/choices.h)
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
   // Cases.
