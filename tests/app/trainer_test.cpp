@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/case_check.h"
+#include "casedb/curriculum.h"
 #include "casedb/versions.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
