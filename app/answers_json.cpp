@@ -44,7 +44,7 @@ Json case_json(const casedb::CaseParts& parts) {
   for (const auto& [name, value] : row.attributes) attributes[name] = value;
   Json json = {{"case_id", row.case_id},
                {"title", row.title},
-               {"state", row.state},
+               {"state", casedb::name_of(row.state)},
                {"origin", row.origin},
                {"modality", casedb::name_of(row.modality)},
                {"patient_position", casedb::name_of(row.position)},
@@ -127,7 +127,7 @@ std::string json_of_cases(const std::vector<casedb::CaseParts>& cases) {
     for (const casedb::LesionRow& lesion : parts.lesions) all.push_back(casedb::json_of_lesion(lesion));
     list.push_back({{"case_id", parts.row.case_id},
                     {"title", parts.row.title},
-                    {"state", parts.row.state},
+                    {"state", casedb::name_of(parts.row.state)},
                     {"version", parts.row.version},
                     {"family_id", parts.row.family_id},
                     {"lesions", all}});

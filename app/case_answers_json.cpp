@@ -49,8 +49,10 @@ std::string json_of_needs(const std::string& case_id, const CaseNeeds& needs) {
 }
 
 std::string json_of_version(const casedb::CaseRow& row) {
-  return text(
-      {{"case_id", row.case_id}, {"family_id", row.family_id}, {"version", row.version}, {"state", row.state}});
+  return text({{"case_id", row.case_id},
+               {"family_id", row.family_id},
+               {"version", row.version},
+               {"state", casedb::name_of(row.state)}});
 }
 
 }  // namespace seldinger::app

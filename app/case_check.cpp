@@ -90,20 +90,24 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
 
 }  // namespace
 
-base::Result<CaseCheck> check_case(casedb::Library& library, const casedb::CaseRow& row) {
+base::Result<CaseCheck> check_case(casedb::Library& library, const std::string& case_id) {
+  std::string mark = casedb::content_mark(library, case_id);
+  const auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
   cases::Picture picture;
-  picture.modality = row.modality;
+  picture.modality = row->modality;
   // Tissue: whether something is bone is a matter of class.
-  const auto scene = build_case(library, row, std::nullopt, picture, Needs::touch);
+  const auto scene = build_case(library, *row, std::nullopt, picture, Needs::touch);
   if (!scene) return scene.error();
-  return check_scene(*scene, row, casedb::list_lesions(library, row.case_id),
-                     casedb::list_structures(library, row.case_id));
+  return check_scene(std::move(mark), *scene, *row, casedb::list_lesions(library, case_id),
+                     casedb::list_structures(library, case_id));
 }
 
-CaseCheck check_scene(const cases::Case& scene, const casedb::CaseRow& row,
+CaseCheck check_scene(std::string content_mark, const cases::Case& scene, const casedb::CaseRow& row,
                       const std::vector<casedb::LesionRow>& lesions,
                       const std::vector<casedb::StructureRow>& structures) {
   CaseCheck checked;
+  checked.content_mark = std::move(content_mark);
   std::vector<Check>& checks = checked.checks;
   checks.push_back({"lesion_present", !lesions.empty(),
                     lesions.empty() ? "there is no lesion" : std::to_string(lesions.size()) + " placed"});

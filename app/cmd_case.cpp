@@ -26,8 +26,8 @@ int run_case_list(const Arguments& arguments) {
   }
   if (cases.empty()) std::puts("There is no case yet; `seldinger import` makes one.");
   for (const casedb::CaseParts& one : cases)
-    std::printf("%s  %-9s v%d  %zu lesion%s  %s\n", one.row.case_id.c_str(), one.row.state.c_str(), one.row.version,
-                one.lesions.size(), one.lesions.size() == 1 ? " " : "s", one.row.title.c_str());
+    std::printf("%s  %-9s v%d  %zu lesion%s  %s\n", one.row.case_id.c_str(), casedb::name_of(one.row.state).c_str(),
+                one.row.version, one.lesions.size(), one.lesions.size() == 1 ? " " : "s", one.row.title.c_str());
   return kDone;
 }
 
@@ -44,7 +44,7 @@ int run_case_show(const Arguments& arguments) {
   std::printf(
       "case     %s\ntitle    %s\nstate    %s, version %d%s\nguidance %s, %s, %s %s\nvoxels   %d x %d x %d, "
       "%.4g x %.4g x %.4g mm\nHU       %d to %d\n",
-      row.case_id.c_str(), row.title.c_str(), row.state.c_str(), row.version,
+      row.case_id.c_str(), row.title.c_str(), casedb::name_of(row.state).c_str(), row.version,
       row.own_cohort_only ? ", unreviewed, own cohort only" : "", casedb::name_of(row.modality).c_str(),
       casedb::name_of(row.approach).c_str(), casedb::name_of(row.subject).c_str(),
       casedb::name_of(row.position).c_str(), row.size_voxels.x, row.size_voxels.y, row.size_voxels.z,

@@ -73,8 +73,8 @@ int run_curriculum_list(const Arguments& arguments) {
   }
   if (curricula.empty()) std::puts("There is no curriculum yet; `seldinger curriculum add` makes one.");
   for (const casedb::Curriculum& one : curricula)
-    std::printf("%s  %-10s %zu items  %s\n", one.curriculum_id.c_str(), one.state.c_str(), one.items.size(),
-                one.title.c_str());
+    std::printf("%s  %-10s %zu items  %s\n", one.curriculum_id.c_str(), casedb::name_of(one.state).c_str(),
+                one.items.size(), one.title.c_str());
   return kDone;
 }
 
@@ -95,7 +95,7 @@ int run_curriculum_show(const Arguments& arguments) {
     std::fputs(json_of_curriculum(*curriculum, items, person_id.has_value()).c_str(), stdout);
     return kDone;
   }
-  std::printf("%s, %s\n", curriculum->title.c_str(), curriculum->state.c_str());
+  std::printf("%s, %s\n", curriculum->title.c_str(), casedb::name_of(curriculum->state).c_str());
   for (std::size_t i = 0; i < items.size(); ++i) {
     const casedb::ItemState& item = items[i];
     std::string line = std::to_string(i + 1) + ". " + item.title;

@@ -56,15 +56,9 @@ base::Result<void> add_parts(casedb::Library& library, const DemoCase& wanted, c
   return {};
 }
 
-base::Result<void> check(casedb::Library& library, const std::string& case_id) {
-  const auto row = casedb::find_case(library, case_id);
-  if (!row) return row.error();
-  const auto checks = check_case(library, *row);
-  if (!checks) return checks.error();
-  if (checks->holds()) return {};
-  base::Error error{"checks_failed", "a graded case does not hold its check on this volume"};
-  for (const Check& one : checks->checks)
-    if (!one.holds) error.findings.push_back({one.name, row->title + ": " + one.text});
+// With the title: it is one case of many.
+base::Error titled(base::Error error, const std::string& title) {
+  error.findings.push_back({error.code, title});
   return error;
 }
 
@@ -86,11 +80,7 @@ base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, co
       return {};
     }
   auto simulation = Simulation::prepare(library, answer.case_id, {});
-  if (!simulation) {
-    base::Error error = simulation.error();
-    error.findings.push_back({error.code, answer.title});
-    return error;
-  }
+  if (!simulation) return titled(simulation.error(), answer.title);
   for (std::uint64_t seed = 1; seed <= kMostSeeds; ++seed) {
     const auto attempt = simulation->attempt(*assessment::named_profile("expert"), seed, std::nullopt);
     if (!attempt) return attempt.error();
@@ -102,10 +92,10 @@ base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, co
   return base::Error{"never_passed", "a simulated expert does not pass: " + answer.title};
 }
 
-base::Result<void> publish(casedb::Library& library, const std::string& case_id) {
+base::Result<void> publish(casedb::Library& library, const std::string& case_id, const CaseCheck& check) {
   if (const auto done = casedb::submit_case(library, case_id, kAuthor); !done) return done.error();
   if (const auto done = casedb::judge_case(library, case_id, kReviewer, true); !done) return done.error();
-  return casedb::publish_case(library, case_id, kAuthor, false);
+  return casedb::publish_case(library, case_id, check, kAuthor, false);
 }
 
 base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
@@ -125,13 +115,20 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
   }
   const auto row = casedb::find_case(library, answer.case_id);
   if (!row) return row.error();
-  if (row->state == "draft")
-    if (const auto fit = check(library, answer.case_id); !fit) return fit.error();
+  std::optional<CaseCheck> check;  // of a draft, which is published below
+  if (row->state == casedb::CaseState::draft) {
+    auto checked = check_case(library, answer.case_id);
+    if (!checked) return titled(checked.error(), answer.title);
+    // Before it is attempted: that would freeze what must be mended.
+    if (const auto ready = casedb::ready_to_publish(*checked); !ready) return titled(ready.error(), answer.title);
+    check = std::move(*checked);
+  }
   progress("attempted", wanted.title.c_str());
   if (!answer.defer)
     if (const auto done = pass(library, *row, hits, answer); !done) return done.error();
-  if (row->state == "draft")
-    if (const auto done = publish(library, answer.case_id); !done) return done.error();
+  if (check)
+    if (const auto done = publish(library, answer.case_id, *check); !done)
+      return titled(done.error(), answer.title);
   const auto now = casedb::find_case(library, answer.case_id);
   if (!now) return now.error();
   answer.state = now->state;
@@ -149,7 +146,7 @@ base::Result<DemoCurriculum> lead_through(casedb::Library& library, const char* 
     families.push_back(row->family_id);
   }
   for (const casedb::Curriculum& known : casedb::list_curricula(library)) {
-    if (known.title != title || known.state != "published") continue;
+    if (known.title != title || known.state != casedb::CurriculumState::published) continue;
     std::vector<std::string> its;
     for (const casedb::CurriculumItem& item : known.items) its.push_back(item.family_id);
     if (its == families) return DemoCurriculum{title, known.curriculum_id, its.size()};
@@ -194,7 +191,7 @@ base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, con
 
 void print(const std::vector<DemoCaseAnswer>& made) {
   for (const DemoCaseAnswer& one : made) {
-    std::printf("%s  %-10s %s\n", one.case_id.c_str(), one.state.c_str(), one.title.c_str());
+    std::printf("%s  %-10s %s\n", one.case_id.c_str(), casedb::name_of(one.state).c_str(), one.title.c_str());
     if (one.defer)
       std::puts("    the right decision is to defer");
     else

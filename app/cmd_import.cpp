@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/import_case.h"
 #include "app/privacy_text.h"
+#include "casedb/permissions.h"
 
 namespace seldinger::app {
 
@@ -16,18 +17,6 @@ casedb::FaceChoice face_choice(const std::string& text) {
   if (text == "crop") return casedb::FaceChoice::crop;
   if (text == "deface") return casedb::FaceChoice::deface;
   throw UsageError("--face is refuse, crop or deface");
-}
-
-// Who may say that no text is burned in.
-base::Result<std::string> confirming_person(casedb::Library& library, const std::string& name) {
-  for (const casedb::Account& account : casedb::list_users(library)) {
-    if (account.login_name != name || !account.enabled) continue;
-    const bool may = account.role == casedb::Role::mentor || account.role == casedb::Role::director ||
-                     account.role == casedb::Role::admin;
-    if (may) return account.person_id;
-    return base::Error{"not_allowed", "a mentor, director or admin confirms that no text is burned in"};
-  }
-  return base::Error{"no_user", "there is no open account of that name"};
 }
 
 }  // namespace
@@ -47,9 +36,10 @@ int run_import(const Arguments& arguments) {
   if (arguments.has("--by")) {
     auto library = casedb::Library::open(folder);
     if (!library) return refuse(library.error());
-    auto person = confirming_person(*library, arguments.text("--by"));
-    if (!person) return refuse(person.error());
-    confirmed_by = std::move(*person);
+    const auto by =
+        casedb::account_that_may(*library, arguments.text("--by"), casedb::Action::confirm_no_burned_in_text);
+    if (!by) return refuse(by.error());
+    confirmed_by = by->person_id;
   }
   auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face,
                               arguments.has("--denoise"));
@@ -127,9 +117,10 @@ int run_case_confirm(const Arguments& arguments) {
   if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
-  const auto person = confirming_person(*library, arguments.required("--by"));
-  if (!person) return refuse(person.error());
-  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), *person);
+  const auto by =
+      casedb::account_that_may(*library, arguments.required("--by"), casedb::Action::confirm_no_burned_in_text);
+  if (!by) return refuse(by.error());
+  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), by->person_id);
   if (!kept) return refuse(kept.error());
   std::puts("confirmed");
   return kDone;

@@ -11,12 +11,11 @@ namespace seldinger::app {
 int run_case_check(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
-  const auto row = casedb::find_case(*library, arguments.positional(0));
-  if (!row) return refuse(row.error());
-  const auto checks = check_case(*library, *row);
+  const std::string& case_id = arguments.positional(0);
+  const auto checks = check_case(*library, case_id);
   if (!checks) return refuse(checks.error());
   if (arguments.has("--json")) {
-    std::fputs(json_of_checks(row->case_id, *checks).c_str(), stdout);
+    std::fputs(json_of_checks(case_id, *checks).c_str(), stdout);
   } else {
     for (const Check& one : checks->checks)
       std::printf("%s  %-20s %s\n", one.holds ? "holds " : "FAILS ", one.name.c_str(), one.text.c_str());
@@ -45,20 +44,13 @@ int run_case_publish(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), by = arguments.required("--by");
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  const auto row = casedb::find_case(*library, arguments.positional(0));
-  if (!row) return refuse(row.error());
-  const auto checks = check_case(*library, *row);
+  const std::string& case_id = arguments.positional(0);
+  const auto checks = check_case(*library, case_id);
   if (!checks) return refuse(checks.error());
-  if (!checks->holds()) {
-    base::Error error{"checks_failed", "the case is not ready; `seldinger case check` tells all"};
-    for (const Check& one : checks->checks)
-      if (!one.holds) error.findings.push_back({one.name, one.text});
-    return refuse(error);
-  }
   const auto done =
-      casedb::publish_case(*library, row->case_id, by, arguments.has("--own-cohort"), arguments.text("--note"));
+      casedb::publish_case(*library, case_id, *checks, by, arguments.has("--own-cohort"), arguments.text("--note"));
   if (!done) return refuse(done.error());
-  const auto now = casedb::find_case(*library, row->case_id);
+  const auto now = casedb::find_case(*library, case_id);
   if (!now) return refuse(now.error());
   std::printf("published, version %d%s\n", now->version,
               now->own_cohort_only ? ", unreviewed: for your own cohort only" : "");

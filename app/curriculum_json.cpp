@@ -19,7 +19,7 @@ Json maybe(const std::optional<T>& value) {
 Json head_of(const casedb::Curriculum& curriculum) {
   return {{"curriculum_id", curriculum.curriculum_id},
           {"title", curriculum.title},
-          {"state", curriculum.state},
+          {"state", casedb::name_of(curriculum.state)},
           {"made_us", curriculum.made_us},
           {"items", curriculum.items.size()}};
 }

@@ -59,7 +59,8 @@ int run_demo_cases(const Arguments& arguments);
 
 struct DemoCaseAnswer {
   int number = 0;
-  std::string title, case_id, state;
+  std::string title, case_id;
+  casedb::CaseState state = casedb::CaseState::draft;
   bool defer = false;      // the right decision; nothing to hit
   std::string attempt_id;  // the expert's that hit and passed
   std::uint64_t seed = 0;

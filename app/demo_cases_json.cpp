@@ -15,7 +15,7 @@ Json json_of(const DemoCaseAnswer& one, const Json& number) {
   return {{"number", number},
           {"title", one.title},
           {"case_id", one.case_id},
-          {"state", one.state},
+          {"state", casedb::name_of(one.state)},
           {"decision", one.defer ? "defer" : "proceed"},
           {"hit", attempt}};
 }

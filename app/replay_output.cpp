@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string label_of(const casedb::AttemptRow& attempt) {
-  return attempt.operator_name == "person" ? "a person" : reports::simulated_operator_text(attempt.operator_name);
+  return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "a person";
 }
 
 std::vector<std::byte> png_of(const GreyPicture& picture) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "casedb/authoring.h"
+#include "casedb/credentials.h"
 #include "casedb/migrate.h"
 #include "casedb/tables.h"
 #include "casedb/utf8.h"
@@ -237,6 +238,20 @@ base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte
     throw;
   }
   return database;
+}
+
+std::string mark_of_rows(Sqlite& library, const std::string& case_id) {
+  std::vector<std::byte> all;
+  for (const TravellingTable& table : travelling_tables()) {
+    std::vector<std::string> marked = columns_of(library, table.name);
+    std::erase_if(marked, [&](const std::string& column) {
+      return std::ranges::find(table.changing, column) != table.changing.end();
+    });
+    put_text(all, table.name);
+    for (Statement row = rows_of(library, table, case_id); row.step();)
+      for (const std::string& column : marked) put_value(all, row, column);
+  }
+  return sha256_hex(all);
 }
 
 Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id) {

@@ -31,6 +31,9 @@ class RowsReader {
   Sqlite empty_;  // made once: it is copied, not walked, for each case
 };
 
+// SHA-256 of what cannot change of a case without its being another: all its rows, but for the columns that may.
+std::string mark_of_rows(Sqlite& library, const std::string& case_id);
+
 enum class Presence { absent, same, different };
 // Whether the library has that case, and all that is said of it. What a person may change of a case (title, state)
 // and what was added to it in the library make no difference.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/grading.h"
+#include "casedb/permissions.h"
 #include "casedb/question.h"
 #include "casedb/sqlite.h"
 #include "casedb/utf8.h"
@@ -15,15 +16,6 @@ namespace {
 constexpr std::size_t kMostTitle = 200;
 constexpr int kMostAttempts = 1000;
 
-base::Result<Account> allowed(Library& library, const std::string& name, Role role, const char* otherwise) {
-  for (Account& one : list_users(library))
-    if (one.login_name == name && one.enabled) {
-      if (one.role != role) return base::Error{"not_allowed", otherwise};
-      return std::move(one);
-    }
-  return base::Error{"no_user", "there is no such user, or the account is closed"};
-}
-
 bool is_title(const std::string& title) {
   return !title.empty() && title.size() <= kMostTitle && is_text(title) &&
          std::none_of(title.begin(), title.end(),
@@ -34,7 +26,7 @@ Curriculum read_curriculum(Sqlite& database, const Statement& from) {
   Curriculum made;
   made.curriculum_id = from.text("curriculum_id");
   made.title = from.text("title");
-  made.state = from.text("state");
+  made.state = *curriculum_state_from(from.view("state"));  // the schema takes no others
   made.made_us = from.integer("made_us");
   Statement items = question(database, "curriculum_items");
   for (items.bind("curriculum_id", made.curriculum_id); items.step();) {
@@ -50,11 +42,11 @@ Curriculum read_curriculum(Sqlite& database, const Statement& from) {
   return made;
 }
 
-void set_state(Sqlite& database, const std::string& curriculum_id, const char* state,
+void set_state(Sqlite& database, const std::string& curriculum_id, CurriculumState state,
                const std::string& person_id) {
   question(database, "set_curriculum_state")
       .bind("curriculum_id", curriculum_id)
-      .bind("state", state)
+      .bind("state", name_of(state))
       .bind("published_by", person_id)
       .bind("published_us", now_us())
       .run();
@@ -65,15 +57,16 @@ base::Error not_a_draft() {
 }
 
 struct Version {
-  std::string case_id, title, state;
+  std::string case_id, title;
+  CaseState state = CaseState::draft;
   int version = 0;
 };
 std::vector<Version> versions_of(Library& library, const std::string& family_id) {
   std::vector<Version> versions;
   Statement rows = question(library.database(), "versions_of_family");
   for (rows.bind("family_id", family_id); rows.step();)
-    versions.push_back(
-        {rows.text("case_id"), rows.text("title"), rows.text("state"), rows.small_integer("version")});
+    versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
+                        rows.small_integer("version")});
   return versions;
 }
 
@@ -94,7 +87,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
     const std::vector<Version> versions = versions_of(library, item.family_id);
     for (const Version& version : versions) {
       if (state.title.empty()) state.title = version.title;
-      if (past.available || version.state != "published") continue;
+      if (past.available || version.state != CaseState::published) continue;
       past.available = true;
       state.case_id = version.case_id;
       state.title = version.title;
@@ -127,7 +120,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
 base::Result<std::string> add_curriculum(Library& library, const std::string& title, const std::string& by) {
   if (!is_title(title)) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::mentor, "a mentor makes a curriculum");
+  const auto account = account_that_may(library, by, Action::make_curriculum);
   if (!account) return account.error();
   std::string curriculum_id = new_uuid();
   question(library.database(), "add_curriculum")
@@ -144,14 +137,14 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
                                       const std::string& case_id, std::optional<int> attempt_limit,
                                       const std::vector<assessment::Gate>& gates, const std::string& by) {
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::mentor, "a mentor makes a curriculum");
+  const auto account = account_that_may(library, by, Action::make_curriculum);
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state != "draft") return not_a_draft();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (row->state != "published") return base::Error{"not_published", "a curriculum holds published cases"};
+  if (row->state != CaseState::published) return base::Error{"not_published", "a curriculum holds published cases"};
   if (row->rule.criteria.empty()) return base::Error{"no_rule", "without a pass rule a case cannot be passed"};
   for (const CurriculumItem& item : curriculum->items)
     if (item.family_id == row->family_id)
@@ -186,18 +179,19 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
 
 base::Result<void> publish_curriculum(Library& library, const std::string& curriculum_id, const std::string& by) {
   Transaction transaction(library.database());
-  const auto account = allowed(library, by, Role::director, "a director publishes a curriculum");
+  const auto account = account_that_may(library, by, Action::publish_curriculum);
   if (!account) return account.error();
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state != "draft") return not_a_draft();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
   if (curriculum->items.empty()) return base::Error{"no_items", "the curriculum has no item"};
   for (const CurriculumItem& item : curriculum->items) {
     const std::vector<Version> versions = versions_of(library, item.family_id);
-    if (std::none_of(versions.begin(), versions.end(), [](const auto& one) { return one.state == "published"; }))
+    if (std::none_of(versions.begin(), versions.end(),
+                     [](const auto& one) { return one.state == CaseState::published; }))
       return base::Error{"not_published", "a case of the curriculum was retired since"};
   }
-  set_state(library.database(), curriculum_id, "published", account->person_id);
+  set_state(library.database(), curriculum_id, CurriculumState::published, account->person_id);
   transaction.commit();
   return {};
 }
@@ -206,15 +200,16 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
   Transaction transaction(library.database());
   const auto curriculum = find_curriculum(library, curriculum_id);
   if (!curriculum) return curriculum.error();
-  if (curriculum->state == "retired") return base::Error{"bad_state", "the curriculum is retired already"};
-  const bool draft = curriculum->state == "draft";
-  const auto account = allowed(library, by, draft ? Role::mentor : Role::director,
-                               draft ? "a mentor takes a draft away" : "a director retires a curriculum");
+  if (curriculum->state == CurriculumState::retired)
+    return base::Error{"bad_state", "the curriculum is retired already"};
+  const bool draft = curriculum->state == CurriculumState::draft;
+  const auto account =
+      account_that_may(library, by, draft ? Action::remove_draft_curriculum : Action::retire_curriculum);
   if (!account) return account.error();
   if (draft)
     question(library.database(), "remove_curriculum").bind("curriculum_id", curriculum_id).run();
   else
-    set_state(library.database(), curriculum_id, "retired", account->person_id);
+    set_state(library.database(), curriculum_id, CurriculumState::retired, account->person_id);
   transaction.commit();
   return {};
 }

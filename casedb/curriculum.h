@@ -18,7 +18,8 @@ struct CurriculumItem {
 };
 
 struct Curriculum {
-  std::string curriculum_id, title, state /* "draft", "published", "retired" */;
+  std::string curriculum_id, title;
+  CurriculumState state = CurriculumState::draft;
   std::int64_t made_us = 0;
   std::vector<CurriculumItem> items;
 };

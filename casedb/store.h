@@ -11,8 +11,10 @@
 
 #include "assessment/grading/standard.h"
 #include "assessment/metrics/metric.h"
+#include "assessment/operators/person_operator.h"
 #include "assessment/procedure/steps.h"
 #include "casedb/case_setting.h"
+#include "casedb/case_state.h"
 #include "casedb/library.h"
 #include "casedb/privacy.h"
 #include "sim/base/result.h"
@@ -54,7 +56,8 @@ struct NewCase : CaseSetting {
 };
 
 struct CaseRow : CaseSetting {
-  std::string case_id, title, state /* "draft" */, origin;
+  std::string case_id, title, origin;
+  CaseState state = CaseState::draft;
   std::int64_t created_us = 0;
   glm::ivec3 size_voxels{0};
   glm::dvec3 spacing_mm{0.0};
@@ -109,7 +112,7 @@ std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::s
 using MetricValue = assessment::MetricValue;
 
 // The operator_name of what a person did; all others are simulated, also in a person's name.
-inline constexpr std::string_view kPersonOperator = "person";
+using assessment::kPersonOperator;
 
 // What is known of an attempt when it begins.
 struct AttemptHead {

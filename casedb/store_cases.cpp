@@ -31,7 +31,7 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   const volume::Volume& volume = new_case.volume;
   const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
   Statement insert = question(database, "add_case");
-  insert.bind("case_id", case_id).bind("title", new_case.title).bind("state", "draft");
+  insert.bind("case_id", case_id).bind("title", new_case.title).bind("state", name_of(CaseState::draft));
   insert.bind("origin", new_case.origin).bind("created_us", created_us).bind("slices_used", new_case.slices_used);
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name = kAxes[axis];
@@ -90,7 +90,7 @@ CaseRow read_case(const Statement& from) {
   CaseRow row;
   row.case_id = from.text("case_id");
   row.title = from.text("title");
-  row.state = from.text("state");
+  row.state = *case_state_from(from.view("state"));  // the schema takes no others
   row.origin = from.text("origin");
   row.created_us = from.integer("created_us");
   static const GridColumns names;
@@ -179,7 +179,7 @@ double radius_of(const cases::LesionForm& form) {
 base::Result<void> check_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (row->state != "draft") return kNotADraft;
+  if (row->state != CaseState::draft) return kNotADraft;
   if (!sound_lesion(*row, form))
     return base::Error{"bad_lesion",
                        "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "

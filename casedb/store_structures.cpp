@@ -143,7 +143,7 @@ void insert_structure(Library& library, const StructureRow& structure, const std
 base::Result<CaseRow> changeable_case(Library& library, const std::string& case_id) {
   auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (row->state != "draft") return kNotADraft;
+  if (row->state != CaseState::draft) return kNotADraft;
   Statement attempts = question(library.database(), "attempts_of_case");
   CHECK(attempts.bind("case_id", case_id).step());
   if (attempts.integer("attempts") > 0)
@@ -297,7 +297,7 @@ base::Result<void> set_title(Library& library, const std::string& case_id, const
   Transaction transaction(library.database());
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
-  if (row->state != "draft") return kNotADraft;
+  if (row->state != CaseState::draft) return kNotADraft;
   question(library.database(), "set_title").bind("case_id", case_id).bind("title", title).run();
   transaction.commit();
   return {};

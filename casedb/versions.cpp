@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/authoring.h"
+#include "casedb/permissions.h"
 #include "casedb/question.h"
 #include "casedb/setting_columns.h"
 #include "casedb/sqlite.h"
@@ -17,17 +18,8 @@ constexpr const char* kDecisions[] = {"made",     "submitted", "returned",
                                       "approved", "published", "retired"};  // in the order of DecisionKind
 constexpr std::size_t kMostNote = 1000;
 
-base::Error not_allowed(const char* text) {
-  return {"not_allowed", text};
-}
 base::Error bad_state(const char* text) {
   return {"bad_state", text};
-}
-
-base::Result<Account> account_of(Library& library, const std::string& name) {
-  for (Account& one : list_users(library))
-    if (one.login_name == name && one.enabled) return std::move(one);
-  return base::Error{"no_user", "there is no such user, or the account is closed"};
 }
 
 base::Result<void> check_note(const std::string& note) {
@@ -38,7 +30,7 @@ base::Result<void> check_note(const std::string& note) {
   return {};
 }
 
-// What somebody who may do it wants with a case: both known, nothing written yet.
+// What somebody wants with a case: both known, nothing written yet.
 struct Wish {
   CaseRow row;
   Account by;
@@ -49,7 +41,7 @@ base::Result<Wish> wish(Library& library, const std::string& case_id, const std:
   if (const auto fit = check_note(note); !fit) return fit.error();
   auto row = find_case(library, case_id);
   if (!row) return row.error();
-  auto account = account_of(library, by);
+  auto account = open_account(library, by);
   if (!account) return account.error();
   return Wish{std::move(*row), std::move(*account), list_decisions(library, case_id)};
 }
@@ -64,10 +56,10 @@ void decide(Library& library, const Wish& wish, DecisionKind kind, const std::st
       .run();
 }
 
-void set_state(Library& library, const Wish& wish, const char* state, bool own_cohort) {
+void set_state(Library& library, const Wish& wish, CaseState state, bool own_cohort) {
   question(library.database(), "set_state")
       .bind("case_id", wish.row.case_id)
-      .bind("state", state)
+      .bind("state", name_of(state))
       .bind("audience", own_cohort ? "own_cohort" : "everyone")
       .run();
 }
@@ -155,10 +147,10 @@ base::Result<void> submit_case(Library& library, const std::string& case_id, con
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
-  if (wanted->by.role != Role::mentor) return not_allowed("a mentor submits a case to review");
-  if (wanted->row.state != "draft") return bad_state("only a draft is submitted to review");
+  if (const auto allowed = allow(wanted->by.role, Action::submit_case); !allowed) return allowed.error();
+  if (wanted->row.state != CaseState::draft) return bad_state("only a draft is submitted to review");
   decide(library, *wanted, DecisionKind::submitted, note);
-  set_state(library, *wanted, "review", false);
+  set_state(library, *wanted, CaseState::review, false);
   transaction.commit();
   return {};
 }
@@ -168,35 +160,39 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
-  if (wanted->by.role != Role::mentor && wanted->by.role != Role::director)
-    return not_allowed("a mentor or a director reviews a case");
-  if (wanted->row.state != "review") return bad_state("the case is not in review");
+  const Action action = approve ? Action::approve_case : Action::return_case;
+  if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
+  if (wanted->row.state != CaseState::review) return bad_state("the case is not in review");
+  // Whoever submitted it may take it back, but not approve it.
   const Decision* submitted = last_of(wanted->decisions, DecisionKind::submitted);
-  if (submitted == nullptr || submitted->person_id == wanted->by.person_id) {
-    // Who submitted may take it back, but not approve it.
-    if (approve) return not_allowed("a second person reviews a case, not who submitted it");
-  }
+  const bool own = submitted == nullptr || submitted->person_id == wanted->by.person_id;
+  if (const auto allowed = allow(wanted->by.role, action, Subject::whose(own)); !allowed) return allowed.error();
   decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
-  if (!approve) set_state(library, *wanted, "draft", false);
+  if (!approve) set_state(library, *wanted, CaseState::draft, false);
   transaction.commit();
   return {};
 }
 
-base::Result<void> publish_case(Library& library, const std::string& case_id, const std::string& by,
-                                bool own_cohort, const std::string& note) {
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note) {
+  if (const auto ready = ready_to_publish(check); !ready) return ready.error();
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
-  if (wanted->row.state != "draft" && wanted->row.state != "review")
+  if (wanted->row.state != CaseState::draft && wanted->row.state != CaseState::review)
     return bad_state("only a draft or a case in review is published");
-  const bool reviewed = wanted->row.state == "review" && review_of(wanted->decisions).has_value();
-  if (wanted->by.role != Role::mentor && (wanted->by.role != Role::director || !reviewed))
-    return not_allowed("a mentor publishes a case, a director what was reviewed");
+  const bool reviewed = wanted->row.state == CaseState::review && review_of(wanted->decisions).has_value();
+  const Action action = reviewed ? Action::publish_reviewed_case : Action::publish_unreviewed_case;
+  if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
   if (!reviewed && !own_cohort)
-    return not_allowed("a second person has not approved the case; to his own cohort a mentor may publish it so");
+    return base::Error{
+        "not_allowed",
+        "no second person has approved the case; a mentor may publish it so to their own cohort only"};
   if (const auto fit = check_burned_in(wanted->row); !fit) return fit.error();
+  if (check.content_mark != content_mark(library, case_id))
+    return base::Error{"checks_failed", "the case has changed since it was checked: check it again"};
   decide(library, *wanted, DecisionKind::published, note);
-  set_state(library, *wanted, "published", !reviewed);
+  set_state(library, *wanted, CaseState::published, !reviewed);
   transaction.commit();
   return {};
 }
@@ -208,14 +204,11 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
   if (!wanted) return wanted.error();
   const Decision* published = last_of(wanted->decisions, DecisionKind::published);
   const bool own = published != nullptr && published->person_id == wanted->by.person_id;
-  if (wanted->by.role != Role::admin && !own) return not_allowed("an admin, or who published it, retires a case");
-  if (wanted->row.state != "published") return bad_state("only a published case is retired");
+  if (const auto allowed = allow(wanted->by.role, Action::retire_case, Subject::whose(own)); !allowed)
+    return allowed.error();
+  if (wanted->row.state != CaseState::published) return bad_state("only a published case is retired");
   decide(library, *wanted, DecisionKind::retired, note);
-  question(library.database(), "set_state")
-      .bind("case_id", case_id)
-      .bind("state", "retired")
-      .bind("audience", wanted->row.own_cohort_only ? "own_cohort" : "everyone")
-      .run();
+  set_state(library, *wanted, CaseState::retired, wanted->row.own_cohort_only);
   transaction.commit();
   return {};
 }
@@ -224,7 +217,7 @@ base::Result<std::string> new_version(Library& library, const std::string& case_
   Transaction transaction(library.database());
   auto wanted = wish(library, case_id, by, {});
   if (!wanted) return wanted.error();
-  if (wanted->by.role != Role::mentor) return not_allowed("a mentor makes a new version");
+  if (const auto allowed = allow(wanted->by.role, Action::make_case_version); !allowed) return allowed.error();
   Sqlite& database = library.database();
   const auto lesions = list_lesions(library, case_id);
   const auto structures = list_structures(library, case_id);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "casedb/case_checks.h"
 #include "casedb/store.h"
 
 namespace seldinger::casedb {
@@ -33,9 +34,10 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
                               const std::string& note = {});
 // A mentor or director publishes what was approved. With `own_cohort` a mentor publishes what nobody has reviewed,
 // to his own cohort only, marked so. A case that comes from a patient needs the confirmation that no picture holds
-// burned-in text (`burned_in_unchecked`). Whoever calls has run the case's check.
-base::Result<void> publish_case(Library& library, const std::string& case_id, const std::string& by,
-                                bool own_cohort, const std::string& note = {});
+// burned-in text (`burned_in_unchecked`). `check` is of the case as it is stored now, and holds (`checks_failed`):
+// one of another case, or from before a change, is refused, however it came out.
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note = {});
 // An admin, or who published it.
 base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
                                const std::string& note = {});

@@ -20,7 +20,7 @@ std::string words(std::string text) {
 }
 
 std::string state_text(const casedb::CaseRow& row) {
-  return row.state + ", version " + std::to_string(row.version) +
+  return casedb::name_of(row.state) + ", version " + std::to_string(row.version) +
          (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
 }
 

@@ -47,8 +47,8 @@ void add_item(Html& html, std::size_t number, const casedb::CurriculumItem& item
 
 void add_curriculum(Html& html, const CurriculumView& view) {
   html.raw("<section>\n<table class=\"list\">\n<caption><strong>").name(view.curriculum.title).raw("</strong>");
-  if (view.curriculum.state != "published")
-    html.raw(" <span class=\"mark\">").text(view.curriculum.state).raw("</span>");
+  if (view.curriculum.state != casedb::CurriculumState::published)
+    html.raw(" <span class=\"mark\">").text(casedb::name_of(view.curriculum.state)).raw("</span>");
   html.raw("</caption>\n<thead><tr><th scope=\"col\">Case</th>");
   if (view.own) {
     html.raw(

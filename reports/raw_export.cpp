@@ -190,7 +190,7 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       write_recording(at, choice, place.attempt, *recording, events ? &*events : nullptr, sum);
     }
     ++sum.attempts;
-    if (row->operator_name != "person") ++sum.synthetic;
+    if (row->synthetic()) ++sum.synthetic;
   }
   attempts.close();
   metrics.close();

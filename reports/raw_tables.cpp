@@ -9,8 +9,8 @@
 namespace seldinger::reports {
 namespace {
 
-constexpr const char* kPerson = "person";
-constexpr std::array kOperators = {"novice", "intermediate", "expert", kPerson};
+constexpr std::array<std::string_view, 4> kOperators = {"novice", "intermediate", "expert",
+                                                        casedb::kPersonOperator};
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
@@ -21,14 +21,10 @@ constexpr const char* kRestTip =
 constexpr const char* kAttemptName = "key to attempts.csv";
 
 // A simulated operator's own name is text of a file that somebody wrote.
-const char* operator_of(const casedb::AttemptRow& row) {
-  for (const char* known : kOperators)
+std::string_view operator_of(const casedb::AttemptRow& row) {
+  for (const std::string_view known : kOperators)
     if (row.operator_name == known) return known;
   return "custom";
-}
-
-bool synthetic(const casedb::AttemptRow& row) {
-  return row.operator_name != kPerson;
 }
 
 bool core(const casedb::AttemptRow& row) {
@@ -68,13 +64,13 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       // Who or what moved the hands.
       {{"synthetic", "flag", "", "",
         "1: a simulated operator moved the hands: test data, which says nothing about people"},
-       [](CsvLine& line, const Facts& f) { line.flag(synthetic(*f.row)); }},
+       [](CsvLine& line, const Facts& f) { line.flag(f.row->synthetic()); }},
       {{"operator", "text", "", "",
         "person, or the simulated operator: novice, intermediate, expert, custom (somebody's own file)"},
        [](CsvLine& line, const Facts& f) { line.text(operator_of(*f.row)); }},
       {{"seed", "integer", "", "a person's attempt", "the simulated operator's, unsigned 64 bits"},
        [](CsvLine& line, const Facts& f) {
-         synthetic(*f.row) ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
+         f.row->synthetic() ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
        }},
       // The case.
       {{"case", "text", "", "", "this export's name of the case; its title is somebody's words and stays"},

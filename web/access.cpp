@@ -1,63 +1,29 @@
 #include "web/access.h"
 
+#include "casedb/permissions.h"
 #include "reports/attempt_words.h"
 
 namespace seldinger::web {
 
+using casedb::Action;
+using casedb::may;
+using casedb::Subject;
+
 AttemptScope attempt_scope(casedb::Role role) noexcept {
-  switch (role) {
-    case casedb::Role::trainee:
-      return AttemptScope::own;
-    case casedb::Role::mentor:
-    case casedb::Role::researcher:
-      return AttemptScope::all;
-    case casedb::Role::director:
-    case casedb::Role::admin:
-      return AttemptScope::none;
-  }
-  return AttemptScope::none;
+  if (may(role, Action::see_attempt, Subject::whose(false))) return AttemptScope::all;
+  return may(role, Action::see_attempt, Subject::whose(true)) ? AttemptScope::own : AttemptScope::none;
 }
 
 bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row) {
-  switch (attempt_scope(reader.role)) {
-    case AttemptScope::all:
-      return true;
-    case AttemptScope::own:
-      return row.person_id.has_value() && *row.person_id == reader.person_id;
-    case AttemptScope::none:
-      return false;
-  }
-  return false;
+  return may(reader.role, Action::see_attempt, Subject::whose(row.person_id == reader.person_id));
 }
 
 bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept {
-  switch (role) {
-    case casedb::Role::mentor:
-      return true;
-    case casedb::Role::director:
-      return row.state != "draft";
-    case casedb::Role::researcher:
-    case casedb::Role::admin:
-      return row.state == "published" || row.state == "retired";
-    case casedb::Role::trainee:
-      return false;
-  }
-  return false;
+  return may(role, Action::see_case, row.state);
 }
 
 bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum) noexcept {
-  switch (role) {
-    case casedb::Role::mentor:
-    case casedb::Role::director:
-      return true;
-    case casedb::Role::researcher:
-      return curriculum.state != "draft";
-    case casedb::Role::trainee:
-      return curriculum.state == "published";
-    case casedb::Role::admin:
-      return false;
-  }
-  return false;
+  return may(role, Action::see_curriculum, curriculum.state);
 }
 
 bool may_see_experts(casedb::Role role) noexcept {
@@ -68,7 +34,7 @@ std::string operator_label(const casedb::Account& reader, const casedb::AttemptR
                            const AccountOf& account_of) {
   if (row.synthetic()) return reports::simulated_operator_text(row.operator_name);
   if (!row.person_id.has_value()) return "Unknown person";
-  if (reader.role != casedb::Role::researcher) {
+  if (may(reader.role, Action::see_operator_name)) {
     if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
   }
   return reports::person_text(*row.person_id);

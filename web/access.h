@@ -1,4 +1,4 @@
-// Who may see what. Deny by default; cohorts and studies do not exist yet, so a mentor and a researcher see all.
+// Who may see what on the dashboard, by the one table of who may do what (casedb/permissions.h).
 #pragma once
 
 #include <functional>
@@ -12,17 +12,15 @@ namespace seldinger::web {
 
 enum class AttemptScope { none, own, all };
 
-// Which attempts a role sees: trainee own; mentor and researcher all; director and admin none.
+// Which attempts a role sees.
 AttemptScope attempt_scope(casedb::Role role) noexcept;
 
 bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row);
 
-// Which cases a role reads: a mentor all, a director all but drafts, researcher and admin what is or was published;
-// a trainee attempts cases and reads none (what is right would be told).
+// Which cases a role reads. A trainee attempts cases and reads none: what is right would be told.
 bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept;
 
-// Which curricula a role reads: a mentor, who makes them, and a director, who publishes them, all; a researcher
-// what is or was published; a trainee what is published, with their own states; an admin none.
+// Which curricula a role reads; a trainee with how far they are.
 bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum) noexcept;
 
 // Whether a role reads which attempts set a standard: who sees them all.

@@ -14,7 +14,7 @@ std::string case_json(const casedb::CaseParts& parts) {
   for (const casedb::LesionRow& lesion : parts.lesions) lesions.push_back(casedb::json_of_lesion(lesion));
   nlohmann::ordered_json json = {{"case_id", parts.row.case_id},
                                  {"title", parts.row.title},
-                                 {"state", parts.row.state},
+                                 {"state", casedb::name_of(parts.row.state)},
                                  {"modality", casedb::name_of(parts.row.modality)},
                                  {"patient_position", casedb::name_of(parts.row.position)},
                                  {"lesions", lesions}};

@@ -101,7 +101,7 @@ class LibraryQuestions final : public Questions {
     if (!check_) return base::Error{"not_checked", "cases are not checked here"};
     auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
     if (!library) return library.error();
-    return check_(*library, row);
+    return check_(*library, row.case_id);
   }
 
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {

@@ -242,7 +242,7 @@ Response show_checks(Site& site, const Call& call) {
 
 Response list_curricula(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
-  const bool own = account.role == casedb::Role::trainee;
+  const bool own = casedb::may(account.role, casedb::Action::see_own_progress);
   auto views = site.questions.list_curricula(own ? std::optional(account.person_id) : std::nullopt);
   std::erase_if(views, [&](const auto& one) { return !may_see_curriculum(account.role, one.curriculum); });
   return html_response(200, reports::curricula_page(call.reader->visitor(), views));
@@ -321,9 +321,8 @@ std::string routes_markdown() {
       "| method | path | who | scope | answers |\n|---|---|---|---|---|\n";
   for (const Route& route : routes()) {
     std::string who;
-    for (const auto role : {casedb::Role::trainee, casedb::Role::mentor, casedb::Role::researcher,
-                            casedb::Role::director, casedb::Role::admin}) {
-      if ((route.roles & bit_of(role)) == 0) continue;
+    for (const casedb::Role role : casedb::kAllRoles) {
+      if (!route.roles.has(role)) continue;
       if (!who.empty()) who += ", ";
       who += casedb::name_of(role);
     }

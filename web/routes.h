@@ -5,28 +5,19 @@
 #include <string>
 #include <string_view>
 
+#include "casedb/permissions.h"
 #include "web/http.h"
 #include "web/site.h"
 
 namespace seldinger::web {
 
-// Roles as a set of bits; a route without any is open to whoever is not logged in.
-using Roles = unsigned;
-constexpr Roles bit_of(casedb::Role role) {
-  return 1U << static_cast<unsigned>(role);
-}
-inline constexpr Roles kOpen = 0;
-inline constexpr Roles kEveryRole = bit_of(casedb::Role::trainee) | bit_of(casedb::Role::mentor) |
-                                    bit_of(casedb::Role::researcher) | bit_of(casedb::Role::director) |
-                                    bit_of(casedb::Role::admin);
-inline constexpr Roles kAttemptReaders =
-    bit_of(casedb::Role::trainee) | bit_of(casedb::Role::mentor) | bit_of(casedb::Role::researcher);
-
-inline constexpr Roles kCaseReaders = bit_of(casedb::Role::mentor) | bit_of(casedb::Role::researcher) |
-                                      bit_of(casedb::Role::director) | bit_of(casedb::Role::admin);
-
-inline constexpr Roles kCurriculumReaders = bit_of(casedb::Role::trainee) | bit_of(casedb::Role::mentor) |
-                                            bit_of(casedb::Role::researcher) | bit_of(casedb::Role::director);
+// A route without any role is open to whoever is not logged in.
+using casedb::kEveryRole;
+using casedb::Roles;
+inline constexpr Roles kOpen = {};
+inline constexpr Roles kAttemptReaders = casedb::roles_that_may(casedb::Action::see_attempt);
+inline constexpr Roles kCaseReaders = casedb::roles_that_may(casedb::Action::see_case);
+inline constexpr Roles kCurriculumReaders = casedb::roles_that_may(casedb::Action::see_curriculum);
 
 struct Call {
   const Request& request;

@@ -111,7 +111,7 @@ Response Site::route(const Request& request) {
   if (found->roles != kOpen) {
     if (who == nullptr) return found->is_page ? redirect("/login") : refusal(401, nullptr);
     if (is_change && !equal_in_constant_time(call.form["token"], who->form_token)) return refusal(403, who);
-    if ((found->roles & bit_of(who->account.role)) == 0) return refusal(404, who);
+    if (!found->roles.has(who->account.role)) return refusal(404, who);
   }
   return found->handle(*this, call);
 }

@@ -42,6 +42,7 @@ std::optional<base::Error> DraftScene::error() const {
 }
 
 base::Result<std::shared_ptr<const CheckedScene>> DraftScene::make(casedb::Library& library, std::uint64_t number) {
+  std::string mark = casedb::content_mark(library, case_id_);
   auto row = casedb::find_case(library, case_id_);
   if (!row) return row.error();
   if (!assets_) {
@@ -58,7 +59,7 @@ base::Result<std::shared_ptr<const CheckedScene>> DraftScene::make(casedb::Libra
   auto made = std::make_shared<CheckedScene>();
   made->number = number;
   made->scene = std::move(*scene);
-  made->check = check_scene(made->scene, *row, lesions, structures);
+  made->check = check_scene(std::move(mark), made->scene, *row, lesions, structures);
   for (const casedb::LesionRow& lesion : lesions) add_lesion(lesion.form, made->scene);
   made->way = planned_way(made->scene);
   made->row = std::move(*row);

@@ -177,7 +177,7 @@ void AttemptPanel::draw_steps(Trainer& trainer) {
     if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
   }
   const bool patient = scene.subject == cases::Subject::patient;
-  if (patient && trainer.account().role == casedb::Role::mentor)
+  if (patient && trainer.may(casedb::Action::cause_event))
     for (const cases::EventInfo& event : cases::event_kinds()) {
       if (event.source != cases::EventSource::mentor) continue;
       if (ImGui::Button(event.words)) say(attempt, event.kind, event.words);

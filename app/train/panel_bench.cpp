@@ -72,7 +72,7 @@ void BenchPanel::draw_top(Trainer& trainer) {
   const casedb::CaseRow& row = bench.row();
   heading(row.title.c_str());
   ImGui::SameLine();
-  ImGui::TextDisabled("%s, version %d   ·   %s", row.state.c_str(), row.version, kTrainingOnly);
+  ImGui::TextDisabled("%s, version %d   ·   %s", casedb::name_of(row.state).c_str(), row.version, kTrainingOnly);
   for (const ToolButton& one : kTools) {
     const bool in_hand = bench.tool == one.tool;
     if (in_hand) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.24F, 0.56F, 0.42F, 1.0F));
@@ -153,7 +153,7 @@ void BenchPanel::draw_checks(CaseBench& bench) {
 void BenchPanel::draw_actions(Trainer& trainer) {
   CaseBench& bench = *trainer.bench();
   const casedb::CaseRow& row = bench.row();
-  const bool draft = row.state == "draft", review = row.state == "review";
+  const bool draft = row.state == casedb::CaseState::draft, review = row.state == casedb::CaseState::review;
   if (!bench.locked().empty() && draft) quiet(bench.locked().c_str());
   if (draft && row.origin == "import" && !row.burned_in_checked &&
       ImGui::Button("I looked: no slice holds text", {-1.0F, 0.0F}))
@@ -213,7 +213,7 @@ void BenchPanel::draw_help() {
 
 void BenchPanel::tell(const CaseBench& bench, TraceLine& line) {
   BenchTrace told;
-  told.state = bench.row().state;
+  told.state = casedb::name_of(bench.row().state);
   told.checking = bench.checking();
   told.lesions = bench.lesions().size();
   told.structures = bench.structures().size();

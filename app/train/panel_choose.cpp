@@ -1,5 +1,7 @@
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -8,7 +10,11 @@ namespace {
 std::string state_words(const Choice& choice) {
   if (!choice.open) return choice.attempts_left.value_or(1) > 0 ? "not open yet" : "no attempt left";
   std::string words = choice.due ? "next" : "";
-  if (!choice.reached.empty()) words += (words.empty() ? "" : " · ") + choice.reached;
+  if (choice.reached) {
+    std::string reached(assessment::name_of(*choice.reached));  // "not_started"
+    std::replace(reached.begin(), reached.end(), '_', ' ');
+    words += (words.empty() ? "" : " · ") + reached;
+  }
   if (choice.attempts_left) words += " · " + std::to_string(*choice.attempts_left) + " left";
   return words;
 }
@@ -16,14 +22,14 @@ std::string state_words(const Choice& choice) {
 void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   const float em_px = ImGui::GetFontSize(), open_px = 7.6F * em_px, edit_px = 3.6F * em_px;  // of their words
-  const bool mentor = trainer.account().role == casedb::Role::mentor;
+  const bool edits = trainer.may(casedb::Action::make_case_version);
   if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
   ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.3F);
   ImGui::TableSetupColumn("Difficulty", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("Passed", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, mentor ? open_px + 8.0F + edit_px : open_px);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, edits ? open_px + 8.0F + edit_px : open_px);
   ImGui::TableHeadersRow();
   std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
@@ -50,7 +56,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     if (ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F}) || (next && keys.pressed(kEnter)))
       chosen = choice.case_id;
     ImGui::EndDisabled();
-    if (mentor) {
+    if (edits) {
       ImGui::SameLine();
       if (ImGui::Button("Edit", {edit_px, 0.0F})) versioned = choice.case_id;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
@@ -82,7 +88,7 @@ void draw_drafts(Trainer& trainer) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(modality_words(draft.modality).c_str());
     ImGui::TableNextColumn();
-    ImGui::Text("%s, version %d", draft.state == "review" ? "in review" : "draft", draft.version);
+    ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
     if (ImGui::Button("Bench", {-1.0F, 0.0F})) opened = draft.case_id;
     ImGui::PopID();

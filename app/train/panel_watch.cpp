@@ -53,8 +53,8 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
   if (ImGui::Button("Back 5 s (Left)") || keys.pressed(kLeft)) watched.go_to(t_s - kLeapS);
   ImGui::SameLine();
   if (ImGui::Button("On 5 s (Right)") || keys.pressed(kRight)) watched.go_to(t_s + kLeapS);
-  // The others have to find the way by the pictures.
-  if (trainer.account().role == casedb::Role::mentor) {
+  // Whoever may not has to find the way by the pictures.
+  if (trainer.may(casedb::Action::look_inside)) {
     constexpr std::array kInside = {"Cut away (I)", "Look through (I)", "Whole (I)"};
     ImGui::SameLine();
     if (ImGui::Button(kInside[static_cast<std::size_t>(room_.inside())]) || keys.pressed('I'))

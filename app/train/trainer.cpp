@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "casedb/changeable_case.h"
 #include "casedb/expert_replay.h"
 #include "sim/base/failure.h"
 
@@ -10,22 +9,6 @@ namespace seldinger::app {
 namespace {
 
 constexpr int kMostHelp = 2;
-
-std::size_t passes_among(casedb::Grader& grader, const std::vector<casedb::AttemptRow>& attempts,
-                         const std::string& case_id, int& made) {
-  std::size_t passes = 0;
-  for (const casedb::AttemptRow& attempt : attempts) {
-    if (attempt.case_id != case_id || attempt.synthetic()) continue;
-    ++made;
-    if (grader.grade(attempt).verdict == assessment::Verdict::passed) ++passes;
-  }
-  return passes;
-}
-
-bool has_attempts(casedb::Library& library, const casedb::CaseRow& row) {
-  const auto changeable = casedb::changeable_case(library, row.case_id);
-  return !changeable && changeable.error().code == "has_attempts";
-}
 
 }  // namespace
 
@@ -137,78 +120,24 @@ void Trainer::log_out() {
   debrief_.reset();
   bench_.reset();
   trying_ = false;
-  choices_.clear();
-  drafts_.clear();
+  choices_ = {};
   account_ = {};
   refusal_.clear();
   screen_ = TrainerScreen::log_in;
 }
 
 void Trainer::list_choices() {
-  choices_.clear();
-  casedb::Grader grader(library_);
-  const auto attempts = casedb::list_attempts_of(library_, account_.person_id);
-  const auto rows = casedb::list_case_heads(library_);
-  const auto row_of = [&](const std::string& case_id) {
-    return std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.case_id == case_id; });
-  };
-  const auto add = [&](const casedb::CaseRow& row) -> Choice& {
-    Choice choice;
-    choice.case_id = row.case_id;
-    choice.title = row.title;
-    choice.modality = row.modality;
-    choice.difficulty = row.difficulty;
-    return choices_.emplace_back(std::move(choice));
-  };
-  for (const casedb::Curriculum& curriculum : casedb::list_curricula(library_)) {
-    if (curriculum.state != "published") continue;
-    for (const casedb::ItemState& item : casedb::states_of(library_, curriculum, account_.person_id)) {
-      const auto row = row_of(item.case_id);
-      if (row == rows.end()) continue;
-      Choice& choice = add(*row);
-      choice.curriculum = curriculum.title;
-      choice.attempts = item.attempts;
-      choice.passes = item.passes;
-      choice.attempts_left = item.progress.attempts_left;
-      choice.open = item.progress.open && choice.attempts_left.value_or(1) > 0;
-      choice.due = item.progress.due;
-      choice.reached = assessment::name_of(item.progress.reached);
-      std::replace(choice.reached.begin(), choice.reached.end(), '_', ' ');
-    }
-  }
-  list_drafts(rows);
-  for (const casedb::CaseRow& row : rows) {
-    const bool listed = std::any_of(choices_.begin(), choices_.end(),
-                                    [&](const Choice& choice) { return choice.case_id == row.case_id; });
-    // A mentor may also practise a draft that attempts have frozen; any other is for the bench, where trying it
-    // freezes nothing.
-    const bool frozen =
-        account_.role == casedb::Role::mentor && row.state == "draft" && has_attempts(library_, row);
-    if (listed || (row.state != "published" && !frozen)) continue;
-    if (casedb::list_lesions(library_, row.case_id).empty()) continue;
-    Choice& choice = add(row);
-    choice.passes = static_cast<int>(passes_among(grader, attempts, row.case_id, choice.attempts));
-  }
+  choices_ = casedb::choices_of(library_, account_.person_id, account_.role);
   library_.shrink();  // a workstation is on for days
 }
 
 const Choice* Trainer::next() const noexcept {
-  const auto due = std::find_if(choices_.begin(), choices_.end(),
-                                [](const Choice& choice) { return choice.due && choice.open; });
-  return due == choices_.end() ? nullptr : &*due;
-}
-
-void Trainer::list_drafts(const std::vector<casedb::CaseRow>& rows) {
-  drafts_.clear();
-  if (account_.role != casedb::Role::mentor) return;
-  for (const casedb::CaseRow& row : rows)
-    if (row.state == "draft" || row.state == "review")
-      drafts_.push_back({row.case_id, row.title, row.state, row.modality, row.version});
+  return casedb::next_of(choices_);
 }
 
 void Trainer::open_bench(const std::string& case_id) {
   const bool known =
-      std::any_of(drafts_.begin(), drafts_.end(), [&](const Draft& one) { return one.case_id == case_id; });
+      std::any_of(drafts().begin(), drafts().end(), [&](const Draft& one) { return one.case_id == case_id; });
   if (!known) return;
   refusal_.clear();
   bench_.reset();  // before the next: a case is large
@@ -217,7 +146,7 @@ void Trainer::open_bench(const std::string& case_id) {
 }
 
 void Trainer::new_version(const std::string& case_id) {
-  if (account_.role != casedb::Role::mentor) return;
+  if (!may(casedb::Action::make_case_version)) return;
   const auto made = casedb::new_version(library_, case_id, account_.login_name);
   if (!made) {
     refusal_ = made.error().text;
@@ -245,8 +174,8 @@ void Trainer::try_draft() {
 
 const Choice* Trainer::find_choice(const std::string& case_id) const noexcept {
   const auto choice =
-      std::find_if(choices_.begin(), choices_.end(), [&](const Choice& one) { return one.case_id == case_id; });
-  return choice == choices_.end() ? nullptr : &*choice;
+      std::find_if(choices().begin(), choices().end(), [&](const Choice& one) { return one.case_id == case_id; });
+  return choice == choices().end() ? nullptr : &*choice;
 }
 
 bool Trainer::once_more() const noexcept {

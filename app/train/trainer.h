@@ -13,32 +13,17 @@
 #include "app/train/device_bench.h"
 #include "app/train/person_attempt.h"
 #include "app/train/watched_attempt.h"
-#include "casedb/curriculum.h"
+#include "casedb/choices.h"
 #include "casedb/grading.h"
+#include "casedb/permissions.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {
 
 enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, bench, devices };
 
-// A case that can be chosen, as a line of the list.
-struct Choice {
-  std::string case_id, title, curriculum;  // no curriculum: it stands alone
-  cases::Modality modality = cases::Modality::mpr;
-  casedb::Difficulty difficulty = casedb::Difficulty::moderate;
-  int attempts = 0, passes = 0;
-  bool open = true;     // else a gate of the curriculum is shut, or no attempt is left
-  bool due = false;     // what comes next
-  std::string reached;  // "proficient"; empty out of a curriculum
-  std::optional<int> attempts_left;
-};
-
-// A case that a mentor works on: a draft, or one in review.
-struct Draft {
-  std::string case_id, title, state;
-  cases::Modality modality = cases::Modality::mpr;
-  int version = 1;
-};
+using casedb::Choice;
+using casedb::Draft;
 
 // What an attempt came to.
 struct Debrief {
@@ -67,7 +52,9 @@ class Trainer {
   void log_out();  // what runs is stopped and stored
   const casedb::Account& account() const noexcept { return account_; }
 
-  const std::vector<Choice>& choices() const noexcept { return choices_; }
+  const std::vector<Choice>& choices() const noexcept { return choices_.cases; }
+  // Whether whoever is logged in may do it (casedb/permissions.h).
+  bool may(casedb::Action action) const noexcept { return casedb::may(account_.role, action); }
   void choose(const std::string& case_id);  // of the choices; else nothing happens
   // What comes next, by what was reached when the choices were listed: the first that is due. Null: nothing is.
   const Choice* next() const noexcept;
@@ -80,7 +67,7 @@ class Trainer {
   void back();  // from briefing or debrief to the choice, or to the bench whose draft was tried
 
   // --- the mentor's bench; empty, and nothing happens, for everybody else ---
-  const std::vector<Draft>& drafts() const noexcept { return drafts_; }
+  const std::vector<Draft>& drafts() const noexcept { return choices_.drafts; }
   void open_bench(const std::string& case_id);  // of the drafts
   // A draft like a case that was published or that attempts were made on, the next version, on the bench.
   void new_version(const std::string& case_id);
@@ -125,7 +112,6 @@ class Trainer {
 
  private:
   void list_choices();
-  void list_drafts(const std::vector<casedb::CaseRow>& rows);
   void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const Task> task);
@@ -137,14 +123,13 @@ class Trainer {
   TrainerScreen screen_ = TrainerScreen::log_in;
   std::string refusal_;
   casedb::Account account_;
-  std::vector<Choice> choices_;
+  casedb::Choices choices_;
   casedb::CaseRow chosen_;
   std::string expert_;
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
   std::unique_ptr<WatchedAttempt> watched_;
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
-  std::vector<Draft> drafts_;
   std::unique_ptr<CaseBench> bench_;
   std::unique_ptr<DeviceBench> device_bench_;
   std::string first_case_;  // to be opened at log-in

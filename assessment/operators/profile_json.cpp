@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "assessment/operators/person_operator.h"
 #include "assessment/operators/profile.h"
 
 namespace seldinger::assessment {
@@ -8,7 +9,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLongestName = 64;
-constexpr const char* kTaken = "person";  // what attempts of people are stored under
 
 struct Reader {
   base::Error error{"bad_operator", "", {}};
@@ -40,7 +40,8 @@ base::Result<OperatorProfile> profile_from_json(const std::string& text) {
   for (const auto& [key, value] : json.items()) {
     if (key == "like") continue;
     if (key == "name") {
-      if (value.is_string() && value.get<std::string>().size() <= kLongestName && value != kTaken && value != "")
+      if (value.is_string() && value.get<std::string>().size() <= kLongestName &&
+          value.get<std::string>() != kPersonOperator && value != "")
         profile.name = value.get<std::string>();
       else
         reader.error.findings.push_back({"bad_field", "name is not a short text, or a person's"});

@@ -90,7 +90,7 @@ TEST_F(CaseBenchTest, AClickPlacesALesionAndTheChecksSeeIt) {
   EXPECT_NEAR(spot->depth_mm, kBallMm - 16.0, 1.0);
   // The command line's own check says the same.
   const auto row = casedb::find_case(*library_, case_id_).value();
-  const auto asked = check_case(*library_, row).value();
+  const auto asked = check_case(*library_, row.case_id).value();
   ASSERT_EQ(asked.checks.size(), bench_->scene()->check.checks.size());
   for (std::size_t i = 0; i < asked.checks.size(); ++i) {
     EXPECT_EQ(asked.checks[i].name, bench_->scene()->check.checks[i].name);
@@ -201,16 +201,16 @@ TEST_F(CaseBenchTest, AnEntryGoesOntoTheSkinAndTheWayToTheTargetIsTold) {
 TEST_F(CaseBenchTest, OnlyWhatHoldsIsPublishedAndThenNothingIsChanged) {
   bench_->publish(true, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "draft") << "there is no lesion";
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::draft) << "there is no lesion";
   EXPECT_FALSE(bench_->refusal().empty());
   bench_->tool = BenchTool::lesion;
   bench_->click({0.0, 0.0, 0.0});
   bench_->publish(false, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "draft") << "nobody has reviewed it";
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::draft) << "nobody has reviewed it";
   bench_->publish(true, "");
   ASSERT_TRUE(checked());
-  EXPECT_EQ(bench_->row().state, "published") << bench_->refusal();
+  EXPECT_EQ(bench_->row().state, casedb::CaseState::published) << bench_->refusal();
   EXPECT_FALSE(bench_->locked().empty());
   EXPECT_FALSE(bench_->can_undo());
   bench_->click({10.0, 0.0, 0.0});

@@ -8,6 +8,8 @@
 #include <functional>
 #include <thread>
 
+#include "app/case_check.h"
+#include "casedb/curriculum.h"
 #include "casedb/versions.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
@@ -69,7 +71,7 @@ class TrainerTest : public testing::Test {
   }
   void publish() {
     casedb::Library library = open();
-    ASSERT_TRUE(casedb::publish_case(library, case_id_, "mona", true));
+    ASSERT_TRUE(casedb::publish_case(library, case_id_, check_case(library, case_id_).value(), "mona", true));
   }
   casedb::Library open() { return std::move(casedb::Library::open(folder_).value()); }
   bool looks_until(Trainer& trainer, TrainerScreen screen) {
@@ -387,7 +389,7 @@ TEST_F(TrainerTest, WhatIsDueComesNextAndAttemptsAreUsedUp) {
   {
     casedb::Library library = open();
     ASSERT_TRUE(casedb::add_user(library, "dora", casedb::Role::director, kPassword));
-    ASSERT_TRUE(casedb::publish_case(library, case_id_, "mona", true));
+    ASSERT_TRUE(casedb::publish_case(library, case_id_, check_case(library, case_id_).value(), "mona", true));
     const std::string id = casedb::add_curriculum(library, "First", "mona").value();
     ASSERT_TRUE(casedb::add_curriculum_item(library, id, case_id_, 1, {}, "mona"));
     ASSERT_TRUE(casedb::publish_curriculum(library, id, "dora"));

@@ -57,7 +57,7 @@ TEST_F(BundleTest, ACaseIsTheSameElsewhere) {
   EXPECT_EQ(import_bundle(away_, file_).value().stored, std::vector{case_id_});
   const CaseRow row = find_case(away_, case_id_).value(), original = find_case(home_, case_id_).value();
   EXPECT_EQ(row.title, "Kidney A");
-  EXPECT_EQ(row.state, "published");
+  EXPECT_EQ(row.state, CaseState::published);
   EXPECT_EQ(row.created_us, original.created_us);
   EXPECT_EQ(row.attributes, original.attributes);
   EXPECT_EQ(row.warnings.size(), 2U);
@@ -111,7 +111,7 @@ TEST_F(BundleTest, NothingOfPeopleIsInIt) {
   const std::string person_id = add_user(home_, "Jane Doe", Role::trainee, "secret password").value();
   NewAttempt attempt = sample_attempt(case_id_, lesion_id_);
   attempt.person_id = person_id;
-  attempt.operator_name = "person";
+  attempt.operator_name = kPersonOperator;
   const std::string attempt_id = add_attempt(home_, attempt).value();
   ASSERT_TRUE(write_bundle(home_, {}, file_, "0.1.0").has_value());
   const std::vector<std::byte> rows = bytes_from_rows(home_.database(), case_id_);

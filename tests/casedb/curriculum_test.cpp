@@ -3,6 +3,7 @@
 
 #include "casedb/versions.h"
 #include "tests/casedb/graded_library.h"
+#include "tests/fixtures/sound_check.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -24,7 +25,8 @@ class CurriculumTest : public GradedLibrary {
   }
   void publish(const std::string& case_id) {
     static_cast<void>(confirm_no_burned_in_text(library_, case_id, std::nullopt));
-    ASSERT_TRUE(publish_case(library_, case_id, "Mia", true).has_value());
+    const CaseCheck check = fixtures::sound_check(library_, case_id);
+    ASSERT_TRUE(publish_case(library_, case_id, check, "Mia", true).has_value());
   }
   std::string new_curriculum() { return add_curriculum(library_, "First year", "Mia").value(); }
   void done(bool passes) { attempt(person_, passes ? 1.0 : 0.0, 20.0); }
@@ -48,7 +50,7 @@ TEST_F(CurriculumTest, ComesBackAsItWasMade) {
   EXPECT_EQ(add_curriculum_item(library_, id, two, 5, {{0, Proficiency::proficient}}, "Mia").value(), 2);
   const Curriculum read = find_curriculum(library_, id).value();
   EXPECT_EQ(read.title, "First year");
-  EXPECT_EQ(read.state, "draft");
+  EXPECT_EQ(read.state, CurriculumState::draft);
   ASSERT_EQ(read.items.size(), 2U);
   EXPECT_EQ(read.items[1].family_id, two);
   EXPECT_EQ(read.items[1].attempt_limit, 5);
@@ -70,7 +72,7 @@ TEST_F(CurriculumTest, MentorsMakeAndDirectorsPublish) {
   EXPECT_EQ(code(publish_curriculum(library_, id, "Dan")), "none");
   for (const char* name : {"Tom", "Mia"}) EXPECT_EQ(code(remove_curriculum(library_, id, name)), "not_allowed");
   EXPECT_EQ(code(remove_curriculum(library_, id, "Dan")), "none");
-  EXPECT_EQ(find_curriculum(library_, id).value().state, "retired");
+  EXPECT_EQ(find_curriculum(library_, id).value().state, CurriculumState::retired);
   EXPECT_EQ(code(remove_curriculum(library_, id, "Dan")), "bad_state");
 }
 

@@ -31,7 +31,7 @@ class GradedLibrary : public testing::Test {
     made.recording = sample_recording(20);
     made.picture_png.clear();
     made.person_id = person_id;
-    made.operator_name = person_id ? "person" : "novice";
+    made.operator_name = person_id ? kPersonOperator : "novice";
     made.started_us = now_us();
     made.metrics = {{"gap_share", 2, 0.0, "share", ""},
                     {"sample_rate_p5", 1, 1000.0, "Hz", ""},

@@ -1,10 +1,12 @@
 // What a mentor makes of a case: it comes back as it went in, only a draft is changed, and what is published stays.
+#include <functional>
 #include <limits>
 
 #include "casedb/authoring.h"
 #include "casedb/structure_json.h"
 #include "casedb/versions.h"
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/sound_check.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -34,7 +36,10 @@ class AuthoringTest : public testing::Test {
                                      {"tim", Role::trainee}})
       static_cast<void>(add_user(library_, name, role, "a password").value());
   }
-  std::string state() { return find_case(library_, case_id_).value().state; }
+  base::Result<void> publish(const char* by, bool own_cohort) {
+    return publish_case(library_, case_id_, fixtures::sound_check(library_, case_id_), by, own_cohort);
+  }
+  CaseState state() { return find_case(library_, case_id_).value().state; }
   void refuse(const std::string& sql) {
     EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(sql); })) << sql;
   }
@@ -319,23 +324,23 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(submit_case(library_, case_id_, "dora")), "not_allowed");
   EXPECT_EQ(code(submit_case(library_, case_id_, "nobody")), "no_user");
   EXPECT_EQ(code(judge_case(library_, case_id_, "ben", true)), "bad_state");
-  EXPECT_EQ(code(publish_case(library_, case_id_, "ann", false)), "not_allowed") << "nobody approved it";
+  EXPECT_EQ(code(publish("ann", false)), "not_allowed") << "nobody approved it";
   ASSERT_TRUE(submit_case(library_, case_id_, "ann", "please"));
-  EXPECT_EQ(state(), "review");
+  EXPECT_EQ(state(), CaseState::review);
   EXPECT_EQ(code(set_setting(library_, case_id_, full_setting())), "not_a_draft");
   EXPECT_EQ(code(add_lesion(library_, case_id_, sample_lesion())), "not_a_draft");
   EXPECT_EQ(code(judge_case(library_, case_id_, "ann", true)), "not_allowed") << "not who submitted it";
   EXPECT_EQ(code(judge_case(library_, case_id_, "adam", true)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "ben", false, "the vein is missing"));
-  EXPECT_EQ(state(), "draft");
+  EXPECT_EQ(state(), CaseState::draft);
   ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
-  EXPECT_EQ(code(publish_case(library_, case_id_, "dora", false)), "not_allowed");
+  EXPECT_EQ(code(publish("dora", false)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "dora", true));
-  EXPECT_EQ(code(publish_case(library_, case_id_, "tim", false)), "not_allowed");
-  EXPECT_EQ(code(publish_case(library_, case_id_, "ann", false)), "burned_in_unchecked");
+  EXPECT_EQ(code(publish("tim", false)), "not_allowed");
+  EXPECT_EQ(code(publish("ann", false)), "burned_in_unchecked");
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
-  ASSERT_TRUE(publish_case(library_, case_id_, "ann", false));
-  EXPECT_EQ(state(), "published");
+  ASSERT_TRUE(publish("ann", false));
+  EXPECT_EQ(state(), CaseState::published);
   EXPECT_FALSE(find_case(library_, case_id_).value().own_cohort_only);
   const auto decisions = list_decisions(library_, case_id_);
   ASSERT_EQ(decisions.size(), 5U);
@@ -352,18 +357,68 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(set_title(library_, case_id_, "x")), "not_a_draft");
   EXPECT_EQ(code(retire_case(library_, case_id_, "ben")), "not_allowed");
   ASSERT_TRUE(retire_case(library_, case_id_, "adam"));
-  EXPECT_EQ(state(), "retired");
+  EXPECT_EQ(state(), CaseState::retired);
   refuse("UPDATE training_case SET state = 'published'");
 }
 
 TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
   add_users();
-  EXPECT_EQ(code(publish_case(library_, case_id_, "dora", true)), "not_allowed");
+  EXPECT_EQ(code(publish("dora", true)), "not_allowed");
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
-  ASSERT_TRUE(publish_case(library_, case_id_, "ann", true));
+  ASSERT_TRUE(publish("ann", true));
   EXPECT_TRUE(find_case(library_, case_id_).value().own_cohort_only);
   EXPECT_FALSE(review_of(list_decisions(library_, case_id_)).has_value());
   ASSERT_TRUE(retire_case(library_, case_id_, "ann")) << "who published it may take it back";
+}
+
+// What was looked at is what is published: a check is of one case, as it was then.
+TEST_F(AuthoringTest, OnlyACheckOfTheCaseAsItIsLetsItBePublished) {
+  add_users();
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  const auto publish_by = [&](const CaseCheck& check) {
+    return publish_case(library_, case_id_, check, "ann", true);
+  };
+  EXPECT_EQ(code(publish_by({})), "checks_failed") << "nobody has looked";
+
+  CaseCheck failed = fixtures::sound_check(library_, case_id_);
+  failed.checks.push_back({"lesion_present", false, "there is no lesion"});
+  const auto refused = publish_by(failed);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "checks_failed");
+  ASSERT_EQ(refused.error().findings.size(), 1U) << "what holds is no finding";
+  EXPECT_EQ(refused.error().findings[0].code, "lesion_present");
+  EXPECT_EQ(refused.error().findings[0].text, "there is no lesion");
+  EXPECT_EQ(ready_to_publish(failed).error().text, refused.error().text) << "one text, whoever asks";
+
+  EXPECT_EQ(code(publish_by(fixtures::sound_check(library_, add_case(library_, sample_case())))), "checks_failed")
+      << "another case's, though it is made of the same volume";
+
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  const std::pair<const char*, std::function<base::Result<void>()>> changes[] = {
+      {"a lesion goes", [&] { return remove_lesion(library_, case_id_, lesion_id); }},
+      {"a structure comes",
+       [&]() -> base::Result<void> {
+         const auto added = add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0}));
+         return added ? base::Result<void>() : added.error();
+       }},
+      {"the setting changes", [&] { return set_setting(library_, case_id_, full_setting()); }}};
+  for (const auto& [what, change] : changes) {
+    const CaseCheck before = fixtures::sound_check(library_, case_id_);
+    ASSERT_TRUE(change()) << what;
+    EXPECT_EQ(code(publish_by(before)), "checks_failed") << what;
+  }
+  EXPECT_EQ(state(), CaseState::draft) << "nothing of what was refused was written";
+  EXPECT_TRUE(list_decisions(library_, case_id_).empty());
+
+  // What no check looks at: the title, a decision, an attempt.
+  const std::string again = add_lesion(library_, case_id_, sample_lesion()).value();
+  const CaseCheck check = fixtures::sound_check(library_, case_id_);
+  ASSERT_TRUE(set_title(library_, case_id_, "Another title"));
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, again)).value());
+  ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
+  ASSERT_TRUE(judge_case(library_, case_id_, "ben", true));
+  ASSERT_TRUE(publish_by(check));
+  EXPECT_EQ(state(), CaseState::published);
 }
 
 TEST_F(AuthoringTest, AClosedAccountDecidesNothing) {
@@ -379,7 +434,7 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
   const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
-  ASSERT_TRUE(publish_case(library_, case_id_, "ann", true));
+  ASSERT_TRUE(publish("ann", true));
   EXPECT_EQ(code(new_version(library_, case_id_, "tim")), "not_allowed");
   const std::string second = new_version(library_, case_id_, "ann").value();
   const std::string third = new_version(library_, second, "ben").value();
@@ -387,7 +442,7 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
     const CaseRow row = find_case(library_, id).value();
     EXPECT_EQ(row.version, version);
     EXPECT_EQ(row.family_id, case_id_);
-    EXPECT_EQ(row.state, version == 1 ? "published" : "draft");
+    EXPECT_EQ(row.state, version == 1 ? CaseState::published : CaseState::draft);
     EXPECT_EQ(row.title, sample_case().title);
     EXPECT_EQ(row.attempt_limit, 5);
     EXPECT_EQ(row.attributes.size(), 3U);

@@ -99,7 +99,7 @@ TEST_F(StoreCasesTest, ACaseComesBackAsItWentIn) {
   const CaseRow row = find_case(library_, case_id).value();
   EXPECT_EQ(row.case_id, case_id);
   EXPECT_EQ(row.title, sample.title);
-  EXPECT_EQ(row.state, "draft");
+  EXPECT_EQ(row.state, CaseState::draft);
   EXPECT_EQ(row.origin, "import");
   EXPECT_GT(row.created_us, 1'600'000'000'000'000);
   EXPECT_EQ(row.size_voxels, sample.volume.size_voxels);
@@ -341,6 +341,31 @@ TEST_F(StoreCasesTest, ALesionMayLieUpToTheOuterFacesOfTheVolume) {
   EXPECT_EQ(code_at(-0.51, 3, 2), "bad_lesion");
   EXPECT_EQ(code_at(4, 6.51, 2), "bad_lesion");
   EXPECT_EQ(code_at(4, 3, 4.51), "bad_lesion");
+}
+
+// The names of states against the words that the schema's own constraints list.
+TEST_F(StoreCasesTest, StatesHaveTheNamesThatTheSchemaTakes) {
+  const auto constraint_of = [&](const char* table) {
+    const std::string sql =
+        library_.database().text(std::string("SELECT sql FROM sqlite_schema WHERE name = '") + table + "'");
+    const std::size_t at = sql.find("CHECK (state IN (");
+    return at == sql.npos ? "none" : sql.substr(at, sql.find("))", at) - at);
+  };
+  std::string cases = "CHECK (state IN (", curricula = cases;
+  for (const CaseState state : {CaseState::draft, CaseState::review, CaseState::published, CaseState::retired}) {
+    cases += (state == CaseState::draft ? "'" : ", '") + name_of(state) + "'";
+    EXPECT_EQ(case_state_from(name_of(state)), state);
+  }
+  for (const CurriculumState state :
+       {CurriculumState::draft, CurriculumState::published, CurriculumState::retired}) {
+    curricula += (state == CurriculumState::draft ? "'" : ", '") + name_of(state) + "'";
+    EXPECT_EQ(curriculum_state_from(name_of(state)), state);
+  }
+  EXPECT_EQ(constraint_of("training_case"), cases);
+  EXPECT_EQ(constraint_of("curriculum"), curricula);
+  EXPECT_EQ(case_state_from("Draft"), std::nullopt);
+  EXPECT_EQ(case_state_from(""), std::nullopt);
+  EXPECT_EQ(curriculum_state_from("review"), std::nullopt) << "curricula are not reviewed";
 }
 
 }  // namespace

@@ -101,6 +101,17 @@ TEST_F(AuthoringCommands, EachCheckFailsForItsReason) {
   EXPECT_EQ(failed(check(1)), "lesion_reachable ") << "the needle is too short";
 }
 
+TEST_F(AuthoringCommands, PublishingNamesWhatTheCheckFound) {
+  const auto refused = call("case publish " + case_id_ + " --by nobody --own-cohort");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(refused.err.find("error: checks_failed: "), 0U) << refused.err;
+  EXPECT_NE(refused.err.find("finding: lesion_present: there is no lesion"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("finding: rule_present: "), std::string::npos) << refused.err;
+  answer("case lesion " + case_id_ + " --center-mm 0,30,0 --radius-mm 6 --hu 20 --json");
+  ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1'").exit_code, 0);
+  EXPECT_EQ(code_of("case publish " + case_id_ + " --by nobody --own-cohort"), "no_user") << "the case is ready";
+}
+
 TEST_F(AuthoringCommands, LesionsInBoneAndOutsideAreTold) {
   ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1'").exit_code, 0);
   answer("case lesion " + case_id_ + " --center-mm 0,-52,0 --radius-mm 4 --hu 20 --json");

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/case_check.h"
 #include "casedb/store.h"
 #include "casedb/versions.h"
 #include "sim/volume/analytic.h"
@@ -50,7 +51,8 @@ inline std::vector<std::string> make_ball_library(const std::filesystem::path& f
     lesion.radius_mm = 6.0;
     lesion.hu = 20.0;
     EXPECT_TRUE(casedb::add_lesion(library, ids.back(), lesion));
-    const auto published = casedb::publish_case(library, ids.back(), "mona", true);
+    const auto published =
+        casedb::publish_case(library, ids.back(), app::check_case(library, ids.back()).value(), "mona", true);
     EXPECT_TRUE(published) << published.error().text;
   }
   return ids;

@@ -144,7 +144,7 @@ TEST(CurriculaPage, TellsATraineeWhatIsDueAndWhatIsNotOpen) {
   CurriculumView view;
   view.own = true;
   view.curriculum.title = "First <year>";
-  view.curriculum.state = "published";
+  view.curriculum.state = casedb::CurriculumState::published;
   view.curriculum.items = {{"f1", {}, {}}, {"f2", 5, {{0, assessment::Proficiency::proficient}}}};
   view.items.resize(2);
   view.items[0].title = "Case A";

@@ -121,10 +121,10 @@ inline const std::string kReviewCase = "0190a1b2-0000-7000-8000-0000000000c1";
 inline const std::string kPublishedCase = "0190a1b2-0000-7000-8000-0000000000c2";
 inline const std::string kRetiredCase = "0190a1b2-0000-7000-8000-0000000000c3";
 
-inline casedb::CaseRow case_row(const std::string& id, const std::string& state) {
+inline casedb::CaseRow case_row(const std::string& id, casedb::CaseState state) {
   casedb::CaseRow row;
   row.case_id = row.family_id = id;
-  row.title = "Case, a " + state;
+  row.title = "Case, a " + casedb::name_of(state);
   row.state = state;
   return row;
 }
@@ -133,7 +133,7 @@ inline casedb::AttemptRow attempt_row(const std::string& id, std::optional<std::
   casedb::AttemptRow row;
   row.attempt_id = id;
   row.case_title = "Case of " + id.substr(34);
-  row.operator_name = person_id.has_value() ? "person" : "novice";
+  row.operator_name = person_id.has_value() ? casedb::kPersonOperator : "novice";
   row.person_id = std::move(person_id);
   row.picture_sha256 = std::string(64, 'a');
   row.metrics = {{"hit", 1, 1.0, "bool", ""}, {"vis_joint", 1, std::nullopt, "share", "no_endpoint"}};
@@ -149,11 +149,13 @@ inline void fill(FakeQuestions& questions) {
     questions.passwords[name] = kPassword;
   }
   questions.accounts.push_back({"person-of-other-zzz999", "Other Trainee", Role::trainee, true});
-  questions.cases = {case_row(kDraftCase, "draft"), case_row(kReviewCase, "review"),
-                     case_row(kPublishedCase, "published"), case_row(kRetiredCase, "retired")};
-  for (const char* state : {"draft", "published", "retired"}) {
+  questions.cases = {
+      case_row(kDraftCase, casedb::CaseState::draft), case_row(kReviewCase, casedb::CaseState::review),
+      case_row(kPublishedCase, casedb::CaseState::published), case_row(kRetiredCase, casedb::CaseState::retired)};
+  for (const auto state :
+       {casedb::CurriculumState::draft, casedb::CurriculumState::published, casedb::CurriculumState::retired}) {
     reports::CurriculumView& view = questions.curricula.emplace_back();
-    view.curriculum.title = "A " + std::string(state) + " curriculum";
+    view.curriculum.title = "A " + casedb::name_of(state) + " curriculum";
     view.curriculum.state = state;
   }
   questions.grade.experts.attempt_ids = {kMissingAttempt};

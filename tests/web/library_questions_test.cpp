@@ -11,6 +11,7 @@
 #include "casedb/versions.h"
 #include "fake_site.h"
 #include "raw_client.h"
+#include "tests/fixtures/sound_check.h"
 
 namespace seldinger::web {
 namespace {
@@ -46,7 +47,7 @@ std::string add_small_attempt(casedb::Library& library, std::optional<std::strin
   casedb::NewAttempt attempt;
   attempt.case_id = case_id;
   attempt.lesion_id = lesion_id;
-  attempt.operator_name = person_id.has_value() ? "person" : "expert";
+  attempt.operator_name = person_id.has_value() ? casedb::kPersonOperator : "expert";
   attempt.person_id = std::move(person_id);
   attempt.program_version = "0.1.0";
   attempt.started_us = 1700000000000000;
@@ -86,14 +87,15 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
                            *assessment::criterion_from("skin_punctures <= 1")};
   ASSERT_TRUE(casedb::set_setting(library, case_id, setting).has_value());
   ASSERT_TRUE(casedb::confirm_no_burned_in_text(library, case_id, std::nullopt).has_value());
-  ASSERT_TRUE(casedb::publish_case(library, case_id, "Mia", true).has_value());
+  const casedb::CaseCheck check = fixtures::sound_check(library, case_id);
+  ASSERT_TRUE(casedb::publish_case(library, case_id, check, "Mia", true).has_value());
   const std::string curriculum = casedb::add_curriculum(library, "First year", "Mia").value();
   ASSERT_TRUE(casedb::add_curriculum_item(library, curriculum, case_id, 5, {}, "Mia").has_value());
   ASSERT_TRUE(casedb::publish_curriculum(library, curriculum, "Dan").has_value());
   casedb::NewAttempt attempt;
   attempt.case_id = case_id;
   attempt.lesion_id = lesion_id;
-  attempt.operator_name = "person";
+  attempt.operator_name = casedb::kPersonOperator;
   attempt.person_id = tom;
   attempt.started_us = 1700000000000000;
   attempt.recording.inputs.resize(3);
