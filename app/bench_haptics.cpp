@@ -5,6 +5,7 @@
 
 #include "app/bench.h"
 #include "reports/force_page.h"
+#include "sim/base/tick.h"
 #include "sim/haptics/needle_law.h"
 #include "sim/haptics/thesis_needle.h"
 #include "sim/volume/classes.h"
@@ -16,7 +17,7 @@ using volume::TissueClass;
 
 constexpr double kEncoderMm = 0.055;  // the Omni's
 constexpr double kDepthMm = 60.0, kPlateauMm = 20.0;
-constexpr double kTickS = 0.001;
+using base::kTickS;
 
 using Law = std::function<double(double)>;
 
