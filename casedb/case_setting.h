@@ -1,7 +1,6 @@
 // What a case asks of whoever attempts it, beside its volume: guidance, instrument, patient, and when it passes.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -9,13 +8,15 @@
 #include <vector>
 
 #include "assessment/grading/rule.h"
+#include "sim/base/names.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 
 namespace seldinger::casedb {
 
 enum class Difficulty { easy, moderate, hard };
-constexpr std::array<std::string_view, 3> kDifficultyNames = {"easy", "moderate", "hard"};
+inline constexpr auto kDifficultyNames = base::names<Difficulty>(
+    {{Difficulty::easy, "easy"}, {Difficulty::moderate, "moderate"}, {Difficulty::hard, "hard"}});
 
 // What is known at the sign-in (clinical.md, "Steps around the puncture").
 struct Clinic {

@@ -285,9 +285,7 @@ base::Result<void> set_setting(Library& library, const std::string& case_id, con
   Transaction transaction(library.database());
   const auto row = changeable_case(library, case_id);
   if (!row) return row.error();
-  Statement update = question(library.database(), "set_setting");
-  bind_setting(update, setting);
-  update.bind("case_id", case_id).run();
+  write_setting(library.database(), case_id, setting);
   transaction.commit();
   return {};
 }
