@@ -30,7 +30,14 @@ struct Motion {
   double breath_depth = 0.0;  // a share of a quiet breath of the liver (cases::Breathing); 0: none
   double breath_period_s = 4.0, breath_irregularity = 0.1;
   bool yields = false;  // tissue, to probe and needle
-  std::optional<cases::Breathing> breathing() const;
+  std::optional<cases::Breathing> breathing() const {
+    if (!(breath_depth > 0.0)) return std::nullopt;
+    cases::Breathing made;
+    made.amplitude_mm *= breath_depth;
+    made.period_s = breath_period_s;
+    made.irregularity = breath_irregularity;
+    return made;
+  }
 };
 
 struct CaseSetting {

@@ -158,15 +158,6 @@ std::optional<cases::Subject> subject_from(const std::string& name) {
   return base::from_name(cases::kSubjectNames, name);
 }
 
-std::optional<cases::Breathing> Motion::breathing() const {
-  if (!(breath_depth > 0.0)) return std::nullopt;
-  cases::Breathing made;
-  made.amplitude_mm *= breath_depth;
-  made.period_s = breath_period_s;
-  made.irregularity = breath_irregularity;
-  return made;
-}
-
 base::Result<void> check_setting(const CaseSetting& setting) {
   base::Error error{"bad_setting", "the setting of the case is not sound"};
   const auto wrong = [&](const char* text) {
