@@ -1,5 +1,6 @@
 // The kinds of values a setting of a case can have, each with how it is got from a CaseSetting and put into it. A
-// part of the setting is named by its path of members: number<&CaseSetting::instrument, &Instrument::hu>(-1024, 32767).
+// part of the setting is named by its path of members:
+//   number<&CaseSetting::instrument, &Instrument::hu>(-1024, 32767)
 #pragma once
 
 #include <optional>
