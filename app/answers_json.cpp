@@ -3,6 +3,7 @@
 #include "app/course_json.h"
 #include "app/servo_record_json.h"
 #include "casedb/grading_json.h"
+#include "casedb/values_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,15 +11,10 @@ namespace seldinger::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json point(const glm::dvec3& p) {
-  return Json::array({p.x, p.y, p.z});
-}
-
-template <typename T>
-Json maybe(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
+using casedb::json_of_metrics;
+using casedb::maybe;
+using casedb::point;
+using casedb::text;
 
 Json burned_in_json(const std::optional<casedb::BurnedInCheck>& check) {
   if (!check) return nullptr;
@@ -64,17 +60,6 @@ Json case_json(const casedb::CaseParts& parts) {
   return json;
 }
 
-Json metrics_json(const std::vector<assessment::MetricValue>& metrics) {
-  Json list = Json::array();
-  for (const assessment::MetricValue& metric : metrics)
-    list.push_back({{"id", metric.id},
-                    {"version", metric.version},
-                    {"value", maybe(metric.value)},
-                    {"unit", metric.unit},
-                    {"reason", metric.reason.empty() ? Json(nullptr) : Json(metric.reason)}});
-  return list;
-}
-
 Json attempts_json(const std::vector<SimulatedAttempt>& attempts) {
   Json list = Json::array();
   for (const SimulatedAttempt& attempt : attempts) {
@@ -84,7 +69,7 @@ Json attempts_json(const std::vector<SimulatedAttempt>& attempts) {
                     {"person", maybe(attempt.person)},
                     {"attempt_number", attempt.number + 1},
                     {"seed", attempt.seed},
-                    {"metrics", metrics_json(attempt.metrics)}});
+                    {"metrics", json_of_metrics(attempt.metrics)}});
     if (attempt.grade) casedb::add_grade(*attempt.grade, list.back());
   }
   return list;
@@ -99,19 +84,15 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"operator", attempt.operator_name},
           {"synthetic", attempt.synthetic()},
           {"seed", attempt.seed},
-          {"instrument", attempt.instrument.kind == cases::InstrumentKind::core ? "core" : "access"},
+          {"instrument", base::name_of(cases::kInstrumentKindNames, attempt.instrument.kind)},
           {"modality", casedb::name_of(attempt.picture.modality)},
-          {"approach", attempt.approach == cases::Approach::in_plane ? "in_plane" : "out_of_plane"},
+          {"approach", base::name_of(cases::kApproachNames, attempt.approach)},
           {"started_us", attempt.started_us},
           {"duration_s", attempt.duration_s},
           {"end", attempt.end ? Json(casedb::name_of(*attempt.end)) : Json(nullptr)},
           {"program_version", attempt.program_version},
           {"step_version", attempt.step_version},
-          {"metrics", metrics_json(attempt.metrics)}};
-}
-
-std::string text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+          {"metrics", json_of_metrics(attempt.metrics)}};
 }
 
 }  // namespace
@@ -152,7 +133,7 @@ std::string json_of_lesion(const std::string& lesion_id) {
 }
 
 std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade) {
-  Json json = {{"metrics", metrics_json(scored.metrics)}, {"steps", json_of_steps(scored.steps)}};
+  Json json = {{"metrics", json_of_metrics(scored.metrics)}, {"steps", json_of_steps(scored.steps)}};
   if (grade != nullptr) {
     casedb::add_grade(*grade, json);
     json["experts"] = casedb::json_of_experts(grade->experts);
@@ -216,7 +197,7 @@ std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint
                            const std::string& reason) {
   return text({{"verified", maybe(verified)},
                {"first_difference_tick", maybe(first_difference_tick)},
-               {"reason", reason.empty() ? Json(nullptr) : Json(reason)}});
+               {"reason", maybe(reason)}});
 }
 
 std::string json_of_users(const std::vector<casedb::Account>& accounts) {

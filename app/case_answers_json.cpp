@@ -1,15 +1,12 @@
 #include "app/case_answers_json.h"
 
-#include <nlohmann/json.hpp>
+#include "casedb/values_json.h"
 
 namespace seldinger::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+using casedb::text;
 
 }  // namespace
 

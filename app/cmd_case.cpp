@@ -61,7 +61,7 @@ int run_case_show(const Arguments& arguments) {
     const cases::LesionForm& form = lesion.form;
     std::printf("lesion   %s at %.1f,%.1f,%.1f mm, %s, radius %.1f mm, %s%.0f HU\n", lesion.lesion_id.c_str(),
                 form.center_lps_mm.x, form.center_lps_mm.y, form.center_lps_mm.z,
-                cases::kLesionKindNames[static_cast<std::size_t>(form.kind)].data(), lesion.lesion.radius_mm,
+                base::name_of(cases::kLesionKindNames, form.kind).data(), lesion.lesion.radius_mm,
                 form.adds ? "tissue + " : "", form.hu);
   }
   for (const casedb::StructureRow& one : parts->structures)

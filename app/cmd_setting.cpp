@@ -1,60 +1,64 @@
 // case setting: what a case asks of whoever attempts it.
-#include <cmath>
-#include <cstdio>
-
 #include "app/command.h"
 #include "app/file.h"
 #include "assessment/grading/rule_json.h"
 #include "casedb/authoring.h"
+#include "casedb/setting_table.h"
 #include "sim/case/gauge.h"
 
 namespace seldinger::app {
 namespace {
 
-cases::Modality modality_named(const std::string& option, const std::string& name) {
-  const auto modality = casedb::modality_from(name);
-  if (!modality) throw UsageError(option + " is " + casedb::modality_names());
-  return *modality;
-}
-
-void read_instrument(const Arguments& arguments, cases::Instrument& needle) {
-  if (arguments.has("--instrument")) {
-    const std::string kind = arguments.text("--instrument");
-    if (kind != "access" && kind != "core") throw UsageError("--instrument is access or core");
-    needle.kind = kind == "core" ? cases::InstrumentKind::core : cases::InstrumentKind::access;
-  }
-  if (arguments.has("--gauge")) {
-    const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", 22, 1, 99)));
-    if (!gauge) throw UsageError("--gauge is 16 to 25");
-    needle.radius_mm = gauge->outer_mm / 2.0;
-  }
-  needle.length_mm = arguments.number("--length-mm", needle.length_mm);
-  needle.throw_mm = arguments.number("--throw-mm", needle.throw_mm);
-  needle.notch_mm = arguments.number("--notch-mm", needle.notch_mm);
-  needle.dead_tip_mm = arguments.number("--dead-tip-mm", needle.dead_tip_mm);
-}
-
-void read_clinic(const Arguments& arguments, casedb::Clinic& clinic) {
-  if (arguments.has("--inr")) clinic.inr = arguments.number("--inr", 0.0);
-  if (arguments.has("--platelets")) clinic.platelets_per_nl = arguments.number("--platelets", 0.0);
-  clinic.allergy = arguments.text("--allergy", clinic.allergy);
-  clinic.indication = arguments.text("--indication", clinic.indication);
-  if (arguments.has("--decision")) {
-    const std::string decision = arguments.text("--decision");
-    if (decision != "proceed" && decision != "defer") throw UsageError("--decision is proceed or defer");
-    clinic.defer = decision == "defer";
+void read_composed(const Arguments& arguments, const casedb::SettingOption& option, casedb::Composed what,
+                   casedb::CaseSetting& setting) {
+  const std::string name = option.name;
+  switch (what) {
+    case casedb::Composed::further_modalities:
+      setting.further_modalities.clear();
+      for (const std::string& one : arguments.all(name)) {
+        if (one == "none") continue;
+        const auto modality = casedb::modality_from(one);
+        if (!modality) throw UsageError(name + " is " + casedb::modality_names());
+        setting.further_modalities.push_back(*modality);
+      }
+      break;
+    case casedb::Composed::gauge: {
+      const auto gauge = cases::gauge(static_cast<int>(arguments.whole(name, 22, 1, 99)));
+      if (!gauge) throw UsageError(name + " is " + option.help);
+      setting.instrument.radius_mm = gauge->outer_mm / 2.0;
+      break;
+    }
+    case casedb::Composed::planned_entry:
+      setting.planned_entry_lps_mm = parse_point(arguments.text(name));
+      if (!setting.planned_entry_lps_mm) throw UsageError(name + " needs X,Y,Z in mm");
+      break;
+    case casedb::Composed::pass_rule:  // read_criteria: several options make one
+      break;
   }
 }
 
-void read_motion(const Arguments& arguments, casedb::Motion& motion) {
-  motion.breath_depth = arguments.number("--breath-depth", motion.breath_depth);
-  motion.breath_period_s = arguments.number("--breath-period-s", motion.breath_period_s);
-  motion.breath_irregularity = arguments.number("--breath-irregularity", motion.breath_irregularity);
-  if (arguments.has("--tissue")) {
-    const std::string tissue = arguments.text("--tissue");
-    if (tissue != "still" && tissue != "yields") throw UsageError("--tissue is still or yields");
-    motion.yields = tissue == "yields";
-  }
+void read_row(const Arguments& arguments, const casedb::SettingRow& row, casedb::CaseSetting& setting) {
+  using namespace casedb;
+  if (row.option.name == nullptr || !arguments.has(row.option.name)) return;
+  const std::string name = row.option.name;
+  std::visit(OfKind{[&](const NumberField& one) { one.set(setting, arguments.number(name, 0.0)); },
+                    [&](const MaybeNumberField& one) { one.set(setting, arguments.number(name, 0.0)); },
+                    [&](const MaybeWholeField& one) {
+                      one.set(setting, static_cast<int>(arguments.whole(name, one.least, one.least, one.most)));
+                    },
+                    [&](const TextField& one) { one.set(setting, arguments.text(name)); },
+                    [&](const ChoiceField& one) {
+                      if (!one.set(setting, arguments.text(name)))
+                        throw UsageError(name + " is " + base::listed(one.names));
+                    },
+                    [&](const SwitchField& one) {
+                      const std::string word = arguments.text(name);
+                      const std::string_view both[] = {one.no, one.yes};
+                      if (word != one.no && word != one.yes) throw UsageError(name + " is " + base::listed(both));
+                      one.set(setting, word == one.yes);
+                    },
+                    [&](const ComposedField& one) { read_composed(arguments, row.option, one.what, setting); }},
+             row.field);
 }
 
 void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
@@ -72,50 +76,7 @@ void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
 }
 
 void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
-  if (arguments.has("--modality")) {
-    setting.modality = modality_named("--modality", arguments.text("--modality"));
-    std::erase(setting.further_modalities, setting.modality);
-  }
-  if (arguments.has("--also")) {
-    setting.further_modalities.clear();
-    for (const std::string& name : arguments.all("--also"))
-      if (name != "none") setting.further_modalities.push_back(modality_named("--also", name));
-  }
-  if (arguments.has("--subject")) {
-    const auto subject = casedb::subject_from(arguments.text("--subject"));
-    if (!subject) throw UsageError("--subject is patient or phantom");
-    setting.subject = *subject;
-  }
-  if (arguments.has("--position")) {
-    const auto position = casedb::position_from(arguments.text("--position"));
-    if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
-    setting.position = *position;
-  }
-  if (arguments.has("--approach")) {
-    const std::string approach = arguments.text("--approach");
-    if (approach != "in_plane" && approach != "out_of_plane")
-      throw UsageError("--approach is in_plane or out_of_plane");
-    setting.approach = approach == "in_plane" ? cases::Approach::in_plane : cases::Approach::out_of_plane;
-  }
-  read_instrument(arguments, setting.instrument);
-  read_clinic(arguments, setting.clinic);
-  read_motion(arguments, setting.motion);
-  if (arguments.has("--entry-mm")) {
-    setting.planned_entry_lps_mm = parse_point(arguments.text("--entry-mm"));
-    if (!setting.planned_entry_lps_mm) throw UsageError("--entry-mm needs X,Y,Z in mm");
-  }
-  if (arguments.has("--difficulty")) {
-    bool known = false;
-    for (std::size_t i = 0; i < casedb::kDifficultyNames.size(); ++i)
-      if (arguments.text("--difficulty") == casedb::kDifficultyNames[i]) {
-        setting.difficulty = static_cast<casedb::Difficulty>(i);
-        known = true;
-      }
-    if (!known) throw UsageError("--difficulty is easy, moderate or hard");
-  }
-  if (arguments.has("--time-limit-s")) setting.time_limit_s = arguments.number("--time-limit-s", 0.0);
-  if (arguments.has("--attempt-limit"))
-    setting.attempt_limit = static_cast<int>(arguments.whole("--attempt-limit", 1, 1, 1000));
+  for (const casedb::SettingRow& row : casedb::kSettingRows) read_row(arguments, row, setting);
   read_criteria(arguments, setting.rule);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/bench_stages.h"
+#include "app/setting_options.h"
 
 namespace seldinger::app {
 namespace {
@@ -73,36 +74,6 @@ constexpr Option kStructureOptions[] = {
     {"--remove", "NAME", "takes one away again"},
     kJson};
 constexpr Option kLabelOptions[] = {kLibrary, {"--name", "N=TEXT", "what label N is called", true}, kJson};
-constexpr Option kSettingOptions[] = {
-    kLibrary,
-    {"--title", "TEXT", "the case's title"},
-    {"--modality", "mpr|xray|ultrasound", "what it is practised with"},
-    {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else", true},
-    {"--subject", "patient|phantom", "phantom: a block to practise on; nothing is asked around a patient"},
-    {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies"},
-    {"--approach", "in_plane|out_of_plane", "of needle to picture"},
-    {"--instrument", "access|core", "access: the tip decides; core: the fired notch"},
-    {"--gauge", "G", "16 to 25"},
-    {"--length-mm", "L", "the needle's"},
-    {"--throw-mm", "T", "core: the way the tip goes when fired"},
-    {"--notch-mm", "N", "core: length of the sample notch"},
-    {"--dead-tip-mm", "D", "core: from the notch's end to the tip"},
-    {"--inr", "X", "what the laboratory found"},
-    {"--platelets", "X", "per nl (10⁹/l)"},
-    {"--allergy", "TEXT", "told at the sign-in"},
-    {"--indication", "TEXT", "why"},
-    {"--decision", "proceed|defer", "what is right"},
-    {"--breath-depth", "SHARE", "of a quiet breath, 16 mm of liver; default 0: none is shown"},
-    {"--breath-period-s", "S", "from breath to breath; default 4"},
-    {"--breath-irregularity", "SHARE", "standard deviation of its period and depth; default 0.1"},
-    {"--tissue", "still|yields", "to probe and needle; default still"},
-    {"--entry-mm", "X,Y,Z", "the planned entry"},
-    {"--difficulty", "easy|moderate|hard", "how hard it is"},
-    {"--time-limit-s", "S", "an attempt ends then"},
-    {"--attempt-limit", "N", "so many a trainee"},
-    {"--pass", "METRIC>=VALUE", "a criterion: <=, >= or =; with --critical it makes the whole rule anew", true},
-    {"--critical", "METRIC=VALUE", "a criterion that must not be missed whatever else is good", true},
-    {"--rule", "FILE.json", "the rule from a file"}};
 constexpr Option kByOption{"--by", "NAME", "the account that decides"};
 constexpr Option kNoteOption{"--note", "TEXT", "one line kept with the decision"};
 constexpr Option kReviewOptions[] = {kLibrary,

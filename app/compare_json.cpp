@@ -1,8 +1,7 @@
 #include "app/compare_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "casedb/grading_json.h"
+#include "casedb/values_json.h"
 
 namespace seldinger::app {
 namespace {
@@ -61,17 +60,16 @@ Json json_of(const casedb::ComparedGroup& group, const casedb::Comparison& compa
 std::string json_of_comparison(const casedb::Comparison& comparison) {
   Json groups = Json::array();
   for (const casedb::ComparedGroup& group : comparison.groups) groups.push_back(json_of(group, comparison));
-  const Json json = {{"case_id", comparison.row.case_id},
-                     {"version", comparison.row.version},
-                     {"lesion_id", comparison.lesion_id},
-                     {"modality", casedb::name_of(comparison.manner.modality)},
-                     {"approach", casedb::name_of(comparison.manner.approach)},
-                     {"instrument", casedb::name_of(comparison.manner.instrument)},
-                     {"provisional", comparison.provisional},
-                     {"experts", casedb::json_of_experts(comparison.experts)},
-                     {"other_tasks", comparison.other_tasks},
-                     {"groups", groups}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return casedb::text({{"case_id", comparison.row.case_id},
+                       {"version", comparison.row.version},
+                       {"lesion_id", comparison.lesion_id},
+                       {"modality", casedb::name_of(comparison.manner.modality)},
+                       {"approach", casedb::name_of(comparison.manner.approach)},
+                       {"instrument", casedb::name_of(comparison.manner.instrument)},
+                       {"provisional", comparison.provisional},
+                       {"experts", casedb::json_of_experts(comparison.experts)},
+                       {"other_tasks", comparison.other_tasks},
+                       {"groups", groups}});
 }
 
 }  // namespace seldinger::app

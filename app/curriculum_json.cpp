@@ -1,20 +1,13 @@
 #include "app/curriculum_json.h"
 
-#include <nlohmann/json.hpp>
+#include "casedb/values_json.h"
 
 namespace seldinger::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string text(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-template <typename T>
-Json maybe(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
+using casedb::maybe;
+using casedb::text;
 
 Json head_of(const casedb::Curriculum& curriculum) {
   return {{"curriculum_id", curriculum.curriculum_id},

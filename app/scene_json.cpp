@@ -131,7 +131,8 @@ cases::Structure read_structure(const Json& json, const std::string& where, base
   SceneReader reader(json, where, error);
   cases::Structure structure;
   structure.name = reader.text("name");
-  const std::vector<std::string> rules(cases::kStructureRuleNames.begin(), cases::kStructureRuleNames.end());
+  constexpr auto& kRuleNames = base::kNamesOf<cases::kStructureRuleNames>;
+  const std::vector<std::string> rules(kRuleNames.begin(), kRuleNames.end());
   structure.rule = *cases::structure_rule_from(reader.choice("rule", rules, nullptr));
   const std::string kind = reader.choice("kind", {"sphere", "ellipsoid", "tube"}, nullptr);
   if (kind == "sphere")
@@ -247,8 +248,9 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
   }
   if (root.has("planned_entry_mm")) scene.planned_entry_lps_mm = root.point("planned_entry_mm");
   if (root.has("structures")) read_structures(root, scene, error, unused);
-  if (root.choice("approach", {"in_plane", "out_of_plane"}, "in_plane") == "out_of_plane")
-    scene.approach = cases::Approach::out_of_plane;
+  constexpr auto& kApproaches = base::kNamesOf<cases::kApproachNames>;
+  scene.approach = *base::from_name(cases::kApproachNames,
+                                    root.choice("approach", {kApproaches.begin(), kApproaches.end()}, "in_plane"));
   if (root.has("motion")) {
     scene.motion = read_motion(root["motion"], error, unused);
     if (scene.motion->drag_mm != 0.0 && !scene.inserted.needle)

@@ -54,10 +54,9 @@ RoomSceneView read_room(const Json& json, base::Error& error, std::vector<std::s
   view.help = reader.whole("help", 0, 3, 0);
   if (reader.has("quality")) view.fine = reader.choice("quality", {"fine", "fast"}, nullptr) == "fine";
   if (reader.has("position")) {
-    const auto names = words(cases::kPatientPositionNames);
+    const auto names = words(base::kNamesOf<cases::kPatientPositionNames>);
     const std::string position = reader.choice("position", names, nullptr);
-    view.position =
-        static_cast<cases::PatientPosition>(std::find(names.begin(), names.end(), position) - names.begin());
+    view.position = *base::from_name(cases::kPatientPositionNames, position);
   }
   if (reader.has("probe")) view.probe = read_held_probe(reader["probe"], error, unused);
   if (reader.has("arm")) view.arm = read_arm(reader["arm"], error, unused);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "assessment/operators/lesion_site.h"
 #include "casedb/import/surface.h"
@@ -14,7 +15,7 @@ namespace {
 // How hands move here (design): up to some 40 mm/s, and long enough to pass every layer.
 constexpr double kNeedlePeriodS = 6.0, kNeedleOutsideMm = 10.0, kSwayPeriodS = 0.9, kSwayMm = 1.0;
 constexpr double kPressPeriodS = 2.5, kLiftMm = 3.0, kPressMm = 6.0, kSlidePeriodS = 5.0, kSlideMm = 6.0;
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // 0 to 1 and back.
 double there_and_back(double t_s, double period_s) {

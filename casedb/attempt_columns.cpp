@@ -9,6 +9,7 @@
 #include "casedb/setting_columns.h"
 #include "sim/base/check.h"
 #include "sim/base/codec.h"
+#include "sim/base/names.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -21,7 +22,11 @@ std::uint64_t bits_from_stored(std::int64_t value) noexcept {
   return std::bit_cast<std::uint64_t>(value);
 }
 
-constexpr std::array kEnds = {"fired", "stopped", "time_limit", "device_lost", "interrupted"};
+constexpr auto kEnds = base::names<AttemptEnd>({{AttemptEnd::fired, "fired"},
+                                                {AttemptEnd::stopped, "stopped"},
+                                                {AttemptEnd::time_limit, "time_limit"},
+                                                {AttemptEnd::device_lost, "device_lost"},
+                                                {AttemptEnd::interrupted, "interrupted"}});
 
 // A histogram as a table's cell: its counts, how many and the most, compressed.
 std::vector<std::byte> cell_of(const cases::TimeHistogram& histogram) {
@@ -48,13 +53,13 @@ cases::TimeHistogram histogram_of(const std::vector<std::byte>& cell) {
 }  // namespace
 
 std::string name_of(AttemptEnd end) {
-  return kEnds[static_cast<std::size_t>(end)];
+  return std::string(base::name_of(kEnds, end));
 }
 
 AttemptEnd end_from(const std::string& name) {
-  for (std::size_t at = 0; at < kEnds.size(); ++at)
-    if (name == kEnds[at]) return static_cast<AttemptEnd>(at);
-  CHECK(false);
+  const auto end = base::from_name(kEnds, name);
+  CHECK(end.has_value());
+  return *end;
 }
 
 Statement& bind_head(Statement& insert, const std::string& attempt_id, const AttemptHead& head) {

@@ -1,23 +1,56 @@
 #include "casedb/case_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "assessment/grading/rule_json.h"
 #include "casedb/grading.h"
+#include "casedb/setting_table.h"
 #include "casedb/structure_json.h"
+#include "casedb/values_json.h"
 
 namespace seldinger::casedb {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json point(const glm::dvec3& p) {
-  return Json::array({p.x, p.y, p.z});
+Json json_of_composed(Composed what, const CaseSetting& setting) {
+  switch (what) {
+    case Composed::further_modalities: {
+      Json further = Json::array();
+      for (const cases::Modality one : setting.further_modalities) further.push_back(name_of(one));
+      return further;
+    }
+    case Composed::gauge:
+      return 2.0 * setting.instrument.radius_mm;
+    case Composed::planned_entry:
+      return setting.planned_entry_lps_mm ? point(*setting.planned_entry_lps_mm) : Json(nullptr);
+    case Composed::pass_rule:
+      return json_of_rule_of(setting.rule);
+  }
+  return nullptr;
 }
 
-template <typename T>
-Json maybe(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
+Json json_of_field(const SettingField& field, const CaseSetting& setting) {
+  return std::visit(OfKind{[&](const NumberField& one) -> Json { return one.get(setting); },
+                           [&](const MaybeNumberField& one) { return maybe(one.get(setting)); },
+                           [&](const MaybeWholeField& one) { return maybe(one.get(setting)); },
+                           [&](const TextField& one) -> Json { return one.get(setting); },
+                           [&](const ChoiceField& one) -> Json { return one.get(setting); },
+                           [&](const SwitchField& one) -> Json { return one.get(setting) ? one.yes : one.no; },
+                           [&](const ComposedField& one) { return json_of_composed(one.what, setting); }},
+                    field);
+}
+
+void add_setting(const CaseSetting& setting, Json& json) {
+  for (const SettingRow& row : kSettingRows) {
+    if (row.json == nullptr) continue;
+    if (row.of_core_needles && setting.instrument.kind != cases::InstrumentKind::core) continue;
+    const std::string_view path = row.json;
+    const std::size_t slash = path.find('/');
+    Json& group = slash == path.npos ? json : json[std::string(path.substr(0, slash))];
+    const auto* composed = std::get_if<ComposedField>(&row.field);
+    if (composed != nullptr && composed->what == Composed::gauge)
+      group["length_mm"] = nullptr;  // keeps its place before the diameter
+    group[std::string(slash == path.npos ? path : path.substr(slash + 1))] = json_of_field(row.field, setting);
+  }
 }
 
 }  // namespace
@@ -44,7 +77,7 @@ Json json_of_lesion(const LesionRow& lesion) {
                {"center_mm", point(form.center_lps_mm)},
                {"radius_mm", lesion.lesion.radius_mm},
                {"hu", form.hu},
-               {"kind", cases::kLesionKindNames[static_cast<std::size_t>(form.kind)]},
+               {"kind", base::name_of(cases::kLesionKindNames, form.kind)},
                {"adds", form.adds},
                {"edge_mm", form.edge_mm}};
   if (form.kind == cases::LesionKind::ellipsoid) json["radii_mm"] = point(form.radii_mm);
@@ -69,26 +102,13 @@ Json json_of_structure(const StructureRow& structure) {
   return json;
 }
 
-Json json_of_instrument(const cases::Instrument& instrument) {
-  Json json = {{"kind", name_of(instrument.kind)},
-               {"length_mm", instrument.length_mm},
-               {"outer_diameter_mm", 2.0 * instrument.radius_mm}};
-  if (instrument.kind == cases::InstrumentKind::core) {
-    json["throw_mm"] = instrument.throw_mm;
-    json["notch_mm"] = instrument.notch_mm;
-    json["dead_tip_mm"] = instrument.dead_tip_mm;
-  }
-  return json;
-}
-
 Json json_of_rule_of(const assessment::PassRule& rule) {
   return Json::parse(assessment::json_of_rule(rule)).at("criteria");
 }
 
 void add_authoring(const CaseParts& parts, Json& json) {
   const CaseRow& row = parts.row;
-  Json further = Json::array(), structures = Json::array(), decisions = Json::array();
-  for (const cases::Modality one : row.further_modalities) further.push_back(name_of(one));
+  Json structures = Json::array(), decisions = Json::array();
   for (const StructureRow& one : parts.structures) structures.push_back(json_of_structure(one));
   for (const Decision& one : parts.decisions)
     decisions.push_back({{"decision", name_of(one.kind)},
@@ -101,24 +121,7 @@ void add_authoring(const CaseParts& parts, Json& json) {
   json["audience"] = row.own_cohort_only ? "own_cohort" : "everyone";
   json["reviewed_by"] = review ? Json(review->pseudonym) : Json(nullptr);
   json["decisions"] = decisions;
-  json["further_modalities"] = further;
-  json["subject"] = name_of(row.subject);
-  json["approach"] = name_of(row.approach);
-  json["instrument"] = json_of_instrument(row.instrument);
-  json["clinic"] = {{"inr", maybe(row.clinic.inr)},
-                    {"platelets_per_nl", maybe(row.clinic.platelets_per_nl)},
-                    {"allergy", row.clinic.allergy},
-                    {"indication", row.clinic.indication},
-                    {"decision", row.clinic.defer ? "defer" : "proceed"}};
-  json["motion"] = {{"breath_depth", row.motion.breath_depth},
-                    {"breath_period_s", row.motion.breath_period_s},
-                    {"breath_irregularity", row.motion.breath_irregularity},
-                    {"tissue", row.motion.yields ? "yields" : "still"}};
-  json["planned_entry_mm"] = row.planned_entry_lps_mm ? point(*row.planned_entry_lps_mm) : Json(nullptr);
-  json["difficulty"] = kDifficultyNames[static_cast<std::size_t>(row.difficulty)];
-  json["time_limit_s"] = maybe(row.time_limit_s);
-  json["attempt_limit"] = maybe(row.attempt_limit);
-  json["rule"] = json_of_rule_of(row.rule);
+  add_setting(row, json);
   json["provisional"] = parts.provisional;
   json["structures"] = structures;
 }

@@ -22,7 +22,6 @@ CaseParts load_parts(Library& library, CaseRow row);
 
 nlohmann::ordered_json json_of_lesion(const LesionRow& lesion);
 nlohmann::ordered_json json_of_structure(const StructureRow& structure);
-nlohmann::ordered_json json_of_instrument(const cases::Instrument& instrument);
 nlohmann::ordered_json json_of_rule_of(const assessment::PassRule& rule);
 // Fields of the setting, the version and who decided (by pseudonym) are added to `json`.
 void add_authoring(const CaseParts& parts, nlohmann::ordered_json& json);

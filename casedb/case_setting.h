@@ -1,7 +1,6 @@
 // What a case asks of whoever attempts it, beside its volume: guidance, instrument, patient, and when it passes.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -9,13 +8,15 @@
 #include <vector>
 
 #include "assessment/grading/rule.h"
+#include "sim/base/names.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 
 namespace seldinger::casedb {
 
 enum class Difficulty { easy, moderate, hard };
-constexpr std::array<std::string_view, 3> kDifficultyNames = {"easy", "moderate", "hard"};
+inline constexpr auto kDifficultyNames = base::names<Difficulty>(
+    {{Difficulty::easy, "easy"}, {Difficulty::moderate, "moderate"}, {Difficulty::hard, "hard"}});
 
 // What is known at the sign-in (clinical.md, "Steps around the puncture").
 struct Clinic {
@@ -29,7 +30,14 @@ struct Motion {
   double breath_depth = 0.0;  // a share of a quiet breath of the liver (cases::Breathing); 0: none
   double breath_period_s = 4.0, breath_irregularity = 0.1;
   bool yields = false;  // tissue, to probe and needle
-  std::optional<cases::Breathing> breathing() const;
+  std::optional<cases::Breathing> breathing() const {
+    if (!(breath_depth > 0.0)) return std::nullopt;
+    cases::Breathing made;
+    made.amplitude_mm *= breath_depth;
+    made.period_s = breath_period_s;
+    made.irregularity = breath_irregularity;
+    return made;
+  }
 };
 
 struct CaseSetting {

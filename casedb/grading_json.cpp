@@ -1,19 +1,11 @@
 #include "casedb/grading_json.h"
 
-#include <nlohmann/json.hpp>
+#include "casedb/values_json.h"
 
 namespace seldinger::casedb {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename T>
-Json maybe(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-Json maybe(const std::string& text) {
-  return text.empty() ? Json(nullptr) : Json(text);
-}
 
 Json json_of(const assessment::CriterionResult& one) {
   return {{"metric", one.criterion.metric},

@@ -13,7 +13,9 @@ inline const base::Error kNotADraft{"not_a_draft",
 void bind_needle(Statement& statement, const cases::Instrument& needle, cases::Approach approach);
 void read_needle(const Statement& from, cases::Instrument& needle, cases::Approach& approach);
 
-void bind_setting(Statement& statement, const CaseSetting& setting);
+// Of a row of training_case; throws Failure where it holds what the schema does not take.
 void read_setting(const Statement& from, CaseSetting& setting);
+// Into the row of a case, whole. To be called within the transaction that may change it.
+void write_setting(Sqlite& database, const std::string& case_id, const CaseSetting& setting);
 
 }  // namespace seldinger::casedb

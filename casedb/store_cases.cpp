@@ -19,7 +19,6 @@ namespace seldinger::casedb {
 namespace {
 
 constexpr const char* kAxes[] = {"x", "y", "z"};
-constexpr const char* kModalities[] = {"mpr", "xray", "ultrasound"};  // in the order of cases::Modality
 
 std::string matrix_column(int row, int column) {
   return "lps_from_voxel_" + std::to_string(row) + std::to_string(column);
@@ -42,12 +41,12 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   }
   insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
   insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
-  bind_setting(insert, new_case);
   insert.bind("face_state", name_of(new_case.face_state));
   insert.bind("burned_in_checked_us", new_case.no_burned_in_text ? std::optional(created_us) : std::nullopt);
   insert.bind("burned_in_checked_by", new_case.burned_in_checked_by);
   insert.bind_null("family_id").bind("version", 1);
   insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
+  write_setting(database, case_id, new_case);
 
   Statement attribute = question(database, "add_case_attribute");
   for (std::size_t i = 0; i < new_case.attributes.size(); ++i)
@@ -198,7 +197,7 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
       .bind("center_z_lps_mm", form.center_lps_mm.z)
       .bind("radius_mm", radius_of(form))
       .bind("hu", form.hu)
-      .bind("kind", cases::kLesionKindNames[static_cast<std::size_t>(form.kind)])
+      .bind("kind", base::name_of(cases::kLesionKindNames, form.kind))
       .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
       .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
       .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
@@ -213,30 +212,23 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
 }  // namespace
 
 std::string name_of(cases::Modality modality) {
-  return kModalities[static_cast<std::size_t>(modality)];
+  return std::string(base::name_of(cases::kModalityNames, modality));
 }
 
 std::optional<cases::Modality> modality_from(const std::string& name) {
-  for (std::size_t i = 0; i < std::size(kModalities); ++i)
-    if (name == kModalities[i]) return static_cast<cases::Modality>(i);
-  return std::nullopt;
+  return base::from_name(cases::kModalityNames, name);
 }
 
 std::string modality_names() {
-  std::string names;
-  for (std::size_t i = 0; i < std::size(kModalities); ++i)
-    names += std::string(i == 0 ? "" : i + 1 == std::size(kModalities) ? " or " : ", ") + kModalities[i];
-  return names;
+  return base::listed(base::kNamesOf<cases::kModalityNames>);
 }
 
 std::string name_of(cases::PatientPosition position) {
-  return std::string(cases::kPatientPositionNames[static_cast<std::size_t>(position)]);
+  return std::string(base::name_of(cases::kPatientPositionNames, position));
 }
 
 std::optional<cases::PatientPosition> position_from(const std::string& name) {
-  for (std::size_t i = 0; i < cases::kPatientPositionNames.size(); ++i)
-    if (cases::kPatientPositionNames[i] == name) return static_cast<cases::PatientPosition>(i);
-  return std::nullopt;
+  return base::from_name(cases::kPatientPositionNames, name);
 }
 
 std::string add_case(Library& library, const NewCase& new_case) {
@@ -381,8 +373,7 @@ std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::s
     row.lesion.hu = lesions.real("hu");
     row.created_us = lesions.integer("created_us");
     cases::LesionForm& form = row.form;
-    for (std::size_t kind = 0; kind < cases::kLesionKindNames.size(); ++kind)
-      if (lesions.view("kind") == cases::kLesionKindNames[kind]) form.kind = static_cast<cases::LesionKind>(kind);
+    form.kind = *base::from_name(cases::kLesionKindNames, lesions.view("kind"));  // the schema takes no others
     form.center_lps_mm = row.lesion.center_lps_mm;
     form.radii_mm = glm::dvec3(row.lesion.radius_mm);
     if (form.kind == cases::LesionKind::ellipsoid)

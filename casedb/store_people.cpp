@@ -9,15 +9,16 @@
 #include "casedb/store.h"
 #include "casedb/uuid.h"
 #include "sim/base/check.h"
+#include "sim/base/names.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::pair<Role, const char*> kRoles[] = {{Role::trainee, "trainee"},
-                                                   {Role::mentor, "mentor"},
-                                                   {Role::researcher, "researcher"},
-                                                   {Role::director, "director"},
-                                                   {Role::admin, "admin"}};
+constexpr auto kRoles = base::names<Role>({{Role::trainee, "trainee"},
+                                           {Role::mentor, "mentor"},
+                                           {Role::researcher, "researcher"},
+                                           {Role::director, "director"},
+                                           {Role::admin, "admin"}});
 
 const base::Error kNoUser{"no_user", "there is no such user"};
 const base::Error kNameTaken{"name_taken", "there is already a user of that name"};
@@ -38,8 +39,8 @@ std::optional<Identity> find_identity(Library& library, const std::string& name)
   return Identity{identity.text("person_id"), identity.text("name")};
 }
 
-constexpr std::pair<Level, const char*> kLevels[] = {
-    {Level::student, "student"}, {Level::trainee, "trainee"}, {Level::consultant, "consultant"}};
+constexpr auto kLevels = base::names<Level>(
+    {{Level::student, "student"}, {Level::trainee, "trainee"}, {Level::consultant, "consultant"}});
 
 std::string mark_of(const std::string& password_hash) {
   return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
@@ -104,27 +105,19 @@ void store_hash(Library& library, const std::string& person_id, const std::strin
 }  // namespace
 
 std::string name_of(Role role) {
-  for (const auto& [candidate, name] : kRoles)
-    if (candidate == role) return name;
-  CHECK(false);
+  return std::string(base::name_of(kRoles, role));
 }
 
 std::optional<Role> role_from(const std::string& name) {
-  for (const auto& [role, candidate] : kRoles)
-    if (candidate == name) return role;
-  return std::nullopt;
+  return base::from_name(kRoles, name);
 }
 
 std::string name_of(Level level) {
-  for (const auto& [candidate, name] : kLevels)
-    if (candidate == level) return name;
-  CHECK(false);
+  return std::string(base::name_of(kLevels, level));
 }
 
 std::optional<Level> level_from(const std::string& name) {
-  for (const auto& [level, candidate] : kLevels)
-    if (candidate == name) return level;
-  return std::nullopt;
+  return base::from_name(kLevels, name);
 }
 
 base::Result<void> check_new_user(const std::string& name, const std::string& password) {

@@ -11,13 +11,15 @@
 #include "casedb/structure_json.h"
 #include "casedb/uuid.h"
 #include "sim/base/check.h"
+#include "sim/base/names.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr const char* kKinds[] = {"class", "label", "drawn"};  // in the order of StructureKind
-constexpr std::size_t kMostName = 100;                         // bytes
+constexpr auto kKinds = base::names<StructureKind>(
+    {{StructureKind::tissue_class, "class"}, {StructureKind::label, "label"}, {StructureKind::drawn, "drawn"}});
+constexpr std::size_t kMostName = 100;  // bytes
 
 bool sound_name(const std::string& name) {
   if (name.empty() || name.size() > kMostName || name.front() == ' ' || name.back() == ' ') return false;
@@ -90,8 +92,9 @@ std::optional<StructureRow> read_structure(const Statement& from) {
   if (!rule || !tissue) return std::nullopt;
   row.rule = *rule;
   row.tissue = *tissue;
-  for (std::size_t kind = 0; kind < std::size(kKinds); ++kind)
-    if (from.text("kind") == kKinds[kind]) row.kind = static_cast<StructureKind>(kind);
+  const auto kind = base::from_name(kKinds, from.text("kind"));
+  if (!kind) return std::nullopt;
+  row.kind = *kind;
   if (row.kind == StructureKind::drawn) {
     auto shape = shape_from_json(from.text("geometry"));
     if (!shape) return std::nullopt;
@@ -153,7 +156,7 @@ base::Result<CaseRow> changeable_case(Library& library, const std::string& case_
 }
 
 std::string name_of(StructureKind kind) {
-  return kKinds[static_cast<std::size_t>(kind)];
+  return std::string(base::name_of(kKinds, kind));
 }
 
 base::Result<std::string> add_structure(Library& library, const StructureRow& structure) {
@@ -285,9 +288,7 @@ base::Result<void> set_setting(Library& library, const std::string& case_id, con
   Transaction transaction(library.database());
   const auto row = changeable_case(library, case_id);
   if (!row) return row.error();
-  Statement update = question(library.database(), "set_setting");
-  bind_setting(update, setting);
-  update.bind("case_id", case_id).run();
+  write_setting(library.database(), case_id, setting);
   transaction.commit();
   return {};
 }

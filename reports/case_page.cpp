@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assessment/metrics/registry.h"
+#include "casedb/setting_table.h"
 #include "reports/attempt_words.h"
 #include "reports/metric_words.h"
 
@@ -47,13 +48,28 @@ std::string bound_text(const assessment::Criterion& criterion) {
 
 std::string lesion_text(const casedb::LesionRow& lesion) {
   const cases::LesionForm& form = lesion.form;
-  return std::string(cases::kLesionKindNames[static_cast<std::size_t>(form.kind)]) + ", " +
+  return std::string(base::name_of(cases::kLesionKindNames, form.kind)) + ", " +
          reports::lesion_text(lesion.lesion) + ", " + (form.adds ? "tissue plus " : "") + number_text(form.hu, 0) +
          " HU";
 }
 
-std::string measured_text(const std::optional<double>& value, int digits) {
-  return value ? number_text(*value, digits) : "";
+// Empty: there is none. What is composed has words of its own above.
+std::string setting_text(const casedb::SettingRow& row, const casedb::CaseSetting& setting) {
+  using namespace casedb;
+  return std::visit(OfKind{[&](const NumberField& one) { return number_text(one.get(setting), row.page.digits); },
+                           [&](const MaybeNumberField& one) {
+                             const auto value = one.get(setting);
+                             return value ? number_text(*value, row.page.digits) : std::string();
+                           },
+                           [&](const MaybeWholeField& one) {
+                             const auto value = one.get(setting);
+                             return value ? std::to_string(*value) : std::string();
+                           },
+                           [&](const TextField& one) { return one.get(setting); },
+                           [&](const ChoiceField& one) { return words(std::string(one.get(setting))); },
+                           [&](const SwitchField& one) { return std::string(one.get(setting) ? one.yes : one.no); },
+                           [](const ComposedField&) { return std::string(); }},
+                    row.field);
 }
 
 void add_table(Html& html, std::string_view caption) {
@@ -76,14 +92,8 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_fact(html, "Guidance", guidance_text(row));
   add_fact(html, "Needle",
            instrument_text(row.instrument) + ", " + number_text(row.instrument.length_mm, 0) + " mm");
-  add_fact(html, "Difficulty", casedb::kDifficultyNames[static_cast<std::size_t>(row.difficulty)]);
-  add_fact(html, "Indication", row.clinic.indication);
-  add_fact(html, "INR", measured_text(row.clinic.inr, 1));
-  add_fact(html, "Platelets per nl", measured_text(row.clinic.platelets_per_nl, 0));
-  add_fact(html, "Allergy", row.clinic.allergy);
-  add_fact(html, "Right decision", row.clinic.defer ? "defer" : "proceed");
-  add_fact(html, "Time limit, s", measured_text(row.time_limit_s, 0));
-  add_fact(html, "Attempts", row.attempt_limit ? std::to_string(*row.attempt_limit) : "");
+  for (const casedb::SettingRow* one : casedb::shown_rows(&casedb::SettingRow::page))
+    add_fact(html, one->page.words, setting_text(*one, row));
   for (const casedb::LesionRow& lesion : parts.lesions) add_fact(html, "Lesion", lesion_text(lesion));
   end_table(html);
 

@@ -94,9 +94,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       {{"modality", "text", "", "", "mpr: a CT slice under the probe; ultrasound; xray: fluoroscopy"},
        [](CsvLine& line, const Facts& f) { line.text(casedb::name_of(f.row->picture.modality)); }},
       {{"approach", "text", "", "", "in_plane or out_of_plane, of needle to picture; says nothing under xray"},
-       [](CsvLine& line, const Facts& f) {
-         line.text(f.row->approach == cases::Approach::in_plane ? "in_plane" : "out_of_plane");
-       }},
+       [](CsvLine& line, const Facts& f) { line.text(base::name_of(cases::kApproachNames, f.row->approach)); }},
       {{"probe", "text", "", kNotInUse, "ultrasound: its name"},
        [](CsvLine& line, const Facts& f) {
          f.row->picture.probe.empty() ? line.nothing() : line.text(f.row->picture.probe);

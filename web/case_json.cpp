@@ -1,13 +1,8 @@
 #include "web/case_json.h"
 
-#include <nlohmann/json.hpp>
+#include "casedb/values_json.h"
 
 namespace seldinger::web {
-namespace {
-std::string dumped(const nlohmann::ordered_json& json) {
-  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-}  // namespace
 
 std::string case_json(const casedb::CaseParts& parts) {
   auto lesions = nlohmann::ordered_json::array();
@@ -19,14 +14,14 @@ std::string case_json(const casedb::CaseParts& parts) {
                                  {"patient_position", casedb::name_of(parts.row.position)},
                                  {"lesions", lesions}};
   casedb::add_authoring(parts, json);
-  return dumped(json);
+  return casedb::line(json);
 }
 
 std::string checks_json(const std::string& case_id, const casedb::CaseCheck& check) {
   auto checks = nlohmann::ordered_json::array();
   for (const casedb::Check& one : check.checks)
     checks.push_back({{"check", one.name}, {"holds", one.holds}, {"text", one.text}});
-  return dumped(
+  return casedb::line(
       {{"case_id", case_id}, {"holds", check.holds()}, {"checks", checks}, {"rule_may_name", check.rule_may_name}});
 }
 

@@ -235,7 +235,7 @@ void BenchPanel::draw(Trainer& trainer, const Keys& keys) {
     note_.fill('\0');
     title_of_.clear();
     name_of_.clear();
-    indication_of_.clear();
+    texts_.clear();
     setting_in_hand_ = form_in_hand_ = structure_in_hand_ = false;
   }
   begin_screen("bench");

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,10 @@
 #include "sim/imaging/room/room_renderer.h"
 
 struct ImVec2;
+
+namespace seldinger::casedb {
+struct SettingRow;
+}
 
 namespace seldinger::app {
 
@@ -101,6 +106,7 @@ class BenchPanel {
   void draw_rule_and_setting(CaseBench& bench);
   bool draw_rule(const CaseBench& bench);  // true: changed
   bool draw_setting(CaseBench& bench);     // true: changed
+  bool draw_setting(const casedb::SettingRow& row);  // true: changed
   void draw_checks(CaseBench& bench);
   void draw_help();
 
@@ -108,9 +114,14 @@ class BenchPanel {
   BenchRoom room_;
   std::string case_id_;
   bool help_ = false;
-  std::array<char, 256> note_{}, name_{}, title_{}, indication_{};
-  std::string name_of_, title_of_, indication_of_;  // what these fields were filled from
-  casedb::CaseSetting setting_;                     // while a field of it is in hand
+  std::array<char, 256> note_{}, name_{}, title_{};
+  std::string name_of_, title_of_;  // what these fields were filled from
+  struct TextInHand {
+    std::array<char, 256> typed{};
+    std::string filled_from;
+  };
+  std::map<std::string, TextInHand> texts_;  // of settings, by column
+  casedb::CaseSetting setting_;              // while a field of it is in hand
   bool setting_in_hand_ = false;
   cases::LesionForm form_;
   bool form_in_hand_ = false;

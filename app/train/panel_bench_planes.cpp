@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "app/train/panel_bench.h"
 
@@ -63,7 +64,7 @@ struct Pen {
     const ImVec2 middle = at(center);
     std::array<ImVec2, kCorners> line;
     for (int i = 0; i < kCorners; ++i) {
-      const double angle = 2.0 * 3.14159265358979323846 * i / kCorners;
+      const double angle = 2.0 * std::numbers::pi * i / kCorners;
       line[static_cast<std::size_t>(i)] = {middle.x + static_cast<float>(wide * std::cos(angle)),
                                            middle.y + static_cast<float>(high * std::sin(angle))};
     }

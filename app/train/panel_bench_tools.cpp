@@ -7,6 +7,7 @@
 #include "app/train/panel_bench.h"
 #include "app/train/panels.h"
 #include "assessment/metrics/registry.h"
+#include "casedb/setting_table.h"
 #include "reports/metric_words.h"
 #include "sim/case/gauge.h"
 
@@ -23,6 +24,7 @@ bool number(const char* label, double& value, double step, const char* format, b
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
+// The box beside it says whether there is one.
 bool optional_number(const char* label, std::optional<double>& value, double usual, const char* format,
                      bool& in_hand) {
   ImGui::PushID(label);
@@ -56,21 +58,27 @@ bool choice(const char* label, Value& value, const std::array<Value, n>& all, co
   return changed;
 }
 
-constexpr std::array<cases::Modality, 3> kModalities = {cases::Modality::mpr, cases::Modality::xray,
-                                                        cases::Modality::ultrasound};
-constexpr std::array<cases::Approach, 2> kApproaches = {cases::Approach::in_plane, cases::Approach::out_of_plane};
-constexpr std::array<cases::PatientPosition, 4> kPositions = {
-    cases::PatientPosition::supine, cases::PatientPosition::prone, cases::PatientPosition::lateral_left,
-    cases::PatientPosition::lateral_right};
-constexpr std::array<cases::InstrumentKind, 2> kInstruments = {cases::InstrumentKind::access,
-                                                               cases::InstrumentKind::core};
-constexpr std::array<casedb::Difficulty, 3> kDifficulties = {casedb::Difficulty::easy, casedb::Difficulty::moderate,
-                                                             casedb::Difficulty::hard};
 constexpr std::array<cases::LesionKind, 3> kLesionKinds = {cases::LesionKind::sphere, cases::LesionKind::ellipsoid,
                                                            cases::LesionKind::irregular};
 constexpr std::array<cases::StructureRule, 6> kRules = {
     cases::StructureRule::critical,   cases::StructureRule::major, cases::StructureRule::advisory,
     cases::StructureRule::must_cross, cases::StructureRule::organ, cases::StructureRule::target};
+
+bool draw_gauge(const char* label, cases::Instrument& needle) {
+  ImGui::SetNextItemWidth(kFieldPx);
+  int gauge = 0;
+  for (const cases::Gauge& one : cases::kGauges)
+    if (std::abs(one.outer_mm - 2.0 * needle.radius_mm) < 0.05) gauge = one.number;
+  if (!ImGui::BeginCombo(label, gauge > 0 ? std::to_string(gauge).c_str() : "another")) return false;
+  bool changed = false;
+  for (const cases::Gauge& one : cases::kGauges)
+    if (ImGui::Selectable(std::to_string(one.number).c_str(), one.number == gauge)) {
+      needle.radius_mm = one.outer_mm / 2.0;
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
 
 enum class Form { sphere, ellipsoid, tube, tissue };
 constexpr std::array<Form, 4> kForms = {Form::sphere, Form::ellipsoid, Form::tube, Form::tissue};
@@ -119,9 +127,8 @@ void BenchPanel::draw_lesion(CaseBench& bench) {
   const bool there = bench.lesion < bench.lesions().size();
   if (!form_in_hand_) form_ = there ? bench.shown_lesions()[bench.lesion] : bench.new_lesion;
   form_in_hand_ = false;
-  bool changed = choice("form", form_.kind, kLesionKinds, [](cases::LesionKind kind) {
-    return cases::kLesionKindNames[static_cast<std::size_t>(kind)];
-  });
+  bool changed = choice("form", form_.kind, kLesionKinds,
+                        [](cases::LesionKind kind) { return base::name_of(cases::kLesionKindNames, kind); });
   if (changed && form_.kind != cases::LesionKind::irregular) form_.roughness = 0.0;
   if (changed && form_.kind == cases::LesionKind::irregular) form_.roughness = 0.12;
   if (form_.kind == cases::LesionKind::ellipsoid) {
@@ -294,6 +301,66 @@ void BenchPanel::draw_entry(CaseBench& bench) {
   if (way.free()) ImGui::TextColored({0.45F, 0.85F, 0.55F, 1.0F}, "free of bone, gas and structures");
 }
 
+bool BenchPanel::draw_setting(const casedb::SettingRow& row) {
+  using namespace casedb;
+  const char* const label = row.editor.words;
+  const std::string format = "%." + std::to_string(row.editor.digits) + "f";
+  return std::visit(
+      OfKind{[&](const NumberField& one) {
+               double value = one.get(setting_);
+               const bool changed = number(label, value, row.editor.step, format.c_str(), setting_in_hand_);
+               one.set(setting_, value);
+               return changed;
+             },
+             [&](const MaybeNumberField& one) {
+               std::optional<double> value = one.get(setting_);
+               const bool changed =
+                   optional_number(label, value, row.editor.usual, format.c_str(), setting_in_hand_);
+               one.set(setting_, value);
+               return changed;
+             },
+             [&](const MaybeWholeField& one) {
+               const std::optional<int> before = one.get(setting_);
+               std::optional<double> value = before ? std::optional<double>(*before) : std::nullopt;
+               const bool changed = optional_number(label, value, row.editor.usual, "%.0f", setting_in_hand_);
+               one.set(setting_, value ? std::optional(static_cast<int>(std::clamp(std::round(*value), -1.0, 1e6)))
+                                       : std::nullopt);
+               return changed;
+             },
+             [&](const TextField& one) {
+               TextInHand& text = texts_[row.column];
+               fill(text.typed, text.filled_from, one.get(setting_));
+               ImGui::SetNextItemWidth(-60.0F);
+               ImGui::InputText(label, text.typed.data(), text.typed.size());
+               if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+               one.set(setting_, text.filled_from = text.typed.data());
+               return true;
+             },
+             [&](const ChoiceField& one) {
+               const auto words = row.editor.names.empty() ? one.names : row.editor.names;
+               const auto now = static_cast<std::size_t>(
+                   std::find(one.names.begin(), one.names.end(), one.get(setting_)) - one.names.begin());
+               ImGui::SetNextItemWidth(kFieldPx);
+               if (!ImGui::BeginCombo(label, std::string(words[now]).c_str())) return false;
+               bool changed = false;
+               for (std::size_t i = 0; i < words.size(); ++i)
+                 if (ImGui::Selectable(std::string(words[i]).c_str(), i == now))
+                   changed = one.set(setting_, one.names[i]) || changed;
+               ImGui::EndCombo();
+               return changed;
+             },
+             [&](const SwitchField& one) {
+               bool value = one.get(setting_);
+               const bool changed = ImGui::Checkbox(label, &value);
+               one.set(setting_, value);
+               return changed;
+             },
+             [&](const ComposedField& one) {
+               return one.what == Composed::gauge && draw_gauge(label, setting_.instrument);
+             }},
+      row.field);
+}
+
 void BenchPanel::draw_rule_and_setting(CaseBench& bench) {
   if (!setting_in_hand_) setting_ = bench.row();
   setting_in_hand_ = false;
@@ -370,51 +437,8 @@ bool BenchPanel::draw_setting(CaseBench& bench) {
   ImGui::SetNextItemWidth(-60.0F);
   ImGui::InputText("title", title_.data(), title_.size());
   const bool titled = ImGui::IsItemDeactivatedAfterEdit();
-  fill(indication_, indication_of_, setting_.clinic.indication);
-  ImGui::SetNextItemWidth(-60.0F);
-  ImGui::InputText("why", indication_.data(), indication_.size());
-  if (ImGui::IsItemDeactivatedAfterEdit()) {
-    setting_.clinic.indication = indication_of_ = indication_.data();
-    changed = true;
-  }
-  // How the case is punctured.
-  if (choice("guidance", setting_.modality, kModalities, [](cases::Modality one) { return modality_words(one); })) {
-    std::erase(setting_.further_modalities, setting_.modality);
-    changed = true;
-  }
-  changed = choice("approach", setting_.approach, kApproaches,
-                   [](cases::Approach one) { return casedb::name_of(one); }) ||
-            changed;
-  changed = choice("patient", setting_.position, kPositions,
-                   [](cases::PatientPosition one) { return casedb::name_of(one); }) ||
-            changed;
-  changed = choice("needle", setting_.instrument.kind, kInstruments,
-                   [](cases::InstrumentKind one) { return casedb::name_of(one); }) ||
-            changed;
-  ImGui::SetNextItemWidth(kFieldPx);
-  int gauge = 0;
-  for (const cases::Gauge& one : cases::kGauges)
-    if (std::abs(one.outer_mm - 2.0 * setting_.instrument.radius_mm) < 0.05) gauge = one.number;
-  if (ImGui::BeginCombo("gauge", gauge > 0 ? std::to_string(gauge).c_str() : "another")) {
-    for (const cases::Gauge& one : cases::kGauges)
-      if (ImGui::Selectable(std::to_string(one.number).c_str(), one.number == gauge)) {
-        setting_.instrument.radius_mm = one.outer_mm / 2.0;
-        changed = true;
-      }
-    ImGui::EndCombo();
-  }
-  changed = number("length mm", setting_.instrument.length_mm, 10.0, "%.0f", setting_in_hand_) || changed;
-  // How hard it is, what the laboratory says, and how long it may take.
-  changed =
-      choice("difficulty", setting_.difficulty, kDifficulties,
-             [](casedb::Difficulty one) { return casedb::kDifficultyNames[static_cast<std::size_t>(one)]; }) ||
-      changed;
-  changed = optional_number("INR", setting_.clinic.inr, 1.0, "%.1f", setting_in_hand_) || changed;
-  changed = optional_number("platelets 10⁹/l", setting_.clinic.platelets_per_nl, 200.0, "%.0f", setting_in_hand_) ||
-            changed;
-  changed = optional_number("time limit s", setting_.time_limit_s, 300.0, "%.0f", setting_in_hand_) || changed;
-  changed = ImGui::Checkbox("the right decision is to defer", &setting_.clinic.defer) || changed;
-  changed = ImGui::Checkbox("tissue yields", &setting_.motion.yields) || changed;
+  static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);
+  for (const casedb::SettingRow* row : kRows) changed = draw_setting(*row) || changed;
   if (titled) bench.set_title(title_.data());
   return changed;
 }

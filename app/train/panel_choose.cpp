@@ -42,7 +42,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(modality_words(choice.modality).c_str());
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(casedb::kDifficultyNames[static_cast<std::size_t>(choice.difficulty)].data());
+    ImGui::TextUnformatted(base::name_of(casedb::kDifficultyNames, choice.difficulty).data());
     ImGui::TableNextColumn();
     if (choice.attempts > 0)
       ImGui::Text("%d of %d", choice.passes, choice.attempts);

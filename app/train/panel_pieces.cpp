@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include "app/train/panels.h"
+#include "casedb/setting_table.h"
 
 namespace seldinger::app {
 
@@ -48,15 +49,7 @@ void draw_notice(const std::string& words) {
 }
 
 std::string modality_words(cases::Modality modality) {
-  switch (modality) {
-    case cases::Modality::mpr:
-      return "CT slices";
-    case cases::Modality::xray:
-      return "Fluoroscopy";
-    case cases::Modality::ultrasound:
-      return "Ultrasound";
-  }
-  return "";
+  return std::string(base::name_of(casedb::kModalityWords, modality));
 }
 
 }  // namespace seldinger::app

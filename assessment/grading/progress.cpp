@@ -3,23 +3,25 @@
 #include <algorithm>
 
 #include "sim/base/check.h"
+#include "sim/base/names.h"
 
 namespace seldinger::assessment {
 namespace {
 
 constexpr int kPassesRunning = 2;
-constexpr std::string_view kNames[] = {"not_started", "practising", "passed", "proficient"};  // as Proficiency
+constexpr auto kNames = base::names<Proficiency>({{Proficiency::not_started, "not_started"},
+                                                  {Proficiency::practising, "practising"},
+                                                  {Proficiency::passed, "passed"},
+                                                  {Proficiency::proficient, "proficient"}});
 
 }  // namespace
 
 std::string_view name_of(Proficiency proficiency) noexcept {
-  return kNames[static_cast<std::size_t>(proficiency)];
+  return base::name_of(kNames, proficiency);
 }
 
 std::optional<Proficiency> proficiency_from(std::string_view name) noexcept {
-  for (std::size_t i = 0; i < std::size(kNames); ++i)
-    if (kNames[i] == name) return static_cast<Proficiency>(i);
-  return std::nullopt;
+  return base::from_name(kNames, name);
 }
 
 Proficiency proficiency_of(std::span<const Verdict> verdicts) {

@@ -5,11 +5,14 @@
 #include <cmath>
 
 #include "assessment/metrics/registry.h"
+#include "sim/base/names.h"
 
 namespace seldinger::assessment {
 namespace {
 
-constexpr std::string_view kSigns[] = {"<=", ">=", "="};  // in the order of Comparison
+// "=" last: it ends the others too.
+constexpr auto kSigns =
+    base::names<Comparison>({{Comparison::at_most, "<="}, {Comparison::at_least, ">="}, {Comparison::equal, "="}});
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -35,13 +38,11 @@ bool can_have_a_value(const MetricInfo& info, const Guidance& guidance) {
 }  // namespace
 
 std::string_view sign_of(Comparison comparison) noexcept {
-  return kSigns[static_cast<std::size_t>(comparison)];
+  return base::name_of(kSigns, comparison);
 }
 
 std::optional<Comparison> comparison_from(std::string_view sign) noexcept {
-  for (std::size_t i = 0; i < std::size(kSigns); ++i)
-    if (kSigns[i] == sign) return static_cast<Comparison>(i);
-  return std::nullopt;
+  return base::from_name(kSigns, sign);
 }
 
 std::string text_of(const Criterion& criterion) {
@@ -51,7 +52,7 @@ std::string text_of(const Criterion& criterion) {
 }
 
 std::optional<Criterion> criterion_from(std::string_view text) {
-  for (const std::string_view sign : kSigns) {
+  for (const std::string_view sign : base::kNamesOf<kSigns>) {
     const std::size_t at = text.find(sign);
     if (at == text.npos) continue;
     Criterion criterion;

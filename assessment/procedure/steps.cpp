@@ -2,6 +2,7 @@
 
 #include "assessment/signals.h"
 #include "sim/base/check.h"
+#include "sim/base/names.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -81,7 +82,10 @@ constexpr StepInfo kSteps[] = {
     {"sign_out", "Sign out", kPatient | kEvents, signed_out, none, none, kAlways, kAround},
 };
 
-constexpr std::string_view kStates[] = {"done", "skipped", "violated", "not_asked"};
+constexpr auto kStates = base::names<StepState>({{StepState::done, "done"},
+                                                 {StepState::skipped, "skipped"},
+                                                 {StepState::violated, "violated"},
+                                                 {StepState::not_asked, "not_asked"}});
 
 StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unmet, bool stopped_by_defer) {
   StepResult result;
@@ -120,13 +124,11 @@ const StepInfo* find_step(std::string_view id) {
 }
 
 std::string_view name_of(StepState state) noexcept {
-  return kStates[static_cast<std::size_t>(state)];
+  return base::name_of(kStates, state);
 }
 
 std::optional<StepState> step_state_from(std::string_view name) noexcept {
-  for (std::size_t i = 0; i < std::size(kStates); ++i)
-    if (kStates[i] == name) return static_cast<StepState>(i);
-  return std::nullopt;
+  return base::from_name(kStates, name);
 }
 
 std::vector<StepResult> walk_steps(const Signals& signals) {

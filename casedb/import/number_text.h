@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <numbers>
 #include <string>
 
 namespace seldinger::casedb {
@@ -14,7 +15,7 @@ inline std::string number_text(double value) {
 }
 
 constexpr double degrees_of(double radians) noexcept {
-  return radians * 57.29577951308232;
+  return radians * (180.0 / std::numbers::pi);
 }
 
 // "1 file", "3 files".

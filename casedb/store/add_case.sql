@@ -1,26 +1,16 @@
--- A new case.
+-- A new case. Its setting follows (casedb/setting_columns.h); each of its columns has a default.
 INSERT INTO training_case (
   case_id, title, state, origin, created_us, size_x_voxels, size_y_voxels, size_z_voxels, spacing_x_mm,
   spacing_y_mm, spacing_z_mm, lps_from_voxel_00, lps_from_voxel_01, lps_from_voxel_02, lps_from_voxel_03,
   lps_from_voxel_10, lps_from_voxel_11, lps_from_voxel_12, lps_from_voxel_13, lps_from_voxel_20,
   lps_from_voxel_21, lps_from_voxel_22, lps_from_voxel_23, hu_min, hu_max, slices_used, volume_sha256,
-  skin_sha256, labels_sha256, classes_sha256, subject, modality, patient_position, further_modalities, approach,
-  instrument_kind, instrument_length_mm, instrument_radius_mm, instrument_inner_radius_mm, instrument_hu,
-  instrument_throw_mm, instrument_notch_mm, instrument_dead_tip_mm, inr, platelets_per_nl, allergy,
-  indication, decision, breath_depth, breath_period_s, breath_irregularity, tissue_yields, planned_entry_x_lps_mm, planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty,
-  time_limit_s, attempt_limit, pass_rule, family_id, version, face_state, burned_in_checked_us,
+  skin_sha256, labels_sha256, classes_sha256, family_id, version, face_state, burned_in_checked_us,
   burned_in_checked_by
 ) VALUES (
   :case_id, :title, :state, :origin, :created_us, :size_x_voxels, :size_y_voxels, :size_z_voxels,
   :spacing_x_mm, :spacing_y_mm, :spacing_z_mm, :lps_from_voxel_00, :lps_from_voxel_01, :lps_from_voxel_02,
   :lps_from_voxel_03, :lps_from_voxel_10, :lps_from_voxel_11, :lps_from_voxel_12, :lps_from_voxel_13,
   :lps_from_voxel_20, :lps_from_voxel_21, :lps_from_voxel_22, :lps_from_voxel_23, :hu_min, :hu_max,
-  :slices_used, :volume_sha256, :skin_sha256, :labels_sha256, :classes_sha256, :subject, :modality, :patient_position,
-  :further_modalities, :approach, :instrument_kind, :instrument_length_mm, :instrument_radius_mm,
-  :instrument_inner_radius_mm, :instrument_hu, :instrument_throw_mm, :instrument_notch_mm,
-  :instrument_dead_tip_mm, :inr, :platelets_per_nl, :allergy, :indication, :decision,
-  :breath_depth, :breath_period_s, :breath_irregularity, :tissue_yields,
-  :planned_entry_x_lps_mm, :planned_entry_y_lps_mm, :planned_entry_z_lps_mm, :difficulty, :time_limit_s,
-  :attempt_limit, :pass_rule, :family_id, :version, :face_state, :burned_in_checked_us,
-  :burned_in_checked_by
+  :slices_used, :volume_sha256, :skin_sha256, :labels_sha256, :classes_sha256, :family_id, :version, :face_state,
+  :burned_in_checked_us, :burned_in_checked_by
 )

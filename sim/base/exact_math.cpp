@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace seldinger::base {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 constexpr double kHalfPiHigh = 0x1.921fb54400000p+0;
 constexpr double kHalfPiMiddle = 0x1.0b4611a600000p-34;
 constexpr double kHalfPiLow = 0x1.3198a2e037073p-69;
-constexpr double kPi = 0x1.921fb54442d18p+1;
+constexpr double kPi = std::numbers::pi;
 
 // Taylor series on |r| ≤ π/4: the first term left out is below 1e-17.
 double sin_near_zero(double r) noexcept {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
 #include "sim/base/hash.h"
@@ -19,7 +20,7 @@ constexpr double uniform_at(std::uint64_t seed, std::uint64_t counter) noexcept 
 inline double normal_at(std::uint64_t seed, std::uint64_t counter) noexcept {
   const double u = 1.0 - uniform_at(seed, 2 * counter);  // (0, 1]
   const double v = uniform_at(seed, 2 * counter + 1);
-  return std::sqrt(-2.0 * exact_log(u)) * exact_cos(6.283185307179586 * v);
+  return std::sqrt(-2.0 * exact_log(u)) * exact_cos(2.0 * std::numbers::pi * v);
 }
 
 // The same numbers drawn in order.

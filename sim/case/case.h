@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/names.h"
 #include "sim/case/breathing.h"
 #include "sim/case/fluoroscope.h"
 #include "sim/case/mesh.h"
@@ -22,6 +23,8 @@ namespace seldinger::cases {
 
 // Why the tip or the notch decides (clinical.md, Instruments).
 enum class InstrumentKind { access, core };
+inline constexpr auto kInstrumentKindNames =
+    base::names<InstrumentKind>({{InstrumentKind::access, "access"}, {InstrumentKind::core, "core"}});
 
 struct Instrument {
   InstrumentKind kind = InstrumentKind::access;
@@ -50,7 +53,11 @@ inline Shape shape_of(const Lesion& lesion) {
 }
 
 enum class Approach { in_plane, out_of_plane };
+inline constexpr auto kApproachNames =
+    base::names<Approach>({{Approach::in_plane, "in_plane"}, {Approach::out_of_plane, "out_of_plane"}});
 enum class Modality { mpr, xray, ultrasound };
+inline constexpr auto kModalityNames =
+    base::names<Modality>({{Modality::mpr, "mpr"}, {Modality::xray, "xray"}, {Modality::ultrasound, "ultrasound"}});
 
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.

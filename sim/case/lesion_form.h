@@ -3,18 +3,18 @@
 // shape in either case.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <string_view>
 
+#include "sim/base/names.h"
 #include "sim/case/case.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::cases {
 
 enum class LesionKind { sphere, ellipsoid, irregular };
-constexpr std::array<std::string_view, 3> kLesionKindNames = {"sphere", "ellipsoid", "irregular"};
+inline constexpr auto kLesionKindNames = base::names<LesionKind>(
+    {{LesionKind::sphere, "sphere"}, {LesionKind::ellipsoid, "ellipsoid"}, {LesionKind::irregular, "irregular"}});
 
 struct LesionForm {
   LesionKind kind = LesionKind::sphere;

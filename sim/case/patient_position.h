@@ -1,16 +1,19 @@
 // How the patient lies on the table.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
-#include <string_view>
+
+#include "sim/base/names.h"
 
 namespace seldinger::cases {
 
 // lateral_left: on his left side, so that his right one is up.
 enum class PatientPosition { supine, prone, lateral_left, lateral_right };
-constexpr std::array<std::string_view, 4> kPatientPositionNames = {"supine", "prone", "lateral_left",
-                                                                   "lateral_right"};
+inline constexpr auto kPatientPositionNames =
+    base::names<PatientPosition>({{PatientPosition::supine, "supine"},
+                                  {PatientPosition::prone, "prone"},
+                                  {PatientPosition::lateral_left, "lateral_left"},
+                                  {PatientPosition::lateral_right, "lateral_right"}});
 
 // Away from the table, against gravity (LPS, unit).
 inline glm::dvec3 upwards(PatientPosition position) noexcept {

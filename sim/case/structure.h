@@ -2,12 +2,12 @@
 // patient" and "Metrics that need care").
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sim/base/names.h"
 #include "sim/case/shape.h"
 #include "sim/volume/classes.h"
 
@@ -17,8 +17,12 @@ namespace seldinger::cases {
 // is the tissue through which the right way leads (renal parenchyma before a calyx). Target: the lumen to be
 // reached, whose far wall must stay whole.
 enum class StructureRule { advisory, major, critical, must_cross, organ, target };
-constexpr std::array<std::string_view, 6> kStructureRuleNames = {"advisory",   "major", "critical",
-                                                                 "must_cross", "organ", "target"};
+inline constexpr auto kStructureRuleNames = base::names<StructureRule>({{StructureRule::advisory, "advisory"},
+                                                                        {StructureRule::major, "major"},
+                                                                        {StructureRule::critical, "critical"},
+                                                                        {StructureRule::must_cross, "must_cross"},
+                                                                        {StructureRule::organ, "organ"},
+                                                                        {StructureRule::target, "target"}});
 
 struct Structure {
   std::string name;              // as a mentor calls it: "gallbladder"
@@ -28,12 +32,10 @@ struct Structure {
 };
 
 inline std::string_view name_of(StructureRule rule) noexcept {
-  return kStructureRuleNames[static_cast<std::size_t>(rule)];
+  return base::name_of(kStructureRuleNames, rule);
 }
 inline std::optional<StructureRule> structure_rule_from(std::string_view name) noexcept {
-  for (std::size_t at = 0; at < kStructureRuleNames.size(); ++at)
-    if (kStructureRuleNames[at] == name) return static_cast<StructureRule>(at);
-  return std::nullopt;
+  return base::from_name(kStructureRuleNames, name);
 }
 
 }  // namespace seldinger::cases

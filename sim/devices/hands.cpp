@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sim/base/check.h"
 #include "sim/base/vectors.h"
@@ -183,7 +184,7 @@ Hands::Line Hands::guide_line() const noexcept {
     return {settings_.line->entry_lps_mm, along, base::perpendiculars(along).u};
   }
   const cases::ToolPose& pose = probe();
-  const double angle_rad = settings_.probe_guide.angle_deg * (3.14159265358979323846 / 180.0);
+  const double angle_rad = settings_.probe_guide.angle_deg * (std::numbers::pi / 180.0);
   return {pose.position_lps_mm + pose.side * (guide_side_ * settings_.probe_guide.offset_mm),
           glm::normalize(pose.axis * std::cos(angle_rad) - pose.side * (guide_side_ * std::sin(angle_rad))),
           glm::cross(pose.axis, pose.side)};

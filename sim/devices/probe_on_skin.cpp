@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sim/base/vectors.h"
 #include "sim/devices/turning.h"
@@ -27,7 +28,7 @@ glm::dvec3 face_normal(const cases::MeshIndex& skin, const glm::dvec3& at_lps_mm
   const glm::dvec3 above = at_lps_mm + outwards * kAboveMm;
   glm::dvec3 sum(0.0);
   for (int i = 0; i <= kAround; ++i) {
-    const double angle_rad = 2.0 * 3.14159265358979323846 * i / kAround;
+    const double angle_rad = 2.0 * std::numbers::pi * i / kAround;
     const glm::dvec3 p =
         i == kAround ? above
                      : above + (across.u * std::cos(angle_rad) + across.v * std::sin(angle_rad)) * kFaceRadiusMm;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <numbers>
 
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
@@ -25,7 +26,7 @@ class ElasticDamper {
   // CHECKs that tick and stiffness are > 0 and damping ≥ 0.
   explicit ElasticDamper(const DamperSettings& settings)
       : ticks_(settings.damping_n_s_mm / (settings.stiffness_n_mm * settings.tick_s)),
-        share_(1.0 - base::exact_exp(-6.283185307179586 * kDamperCutoffHz * settings.tick_s)),
+        share_(1.0 - base::exact_exp(-2.0 * std::numbers::pi * kDamperCutoffHz * settings.tick_s)),
         slew_n_(kSlewNS * settings.tick_s) {
     CHECK(settings.tick_s > 0.0 && settings.stiffness_n_mm > 0.0);
     CHECK(settings.damping_n_s_mm >= 0.0);

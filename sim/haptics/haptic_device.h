@@ -4,12 +4,12 @@
 
 #include <span>
 
+#include "sim/base/tick.h"
 #include "sim/haptics/needle_law.h"
 
 namespace seldinger::haptics {
 
-// Of every law here.
-inline constexpr double kTickS = 0.001;
+using base::kTickS;  // of every law here
 
 struct HapticDevice {
   const char* name;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
 
 namespace seldinger::haptics {
 
 double bending_stiffness_n_mm2(const cases::Gauge& gauge) noexcept {
-  constexpr double kSteelNMm2 = 200e3, kPi = 3.141592653589793;
+  constexpr double kSteelNMm2 = 200e3, kPi = std::numbers::pi;
   const double outer2 = gauge.outer_mm * gauge.outer_mm, inner2 = gauge.inner_mm * gauge.inner_mm;
   return kSteelNMm2 * kPi / 64.0 * (outer2 * outer2 - inner2 * inner2);
 }

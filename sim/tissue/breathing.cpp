@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "sim/base/exact_math.h"
@@ -10,7 +11,7 @@
 namespace seldinger::tissue {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
+constexpr double kPi = std::numbers::pi;
 constexpr double kHoldTurnS = 0.5;  // from breathing to holding and back (design)
 constexpr double kCoughRiseS =
     0.06;  // a cough's throw is at its height after this, and is over after eight times it (design)

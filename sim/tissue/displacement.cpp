@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "shaders/shared/displacement.glsl.h"
 #include "sim/base/check.h"
@@ -14,7 +15,7 @@ namespace {
 using shaders::DisplacementSource;
 using shaders::vec4;
 
-constexpr double kPi = 3.141592653589793;
+constexpr double kPi = std::numbers::pi;
 
 // Of the head's radius: up to there Hertz' small strains keep a picture (haptics.md §4). Of the bone's depth: from
 // 0.72 on the layer would be folded (docs/decisions/0023).

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
 #include "sim/volume/phantom_parts.h"
@@ -40,7 +41,7 @@ void add_layer(Shapes& shapes, const Tissue& tissue, const Inset& by) {
 
 // The point of the rib line at an angle from the back (0°) round the flank (90°) to the front (180°).
 glm::dvec3 on_rib_line(double angle_deg, double side, double z_mm) {
-  const double angle_rad = angle_deg * (3.14159265358979323846 / 180.0);
+  const double angle_rad = angle_deg * (std::numbers::pi / 180.0);
   const double dx = side * base::exact_sin(angle_rad), dy = base::exact_cos(angle_rad);
   double far_mm = 0.0;  // the union's boundary: the farthest of the ellipses along this ray from the middle
   for (const Ellipse& outline : kOutline) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
 #include <optional>
 
 #include "app/measure/bench/bench.h"
@@ -48,7 +49,7 @@ Places places(const BallContact& contact, int n) {
   const double a = contact_radius_mm(contact);
   Places made;
   for (int i = 0; i < n; ++i) {
-    const double r = 4.0 * std::sqrt(rng.uniform()), angle = 6.283185307179586 * rng.uniform();
+    const double r = 4.0 * std::sqrt(rng.uniform()), angle = 2.0 * std::numbers::pi * rng.uniform();
     const double z = 6.0 * rng.uniform();
     const auto u = hertz_reference(contact, r * a, z * a);
     const glm::dvec2 away(std::cos(angle), std::sin(angle));

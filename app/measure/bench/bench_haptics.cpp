@@ -6,6 +6,7 @@
 #include "app/measure/bench/bench.h"
 #include "app/measure/rigs/thesis_needle.h"
 #include "reports/force_page.h"
+#include "sim/base/tick.h"
 #include "sim/haptics/needle_law.h"
 #include "sim/volume/classes.h"
 
@@ -16,7 +17,7 @@ using volume::TissueClass;
 
 constexpr double kEncoderMm = 0.055;  // the Omni's
 constexpr double kDepthMm = 60.0, kPlateauMm = 20.0;
-constexpr double kTickS = 0.001;
+using base::kTickS;
 
 using Law = std::function<double(double)>;
 

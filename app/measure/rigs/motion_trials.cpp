@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
+#include "sim/base/tick.h"
 #include "sim/base/vectors.h"
 #include "sim/engine/moving_tissue.h"
 #include "sim/tissue/breathing.h"
@@ -13,7 +15,8 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kTickS = 0.001, kPi = 3.141592653589793;
+using base::kTickS;
+constexpr double kPi = std::numbers::pi;
 constexpr double kInsertMmS = 20.0, kOutsideMm = 10.0, kRestS = 1.0;
 constexpr double kHandKg = 0.1, kHandNSMm = 0.005;  // of an arm that holds loosely (design)
 constexpr double kPressMm = 6.0, kLiftMm = 2.0, kSlideMm = 5.0, kPressPeriodS = 1.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
 #include "sim/base/rng.h"
@@ -10,7 +11,7 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kDepthMm = 2.0;
 
 glm::dvec3 direction_of(base::Rng& rng) {

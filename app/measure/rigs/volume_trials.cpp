@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "sim/base/rng.h"
 
@@ -84,7 +85,7 @@ Slide slide(const SolidInCt& solid, const volume::Volume& ct, const haptics::Vol
       const double length_n = length_of(force_n);
       if (!(length_n > 0.0)) ++result.lost;
       const double sine = length_of(glm::cross(force_n, outward));
-      const double angle = std::atan2(sine, glm::dot(force_n, outward)) * 57.29577951308232;
+      const double angle = std::atan2(sine, glm::dot(force_n, outward)) * (180.0 / std::numbers::pi);
       squares += angle * angle;
       forces += length_n;
       ++counted;

@@ -1,6 +1,7 @@
 #include "app/measure/rigs/wall.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "sim/base/exact_math.h"
 #include "sim/haptics/hand_on_device.h"
@@ -9,7 +10,7 @@ namespace seldinger::measure {
 
 Wall::Wall(double stiffness_n_mm, double damping_n_s_mm, double cutoff_hz)
     : stiffness_n_mm_(stiffness_n_mm), damping_n_s_mm_(damping_n_s_mm) {
-  constexpr double kTwoPi = 6.283185307179586;
+  constexpr double kTwoPi = 2.0 * std::numbers::pi;
   share_ = cutoff_hz > 0.0 ? 1.0 - base::exact_exp(-kTwoPi * cutoff_hz * haptics::kTickS) : 1.0;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "app/measure/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
@@ -38,7 +39,7 @@ ElementLevel::ElementLevel(const imaging::UltrasoundView& view, Apodisation apod
                          std::sin(angle), std::cos(angle), along_mm});
   }
   // The pulse exp(−z²/2σ²) of depth z = c·t/2.
-  const double sigma_mhz = shaders::kUsSpeedMmPerUs / (4.0 * M_PI * axial_sigma_mm_);
+  const double sigma_mhz = shaders::kUsSpeedMmPerUs / (4.0 * std::numbers::pi * axial_sigma_mm_);
   double sum = 0.0;
   for (std::size_t n = 0; n < kFrequencies; ++n) {
     const double off = 6.0 * ((static_cast<double>(n) + 0.5) / kFrequencies - 0.5);
@@ -73,7 +74,7 @@ double ElementLevel::directivity(const Element& element, double x_mm, double z_m
   const double dx = x_mm - element.x_mm, dz = z_mm - element.z_mm, r = std::hypot(dx, dz);
   const double cosine = (dx * element.nx + dz * element.nz) / r, sine = (dx * element.nz - dz * element.nx) / r;
   if (cosine <= 0.0) return 0.0;
-  const double phase = M_PI * view_.probe.pitch_mm * sine / wavelength_mm_;
+  const double phase = std::numbers::pi * view_.probe.pitch_mm * sine / wavelength_mm_;
   return cosine * (std::abs(phase) < 1e-6 ? 1.0 : std::sin(phase) / phase);
 }
 
@@ -114,7 +115,7 @@ std::complex<double> ElementLevel::sample(double beam, double depth_mm,
       const double way_mm = std::hypot(scatterer.x_mm - element.x_mm, scatterer.z_mm - element.z_mm);
       const auto add = [&](double late_mm, double weight, std::array<std::complex<double>, kFrequencies>& sums) {
         if (weight == 0.0) return;
-        const double per_mhz = -2.0 * M_PI * late_mm / shaders::kUsSpeedMmPerUs;
+        const double per_mhz = -2.0 * std::numbers::pi * late_mm / shaders::kUsSpeedMmPerUs;
         std::complex<double> turn = weight * std::polar(1.0, per_mhz * frequencies_mhz_[0]);
         const std::complex<double> step = std::polar(1.0, per_mhz * step_mhz);
         for (std::complex<double>& sum : sums) {
@@ -138,7 +139,8 @@ std::complex<double> ElementLevel::sample(double beam, double depth_mm,
     total += scatterer.amplitude * std::exp(-0.5 * out * out) * echo;
   }
   // Delays turn every scatterer's phase to the point's; back to the carrier's phase over depth.
-  return total / (receive_sum * transmit_sum) * std::polar(1.0, -4.0 * M_PI * depth_mm / wavelength_mm_);
+  return total / (receive_sum * transmit_sum) *
+         std::polar(1.0, -4.0 * std::numbers::pi * depth_mm / wavelength_mm_);
 }
 
 }  // namespace seldinger::measure

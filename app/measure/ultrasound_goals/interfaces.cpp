@@ -2,6 +2,7 @@
 // which does not depend on where samples fall, less that of the speckle around it.
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "app/measure/ultrasound_goals/goal.h"
 #include "app/measure/ultrasound_goals/polar_levels.h"
@@ -54,7 +55,7 @@ double reflection_error_db(const Setting& setting, TissueClass above, TissueClas
   view.samples = std::max(64, static_cast<int>(setting.samples * kViewMm / setting.depth_mm())) * finer;
   const imaging::Fan fan = imaging::fan_of(view);
   const double sigma_mm = axial_sigma_mm(view), reach_mm = 2.6 * sigma_mm;
-  const double unit = std::sqrt(M_PI) * sigma_mm;  // ∫ of a squared pulse of peak 1
+  const double unit = std::sqrt(std::numbers::pi) * sigma_mm;  // ∫ of a squared pulse of peak 1
   const double reflection =
       std::abs(shaders::us_reflection(acoustics(above).impedance_mrayl, acoustics(below).impedance_mrayl));
   const double loss_db_mm = acoustics(above).soft
@@ -113,7 +114,7 @@ void measure_angle_law(const Setting& setting, Readings& readings) {
   double sum = 0.0;
   int count = 0;
   for (const double tilt_deg : {0.0, 10.0, 20.0, 30.0, 45.0, 60.0, 80.0}) {
-    const double tilt = tilt_deg * M_PI / 180.0;
+    const double tilt = tilt_deg * std::numbers::pi / 180.0;
     const glm::dvec3 normal(std::sin(tilt), std::cos(tilt), 0.0), through(0.0, 20.0, 0.0);
     // Nothing scatters on either side.
     const TissueBlock block = tissue_block(
@@ -138,7 +139,7 @@ void measure_angle_law(const Setting& setting, Readings& readings) {
       // How strong, not where: seen from its side, a wall of voxels of 1 mm is a staircase.
       const double reach_mm = 4.0 * sigma_mm + 0.1 + 0.6 * std::sqrt(1.0 - facing * facing) / facing;
       const double energy = energy_mm(picture, view, b, depth_mm - reach_mm, depth_mm + reach_mm);
-      const double found_db = 10.0 * std::log10(std::max(energy, 1e-30) / (std::sqrt(M_PI) * sigma_mm));
+      const double found_db = 10.0 * std::log10(std::max(energy, 1e-30) / (std::sqrt(std::numbers::pi) * sigma_mm));
       const double wanted_db = imaging::kUsInterfaceDb + reflection_db +
                                decibels(angle_law(std::acos(std::min(1.0, facing)))) - loss_db_mm * depth_mm;
       sum += (found_db - wanted_db) * (found_db - wanted_db);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "app/measure/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
@@ -51,7 +52,7 @@ glm::dvec3 seen_tip(const std::vector<Peak>& peaks, const UltrasoundView& view) 
 }  // namespace
 
 Inserted needle_at(double x_mm, double depth_mm, double tilt_deg, double out_mm) {
-  const double a = tilt_deg * M_PI / 180.0;
+  const double a = tilt_deg * std::numbers::pi / 180.0;
   Inserted inserted;
   NeedlePose needle;
   needle.tip_lps_mm = {x_mm, depth_mm, out_mm};
@@ -91,7 +92,7 @@ void measure_needle_place(const Setting& setting, Readings& readings) {
       seen = seen && n >= 4 && std::isfinite(tip_mm);
       worst_tip_mm = farther(worst_tip_mm, tip_mm);
       const double slope = (sxy - sx * sy / n) / (sxx - sx * sx / n);
-      worst_deg = farther(worst_deg, std::abs(std::atan(slope) * 180.0 / M_PI - tilt_deg));
+      worst_deg = farther(worst_deg, std::abs(std::atan(slope) * 180.0 / std::numbers::pi - tilt_deg));
     }
   const std::string probe(setting.probe.name);
   readings.push_back({11, "needle's axis, 800 x 700", probe, seen ? worst_axis_px : NAN, "pixels", 1.0, 1.0});
@@ -105,7 +106,7 @@ double needle_grey(const Setting& setting, double tilt_deg, bool echogenic) {
   view.beams = 256;
   view.echogenic_needle = echogenic;
   // So long that the middle beams meet the shaft far from the tip.
-  const Inserted inserted = needle_at(6.0, 25.0 + 6.0 * std::tan(tilt_deg * M_PI / 180.0), tilt_deg);
+  const Inserted inserted = needle_at(6.0, 25.0 + 6.0 * std::tan(tilt_deg * std::numbers::pi / 180.0), tilt_deg);
   const PolarPicture picture = setting.picture(water(), view, inserted);
   float level = 0.0F;
   for (int b = 126; b < 130; ++b) level = std::max(level, peak_of(picture, view, b).level);

@@ -1,12 +1,12 @@
 // The formulas of shaders/shared/mpr.glsl.h in double, threads over rows. Each row knows beforehand which columns
 // lie in the volume, which need no clamping, and which a lesion or the needle can reach.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <thread>
 
 #include "shaders/shared/mpr.glsl.h"
+#include "sim/base/rows.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/plane.h"
 #include "sim/imaging/mpr/segment_clip.h"
@@ -223,19 +223,15 @@ HuImage mpr_cpu(const volume::Volume& volume, const MprView& view, const Inserte
   HuImage image(static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px));
   const Painter painter(volume, view, inserted, displacement, image);
   constexpr int kRowsAtOnce = 16;
-  std::atomic<int> next_row{0};
-  const auto work = [&] {
-    for (int row = next_row.fetch_add(kRowsAtOnce); row < view.height_px; row = next_row.fetch_add(kRowsAtOnce))
-      for (int r = row; r < std::min(row + kRowsAtOnce, view.height_px); ++r) painter.paint_row(r);
-  };
   // A thread costs about as much as 10 000 pixels.
   constexpr std::size_t kPixelsPerThread = 32768;
   const std::size_t useful =
       std::min<std::size_t>(std::thread::hardware_concurrency(), image.size() / kPixelsPerThread);
-  std::vector<std::jthread> others;
-  for (std::size_t i = 1; i < useful; ++i) others.emplace_back(work);
-  work();
-  others.clear();  // joins
+  base::over_rows((view.height_px + kRowsAtOnce - 1) / kRowsAtOnce, std::max(1, static_cast<int>(useful)),
+                  [&](int i) {
+                    for (int row = i * kRowsAtOnce; row < std::min((i + 1) * kRowsAtOnce, view.height_px); ++row)
+                      painter.paint_row(row);
+                  });
   return image;
 }
 

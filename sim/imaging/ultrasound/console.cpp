@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
@@ -61,7 +62,7 @@ double caliper_mm(const glm::dvec2& from_mm, const glm::dvec2& to_mm) noexcept {
 }
 
 double ellipse_area_mm2(double axis_mm, double other_axis_mm) noexcept {
-  return 0.25 * 3.141592653589793 * axis_mm * other_axis_mm;
+  return 0.25 * std::numbers::pi * axis_mm * other_axis_mm;
 }
 
 Console::Console(const ConsolePreset& preset) {

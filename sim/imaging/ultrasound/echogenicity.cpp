@@ -1,12 +1,10 @@
 #include "sim/imaging/ultrasound/echogenicity.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <thread>
 
 #include "sim/base/check.h"
+#include "sim/base/rows.h"
 
 namespace seldinger::imaging {
 namespace {
@@ -22,17 +20,6 @@ bool is_parenchyma(TissueClass tissue) {
          (tissue >= TissueClass::liver && tissue <= TissueClass::muscle);
 }
 
-void over(int count, int threads, const std::function<void(int)>& work) {
-  std::atomic<int> next{0};
-  const auto run = [&] {
-    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) work(i);
-  };
-  const int wanted = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
-  std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(wanted, count); ++i) others.emplace_back(run);
-  run();
-}
-
 struct Sum {
   std::int64_t hu = 0, count = 0;
 };
@@ -46,7 +33,7 @@ class Surroundings {
         mean_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
               static_cast<std::size_t>(size_.z)) {
     std::vector<Sum> sums(mean_.size());
-    over(size_.z, threads, [&](int z) {
+    base::over_rows(size_.z, threads, [&](int z) {
       for (int k = z * block_.z; k < std::min((z + 1) * block_.z, volume.size_voxels.z); ++k)
         for (int j = 0; j < volume.size_voxels.y; ++j)
           for (int i = 0; i < volume.size_voxels.x; ++i) {
@@ -139,7 +126,7 @@ std::vector<std::uint8_t> echogenicity(const volume::Volume& volume, std::span<c
   const glm::ivec3 n = volume.size_voxels;
   const glm::ivec3 reach = glm::ivec3(glm::floor(kSmoothMm / volume.spacing_mm + 0.5));
   std::vector<std::uint8_t> levels(classes.size(), kNoEchoOffset);
-  over(n.z, threads, [&](int k) {
+  base::over_rows(n.z, threads, [&](int k) {
     for (int j = 0; j < n.y; ++j)
       for (int i = 0; i < n.x; ++i) {
         const auto at = static_cast<std::size_t>(volume.index(i, j, k));

@@ -1,6 +1,7 @@
 #include "sim/imaging/ultrasound/needle_echo.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
@@ -9,7 +10,7 @@ namespace seldinger::imaging {
 namespace {
 
 constexpr double kAlongRad = 1.55;  // a beam along the shaft meets its tip alone
-constexpr double kDegPerRad = 57.29577951308232;
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 double amplitude(double db) {
   return std::pow(10.0, db / 20.0);

@@ -1,11 +1,11 @@
 // From lines and scatterers to the envelope, a block of beams at a time.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <thread>
+#include <numbers>
 
 #include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/rows.h"
 #include "sim/imaging/ultrasound/lattice.h"
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/motion.h"
@@ -127,7 +127,7 @@ class PolarPainter {
   // The pulse itself, of the echo's amplitude at its peak, exactly where the echo is.
   void add_echo(const LineEcho& echo, std::vector<float>& re, std::vector<float>& im) const {
     const double turns = 2.0 * echo.depth_mm / wavelength_mm_,
-                 angle = -6.283185307179586 * (turns - std::floor(turns));
+                 angle = -2.0 * std::numbers::pi * (turns - std::floor(turns));
     const double cosine = std::cos(angle), sine = std::sin(angle), reach_mm = 4.0 * sigma_mm_;
     const int first = std::max(0, static_cast<int>(std::ceil((echo.depth_mm - reach_mm) / fan_.sample_mm - 0.5))),
               last = std::min(view_.samples - 1,
@@ -181,16 +181,9 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   // The same blocks for any number of threads. Wide enough that scatterers at their sides, which two blocks see,
   // are few; the arctangent's series wants them narrow.
   const int block = std::clamp(view.beams / 16, 1, 32), blocks = (view.beams + block - 1) / block;
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    Room room;
-    for (int i = next.fetch_add(1); i < blocks; i = next.fetch_add(1))
-      painter.paint(i * block, std::min(view.beams, (i + 1) * block), room);
-  };
-  const int wanted = view.threads > 0 ? view.threads : static_cast<int>(std::thread::hardware_concurrency());
-  std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(wanted, blocks); ++i) others.emplace_back(work);
-  work();
+  base::over_rows(
+      blocks, view.threads, [] { return Room{}; },
+      [&](int i, Room& room) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), room); });
 }
 
 float level_db_of(float amplitude) noexcept {

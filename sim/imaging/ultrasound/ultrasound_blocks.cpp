@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
@@ -317,7 +318,7 @@ Lines walked_lines(const UltrasoundView& view, const LineWalker& walker,
     auto* to = lines.echoes.data() + b * static_cast<std::size_t>(lines.most_echoes);
     for (const LineEcho& echo : echoes[b]) {
       const double turns = 2.0 * echo.depth_mm / wavelength_mm,
-                   angle = -6.283185307179586 * (turns - std::floor(turns));
+                   angle = -2.0 * std::numbers::pi * (turns - std::floor(turns));
       *to++ = glm::vec4(
           glm::dvec4(echo.depth_mm, echo.amplitude * std::cos(angle), echo.amplitude * std::sin(angle), 0.0));
     }

@@ -4,28 +4,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <thread>
+#include <numbers>
 
 #include "sim/base/check.h"
 #include "sim/base/clones.h"
 #include "sim/base/exact_math.h"
+#include "sim/base/rows.h"
 #include "sim/imaging/xray/float_math.h"
 #include "sim/imaging/xray/noise.h"
 
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr float kLeastQuanta = 0.5F;  // below, the logarithm is cut: less than one quantum is nothing
 
-// Calls work(first, end) on equal parts of `count` rows.
+// Calls work(first, end) on equal parts of `count` rows, none of fewer than 16.
 template <class Work>
-void over_rows(int count, int threads, const Work& work) {
+void over_parts(int count, int threads, const Work& work) {
   const int parts = std::clamp(threads, 1, std::max(1, count / 16));
-  std::vector<std::jthread> others;
-  for (int part = 1; part < parts; ++part)
-    others.emplace_back([&work, part, parts, count] { work(count * part / parts, count * (part + 1) / parts); });
-  work(0, count / parts);
+  base::over_rows(parts, parts, [&](int part) { work(count * part / parts, count * (part + 1) / parts); });
 }
 
 SELDINGER_FOR_AVX2_TOO void means_from_logs(float* values, int count, float open_quanta) noexcept {
@@ -182,7 +180,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
   const auto blurred_row = [&](int row) {
     return blurred + static_cast<std::size_t>(std::clamp(row, 0, rows - 1)) * static_cast<std::size_t>(columns);
   };
-  over_rows(rows, settings.threads, [&](int first_row, int end_row) {
+  over_parts(rows, settings.threads, [&](int first_row, int end_row) {
     std::vector<float> row_values(static_cast<std::size_t>(columns + 2 * radius)),
         means(static_cast<std::size_t>(columns));
     float* const values = row_values.data() + radius;
@@ -203,8 +201,8 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
       blur_row(values, columns, weights.data(), radius, blurred_row(row));
     }
   });
-  // Blur across the rows, then the logarithm.
-  over_rows(rows, settings.threads, [&](int first_row, int end_row) {
+  // Blur across the rows, logarithm.
+  over_parts(rows, settings.threads, [&](int first_row, int end_row) {
     for (int row = first_row; row < end_row; ++row) {
       float* const out =
           picture.log_signal.data() + row_start(open.first_row + row) + static_cast<std::size_t>(open.first_column);
@@ -218,7 +216,7 @@ void render_picture(const BeamSignal& beam, const Detector& detector, double fie
   });
   // Grey, by the window asked for or by the picture's own.
   picture.window = settings.window ? *settings.window : window_of(picture.log_signal, width, open);
-  over_rows(rows, settings.threads, [&](int first_row, int end_row) {
+  over_parts(rows, settings.threads, [&](int first_row, int end_row) {
     for (int row = first_row; row < end_row; ++row) {
       const std::size_t first = row_start(open.first_row + row) + static_cast<std::size_t>(open.first_column);
       grey_from_log_signal(picture.log_signal.data() + first, columns, picture.window, picture.grey.data() + first);

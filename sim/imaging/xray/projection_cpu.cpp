@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <thread>
 
 #include "sim/base/check.h"
+#include "sim/base/rows.h"
 #include "sim/imaging/xray/packet.h"
 #include "sim/imaging/xray/projection.h"
 
@@ -66,19 +65,6 @@ Rectangle shadow(const PacketVolume& kept, const volume::Volume& volume, const X
   return {first.x, first.y, end.x, end.y};
 }
 
-// Calls work(i) for 0 ≤ i < count, on so many threads.
-template <typename Work>
-void in_threads(int count, int wanted, const Work& work) {
-  if (wanted <= 0) wanted = static_cast<int>(std::thread::hardware_concurrency());
-  std::atomic<int> next{0};
-  const auto run = [&] {
-    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) work(i);
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(wanted, count); ++i) others.emplace_back(run);
-  run();
-}
-
 }  // namespace
 
 Instructions best_instructions() noexcept {
@@ -117,7 +103,7 @@ PathLengths XrayCpu::project(const XrayGeometry& geometry, ProjectionMethod meth
   const volume::Volume& volume = parts_->volume;
   if (kept.size.x == 0) return lengths;
   if (method == ProjectionMethod::trilinear) {
-    in_threads(geometry.height_px, options.threads, [&](int row) {
+    base::over_rows(geometry.height_px, options.threads, [&](int row) {
       for (int column = 0; column < geometry.width_px; ++column) {
         const RaySegment ray = ray_of(geometry, volume, column, row);
         const RayLengths one = lengths_between(volume, ray.from_lps_mm, ray.to_lps_mm, method);
@@ -137,8 +123,8 @@ PathLengths XrayCpu::project(const XrayGeometry& geometry, ProjectionMethod meth
   const int left = part.left / kTilePx, top = part.top / kTilePx;
   const int columns = std::max(0, (part.right + kTilePx - 1) / kTilePx - left);
   const int rows = std::max(0, (part.bottom + kTilePx - 1) / kTilePx - top);
-  in_threads(columns * rows, options.threads,
-             [&](int i) { tile(job, (left + i % columns) * kTilePx, (top + i / columns) * kTilePx); });
+  base::over_rows(columns * rows, options.threads,
+                  [&](int i) { tile(job, (left + i % columns) * kTilePx, (top + i / columns) * kTilePx); });
   return lengths;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "sim/base/check.h"
 #include "sim/base/exact_math.h"
@@ -20,7 +21,7 @@ constexpr double kFineStructure = 7.2973525693e-3, kElectronRadiusCm = 2.8179403
                  kAvogadro = 6.02214076e23, kElectronsPerMas = 1e-3 / 1.602176634e-19,
                  kJoulePerKev = 1.602176634e-16;
 constexpr double kTungstenZ = 74.0, kTungstenGPerMol = 183.84;
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 // Refitted to the half-value layers of tests/sim/imaging/xray/spectrum_test.cpp: least fourth powers over the first
 // and second layers of PTB's RQR 2–9 and RQA 2–9 and the first of SpekPy's and SpekCalc's rows. The absolute scale

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "sim/base/vectors.h"
@@ -14,7 +15,7 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 
 // The ray through a point, on to the panel.
 struct RayThrough {
