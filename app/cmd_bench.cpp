@@ -278,8 +278,6 @@ std::string frontier(const std::vector<Row>& rows) {
   return reports::frontier_page("Time against error", points);
 }
 
-}  // namespace
-
 int run_bench(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
   const bool quick = arguments.has("--quick");
@@ -329,6 +327,24 @@ int run_bench(const Arguments& arguments) {
     write_file(out / "force_depth.html", force_depth_page());
   std::fputs(text.c_str(), stdout);
   return kDone;
+}
+
+constexpr Option kBenchOptions[] = {
+    {"--stage", "a,b",
+     "import, mpr, xray, breathing, ultrasound, room, displacement, haptics, step, library, assessment; default "
+     "all"},
+    {"--quick", nullptr, "fewer repetitions"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray, ultrasound and room; default the built-in case"},
+    {"--volume", "FILE", "xray: in place of the projector phantom"},
+    {"--out", "DIR", "where results.csv goes"}};
+
+}  // namespace
+
+Command bench_command() {
+  return {.name = "bench",
+          .options = kBenchOptions,
+          .summary = "Measures time against error of every stage with a choice.",
+          .run = &run_bench};
 }
 
 }  // namespace seldinger::app

@@ -31,8 +31,6 @@ void print_comparison(const casedb::Comparison& comparison) {
   }
 }
 
-}  // namespace
-
 int run_attempt_compare(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   std::optional<cases::Modality> modality;
@@ -52,6 +50,24 @@ int run_attempt_compare(const Arguments& arguments) {
   else if (!arguments.has("--out"))
     print_comparison(*comparison);
   return kDone;
+}
+
+constexpr Option kCompareOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "of attempts at this target; default that of the newest attempt"},
+    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default that of the newest attempt"},
+    {"--out", "FILE.html", "a page of its own, in place of the text"},
+    kJson};
+
+}  // namespace
+
+Command attempt_compare_command() {
+  return {
+      .name = "attempt compare",
+      .options = kCompareOptions,
+      .summary = "Puts the attempts on a case side by side, a group for each person and each simulated operator.",
+      .run = &run_attempt_compare};
 }
 
 }  // namespace seldinger::app

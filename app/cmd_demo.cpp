@@ -167,8 +167,6 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
   std::fflush(stdout);
 }
 
-}  // namespace
-
 int run_demo(const Arguments& arguments) {
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
   const std::filesystem::path folder =
@@ -209,6 +207,30 @@ int run_demo(const Arguments& arguments) {
   const auto served =
       serve_until_stopped(std::move(*library), {"127.0.0.1", port, !arguments.has("--port")}, ready);
   return served ? kDone : refuse(served.error());
+}
+
+constexpr Option kDemoOptions[] = {
+    {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--drills", nullptr,
+     "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
+     "replay is to be watched, and the curriculum that leads through them; takes seconds"},
+    {"--cases", nullptr,
+     "the drills, then the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; likewise"},
+    {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
+    {"--modality", "ultrasound|xray|mpr",
+     "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
+    {"--no-serve", nullptr, "end by printing what was made"},
+    {"--port", "N", "the page's port; default 8080, or any free one"},
+    kJson};
+
+}  // namespace
+
+Command demo_command() {
+  return {.name = "demo",
+          .options = kDemoOptions,
+          .summary = "The main job, end to end, on real or built-in CT.",
+          .run = &run_demo};
 }
 
 }  // namespace seldinger::app

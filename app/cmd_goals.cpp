@@ -14,8 +14,6 @@ namespace {
 constexpr double kSkinDecimation = 0.7;
 constexpr int kProxyTicks = 100000;  // a second or two; the long tests take a million
 
-}  // namespace
-
 int run_goals_ultrasound(const Arguments& arguments) {
   const std::string quality_text = arguments.text("--quality", "fast");
   if (quality_text != "fast" && quality_text != "reference") throw UsageError("--quality is fast or reference");
@@ -74,6 +72,34 @@ int run_goals_haptics(const Arguments& arguments) {
   const bool holds =
       std::all_of(readings.begin(), readings.end(), [](const haptics::ForceReading& one) { return one.holds(); });
   return holds ? kDone : kCheckFailed;
+}
+
+constexpr Option kGoalsOptions[] = {
+    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
+    {"--quality", "fast|reference",
+     "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
+     "fast"},
+    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    kJson};
+
+}  // namespace
+
+Command goals_ultrasound_command() {
+  return {
+      .name = "goals ultrasound",
+      .options = kGoalsOptions,
+      .summary = "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+      .run = &run_goals_ultrasound};
+}
+
+Command goals_haptics_command() {
+  return {.name = "goals haptics",
+          .options = kJsonOnly,
+          .summary =
+              "Measures what the hand feels against published lines and under simulated hands; 1 when a goal is "
+              "missed.",
+          .run = &run_goals_haptics};
 }
 
 }  // namespace seldinger::app

@@ -10,6 +10,7 @@
 #include "web/routes.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_help(const Arguments& arguments) {
   if (arguments.has("--metrics")) {
@@ -52,6 +53,25 @@ int run_help(const Arguments& arguments) {
   }
   if (!found) throw UsageError("there is no command of that name");
   return kDone;
+}
+
+constexpr Option kHelpOptions[] = {
+    {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+    {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
+    {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
+    {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
+    {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
+    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"}};
+
+}  // namespace
+
+Command help_command() {
+  return {.name = "help",
+          .positionals = "[COMMAND]",
+          .max_positionals = 2,
+          .options = kHelpOptions,
+          .summary = "Prints this, or one command's options.",
+          .run = &run_help};
 }
 
 }  // namespace seldinger::app

@@ -119,8 +119,6 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
   read_criteria(arguments, setting.rule);
 }
 
-}  // namespace
-
 int run_case_setting(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.positional(0);
   std::optional<assessment::PassRule> rule;
@@ -149,6 +147,55 @@ int run_case_setting(const Arguments& arguments) {
       return refuse(set.error());
   const auto set = casedb::set_setting(*library, case_id, setting);
   return set ? kDone : refuse(set.error());
+}
+
+// The options of `case setting`.
+std::span<const Option> setting_options() {
+  static constexpr Option kOptions[] = {
+      kLibrary,
+      {"--title", "TEXT", "the case's title"},
+      {"--modality", "mpr|xray|ultrasound", "what it is practised with"},
+      {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else", true},
+      {"--subject", "patient|phantom", "phantom: a block to practise on; nothing is asked around a patient"},
+      {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies"},
+      {"--approach", "in_plane|out_of_plane", "of needle to picture"},
+      {"--instrument", "access|core", "access: the tip decides; core: the fired notch"},
+      {"--gauge", "G", "16 to 25"},
+      {"--length-mm", "L", "the needle's"},
+      {"--throw-mm", "T", "core: the way the tip goes when fired"},
+      {"--notch-mm", "N", "core: length of the sample notch"},
+      {"--dead-tip-mm", "D", "core: from the notch's end to the tip"},
+      {"--inr", "X", "what the laboratory found"},
+      {"--platelets", "X", "per nl (10⁹/l)"},
+      {"--allergy", "TEXT", "told at the sign-in"},
+      {"--indication", "TEXT", "why"},
+      {"--decision", "proceed|defer", "what is right"},
+      {"--breath-depth", "SHARE", "of a quiet breath, 16 mm of liver; default 0: none is shown"},
+      {"--breath-period-s", "S", "from breath to breath; default 4"},
+      {"--breath-irregularity", "SHARE", "standard deviation of its period and depth; default 0.1"},
+      {"--tissue", "still|yields", "to probe and needle; default still"},
+      {"--entry-mm", "X,Y,Z", "the planned entry"},
+      {"--difficulty", "easy|moderate|hard", "how hard it is"},
+      {"--time-limit-s", "S", "an attempt ends then"},
+      {"--attempt-limit", "N", "so many a trainee"},
+      {"--pass", "METRIC>=VALUE", "a criterion: <=, >= or =; with --critical it makes the whole rule anew", true},
+      {"--critical", "METRIC=VALUE", "a criterion that must not be missed whatever else is good", true},
+      {"--rule", "FILE.json", "the rule from a file"}};
+  return kOptions;
+}
+
+}  // namespace
+
+Command case_setting_command() {
+  return {.name = "case setting",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = setting_options(),
+          .summary =
+              "Sets what a case asks of whoever attempts it: guidance, needle, patient, limits, pass rule. What is "
+              "not given stays.",
+          .run = &run_case_setting};
 }
 
 }  // namespace seldinger::app
