@@ -6,7 +6,7 @@
 #include "app/file.h"
 #include "reports/compare_page.h"
 #include "reports/grade_words.h"
-#include "web/style_sheet.h"
+#include "reports/style_sheet.h"
 
 namespace seldinger::app {
 namespace {
@@ -44,7 +44,7 @@ int run_attempt_compare(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto comparison = casedb::compare_attempts(*library, case_id, arguments.text("--lesion"), modality);
   if (!comparison) return refuse(comparison.error());
-  if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, web::style_sheet()));
+  if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, reports::style_sheet()));
   if (arguments.has("--json"))
     std::fputs(json_of_comparison(*comparison).c_str(), stdout);
   else if (!arguments.has("--out"))
