@@ -18,6 +18,7 @@
 #include "assessment/operators/lesion_site.h"
 #include "casedb/credentials.h"
 #include "sim/base/failure.h"
+#include "sim/base/training_only.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::app {
@@ -130,8 +131,8 @@ void print_value(const assessment::MetricValue& metric) {
 
 void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder) {
   const cases::Lesion& lesion = answer.lesion.lesion;
-  std::printf("Training only, not for planning a patient's procedure.\n\nLibrary  %s\nCase     %s  %s\n",
-              folder.c_str(), answer.found.case_id.c_str(), answer.found.title.c_str());
+  std::printf("%s\n\nLibrary  %s\nCase     %s  %s\n", base::kTrainingOnly, folder.c_str(),
+              answer.found.case_id.c_str(), answer.found.title.c_str());
   for (const base::Problem& warning : answer.found.warnings)
     std::printf("         warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   int width = 0;

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <string>
 
+#include "sim/base/training_only.h"
+
 namespace seldinger::app {
 
 // Every command, in the order in which help lists them. A command's row (options, help, run) is NAME_command() at
@@ -110,8 +112,7 @@ std::string help_text(const Command& command) {
 
 std::string help_text() {
   std::string text =
-      "seldinger: training in image-guided needle puncture. Training only, not for planning a patient's "
-      "procedure.\n\n";
+      std::string("seldinger: training in image-guided needle puncture. ") + base::kTrainingOnly + "\n\n";
   for (const Command& command : commands()) {
     std::string name = command.name;
     if (*command.positionals != '\0') name += std::string(" ") + command.positionals;
