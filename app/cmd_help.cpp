@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/error_codes.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
@@ -37,6 +38,10 @@ int run_help(const Arguments& arguments) {
     std::fputs(casedb::allow_list_markdown().c_str(), stdout);
     return kDone;
   }
+  if (arguments.has("--errors")) {
+    std::fputs(errors_markdown().c_str(), stdout);
+    return kDone;
+  }
   std::string wanted;
   for (std::size_t i = 0; i < arguments.positionals(); ++i)
     wanted += (wanted.empty() ? "" : " ") + arguments.positional(i);
@@ -61,7 +66,8 @@ constexpr Option kHelpOptions[] = {
     {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
     {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
-    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"}};
+    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"},
+    {"--errors", nullptr, "print the table of error codes (docs/errors.md)"}};
 
 }  // namespace
 
