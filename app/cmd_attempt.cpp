@@ -42,8 +42,6 @@ void print_course(const Course& course) {
       std::printf("  event    %6.1f s  %s\n", event.t_s, info->words);
 }
 
-}  // namespace
-
 int run_attempt_list(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
@@ -97,6 +95,25 @@ int run_attempt_show(const Arguments& arguments) {
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
     std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());
   return kDone;
+}
+
+}  // namespace
+
+Command attempt_list_command() {
+  return {.name = "attempt list",
+          .options = kLibraryJson,
+          .summary = "Lists the attempts, newest first.",
+          .run = &run_attempt_list};
+}
+
+Command attempt_show_command() {
+  return {.name = "attempt show",
+          .positionals = "ATTEMPT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Shows one attempt with its metrics.",
+          .run = &run_attempt_show};
 }
 
 }  // namespace seldinger::app

@@ -26,8 +26,6 @@ void print(const std::string& device, const devices::Calibration& calibration) {
               devices::kMostResidualMm);
 }
 
-}  // namespace
-
 int run_haptics_calibrate(const Arguments& arguments) {
   const std::string device = arguments.required("--device");
   if (device != "left" && device != "right") throw UsageError("--device is left or right");
@@ -56,6 +54,28 @@ int run_haptics_calibrate(const Arguments& arguments) {
   else
     print(device, *calibration);
   return kDone;
+}
+
+constexpr Option kCalibrateOptions[] = {
+    {"--device", "left|right", "which of the station's two"},
+    {"--station", "FILE.json", "where its calibration is kept; the other device's stays"},
+    {"--device-id", "ID", "the arm that stands there, as `device list` names it"},
+    {"--grip-id", "ID", "the stylus on that arm"},
+    kJson};
+
+}  // namespace
+
+Command haptics_calibrate_command() {
+  return {.name = "haptics calibrate",
+          .positionals = "POINTS.csv",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCalibrateOptions,
+          .summary =
+              "Finds where a device stands on the template (156 mm square, cross of 128 mm, box of 143 mm): "
+              "columns point, x_mm, y_mm, z_mm as the device reads them at a, b, c, d, f and, where taken, e. "
+              "Refused above 1 mm.",
+          .run = &run_haptics_calibrate};
 }
 
 }  // namespace seldinger::app

@@ -8,6 +8,7 @@
 #include "casedb/authoring.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_case_list(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
@@ -116,6 +117,48 @@ int run_case_lesion(const Arguments& arguments) {
   else
     std::printf("lesion %s\n", lesion_id->c_str());
   return kDone;
+}
+
+constexpr Option kLesionOptions[] = {
+    kLibrary,
+    {"--center-mm", "X,Y,Z", "centre, LPS"},
+    {"--radius-mm", "R", "of a sphere, or the mean one of an irregular lesion"},
+    {"--radii-mm", "A,B,C", "an ellipsoid's, along LPS"},
+    {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
+    {"--seed", "N", "which irregular one; default 1"},
+    {"--hu", "H", "its HU"},
+    {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
+    {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},
+    {"--remove", "LESION", "takes one away again"},
+    kJson};
+
+}  // namespace
+
+Command case_list_command() {
+  return {.name = "case list",
+          .options = kLibraryJson,
+          .summary = "Lists the cases, oldest first.",
+          .run = &run_case_list};
+}
+
+Command case_show_command() {
+  return {.name = "case show",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Shows one case.",
+          .run = &run_case_show};
+}
+
+Command case_lesion_command() {
+  return {.name = "case lesion",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLesionOptions,
+          .summary = "Places a lesion in a case.",
+          .run = &run_case_lesion};
 }
 
 }  // namespace seldinger::app

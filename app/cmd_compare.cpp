@@ -6,7 +6,7 @@
 #include "app/file.h"
 #include "reports/compare_page.h"
 #include "reports/grade_words.h"
-#include "web/style_sheet.h"
+#include "reports/style_sheet.h"
 
 namespace seldinger::app {
 namespace {
@@ -31,8 +31,6 @@ void print_comparison(const casedb::Comparison& comparison) {
   }
 }
 
-}  // namespace
-
 int run_attempt_compare(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   std::optional<cases::Modality> modality;
@@ -46,12 +44,30 @@ int run_attempt_compare(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto comparison = casedb::compare_attempts(*library, case_id, arguments.text("--lesion"), modality);
   if (!comparison) return refuse(comparison.error());
-  if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, web::style_sheet()));
+  if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, reports::style_sheet()));
   if (arguments.has("--json"))
     std::fputs(json_of_comparison(*comparison).c_str(), stdout);
   else if (!arguments.has("--out"))
     print_comparison(*comparison);
   return kDone;
+}
+
+constexpr Option kCompareOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "of attempts at this target; default that of the newest attempt"},
+    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default that of the newest attempt"},
+    {"--out", "FILE.html", "a page of its own, in place of the text"},
+    kJson};
+
+}  // namespace
+
+Command attempt_compare_command() {
+  return {
+      .name = "attempt compare",
+      .options = kCompareOptions,
+      .summary = "Puts the attempts on a case side by side, a group for each person and each simulated operator.",
+      .run = &run_attempt_compare};
 }
 
 }  // namespace seldinger::app

@@ -25,8 +25,6 @@ assessment::Gate gate_from(const std::string& text) {
   return gate;
 }
 
-}  // namespace
-
 int run_curriculum_add(const Arguments& arguments) {
   const std::string by = arguments.required("--by");
   auto library = casedb::Library::open(arguments.required("--library"));
@@ -123,6 +121,79 @@ int run_curriculum_remove(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto done = casedb::remove_curriculum(*library, arguments.positional(0), by);
   return done ? kDone : refuse(done.error());
+}
+
+constexpr Option kByOption{"--by", "NAME", "the account that decides"};
+constexpr Option kCurriculumAddOptions[] = {kLibrary, kByOption, kJson};
+constexpr Option kCurriculumByOptions[] = {kLibrary, kByOption};
+
+constexpr Option kCurriculumItemOptions[] = {
+    kLibrary,
+    {"--case", "ID", "a published case; the item is it in whatever version is published"},
+    {"--attempt-limit", "N", "so many a trainee; default the case's own limit"},
+    {"--after", "N[:passed|:proficient]", "opens when item N is reached; default passed", true},
+    kByOption,
+    kJson};
+
+constexpr Option kCurriculumShowOptions[] = {kLibrary, {"--user", "NAME", "how far this person is"}, kJson};
+
+}  // namespace
+
+Command curriculum_add_command() {
+  return {.name = "curriculum add",
+          .positionals = "TITLE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCurriculumAddOptions,
+          .summary = "Makes a curriculum, as a draft; by a mentor.",
+          .run = &run_curriculum_add};
+}
+
+Command curriculum_item_command() {
+  return {.name = "curriculum item",
+          .positionals = "CURRICULUM",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCurriculumItemOptions,
+          .summary = "Adds a case at a draft's end; by a mentor.",
+          .run = &run_curriculum_item};
+}
+
+Command curriculum_publish_command() {
+  return {.name = "curriculum publish",
+          .positionals = "CURRICULUM",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCurriculumByOptions,
+          .summary = "Publishes a curriculum, by a director; it never changes again.",
+          .run = &run_curriculum_publish};
+}
+
+Command curriculum_list_command() {
+  return {.name = "curriculum list",
+          .options = kLibraryJson,
+          .summary = "Lists the curricula, oldest first.",
+          .run = &run_curriculum_list};
+}
+
+Command curriculum_show_command() {
+  return {.name = "curriculum show",
+          .positionals = "CURRICULUM",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCurriculumShowOptions,
+          .summary = "Shows a curriculum's items; with --user what was reached and which is due.",
+          .run = &run_curriculum_show};
+}
+
+Command curriculum_remove_command() {
+  return {.name = "curriculum remove",
+          .positionals = "CURRICULUM",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kCurriculumByOptions,
+          .summary = "Takes a draft away, by a mentor; retires a published one, by a director.",
+          .run = &run_curriculum_remove};
 }
 
 }  // namespace seldinger::app

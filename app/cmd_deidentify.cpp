@@ -9,6 +9,7 @@
 #include "casedb/export/deidentify.h"
 
 namespace seldinger::app {
+namespace {
 int run_deidentify(const Arguments& arguments) {
   auto key = key_from_file(arguments.text("--key"));
   if (!key) return refuse(key.error());
@@ -26,6 +27,25 @@ int run_deidentify(const Arguments& arguments) {
   for (const auto& [code, count] : done->left_out) std::printf("left out: %s: %d files\n", code.c_str(), count);
   std::puts("Pixels are as they were: look through them for text and faces before you pass them on.");
   return kDone;
+}
+
+constexpr Option kDeidentifyOptions[] = {
+    {"--key", "FILE",
+     "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
+    kJson};
+
+}  // namespace
+
+Command deidentify_command() {
+  return {.name = "deidentify",
+          .positionals = "IN OUT",
+          .min_positionals = 2,
+          .max_positionals = 2,
+          .options = kDeidentifyOptions,
+          .summary =
+              "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, "
+              "into a new folder. Pixels stay as they are.",
+          .run = &run_deidentify};
 }
 
 }  // namespace seldinger::app

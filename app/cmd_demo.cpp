@@ -18,6 +18,7 @@
 #include "assessment/operators/lesion_site.h"
 #include "casedb/credentials.h"
 #include "sim/base/failure.h"
+#include "sim/base/training_only.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::app {
@@ -130,8 +131,8 @@ void print_value(const assessment::MetricValue& metric) {
 
 void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder) {
   const cases::Lesion& lesion = answer.lesion.lesion;
-  std::printf("Training only, not for planning a patient's procedure.\n\nLibrary  %s\nCase     %s  %s\n",
-              folder.c_str(), answer.found.case_id.c_str(), answer.found.title.c_str());
+  std::printf("%s\n\nLibrary  %s\nCase     %s  %s\n", base::kTrainingOnly, folder.c_str(),
+              answer.found.case_id.c_str(), answer.found.title.c_str());
   for (const base::Problem& warning : answer.found.warnings)
     std::printf("         warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   int width = 0;
@@ -166,8 +167,6 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
   for (const auto& [name, password] : answer.passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
   std::fflush(stdout);
 }
-
-}  // namespace
 
 int run_demo(const Arguments& arguments) {
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
@@ -209,6 +208,30 @@ int run_demo(const Arguments& arguments) {
   const auto served =
       serve_until_stopped(std::move(*library), {"127.0.0.1", port, !arguments.has("--port")}, ready);
   return served ? kDone : refuse(served.error());
+}
+
+constexpr Option kDemoOptions[] = {
+    {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
+    {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    {"--drills", nullptr,
+     "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
+     "replay is to be watched, and the curriculum that leads through them; takes seconds"},
+    {"--cases", nullptr,
+     "the drills, then the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; likewise"},
+    {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
+    {"--modality", "ultrasound|xray|mpr",
+     "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
+    {"--no-serve", nullptr, "end by printing what was made"},
+    {"--port", "N", "the page's port; default 8080, or any free one"},
+    kJson};
+
+}  // namespace
+
+Command demo_command() {
+  return {.name = "demo",
+          .options = kDemoOptions,
+          .summary = "The main job, end to end, on real or built-in CT.",
+          .run = &run_demo};
 }
 
 }  // namespace seldinger::app

@@ -16,6 +16,7 @@
 #include "casedb/curriculum.h"
 #include "casedb/grading.h"
 #include "casedb/versions.h"
+#include "sim/base/training_only.h"
 
 namespace seldinger::app {
 namespace {
@@ -201,7 +202,7 @@ void print(const std::vector<DemoCaseAnswer>& made) {
 }
 
 void print(const DemoCasesAnswer& answer) {
-  std::printf("Training only, not for planning a patient's procedure.\n\n");
+  std::printf("%s\n\n", base::kTrainingOnly);
   print(answer.drills);
   print(answer.cases);
   if (!answer.not_made.empty()) {

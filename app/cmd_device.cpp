@@ -63,8 +63,6 @@ void take(const devices::DeviceReading& reading, ProbedArm& arm, double& came_s,
   came_s = at_s;
 }
 
-}  // namespace
-
 int run_device_list(const Arguments& arguments) {
   DeviceListAnswer answer;
   devices::HaplySettings settings;
@@ -149,6 +147,50 @@ int run_device_simulate(const Arguments& arguments) {
     sleep_ms(10.0);
   }
   return kDone;
+}
+
+constexpr Option kHost{"--host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"};
+constexpr Option kPort{"--port", "N", "its port; default 10001"};
+constexpr Option kDeviceListOptions[] = {kHost, kPort, kJson};
+
+constexpr Option kDeviceProbeOptions[] = {
+    kHost,
+    kPort,
+    {"--seconds", "S", "how long; default 3"},
+    {"--station", "FILE.json", "whose arms are left and right, and where they stand"},
+    kJson};
+
+constexpr Option kDeviceSimulateOptions[] = {
+    {"--port", "N", "where to listen on loopback; 0 takes any that is free; default 10001"},
+    {"--seconds", "S", "how long; default until it is stopped"},
+    {"--delay-ms", "D", "everything is said so much later"},
+    {"--lose-every", "S", "hangs up every S seconds"},
+    {"--damage-every", "S", "says something broken every S seconds"},
+    {"--swap", nullptr, "tells of the arms in the other order"}};
+
+}  // namespace
+
+Command device_list_command() {
+  return {.name = "device list",
+          .options = kDeviceListOptions,
+          .summary = "Lists what hands can use here: arms and grips of a Haply Inverse service, a 3-D mouse.",
+          .run = &run_device_list};
+}
+
+Command device_probe_command() {
+  return {.name = "device probe",
+          .options = kDeviceProbeOptions,
+          .summary = "Reads both arms for a while, without force: poses, rate, jitter, round trip.",
+          .run = &run_device_probe};
+}
+
+Command device_simulate_command() {
+  return {
+      .name = "device simulate",
+      .options = kDeviceSimulateOptions,
+      .summary =
+          "Is a Haply Inverse service without hardware: two virtual hands on virtual arms, with faults on request.",
+      .run = &run_device_simulate};
 }
 
 }  // namespace seldinger::app

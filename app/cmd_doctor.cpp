@@ -32,8 +32,6 @@ std::string realtime_rights() {
   return "SCHED_FIFO not allowed (RLIMIT_RTPRIO " + std::to_string(has_limit ? limit.rlim_cur : 0) + ")";
 }
 
-}  // namespace
-
 int run_doctor(const Arguments& arguments) {
   DoctorAnswer doctor;
   const auto add = [&doctor](const char* name, const std::string& value) {
@@ -72,6 +70,15 @@ int run_doctor(const Arguments& arguments) {
     for (const auto& [name, value] : doctor.facts) std::printf("%-14s %s\n", name.c_str(), value.c_str());
   }
   return refused ? refuse(*refused) : kDone;
+}
+
+}  // namespace
+
+Command doctor_command() {
+  return {.name = "doctor",
+          .options = kLibraryJson,
+          .summary = "Tells what this machine can do: GL, devices, real-time rights, disk, schema.",
+          .run = &run_doctor};
 }
 
 }  // namespace seldinger::app

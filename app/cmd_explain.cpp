@@ -7,6 +7,7 @@
 #include "casedb/authoring.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_case_explain(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
@@ -37,6 +38,18 @@ int run_case_explain(const Arguments& arguments) {
     std::printf("  %-14s %12zu bytes  %s\n", one.kind.c_str(), one.bytes, one.name.c_str());
   std::printf("  a point, all at work: %.0f ns, back to rest %.0f ns\n", needs.there_ns, needs.back_ns);
   return kDone;
+}
+
+}  // namespace
+
+Command case_explain_command() {
+  return {.name = "case explain",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Lists what a case's scene holds in memory, what can move its tissue, and what that costs.",
+          .run = &run_case_explain};
 }
 
 }  // namespace seldinger::app

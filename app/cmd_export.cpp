@@ -29,8 +29,6 @@ void choose(const std::string& text, reports::RawChoice& choice) {
   }
 }
 
-}  // namespace
-
 int run_export(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), out = arguments.required("--out");
   reports::RawChoice choice;
@@ -55,6 +53,27 @@ int run_export(const Arguments& arguments) {
   std::printf("%zu attempts (%zu of simulated operators) of %zu people, %zu values, %zu files\n", done->attempts,
               done->synthetic, done->people, done->metrics, done->files);
   return kDone;
+}
+
+constexpr Option kExportOptions[] = {
+    kLibrary,
+    {"--out", "DIR", "the new folder"},
+    {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--key", "FILE",
+     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
+     "Keep it apart from what you pass on"},
+    kJson};
+
+}  // namespace
+
+Command export_command() {
+  return {
+      .name = "export",
+      .options = kExportOptions,
+      .summary =
+          "Writes attempts as CSV with a data dictionary into a new folder: no names, no dates (docs/export.md).",
+      .run = &run_export};
 }
 
 }  // namespace seldinger::app

@@ -52,8 +52,6 @@ double positive(const Arguments& arguments, const char* option, double most) {
   return value;
 }
 
-}  // namespace
-
 int run_haptics_insert(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   const haptics::NeedleTissue& row = tissue_named(arguments.required("--tissue")).needle;
@@ -135,6 +133,60 @@ int run_haptics_selftest(const Arguments& arguments) {
   answer.record = loop.record();
   std::fputs((arguments.has("--json") ? json_of_servo(answer) : text_of_servo(answer)).c_str(), stdout);
   return answer.holds() ? kDone : kCheckFailed;
+}
+
+constexpr Option kInsertOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "a half space of it, behind its capsule"},
+    {"--speed-mm-s", "V", "the needle's speed"},
+    {"--depth-mm", "D", "how deep, from the first touch of the undeformed capsule"},
+    {"--hold-s", "T", "rest at that depth; default 0"},
+    {"--retract", nullptr, "then pull back to depth 0"},
+    {"--gauge", "G", "16 to 25; default 22"},
+    {"--relaxation", nullptr, "held tissue relaxes"},
+    {"--out", "FILE.csv", "t_s, depth_mm, force_axial_n (> 0 resists insertion), one row per ms"}};
+
+constexpr Option kSelftestOptions[] = {
+    {"--seconds", "S", "how long; default 10"},
+    {"--most-missed", "SHARE",
+     "of the ticks, before it counts as failed; default 0.05, for a machine that others share"},
+    kJson};
+
+constexpr Option kFitOptions[] = {
+    {"--tissue", "kidney|liver|muscle|fat|skin|…", "the row's class; default soft_tissue"},
+    {"--gauge", "G", "of the needle it was measured with, 16 to 25; default 22. The row is at 22"},
+    {"--gaussians", "K", "1 to 12; default 8 (thesis eq. 5.1)"},
+    {"--source", "TEXT", "where the curve was measured; goes into the row"},
+    {"--out", "FILE.html", "curve, models and residuals; default FILE.fit.html beside FILE.csv"},
+    kJson};
+
+}  // namespace
+
+Command haptics_insert_command() {
+  return {.name = "haptics insert",
+          .options = kInsertOptions,
+          .summary = "Drives a needle into one tissue and writes its force against depth.",
+          .run = &run_haptics_insert};
+}
+
+Command haptics_fit_command() {
+  return {.name = "haptics fit",
+          .positionals = "FILE.csv",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kFitOptions,
+          .summary =
+              "Fits a plateau behind a capsule, and a sum of Gaussians, to a measured insertion: columns depth_mm, "
+              "from the touch, and force_axial_n, > 0 resists.",
+          .run = &run_haptics_fit};
+}
+
+Command haptics_selftest_command() {
+  return {
+      .name = "haptics selftest",
+      .options = kSelftestOptions,
+      .summary =
+          "Runs the 1 kHz servo with two virtual devices on the built-in torso; 1 when it misses too many ticks.",
+      .run = &run_haptics_selftest};
 }
 
 }  // namespace seldinger::app

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/error_codes.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
@@ -10,6 +11,7 @@
 #include "web/routes.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_help(const Arguments& arguments) {
   if (arguments.has("--metrics")) {
@@ -36,6 +38,10 @@ int run_help(const Arguments& arguments) {
     std::fputs(casedb::allow_list_markdown().c_str(), stdout);
     return kDone;
   }
+  if (arguments.has("--errors")) {
+    std::fputs(errors_markdown().c_str(), stdout);
+    return kDone;
+  }
   std::string wanted;
   for (std::size_t i = 0; i < arguments.positionals(); ++i)
     wanted += (wanted.empty() ? "" : " ") + arguments.positional(i);
@@ -52,6 +58,26 @@ int run_help(const Arguments& arguments) {
   }
   if (!found) throw UsageError("there is no command of that name");
   return kDone;
+}
+
+constexpr Option kHelpOptions[] = {
+    {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+    {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
+    {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
+    {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
+    {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
+    {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"},
+    {"--errors", nullptr, "print the table of error codes (docs/errors.md)"}};
+
+}  // namespace
+
+Command help_command() {
+  return {.name = "help",
+          .positionals = "[COMMAND]",
+          .max_positionals = 2,
+          .options = kHelpOptions,
+          .summary = "Prints this, or one command's options.",
+          .run = &run_help};
 }
 
 }  // namespace seldinger::app

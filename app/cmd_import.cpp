@@ -19,7 +19,6 @@ casedb::FaceChoice face_choice(const std::string& text) {
   throw UsageError("--face is refuse, crop or deface");
 }
 
-}  // namespace
 
 int run_import(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
@@ -124,6 +123,62 @@ int run_case_confirm(const Arguments& arguments) {
   if (!kept) return refuse(kept.error());
   std::puts("confirmed");
   return kDone;
+}
+
+constexpr Option kImportOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "the case's title; never taken from the source"},
+    {"--series", "UID|N", "which series, when the folder holds several"},
+    {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
+    {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
+    {"--face", "refuse|crop|deface",
+     "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
+    {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"},
+    kJson};
+
+constexpr Option kConfirmOptions[] = {
+    kLibrary,
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"}};
+
+constexpr Option kSampleOptions[] = {
+    kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
+
+}  // namespace
+
+Command import_command() {
+  return {.name = "import",
+          .positionals = "SOURCE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kImportOptions,
+          .summary =
+              "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case.",
+          .run = &run_import};
+}
+
+Command sample_command() {
+  return {.name = "sample",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kSampleOptions,
+          .summary = "Prints the HU at points of a case.",
+          .run = &run_sample};
+}
+
+Command case_confirm_command() {
+  return {
+      .name = "case confirm",
+      .positionals = "CASE",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kConfirmOptions,
+      .summary =
+          "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
+      .run = &run_case_confirm};
 }
 
 }  // namespace seldinger::app

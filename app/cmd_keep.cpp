@@ -34,8 +34,6 @@ int write_bundle_of(const Arguments& arguments, const std::vector<std::string>& 
   return print_bundle(arguments, casedb::write_bundle(*library, case_ids, out, kVersion));
 }
 
-}  // namespace
-
 int run_backup(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
@@ -93,6 +91,86 @@ int run_bundle_import(const Arguments& arguments) {
   for (const std::string& case_id : cases->present)
     std::printf("case %s is here already; nothing was done\n", case_id.c_str());
   return kDone;
+}
+
+constexpr Option kBundleOptions[] = {
+    kLibrary, {"--out", "FILE.sdbundle", "the file; replaced when it is there"}, kJson};
+
+constexpr Option kCheckOptions[] = {
+    kLibrary,
+    {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
+    kJson};
+
+}  // namespace
+
+Command case_bundle_command() {
+  return {.name = "case bundle",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kBundleOptions,
+          .summary = "Writes a case as one checked file for another library; attempts and people stay.",
+          .run = &run_case_bundle};
+}
+
+Command bundle_export_command() {
+  return {.name = "bundle export",
+          .options = kBundleOptions,
+          .summary = "Writes every case of a library as one such file.",
+          .run = &run_bundle_export};
+}
+
+Command bundle_import_command() {
+  return {.name = "bundle import",
+          .positionals = "FILE.sdbundle",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary =
+              "Checks such a file and takes its cases into the library, all or none; a case that is there already "
+              "stays.",
+          .run = &run_bundle_import};
+}
+
+Command bundle_check_command() {
+  return {.name = "bundle check",
+          .positionals = "FILE.sdbundle",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kJsonOnly,
+          .summary = "Checks such a file, every byte of it.",
+          .run = &run_bundle_check};
+}
+
+Command backup_command() {
+  return {.name = "backup",
+          .positionals = "OUT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary =
+              "Copies a library, also one in use, into a new folder and checks the copy. It holds names: keep it "
+              "as safe.",
+          .run = &run_backup};
+}
+
+Command restore_command() {
+  return {.name = "restore",
+          .positionals = "IN",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Makes a library from a backup, checked before it is there; never over another.",
+          .run = &run_restore};
+}
+
+Command check_command() {
+  return {.name = "check",
+          .options = kCheckOptions,
+          .summary =
+              "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not "
+              "hold.",
+          .run = &run_check};
 }
 
 }  // namespace seldinger::app

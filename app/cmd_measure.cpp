@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/bench_stages.h"
 #include "app/command.h"
 #include "sim/base/failure.h"
 
@@ -31,6 +32,59 @@ int run_measure(const Arguments& arguments) {
     throw base::Failure("measure_not_built",
                         "benchmarks and goals are a program of their own: build it with ./run measure");
   throw base::Failure("measure_not_started", "the program of benchmarks and goals cannot be started");
+}
+
+namespace {
+
+constexpr Option kBenchOptions[] = {
+    {"--stage", "a,b", kBenchStageHelp.data()},
+    {"--quick", nullptr, "fewer repetitions"},
+    {"--ct", "SOURCE", "what import reads, and a patient for xray, ultrasound and room; default the built-in case"},
+    {"--volume", "FILE", "xray: in place of the projector phantom"},
+    {"--out", "DIR", "where results.csv goes"}};
+
+constexpr Option kGoalsOptions[] = {
+    {"--method", "scatterers|lattice|thesis|all", "how speckle comes about; default scatterers"},
+    {"--probe", "NAME", "C5-2v, L11-5v, thesis-linear or thesis-curved; default all"},
+    {"--quality", "fast|reference",
+     "reference: 512 beams, 2048 samples, three times the scatterers, against the narrower tolerances; default "
+     "fast"},
+    {"--quick", nullptr, "fewer frames, so more chance in the figures"},
+    kJson};
+
+}  // namespace
+
+Command bench_command() {
+  return {.name = "bench",
+          .options = kBenchOptions,
+          .summary = "Measures time against error of every stage with a choice.",
+          .run = &run_measure};
+}
+
+Command goals_ultrasound_command() {
+  return {
+      .name = "goals ultrasound",
+      .options = kGoalsOptions,
+      .summary = "Measures the ultrasound picture against closed forms, goal by goal; 1 when scatterers miss one.",
+      .run = &run_measure};
+}
+
+Command goals_haptics_command() {
+  return {.name = "goals haptics",
+          .options = kJsonOnly,
+          .summary =
+              "Measures what the hand feels against published lines and under simulated hands; 1 when a goal is "
+              "missed.",
+          .run = &run_measure};
+}
+
+Command haptics_stability_command() {
+  return {.name = "haptics stability",
+          .options = kJsonOnly,
+          .summary =
+              "Measures under simulated hands and devices whether forces come to rest; 1 when they do not "
+              "(docs/stability.md).",
+          .run = &run_measure};
 }
 
 }  // namespace seldinger::app

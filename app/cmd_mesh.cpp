@@ -7,6 +7,7 @@
 #include "casedb/store.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_case_mesh(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
@@ -21,6 +22,20 @@ int run_case_mesh(const Arguments& arguments) {
   write_file(out, std::string(reinterpret_cast<const char*>(file.data()), file.size()));
   std::printf("%zu triangles, %zu bytes\n", skin->triangles.size(), file.size());
   return kDone;
+}
+
+constexpr Option kMeshOptions[] = {kLibrary, {"--out", "FILE.glb", "the file to write"}};
+
+}  // namespace
+
+Command case_mesh_command() {
+  return {.name = "case mesh",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kMeshOptions,
+          .summary = "Writes a case's skin as binary glTF, for browsers and others.",
+          .run = &run_case_mesh};
 }
 
 }  // namespace seldinger::app

@@ -7,6 +7,7 @@
 #include "casedb/versions.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_case_check(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
@@ -80,6 +81,73 @@ int run_case_version(const Arguments& arguments) {
   else
     std::printf("case %s, version %d, a draft\n", row->case_id.c_str(), row->version);
   return kDone;
+}
+
+constexpr Option kByOption{"--by", "NAME", "the account that decides"};
+constexpr Option kNoteOption{"--note", "TEXT", "one line kept with the decision"};
+
+constexpr Option kReviewOptions[] = {kLibrary,
+                                     kByOption,
+                                     {"--approve", nullptr, "a second person's word"},
+                                     {"--return", nullptr, "back to draft"},
+                                     kNoteOption};
+
+constexpr Option kPublishOptions[] = {
+    kLibrary, kByOption, {"--own-cohort", nullptr, "unreviewed, to the mentor's own cohort only"}, kNoteOption};
+
+constexpr Option kRetireOptions[] = {kLibrary, kByOption, kNoteOption};
+constexpr Option kVersionOptions[] = {kLibrary, kByOption, kJson};
+
+}  // namespace
+
+Command case_check_command() {
+  return {.name = "case check",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Tells whether a case is worth an attempt, and what its rule may name; 1 when it is not.",
+          .run = &run_case_check};
+}
+
+Command case_review_command() {
+  return {.name = "case review",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kReviewOptions,
+          .summary = "Submits a draft to review; with --approve or --return a second person's answer.",
+          .run = &run_case_review};
+}
+
+Command case_publish_command() {
+  return {.name = "case publish",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kPublishOptions,
+          .summary = "Publishes a case that holds its check and was approved; it never changes again.",
+          .run = &run_case_publish};
+}
+
+Command case_retire_command() {
+  return {.name = "case retire",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kRetireOptions,
+          .summary = "Retires a published case; its attempts stay.",
+          .run = &run_case_retire};
+}
+
+Command case_version_command() {
+  return {.name = "case version",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kVersionOptions,
+          .summary = "Makes the next version of a case, as a draft.",
+          .run = &run_case_version};
 }
 
 }  // namespace seldinger::app

@@ -71,8 +71,6 @@ base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow&
   return {};
 }
 
-}  // namespace
-
 int run_recompute(const Arguments& arguments) {
   auto library = casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
@@ -106,6 +104,19 @@ int run_recompute(const Arguments& arguments) {
       std::printf("not scored: %s: %s\n", attempt_id.c_str(), error.code.c_str());
   }
   return sum.differences.empty() ? kDone : kCheckFailed;
+}
+
+constexpr Option kRecomputeOptions[] = {
+    kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+
+}  // namespace
+
+Command recompute_command() {
+  return {.name = "recompute",
+          .options = kRecomputeOptions,
+          .summary =
+              "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
+          .run = &run_recompute};
 }
 
 }  // namespace seldinger::app

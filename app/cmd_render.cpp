@@ -12,6 +12,7 @@
 #include "casedb/disk.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_render(const Arguments& arguments) {
   const std::filesystem::path out = arguments.required("--out");
@@ -54,6 +55,24 @@ int run_render(const Arguments& arguments) {
     std::printf("%d x %d pixels by %s, %.6g to %.6g %s\n", picture.plane.width_px, picture.plane.height_px,
                 picture.backend.c_str(), static_cast<double>(*min), static_cast<double>(*max), picture.unit);
   return kDone;
+}
+
+constexpr Option kRenderOptions[] = {
+    {"--out", "FILE", ".mha: float32 in the picture's unit (HU, line integral, …); .png: what a person sees"},
+    {"--backend", "gpu|cpu|reference", "default gpu where GL 4.3 has hardware, else cpu"},
+    kLibrary,
+    kJson};
+
+}  // namespace
+
+Command render_command() {
+  return {.name = "render",
+          .positionals = "SCENE.json",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kRenderOptions,
+          .summary = "Renders a scene's view (mpr, xray, ultrasound, room).",
+          .run = &run_render};
 }
 
 }  // namespace seldinger::app

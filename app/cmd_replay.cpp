@@ -47,8 +47,6 @@ base::Result<Verdict> draw(casedb::Library& library, const casedb::AttemptRow& a
   return verdict;
 }
 
-}  // namespace
-
 int run_replay(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   const double rate_hz = arguments.number("--rate-hz", kDefaultReplayHz);
@@ -71,6 +69,27 @@ int run_replay(const Arguments& arguments) {
                 static_cast<unsigned long long>(verdict->first_difference_tick.value_or(0)));
   const bool failed = verdict->verified.has_value() && !*verdict->verified;
   return failed ? kCheckFailed : kDone;
+}
+
+constexpr Option kReplayOptions[] = {
+    kLibrary,
+    {"--verify", nullptr, "replay the inputs and compare state hashes and poses, tick by tick"},
+    {"--out", "FILE.html|FILE.mp4|DIR",
+     "a sheet (pictures, way in the body, timeline, metrics), a film (needs ffmpeg), or a new folder of PNG "
+     "frames; compared while it is drawn, nothing is written where it differs"},
+    {"--rate-hz", "R", "frames a second of the attempt, 1 to 60; default 10"},
+    kJson};
+
+}  // namespace
+
+Command replay_command() {
+  return {.name = "replay",
+          .positionals = "ATTEMPT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kReplayOptions,
+          .summary = "Replays a stored attempt.",
+          .run = &run_replay};
 }
 
 }  // namespace seldinger::app

@@ -137,8 +137,6 @@ base::Result<Scored> score_attempt(const std::string& attempt_id, const std::str
   return scored;
 }
 
-}  // namespace
-
 int run_score(const Arguments& arguments) {
   const bool stored = arguments.positionals() == 1;
   if (stored == arguments.has("--poses")) throw UsageError("give either ATTEMPT or --poses with --scene");
@@ -156,6 +154,22 @@ int run_score(const Arguments& arguments) {
     print_metrics(scored->metrics);
   }
   return kDone;
+}
+
+constexpr Option kScoreOptions[] = {kLibrary,
+                                    {"--poses", "FILE.csv", "poses of an attempt made elsewhere"},
+                                    {"--scene", "SCENE.json", "the scene they were made in"},
+                                    kJson};
+
+}  // namespace
+
+Command score_command() {
+  return {.name = "score",
+          .positionals = "[ATTEMPT]",
+          .max_positionals = 1,
+          .options = kScoreOptions,
+          .summary = "Computes the metrics of a stored attempt, or of a pose file.",
+          .run = &run_score};
 }
 
 }  // namespace seldinger::app

@@ -5,6 +5,7 @@
 #include "app/serving.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_serve(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
@@ -17,6 +18,19 @@ int run_serve(const Arguments& arguments) {
                                             std::fflush(stdout);
                                           });
   return served ? kDone : refuse(served.error());
+}
+
+constexpr Option kServeOptions[] = {kLibrary,
+                                    {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},
+                                    {"--port", "N", "default 8080; 0 takes any free one"}};
+
+}  // namespace
+
+Command serve_command() {
+  return {.name = "serve",
+          .options = kServeOptions,
+          .summary = "Serves the library's pages on this machine.",
+          .run = &run_serve};
 }
 
 }  // namespace seldinger::app

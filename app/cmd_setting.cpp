@@ -1,6 +1,7 @@
 // case setting: what a case asks of whoever attempts it.
 #include "app/command.h"
 #include "app/file.h"
+#include "app/setting_options.h"
 #include "assessment/grading/rule_json.h"
 #include "casedb/authoring.h"
 #include "casedb/setting_table.h"
@@ -80,8 +81,6 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
   read_criteria(arguments, setting.rule);
 }
 
-}  // namespace
-
 int run_case_setting(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.positional(0);
   std::optional<assessment::PassRule> rule;
@@ -110,6 +109,20 @@ int run_case_setting(const Arguments& arguments) {
       return refuse(set.error());
   const auto set = casedb::set_setting(*library, case_id, setting);
   return set ? kDone : refuse(set.error());
+}
+
+}  // namespace
+
+Command case_setting_command() {
+  return {.name = "case setting",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kSettingOptions,
+          .summary =
+              "Sets what a case asks of whoever attempts it: guidance, needle, patient, limits, pass rule. What is "
+              "not given stays.",
+          .run = &run_case_setting};
 }
 
 }  // namespace seldinger::app

@@ -11,6 +11,7 @@
 #include "reports/picture_sheet.h"
 
 namespace seldinger::app {
+namespace {
 
 int run_sheet(const Arguments& arguments) {
   const std::filesystem::path from = arguments.positional(0), out = arguments.required("--out");
@@ -50,6 +51,21 @@ int run_sheet(const Arguments& arguments) {
   write_file(out, reports::picture_sheet(sheet->title, sheet->columns, pictures));
   std::printf("%zu pictures in %s\n", sheet->columns.size() * pictures.size(), out.string().c_str());
   return kDone;
+}
+
+constexpr Option kSheetOptions[] = {
+    {"--out", "FILE.html", "the page"}, {"--backend", "gpu|cpu|reference", "as of render"}, kLibrary};
+
+}  // namespace
+
+Command sheet_command() {
+  return {.name = "sheet",
+          .positionals = "SHEET.json",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kSheetOptions,
+          .summary = "Renders scenes side by side into one page of pictures.",
+          .run = &run_sheet};
 }
 
 }  // namespace seldinger::app

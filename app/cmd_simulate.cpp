@@ -31,8 +31,6 @@ cases::Event mentors_event(const std::string& text) {
   return {t_s, *kind};
 }
 
-}  // namespace
-
 int run_simulate(const Arguments& arguments) {
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
@@ -91,6 +89,34 @@ int run_simulate(const Arguments& arguments) {
   }
   if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);
   return kDone;
+}
+
+constexpr Option kSimulateOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "the target; default the case's first lesion"},
+    {"--operator", "novice|intermediate|expert|learner|FILE.json",
+     "who (docs/operators.md); a learner is better with each attempt"},
+    {"--seed", "N", "attempt i uses seed N + i"},
+    {"--count", "K", "how many attempts, of each person; default 1"},
+    {"--people", "P",
+     "of P different people with that profile: the same for the same seed; default the profile itself"},
+    {"--jobs", "N", "threads; default one for each core. The results are the same"},
+    {"--no-pictures", nullptr, "store no picture of the moment of firing"},
+    {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
+    {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
+    {"--event", "KIND@SECONDS",
+     "a mentor's event at that time: cough, bleeding or pressure_drop; may be given many times", true},
+    {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
+    kJson};
+
+}  // namespace
+
+Command simulate_command() {
+  return {.name = "simulate",
+          .options = kSimulateOptions,
+          .summary = "Lets a simulated operator make attempts, recorded and scored.",
+          .run = &run_simulate};
 }
 
 }  // namespace seldinger::app

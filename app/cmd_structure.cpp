@@ -62,8 +62,6 @@ base::Result<void> find_label(casedb::Library& library, const std::string& wante
   return {};
 }
 
-}  // namespace
-
 int run_case_structure(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   if (arguments.has("--remove")) {
@@ -146,6 +144,49 @@ int run_case_label(const Arguments& arguments) {
   for (const LabelCount& one : counts)
     std::printf("%4d  %-30s %zu voxels\n", one.label, one.name.c_str(), one.voxels);
   return kDone;
+}
+
+constexpr Option kStructureOptions[] = {
+    kLibrary,
+    {"--name", "TEXT", "what it is called"},
+    {"--rule", "advisory|major|critical|must_cross|organ|target", "what a needle in it means"},
+    {"--class", "TISSUE", "all voxels of the case's tissue class"},
+    {"--label", "NAME|N", "a label of the case's label maps"},
+    {"--center-mm", "X,Y,Z", "drawn: a sphere or an ellipsoid"},
+    {"--radius-mm", "R", "drawn: of a sphere or a tube"},
+    {"--radii-mm", "A,B,C", "drawn: of an ellipsoid, along LPS"},
+    {"--tube", "X,Y,Z", "drawn: a point of a tube's middle line; give them in order", true},
+    {"--tissue", "TISSUE", "drawn, or a label: the tissue class it has in every picture and to the hand"},
+    {"--hu", "H|as_ct",
+     "drawn: what CT shows of it, as_ct: what is there; default what is typical of its class "
+     "(docs/decisions/0018)"},
+    {"--remove", "NAME", "takes one away again"},
+    kJson};
+
+constexpr Option kLabelOptions[] = {kLibrary, {"--name", "N=TEXT", "what label N is called", true}, kJson};
+
+}  // namespace
+
+Command case_structure_command() {
+  return {.name = "case structure",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kStructureOptions,
+          .summary = "Adds a structure to a case: a tissue class, a label, or drawn; and what touching it means.",
+          .run = &run_case_structure};
+}
+
+Command case_label_command() {
+  return {
+      .name = "case label",
+      .positionals = "CASE FILE",
+      .min_positionals = 2,
+      .max_positionals = 2,
+      .options = kLabelOptions,
+      .summary =
+          "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest voxel.",
+      .run = &run_case_label};
 }
 
 }  // namespace seldinger::app

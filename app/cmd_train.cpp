@@ -46,8 +46,6 @@ base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   return std::optional<Arms>(std::move(arms));
 }
 
-}  // namespace
-
 int run_train(const Arguments& arguments) {
   const std::string folder = arguments.has("--library") ? arguments.text("--library") : demo_library().string();
   auto library = casedb::Library::open(folder);
@@ -78,6 +76,41 @@ int run_train(const Arguments& arguments) {
   while (window.open() && told_to_end == 0) desk.frame();
   trainer.log_out();
   return kDone;
+}
+
+constexpr Option kTrainOptions[] = {
+    {"--library", "DIR", "the library; else the demo's"},
+    {"--case", "ID", "whoever logs in finds this case's briefing open"},
+    {"--device", "mouse|haply|virtual",
+     "what holds the tools: mouse, keys, gamepad and 3-D mouse; or two arms of a Haply Inverse service, and these "
+     "for what an arm does not hold; or two simulated arms that these lead, to try arms without any; default "
+     "mouse"},
+    {"--device-host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"},
+    {"--device-port", "N", "its port; default 10001"},
+    {"--station", "FILE.json",
+     "whose arms are left and right, where they stand, and how they are set, as the device page (F10) keeps it; "
+     "default with haply ~/.config/seldinger/station.json"},
+    {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
+    {"--backend", "gpu|cpu|auto",
+     "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
+    {"--width", "PIXELS", "of the window, at least 960; 1280 unless given"},
+    {"--height", "PIXELS", "of the window, at least 640; 800 unless given"},
+    {"--whole-screen", nullptr, "without a frame"},
+    {"--mute", nullptr, "without sound, until M is pressed"},
+    {"--volume", "PERCENT", "of the sound; 70 unless given"},
+    {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
+    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
+};
+
+}  // namespace
+
+Command train_command() {
+  return {.name = "train",
+          .options = kTrainOptions,
+          .summary =
+              "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys or two "
+              "arms, and be told how it went.",
+          .run = &run_train};
 }
 
 }  // namespace seldinger::app

@@ -40,8 +40,6 @@ std::optional<casedb::Level> level_of(const Arguments& arguments) {
   return level;
 }
 
-}  // namespace
-
 int run_user_add(const Arguments& arguments) {
   const std::string folder = arguments.required("--library");
   const auto role = casedb::role_from(arguments.required("--role"));
@@ -99,6 +97,60 @@ int run_user_disable(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   const auto done = casedb::set_enabled(*library, arguments.positional(0), false);
   return done ? kDone : refuse(done.error());
+}
+
+constexpr Option kLevelOption{"--level", "student|trainee|consultant",
+                              "who somebody is from now on: attempts of consultants set the standard"};
+
+constexpr Option kUserAddOptions[] = {
+    kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}, kLevelOption};
+
+constexpr Option kUserLevelOptions[] = {kLibrary, kLevelOption};
+
+}  // namespace
+
+Command user_add_command() {
+  return {.name = "user add",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kUserAddOptions,
+          .summary = "Adds an account; the password is read from standard input.",
+          .run = &run_user_add};
+}
+
+Command user_list_command() {
+  return {.name = "user list", .options = kLibraryJson, .summary = "Lists the accounts.", .run = &run_user_list};
+}
+
+Command user_passwd_command() {
+  return {.name = "user passwd",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryOnly,
+          .summary = "Sets a password, read from standard input.",
+          .run = &run_user_passwd};
+}
+
+Command user_level_command() {
+  return {.name = "user level",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kUserLevelOptions,
+          .summary = "Sets who somebody is from now on; earlier attempts count as before.",
+          .run = &run_user_level};
+}
+
+Command user_disable_command() {
+  return {.name = "user disable",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryOnly,
+          .summary = "Closes an account; its attempts stay.",
+          .run = &run_user_disable};
 }
 
 }  // namespace seldinger::app

@@ -1,4 +1,4 @@
-// The command table: it drives the command line, `seldinger help` and docs/commands.md.
+// What a command is, and the list of them: it drives the command line, `seldinger help` and docs/commands.md.
 #pragma once
 
 #include <span>
@@ -20,14 +20,22 @@ struct Option {
 };
 
 struct Command {
-  const char* name;         // one or two words
-  const char* positionals;  // as shown, e.g. "CASE"
-  std::size_t min_positionals, max_positionals;
-  std::span<const Option> options;
+  const char* name;              // one or two words
+  const char* positionals = "";  // as shown, e.g. "CASE"
+  std::size_t min_positionals = 0, max_positionals = 0;
+  std::span<const Option> options{};
   const char* summary;
   int (*run)(const Arguments&);
 };
 
+// Options that many commands share.
+inline constexpr Option kLibrary{"--library", "DIR", "the library's folder"};
+inline constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
+inline constexpr Option kLibraryJson[] = {kLibrary, kJson};
+inline constexpr Option kJsonOnly[] = {kJson};
+inline constexpr Option kLibraryOnly[] = {kLibrary};
+
+// Every command, in the order in which help lists them; a command's row is made in its cmd_*.cpp.
 std::span<const Command> commands();
 
 // `seldinger help` and docs/commands.md.
@@ -38,64 +46,7 @@ std::string commands_markdown();
 // Prints `error: <code>: <text>` and the findings to standard error; returns kRefused.
 int refuse(const base::Error& error);
 
-int run_help(const Arguments& arguments);
-int run_import(const Arguments& arguments);
-int run_sample(const Arguments& arguments);
-int run_case_list(const Arguments& arguments);
-int run_case_show(const Arguments& arguments);
-int run_case_explain(const Arguments& arguments);
-int run_case_lesion(const Arguments& arguments);
-int run_case_confirm(const Arguments& arguments);
-int run_case_mesh(const Arguments& arguments);
-int run_case_bundle(const Arguments& arguments);
-int run_bundle_export(const Arguments& arguments);
-int run_bundle_import(const Arguments& arguments);
-int run_bundle_check(const Arguments& arguments);
-int run_backup(const Arguments& arguments);
-int run_restore(const Arguments& arguments);
-int run_check(const Arguments& arguments);
-int run_case_structure(const Arguments& arguments);
-int run_case_label(const Arguments& arguments);
-int run_case_setting(const Arguments& arguments);
-int run_case_check(const Arguments& arguments);
-int run_case_review(const Arguments& arguments);
-int run_case_publish(const Arguments& arguments);
-int run_case_retire(const Arguments& arguments);
-int run_case_version(const Arguments& arguments);
-int run_deidentify(const Arguments& arguments);
-int run_render(const Arguments& arguments);
-int run_sheet(const Arguments& arguments);
-int run_simulate(const Arguments& arguments);
-int run_score(const Arguments& arguments);
-int run_replay(const Arguments& arguments);
-int run_export(const Arguments& arguments);
-int run_recompute(const Arguments& arguments);
-int run_attempt_list(const Arguments& arguments);
-int run_attempt_show(const Arguments& arguments);
-int run_attempt_compare(const Arguments& arguments);
-int run_curriculum_add(const Arguments& arguments);
-int run_curriculum_item(const Arguments& arguments);
-int run_curriculum_publish(const Arguments& arguments);
-int run_curriculum_list(const Arguments& arguments);
-int run_curriculum_show(const Arguments& arguments);
-int run_curriculum_remove(const Arguments& arguments);
-int run_user_level(const Arguments& arguments);
-int run_user_add(const Arguments& arguments);
-int run_user_list(const Arguments& arguments);
-int run_user_passwd(const Arguments& arguments);
-int run_user_disable(const Arguments& arguments);
-int run_haptics_insert(const Arguments& arguments);
-int run_haptics_fit(const Arguments& arguments);
-int run_haptics_calibrate(const Arguments& arguments);
-int run_haptics_selftest(const Arguments& arguments);
-int run_device_list(const Arguments& arguments);
-int run_device_probe(const Arguments& arguments);
-int run_device_simulate(const Arguments& arguments);
-// bench, goals and haptics stability: becomes seldinger-measure, which lies beside this program.
+// Of bench, goals and haptics stability: becomes seldinger-measure, which lies beside this program.
 int run_measure(const Arguments& arguments);
-int run_doctor(const Arguments& arguments);
-int run_demo(const Arguments& arguments);
-int run_serve(const Arguments& arguments);
-int run_train(const Arguments& arguments);
 
 }  // namespace seldinger::app

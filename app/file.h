@@ -10,7 +10,7 @@
 
 namespace seldinger::app {
 
-// Refused: `not_found`, `unreadable`, `too_large`.
+// Refused: `not_found`, `not_readable`, `too_large`.
 base::Result<std::string> read_text(const std::filesystem::path& path, std::size_t max_bytes = 256U << 20U);
 
 // Whole or not at all. Throws base::Failure("disk").

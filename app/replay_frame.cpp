@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "sim/base/training_only.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -78,7 +80,7 @@ ReplayFrame::ReplayFrame(const assessment::Signals& signals, const std::vector<B
       planes_.push_back(
           {&plane, {kPlaneLeft, 36 + static_cast<int>(planes_.size()) * (kPlaneSide + 8), kPlaneSide, kPlaneSide}});
   ground_.text(kScreen.left, 12, 2, title, kText);
-  const std::string_view notice = "Training only - not for planning a patient's procedure";
+  const std::string_view notice = base::kTrainingOnly;
   ground_.text(kWidthPx - 8 - Canvas::text_width(1, notice), 16, 1, notice, kSoft);
   for (const PlacedPlane& placed : planes_) draw_plane(ground_, placed);
   draw_strip(ground_);

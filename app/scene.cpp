@@ -5,6 +5,7 @@
 #include "app/file.h"
 #include "casedb/import/import.h"
 #include "casedb/store.h"
+#include "sim/volume/phantom.h"
 
 namespace seldinger::app {
 
@@ -22,6 +23,7 @@ base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<st
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
   if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume))
     return volume::rasterize(*analytic);
+  if (std::holds_alternative<BuiltInTorso>(scene.volume)) return volume::make_phantom().volume;
   if (const auto* file = std::get_if<VolumeFile>(&scene.volume)) {
     auto source = casedb::read_source(file->path);
     if (!source) return source.error();
@@ -40,6 +42,10 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
   if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume)) {
     volume::LabelMap labels;
     volume::rasterize(*analytic, labels);
+    return volume::tissue_classes(volume, &labels);
+  }
+  if (std::holds_alternative<BuiltInTorso>(scene.volume)) {
+    const volume::LabelMap labels = volume::make_phantom().labels;
     return volume::tissue_classes(volume, &labels);
   }
   if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);

@@ -25,6 +25,7 @@ struct VolumeFile {
 struct VolumeOfCase {
   std::string case_id;
 };
+struct BuiltInTorso {};  // sim/volume/phantom: as the demo's case has it
 
 enum class XrayOutput { line_integral, intensity, display };
 struct XrayView {
@@ -53,7 +54,7 @@ struct SceneMotion {
 };
 
 struct Scene {
-  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume> volume;
+  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume, BuiltInTorso> volume;
   imaging::Inserted inserted;
   cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
   cases::Approach approach = cases::Approach::in_plane;

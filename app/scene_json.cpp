@@ -78,8 +78,11 @@ void read_volume(SceneReader& root, const std::filesystem::path& folder, Scene& 
     scene.volume = VolumeOfCase{reader.text("case")};
   else if (reader.has("analytic"))
     scene.volume = read_analytic(reader["analytic"], error, unused);
-  else
-    reader.bad("", "is neither a path, a case nor analytic");
+  else if (reader.has("built_in")) {
+    reader.choice("built_in", {"torso"}, nullptr);
+    scene.volume = BuiltInTorso{};
+  } else
+    reader.bad("", "is neither a path, a case, built_in nor analytic");
   reader.unused(unused);
 }
 

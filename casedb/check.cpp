@@ -100,7 +100,7 @@ std::size_t check_recordings(Statement sizes, Statement chunks, CheckReport& rep
     }
     if (!in_order || count != sizes.integer("recording_chunks"))
       report.findings.push_back(
-          {"recording_incomplete", "a piece of the recording of attempt " + attempt_id + " is missing"});
+          {"incomplete", "a piece of the recording of attempt " + attempt_id + " is missing"});
     if (!sound)
       report.findings.push_back({"recording_damaged", "the recording of attempt " + attempt_id + " is damaged"});
   }

@@ -13,7 +13,7 @@ namespace seldinger::casedb {
 
 struct CheckReport {
   // What does not hold: `database_damaged`, `reference_broken`, `asset_missing`, `asset_damaged`, `asset_orphaned`,
-  // `recording_incomplete`, `recording_damaged`, `leftover_file`, `unknown_file`, `name_without_person`.
+  // `incomplete`, `recording_damaged`, `leftover_file`, `unknown_file`, `name_without_person`.
   std::vector<base::Problem> findings;
   std::vector<base::Problem> repaired;  // found and mended
   std::size_t cases = 0, attempts = 0, assets = 0;

@@ -5,10 +5,11 @@
 #include <string_view>
 
 #include "reports/html.h"
+#include "sim/base/training_only.h"
 
 namespace seldinger::reports {
 
-inline constexpr std::string_view kTrainingOnly = "Training only — not for planning a patient’s procedure.";
+using base::kTrainingOnly;
 
 // Who looks. Empty name: nobody is logged in, so there is no navigation.
 struct Visitor {

@@ -8,10 +8,10 @@
 #include "reports/attempts_page.h"
 #include "reports/case_page.h"
 #include "reports/login_page.h"
+#include "reports/style_sheet.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
 #include "web/case_json.h"
-#include "web/style_sheet.h"
 
 namespace seldinger::web {
 namespace {
@@ -41,7 +41,7 @@ Response healthz(Site& site, const Call&) {
 }
 
 Response style(Site&, const Call&) {
-  return {.content_type = "text/css; charset=utf-8", .body = std::string(style_sheet())};
+  return {.content_type = "text/css; charset=utf-8", .body = std::string(reports::style_sheet())};
 }
 
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {

@@ -281,7 +281,7 @@ base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surround
     parts->port = options.port;
   }
   if (parts->port <= 0) {
-    return base::Error{"port_taken", "port " + std::to_string(options.port) + " cannot be listened on"};
+    return base::Error{"port_taken", "cannot listen on port " + std::to_string(options.port)};
   }
   parts->listener.widen_backlog();
   const std::string shown = address == "::1" ? "[::1]" : address;

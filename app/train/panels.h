@@ -8,12 +8,12 @@
 
 #include "app/train/trainer.h"
 #include "app/train/window.h"
+#include "sim/base/training_only.h"
 #include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
 
-// Every screen says so (clinical.md, "First hour").
-inline constexpr const char* kTrainingOnly = "Training only – not for planning a patient's procedure";
+using base::kTrainingOnly;  // every screen says so
 
 class LogInPanel {
  public:

@@ -122,7 +122,7 @@ base::Result<Deidentified> deidentify(const fs::path& in, const fs::path& out, c
   try {
     if (!fs::exists(in)) return base::Error{"not_found", "there is no such file or folder"};
     if (fs::exists(out) && !(fs::is_directory(out) && fs::is_empty(out)))
-      return base::Error{"out_not_empty", "what is to be written there already is, and is no empty folder"};
+      return base::Error{"exists", "there is already something of that name, and it is not an empty folder"};
     std::vector<fs::path> files{in};
     if (fs::is_directory(in)) {
       auto found = files_below(in);

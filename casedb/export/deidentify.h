@@ -28,7 +28,7 @@ struct CleanFile {
 // `too_deep`, `too_large`, `unknown_syntax`, `no_instance`; and what the profile cannot make safe, since it does
 // not read pixels, reports or documents: `burned_in` (said so, or a screen picture), `secondary_capture`,
 // `may_have_text` (ultrasound, photographs, video, which usually carry text, unless BurnedInAnnotation is NO),
-// `report` (SR, encapsulated documents, presentation states), `directory` (DICOMDIR), `unknown_object` (no SOP
+// `report` (SR, encapsulated documents, presentation states), `dicomdir`, `unknown_object` (no SOP
 // class of the standard, or raw data).
 base::Result<CleanFile> deidentify_file(const std::filesystem::path& file, const HashKey& key);
 
@@ -41,7 +41,7 @@ struct Deidentified {
 // A file or a folder with all below it into the new or empty folder `out` (into one file when `in` is a file and
 // `out` ends in .dcm). New names, image_000001.dcm …, in an order that says nothing of the old ones. Of a folder,
 // what cannot be made safe and what is no DICOM is left out and counted; a file that is not whole refuses all.
-// `out` appears complete or not at all. Refused besides: `not_found`, `out_not_empty`, `nothing_left`,
+// `out` appears complete or not at all. Refused besides: `not_found`, `exists`, `nothing_left`,
 // `too_many_files`. Throws base::Failure("disk").
 base::Result<Deidentified> deidentify(const std::filesystem::path& in, const std::filesystem::path& out,
                                       const HashKey& key);

@@ -122,7 +122,7 @@ bool has_part(const std::string& values, const char* part) {
 std::optional<base::Error> why_not(Parsed& parsed) {
   constexpr std::string_view kStorage = "1.2.840.10008.5.1.4.1.1.";
   const std::string_view uid = parsed.sop_class;
-  if (uid == "1.2.840.10008.1.3.10") return base::Error{"directory", "a DICOMDIR, which names the old files"};
+  if (uid == "1.2.840.10008.1.3.10") return base::Error{"dicomdir", "a DICOMDIR, which names the old files"};
   // Plans, doses of ions and enhanced images lie under other roots of the standard.
   if (!uid.starts_with("1.2.840.10008.5.1.4."))
     return base::Error{"unknown_object", "an object whose kind the standard does not name"};

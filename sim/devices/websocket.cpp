@@ -237,7 +237,7 @@ base::Result<std::unique_ptr<WebSocketServer>> WebSocketServer::listen(const Web
   if (!code) thread.acceptor.set_option(tcp::acceptor::reuse_address(true), code);
   if (!code) thread.acceptor.bind(at, code);
   if (!code) thread.acceptor.listen(4, code);
-  if (code) return base::Error{"port_in_use", "port " + std::to_string(place.port) + " cannot be listened on", {}};
+  if (code) return base::Error{"port_taken", "cannot listen on port " + std::to_string(place.port), {}};
   thread.port = thread.acceptor.local_endpoint().port();
   thread.accept();
   thread.run();

@@ -58,7 +58,7 @@ class WebSocketClient {
 // Answers one client at a time; a new one takes the place of the old.
 class WebSocketServer {
  public:
-  // Port 0: any that is free. Refused: `port_in_use`.
+  // Port 0: any that is free. Refused: `port_taken`.
   static base::Result<std::unique_ptr<WebSocketServer>> listen(const WebSocketPlace& place, WebSocketPeer& peer);
   ~WebSocketServer();
   int port() const noexcept;

@@ -19,7 +19,7 @@ std::string millimetres(double value) {
 }  // namespace
 
 base::Result<std::vector<DepthForce>> insertion_in(std::span<const DepthForce> rows) {
-  base::Error error{"bad_curve", "", {}};
+  base::Error error;
   const auto bad = [&](const char* code, const std::string& text) { error.findings.push_back({code, text}); };
   const auto unusable = [](const DepthForce& row) {
     return !std::isfinite(row.depth_mm) || !std::isfinite(row.force_n);
@@ -28,7 +28,7 @@ base::Result<std::vector<DepthForce>> insertion_in(std::span<const DepthForce> r
     return std::abs(row.depth_mm) > kMostCurveMm || std::abs(row.force_n) > kMostCurveN;
   };
   if (const auto found = std::find_if(rows.begin(), rows.end(), unusable); found != rows.end()) {
-    bad("not_a_number", "row " + std::to_string(found - rows.begin() + 1) + " is not of finite numbers");
+    bad("not_finite", "row " + std::to_string(found - rows.begin() + 1) + " is not of finite numbers");
   } else if (const auto far = std::find_if(rows.begin(), rows.end(), beyond); far != rows.end()) {
     bad("out_of_range", "row " + std::to_string(far - rows.begin() + 1) +
                             " is beyond 1000 mm or 500 N: are they millimetres and newtons?");

@@ -23,7 +23,7 @@ inline constexpr double kMostPullBackMm = 1.0;
 inline constexpr double kMostCurveMm = 1000.0, kMostCurveN = 500.0;
 
 // The rows from the first to the first that is deepest: no rest at depth, no retraction. Refused with every fault
-// found: `not_a_number`, `out_of_range`, `too_few_rows`, `too_shallow`, `starts_late`, `not_one_insertion` (pulled
+// found: `not_finite`, `out_of_range`, `too_few_rows`, `too_shallow`, `starts_late`, `not_one_insertion` (pulled
 // back on the way in), `no_resistance` (no force above 0). Never empty.
 base::Result<std::vector<DepthForce>> insertion_in(std::span<const DepthForce> rows);
 

@@ -116,9 +116,9 @@ TEST_F(CheckTest, RepairDoesNoHarmToAnImportUnderWay) {
 TEST_F(CheckTest, ALostPieceOfARecordingIsFound) {
   change("seldinger.sqlite",
          "DROP TRIGGER recording_chunk_is_kept; DELETE FROM recording_chunk WHERE sequence = 1");
-  EXPECT_EQ(found(), Codes{"recording_incomplete"});
+  EXPECT_EQ(found(), Codes{"incomplete"});
   change("seldinger.sqlite", "DELETE FROM recording_chunk");
-  EXPECT_EQ(found(), Codes{"recording_incomplete"});
+  EXPECT_EQ(found(), Codes{"incomplete"});
 }
 
 TEST_F(CheckTest, AChangedRecordingIsFound) {
@@ -140,7 +140,7 @@ TEST_F(CheckTest, AnOpenAttemptIsLookedAtToo) {
   change("seldinger.sqlite", "UPDATE open_chunk SET data = x'00' WHERE sequence = 1");
   EXPECT_EQ(found(), Codes{"recording_damaged"});
   change("seldinger.sqlite", "DELETE FROM open_chunk WHERE sequence = 0");
-  EXPECT_EQ(found(), (Codes{"recording_damaged", "recording_incomplete"}));
+  EXPECT_EQ(found(), (Codes{"incomplete", "recording_damaged"}));
 }
 
 TEST_F(CheckTest, ALeftoverOfAKilledWriterIsFoundAndRepaired) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/error_codes.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
@@ -43,6 +44,10 @@ TEST(Docs, RoutesAreTheRegistry) {
 
 TEST(Docs, AttributesAreTheAllowList) {
   EXPECT_EQ(file("docs/attributes.md"), seldinger::casedb::allow_list_markdown());
+}
+
+TEST(Docs, ErrorsAreTheTable) {
+  EXPECT_EQ(file("docs/errors.md"), seldinger::app::errors_markdown());
 }
 
 TEST(Docs, HelpNamesEveryCommandAndOption) {

@@ -78,7 +78,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
       << "the simulated expert is built to do better";
   const std::string page = fixtures::whole_file(library_.folder() / "side.html");
   for (const char* text : {"Simulated expert", "Simulated novice", "What each attempt was told",
-                           "Training only — not for planning a patient’s procedure.", "not a standard"})
+                           "Training only, not for planning a patient&#39;s procedure.", "not a standard"})
     EXPECT_NE(page.find(text), page.npos) << text;
 
   // The same grade wherever it is asked.

@@ -94,9 +94,9 @@ TEST(RenderRoom, RefusesWhatItCannotShow) {
   EXPECT_EQ(render(scene).ran.exit_code, 3);
 }
 
-// The pictures of docs/scenes, of real patients.
+// The pictures of docs/scenes/real, of real patients.
 TEST(RenderRoom, DocumentedScenes) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes";
+  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes" / "real";
   for (const std::string name : {"room_abdomen.json", "room_c_arm.json"}) {
     std::ifstream stream(folder / name);
     Json scene = Json::parse(stream);

@@ -167,9 +167,9 @@ TEST(RenderXray, WithoutGlTheGpuFailsAndTheCpuServes) {
   EXPECT_TRUE(std::filesystem::exists(scratch / "p.mha"));
 }
 
-// The pictures of docs/scenes, made from the real abdomen: what they show is told, and CPU and GPU agree.
+// The pictures of docs/scenes/real, made from the real abdomen: what they show is told, and CPU and GPU agree.
 TEST(RenderXray, DocumentedScenesOfTheRealAbdomen) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes";
+  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes" / "real";
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().filename().string().rfind("xray_", 0) != 0) continue;

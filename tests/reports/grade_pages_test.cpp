@@ -186,7 +186,7 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
   EXPECT_LT(html.find("Person 3f20ab"), html.find("Simulated novice"));
   EXPECT_THAT(html, HasSubstr("1 of 3"));
   EXPECT_THAT(html, HasSubstr("Went 3.2 mm through something."));
-  EXPECT_THAT(html, HasSubstr("Training only — not for planning a patient’s procedure."));
+  EXPECT_THAT(html, HasSubstr("Training only, not for planning a patient&#39;s procedure."));
   EXPECT_THAT(html, HasSubstr("Simulated operators test the software."));
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_EQ(html.find("http"), html.npos);

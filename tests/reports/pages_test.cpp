@@ -62,7 +62,7 @@ std::vector<std::string> all_pages() {
 
 TEST(EveryPage, SaysTrainingOnlyAndIsWellFormed) {
   for (const std::string& html : all_pages()) {
-    EXPECT_THAT(html, HasSubstr("Training only — not for planning a patient’s procedure."));
+    EXPECT_THAT(html, HasSubstr("Training only, not for planning a patient&#39;s procedure."));
     EXPECT_EQ(first_unbalanced_tag(html), "");
     EXPECT_THAT(html, HasSubstr("<html lang=\"en\">"));
     EXPECT_THAT(html, HasSubstr("<a class=\"skip\" href=\"#content\">"));

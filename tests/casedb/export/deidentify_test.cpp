@@ -415,7 +415,7 @@ TEST(Deidentify, WhatTheProfileCannotMakeSafeIsRefused) {
   EXPECT_EQ(one(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66"), "unknown_object");
   EXPECT_EQ(one(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.66.4"), "") << "a segmentation";
   EXPECT_EQ(one(0x00080016, "UI", "1.2.840.113619.4.27"), "unknown_object");
-  EXPECT_EQ(one(0x00080016, "UI", "1.2.840.10008.1.3.10"), "directory");
+  EXPECT_EQ(one(0x00080016, "UI", "1.2.840.10008.1.3.10"), "dicomdir");
   EXPECT_EQ(one(0x00080016, "UI", "1.2.840.10008.5.1.4.1.1.7.4"), "secondary_capture");
 }
 
@@ -450,8 +450,8 @@ TEST(Deidentify, NothingIsLeftBehindByARefusal) {
   };
   plant_series(folder / "in", PlantedSyntax::explicit_le);
   write(folder / "full/a", "a");
-  EXPECT_EQ(refusal(folder / "in", folder / "full"), "out_not_empty");
-  EXPECT_EQ(refusal(folder / "in", folder / "in"), "out_not_empty");
+  EXPECT_EQ(refusal(folder / "in", folder / "full"), "exists");
+  EXPECT_EQ(refusal(folder / "in", folder / "in"), "exists");
   EXPECT_EQ(refusal(folder / "absent", folder / "out"), "not_found");
   write(folder / "none/a.txt", "a");
   EXPECT_EQ(refusal(folder / "none", folder / "out"), "nothing_left");

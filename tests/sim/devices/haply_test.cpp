@@ -369,7 +369,7 @@ TEST(WebSocket, APortThatIsTakenIsRefused) {
   place.port = station.service->port();
   const auto second = HaplySimulation::start(place, app::circling_arms());
   ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().code, "port_in_use");
+  EXPECT_EQ(second.error().code, "port_taken");
   place.host = "no.address";
   const auto third = HaplySimulation::start(place, app::circling_arms());
   ASSERT_FALSE(third);

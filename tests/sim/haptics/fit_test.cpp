@@ -245,10 +245,10 @@ TEST(DepthCurve, RefusesWhatIsNoneAndSaysAllThatIsWrong) {
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     Curve rows = planted(0.0, 1);
     rows[70].force_n = no_number;
-    EXPECT_THAT(refused(rows), ElementsAre("not_a_number"));
+    EXPECT_THAT(refused(rows), ElementsAre("not_finite"));
     rows = planted(0.0, 1);
     rows[70].depth_mm = no_number;
-    EXPECT_THAT(refused(rows), ElementsAre("not_a_number"));
+    EXPECT_THAT(refused(rows), ElementsAre("not_finite"));
   }
   for (const DepthForce& far : {DepthForce{60.0, 1e308}, {60.0, -501.0}, {1001.0, 2.0}, {-1e300, 2.0}}) {
     Curve rows = planted(0.0, 1);

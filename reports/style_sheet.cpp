@@ -1,4 +1,4 @@
-#include "web/style_sheet.h"
+#include "reports/style_sheet.h"
 
 #include <span>
 
@@ -6,15 +6,15 @@
 #include "sim/base/embedded.h"
 
 namespace seldinger::embedded {
-std::span<const base::EmbeddedFile> frontend();
+std::span<const base::EmbeddedFile> page_files();
 }
 
-namespace seldinger::web {
+namespace seldinger::reports {
 
 std::string_view style_sheet() {
-  for (const base::EmbeddedFile& file : embedded::frontend())
+  for (const base::EmbeddedFile& file : embedded::page_files())
     if (file.name == "style.css") return file.content;
   CHECK(false);
 }
 
-}  // namespace seldinger::web
+}  // namespace seldinger::reports

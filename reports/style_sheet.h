@@ -3,8 +3,8 @@
 
 #include <string_view>
 
-namespace seldinger::web {
+namespace seldinger::reports {
 
 std::string_view style_sheet();
 
-}  // namespace seldinger::web
+}  // namespace seldinger::reports

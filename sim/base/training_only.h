@@ -1,0 +1,8 @@
+// The sentence that every screen, page, film and printed answer shows: one text for a safety notice.
+#pragma once
+
+namespace seldinger::base {
+
+inline constexpr const char* kTrainingOnly = "Training only, not for planning a patient's procedure.";
+
+}  // namespace seldinger::base
