@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/train/panel_bench.h"
+#include "app/train/panel_items.h"
 
 namespace seldinger::app {
 namespace {
@@ -299,6 +300,7 @@ void BenchPlanes::draw(std::size_t plane, CaseBench& bench, const Keys& keys, fl
   ImGui::InvisibleButton(
       "plane", {width, height},
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  note_item("plane");
   ImGui::PopID();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(corner, {corner.x + width, corner.y + height}, true);
