@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "import_case.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -40,13 +41,13 @@ void collect(std::string_view text, char quote, Wanted wanted, std::set<std::str
 }
 
 TEST(Codes, AreThoseOfTheDocument) {
-  const std::filesystem::path root = SELDINGER_SOURCE_DIR;
+  const std::filesystem::path root = fixtures::source_dir();
   std::set<std::string> codes, documented;
   for (const auto& entry : std::filesystem::directory_iterator(root / "casedb/import"))
     if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
-      collect(file_bytes(entry.path()), '"', says, codes);
+      collect(fixtures::whole_file(entry.path()), '"', says, codes);
   EXPECT_GT(codes.size(), 40U);
-  const std::string document = file_bytes(root / "docs/import.md");
+  const std::string document = fixtures::whole_file(root / "docs/import.md");
   // The first cell of each row.
   for (std::size_t at = document.find("\n| `"); at != std::string::npos; at = document.find("\n| `", at + 1))
     collect(
