@@ -9,6 +9,7 @@
 #include "app/file.h"
 #include "app/png.h"
 #include "app/train/desk.h"
+#include "app/train/panel_items.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {
@@ -65,6 +66,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       told_s_(opened_s_),
       between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {
   look_for_space_mouse();
+  note_items(trace_.wanted());
 }
 
 void Desk::look_for_space_mouse() {
@@ -132,6 +134,7 @@ void Desk::tell(const std::string& screen) {
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   if (screen == "bench" && trainer_.bench() != nullptr) BenchPanel::tell(*trainer_.bench(), line);
   if (screen == "devices" && trainer_.device_bench() != nullptr) devices_.tell(*trainer_.device_bench(), line);
+  line.items = noted_items();
   trace_.write(line);
   told_s_ = now_s;
   frames_ = 0;
@@ -198,6 +201,7 @@ void Desk::frame() {
   const double began_s = clock_s();
   due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : between_s_), began_s);
   window_.begin_frame();
+  forget_items();
   trainer_.look();
   draw_screen();
   turn_sound(window_.keys());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -76,12 +77,12 @@ void BenchPanel::draw_top(Trainer& trainer) {
   for (const ToolButton& one : kTools) {
     const bool in_hand = bench.tool == one.tool;
     if (in_hand) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.24F, 0.56F, 0.42F, 1.0F));
-    if (ImGui::Button(one.label)) bench.tool = one.tool;
+    if (noted_button(one.label)) bench.tool = one.tool;
     if (in_hand) ImGui::PopStyleColor();
     ImGui::SameLine();
   }
   ImGui::BeginDisabled(!bench.can_undo() || !bench.locked().empty());
-  if (ImGui::Button("Undo (Z)")) bench.undo();
+  if (noted_button("Undo (Z)")) bench.undo();
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered() && bench.can_undo()) ImGui::SetTooltip("%s", bench.undo_words().c_str());
   ImGui::SameLine();
@@ -95,7 +96,7 @@ void BenchPanel::draw_top(Trainer& trainer) {
     ImGui::EndCombo();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Help (H)")) help_ = !help_;
+  if (noted_button("Help (H)")) help_ = !help_;
   ImGui::SameLine();
   if (!bench.refusal().empty())
     ImGui::TextColored({1.0F, 0.55F, 0.40F, 1.0F}, "Not done: %s", bench.refusal().c_str());
@@ -156,7 +157,7 @@ void BenchPanel::draw_actions(Trainer& trainer) {
   const bool draft = row.state == casedb::CaseState::draft, review = row.state == casedb::CaseState::review;
   if (!bench.locked().empty() && draft) quiet(bench.locked().c_str());
   if (draft && row.origin == "import" && !row.burned_in_checked &&
-      ImGui::Button("I looked: no slice holds text", {-1.0F, 0.0F}))
+      noted_button("I looked: no slice holds text", -1.0F))
     bench.confirm_no_burned_in_text();
   if (draft || review) {
     ImGui::SetNextItemWidth(-1.0F);
@@ -165,7 +166,7 @@ void BenchPanel::draw_actions(Trainer& trainer) {
   const bool holds = bench.scene() && bench.scene()->check.holds() && !bench.checking();
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
   ImGui::BeginDisabled(!draft || bench.lesions().empty());
-  if (ImGui::Button("Try it", {half, 0.0F})) {
+  if (noted_button("Try it", half)) {
     trainer.try_draft();
     ImGui::EndDisabled();
     return;
@@ -175,31 +176,31 @@ void BenchPanel::draw_actions(Trainer& trainer) {
   ImGui::SameLine();
   if (draft) {
     ImGui::BeginDisabled(!holds);
-    if (ImGui::Button("Submit for review", {half, 0.0F})) bench.submit(note_.data());
-    if (ImGui::Button("Publish to my cohort", {half, 0.0F})) bench.publish(true, note_.data());
+    if (noted_button("Submit for review", half)) bench.submit(note_.data());
+    if (noted_button("Publish to my cohort", half)) bench.publish(true, note_.data());
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
       ImGui::SetTooltip("what no second person has seen is for your own cohort; every check must hold");
   } else if (review) {
-    if (ImGui::Button("Return to draft", {half, 0.0F})) bench.judge(false, note_.data());
+    if (noted_button("Return to draft", half)) bench.judge(false, note_.data());
     const bool approved = casedb::review_of(bench.decisions()).has_value();
     if (!approved) {
-      if (ImGui::Button("Approve", {half, 0.0F})) bench.judge(true, note_.data());
+      if (noted_button("Approve", half)) bench.judge(true, note_.data());
     } else {
       ImGui::BeginDisabled(!holds);
-      if (ImGui::Button("Publish", {half, 0.0F})) bench.publish(false, note_.data());
+      if (noted_button("Publish", half)) bench.publish(false, note_.data());
       ImGui::EndDisabled();
     }
   } else {
     ImGui::Dummy({half, 0.0F});
   }
   if (draft || review) ImGui::SameLine();
-  if (!review && (!draft || !bench.locked().empty()) && ImGui::Button("New version", {half, 0.0F})) {
+  if (!review && (!draft || !bench.locked().empty()) && noted_button("New version", half)) {
     const std::string case_id = row.case_id;
     trainer.new_version(case_id);
     return;
   }
-  if (ImGui::Button("Cases", {half, 0.0F})) trainer.leave_bench();
+  if (noted_button("Cases", half)) trainer.leave_bench();
 }
 
 void BenchPanel::draw_help() {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/train/panel_bench.h"
+#include "app/train/panel_items.h"
 
 namespace seldinger::app {
 namespace {
@@ -300,6 +301,7 @@ void BenchPlanes::draw(std::size_t plane, CaseBench& bench, const Keys& keys, fl
   ImGui::InvisibleButton(
       "plane", {width, height},
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  note_item("plane");
   ImGui::PopID();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(corner, {corner.x + width, corner.y + height}, true);

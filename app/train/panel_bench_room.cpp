@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "app/train/panel_bench.h"
+#include "app/train/panel_items.h"
 #include "casedb/structure_json.h"
 
 namespace seldinger::app {
@@ -89,6 +90,7 @@ void BenchRoom::draw(CaseBench& bench, const Keys&, float width, float height) {
     draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, IM_COL32(220, 230, 235, 255), "the room is being made …");
     return;
   }
+  note_item("room");  // once it is made
   const cases::Case& scene = bench.scene()->scene;
   const cases::State state;
   if (!camera_) {

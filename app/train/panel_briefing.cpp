@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 #include "assessment/grading/debrief.h"
 #include "assessment/metrics/registry.h"
@@ -73,7 +74,7 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
     ImGui::Checkbox(kSignIn[i], &checked_[i]);
     all = all && checked_[i];
   }
-  if (ImGui::Button("All checked")) checked_.fill(true);
+  if (noted_button("All checked")) checked_.fill(true);
   ImGui::Spacing();
   quiet(
       "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
@@ -122,7 +123,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   if (phantom) draw_hands(row);
   ImGui::EndChild();
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
-  if (ImGui::Button("Back")) {
+  if (noted_button("Back")) {
     trainer.back();
     end_screen();
     return false;
@@ -137,7 +138,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);
-  const bool begin = ImGui::Button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));
+  const bool begin = noted_button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));
   ImGui::EndDisabled();
   if (!ready) {
     ImGui::SameLine();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -53,12 +54,13 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
-    if (ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F}) || (next && keys.pressed(kEnter)))
-      chosen = choice.case_id;
+    const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
+    note_item("Practise");
+    if (open || (next && keys.pressed(kEnter))) chosen = choice.case_id;
     ImGui::EndDisabled();
     if (edits) {
       ImGui::SameLine();
-      if (ImGui::Button("Edit", {edit_px, 0.0F})) versioned = choice.case_id;
+      if (noted_button("Edit", edit_px)) versioned = choice.case_id;
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
     }
     ImGui::PopID();
@@ -90,7 +92,7 @@ void draw_drafts(Trainer& trainer) {
     ImGui::TableNextColumn();
     ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
-    if (ImGui::Button("Bench", {-1.0F, 0.0F})) opened = draft.case_id;
+    if (noted_button("Bench", -1.0F)) opened = draft.case_id;
     ImGui::PopID();
   }
   ImGui::EndTable();
@@ -103,9 +105,9 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
   ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
-  const bool devices = ImGui::Button("Hands (F10)");
+  const bool devices = noted_button("Hands (F10)");
   ImGui::SameLine();
-  const bool out = ImGui::Button("Log out");
+  const bool out = noted_button("Log out");
   quiet(kTrainingOnly);
   if (!trainer.refusal().empty()) {
     ImGui::Spacing();

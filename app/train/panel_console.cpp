@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "app/train/panel_items.h"
 #include "app/train/panel_monitor.h"
 #include "app/train/panels.h"
 #include "app/ultrasound_sight.h"
@@ -43,6 +44,7 @@ bool knob(const char* label, double& value, double low, double high, const char*
   ImGui::SetNextItemWidth(width);
   const bool turned = ImGui::SliderFloat(label, &shown, static_cast<float>(low), static_cast<float>(high), format,
                                          ImGuiSliderFlags_AlwaysClamp);
+  note_item("knob");
   if (turned) value = shown;
   return turned;
 }

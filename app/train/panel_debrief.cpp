@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 #include "assessment/procedure/steps.h"
 #include "reports/grade_words.h"
@@ -138,7 +139,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   // Done after the screen is drawn: what it shows goes with the debrief.
   enum class Wish { none, next, again, watch, expert, cases, log_out } wish = Wish::none;
   const auto button = [&](const char* words, int key, Wish its) {
-    if (ImGui::Button(words) || (key != 0 && keys.pressed(key))) wish = its;
+    if (noted_button(words) || (key != 0 && keys.pressed(key))) wish = its;
     ImGui::SameLine();
   };
   const Choice* next = trainer.next();

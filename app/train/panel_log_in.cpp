@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -23,19 +24,24 @@ void LogInPanel::draw(Trainer& trainer) {
   begun_ = true;
   const bool entered_name =
       ImGui::InputText("##name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  note_item("Name");
   ImGui::TextUnformatted("Password");
   ImGui::SetNextItemWidth(-1.0F);
   if (entered_name) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##password", password_.data(), password_.size(),
                                         ImGuiInputTextFlags_Password | ImGuiInputTextFlags_EnterReturnsTrue);
+  note_item("Password");
   ImGui::Spacing();
-  if (ImGui::Button("Log in", {-1.0F, 0.0F}) || entered) {
+  if (noted_button("Log in", -1.0F) || entered) {
     trainer.log_in(name_.data(), password_.data());
     password_.fill('\0');
     begun_ = false;
     if (trainer.screen() != TrainerScreen::log_in) name_.fill('\0');
   }
-  if (!trainer.refusal().empty()) ImGui::TextWrapped("%s", trainer.refusal().c_str());
+  if (!trainer.refusal().empty()) {
+    ImGui::TextWrapped("%s", trainer.refusal().c_str());
+    note_item("refused");
+  }
   ImGui::Spacing();
   quiet(kTrainingOnly);
   ImGui::EndChild();

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "app/train/console_picture.h"
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -128,6 +129,7 @@ void MonitorPanel::measure(float left, float top, float zoom) {
 void MonitorPanel::draw_picture(const Monitor& monitor, const cases::State& state, float width, float height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", {width, height});
+  note_item("picture");
   notches_ = ImGui::IsItemHovered() ? static_cast<int>(std::lround(ImGui::GetIO().MouseWheel)) : 0;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 end{corner.x + width, corner.y + height};

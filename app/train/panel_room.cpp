@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "app/train/panel_items.h"
 #include "app/train/panels.h"
 
 namespace seldinger::app {
@@ -128,6 +129,7 @@ void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& ke
   ImGui::InvisibleButton(
       "room", size,
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  if (room_) note_item("room");  // once it is made
   over_ = ImGui::IsItemHovered();
   dragging_ = ImGui::IsItemActive();
   if (room_) move_camera(*room_, scene, seen.moment.state, keys, elapsed_s);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/train/panel_items.h"
 #include "sim/base/result.h"
 #include "sim/case/console.h"
 
@@ -44,6 +45,7 @@ struct TraceLine {
   std::optional<BenchTrace> bench{};
   std::vector<std::string> arms;  // left, right: "ok", "late", "lost"; empty: none are used
   std::string asks;               // what the device page asks its user for
+  std::vector<ShownItem> items;   // what can be pressed
 };
 
 std::string json_of(const TraceLine& line);
@@ -53,6 +55,7 @@ class Trace {
   // Without a path nothing is written. Throws base::Failure("disk") when the file cannot be.
   explicit Trace(const std::filesystem::path& path);
   void write(const TraceLine& line);
+  bool wanted() const { return file_.is_open(); }
 
  private:
   std::ofstream file_;

@@ -42,6 +42,8 @@ std::string json_of(const TraceLine& line) {
   }
   if (!line.arms.empty()) json["arms"] = line.arms;
   if (!line.asks.empty()) json["asks"] = line.asks;
+  for (const ShownItem& item : line.items)
+    json["items"][item.name] = {item.x_px, item.y_px, item.width_px, item.height_px};
   return json.dump();
 }
 

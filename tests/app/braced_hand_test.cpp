@@ -5,23 +5,14 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::app {
 namespace {
 
 cases::Case ball(bool breathes) {
-  volume::AnalyticVolume analytic;
-  analytic.size_voxels = {60, 60, 60};
-  analytic.spacing_mm = {2, 2, 2};
-  analytic.origin_mm = {-59, -59, -59};
-  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 50.0}, 50.0, "liver"});
-  cases::Case scene;
-  scene.volume = volume::rasterize(analytic);
+  cases::Case scene = fixtures::ball_case();
   scene.classes.assign(scene.volume.hu.size(), volume::TissueClass::liver);
-  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
-  scene.skin_index = cases::MeshIndex(scene.skin);
   if (breathes) scene.breathing.emplace();
   return scene;
 }

@@ -4,14 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <glm/geometric.hpp>
-#include <thread>
 
 #include "casedb/store.h"
 #include "sim/imaging/room/room_camera.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/new_ball.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
@@ -22,36 +21,25 @@ class CaseBenchTest : public testing::Test {
  protected:
   // A ball of soft tissue with a rod of bone along z at x = −25, and no lesion yet.
   void SetUp() override {
-    std::filesystem::remove_all(folder_);
     library_.emplace(std::move(casedb::Library::open_or_create(folder_).value()));
-    volume::AnalyticVolume analytic;
-    analytic.size_voxels = {60, 60, 60};
-    analytic.spacing_mm = {2, 2, 2};
-    analytic.origin_mm = {-59, -59, -59};
-    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, kBallMm}, 50.0, ""});
-    analytic.shapes.push_back({volume::Sphere{{-25, 0, 0}, 8.0}, 900.0, ""});
-    casedb::NewCase made;
-    made.title = "Ball";
+    fixtures::Ball ball;
+    ball.radius_mm = kBallMm;
+    ball.inside = {{volume::Sphere{{-25, 0, 0}, 8.0}, 900.0, ""}};
+    casedb::NewCase made = fixtures::new_ball(ball);
     made.origin = "phantom:test";
-    made.volume = volume::rasterize(analytic);
-    made.skin = fixtures::sphere_mesh({0, 0, 0}, kBallMm, 4);
-    assessment::Criterion hit;
-    hit.metric = "hit";
-    hit.value = 1.0;
-    made.rule.criteria = {hit};
+    made.no_burned_in_text = false;
+    made.difficulty = casedb::Difficulty::moderate;
+    made.planned_entry_lps_mm.reset();
     case_id_ = casedb::add_case(*library_, made);
     ASSERT_TRUE(casedb::add_user(*library_, "mona", casedb::Role::mentor, "a long password"));
     bench_.emplace(*library_, case_id_, "mona");
     ASSERT_TRUE(checked());
   }
   bool checked() {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    do {
+    return fixtures::until([&] {
       bench_->look();
-      if (!bench_->checking() && bench_->scene()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    } while (std::chrono::steady_clock::now() < end);
-    return false;
+      return !bench_->checking() && bench_->scene();
+    });
   }
   const Check* check(const std::string& name) const {
     for (const Check& one : bench_->scene()->check.checks)
@@ -61,8 +49,7 @@ class CaseBenchTest : public testing::Test {
   bool holds(const std::string& name) const { return check(name) != nullptr && check(name)->holds; }
   std::size_t stored_lesions() { return casedb::list_lesions(*library_, case_id_).size(); }
 
-  std::filesystem::path folder_ = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "case_bench" /
-                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::filesystem::path folder_ = fixtures::fresh_test_folder("app") / "library";
   std::optional<casedb::Library> library_;
   std::string case_id_;
   std::optional<CaseBench> bench_;

@@ -13,8 +13,8 @@
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/visibility.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/new_ball.h"
 
 namespace seldinger::app {
 namespace {
@@ -23,26 +23,9 @@ using volume::TissueClass;
 
 class CaseBuild : public testing::Test {
  protected:
-  std::filesystem::path folder_ = [] {
-    const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "case_build" /
-                        testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder);
-    return folder;
-  }();
+  std::filesystem::path folder_ = fixtures::fresh_test_folder("app") / "library";
   casedb::Library library_ = std::move(casedb::Library::open_or_create(folder_).value());
-  std::string case_id_ = [this] {
-    volume::AnalyticVolume analytic;
-    analytic.size_voxels = {60, 60, 60};
-    analytic.spacing_mm = {2, 2, 2};
-    analytic.origin_mm = {-59, -59, -59};
-    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 50.0}, 50.0, ""});
-    casedb::NewCase made;
-    made.title = "Ball";
-    made.origin = "import";
-    made.volume = volume::rasterize(analytic);
-    made.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
-    return casedb::add_case(library_, made);
-  }();
+  std::string case_id_ = [this] { return casedb::add_case(library_, fixtures::new_ball()); }();
 
   casedb::CaseRow row() { return casedb::find_case(library_, case_id_).value(); }
   void add(const char* name, cases::Shape shape, TissueClass tissue, std::optional<double> hu) {

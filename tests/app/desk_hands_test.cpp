@@ -3,12 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
-
 #include "app/device_simulation/haply_simulation.h"
 #include "app/servo_trial.h"
 #include "sim/devices/device_hand.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
@@ -47,7 +45,7 @@ TEST(DeskHands, AnArmFeelsWhatItsToolPressesOnAndALostOneLeavesItToTheMouse) {
     ticks.advance(inputs);
     hands.feel(ticks.room(), kTickS);
     most_n = std::max(most_n, (*service)->arm(0).asked_n.y);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fixtures::let_pass(kTickS);  // the service's arms move in real time
   };
   for (int i = 0; i < 15000 && !(most_n > 0.5); ++i) tick(nothing);
   EXPECT_GT(most_n, 0.5) << "newtons, upwards";

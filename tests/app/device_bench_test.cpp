@@ -4,27 +4,20 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <thread>
 
 #include "app/device_words.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
 
 using Work = DeviceBench::Work;
 
-bool until(const std::function<bool()>& holds,
-           double most_s = 120.0) {  // under sanitizers an arm is lost now and then
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
+bool until(const std::function<bool()>& holds, double most_s = 120.0) {
+  return fixtures::until(holds, most_s);  // twice as patient: under sanitizers an arm is lost now and then
 }
 
 struct AtTheDesk {
@@ -45,15 +38,15 @@ struct AtTheDesk {
       const glm::dvec3 way = to_mm - styli[side].at_mm;
       styli[side].at_mm += way * std::min(1.0, 2.0 / glm::length(way));
       led->lead(side, styli[side]);
-      std::this_thread::sleep_for(std::chrono::milliseconds(4));
+      fixtures::let_pass(0.004);  // a hand's speed: half a millimetre in a millisecond
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    until([&] { return glm::length(bench->seen().arms[side].reading.position_mm - to_mm) < 0.5; });
   }
   void press(std::size_t side) {
     for (const bool down : {true, false}) {
       styli[side].button = down;
       led->lead(side, styli[side]);
-      std::this_thread::sleep_for(std::chrono::milliseconds(80));
+      until([&] { return bench->seen().arms[side].reading.buttons.test(0) == down; }, 1.0);  // or it is lost
     }
   }
   // Touches the point that is asked for, off by so much.

@@ -3,13 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <glm/geometric.hpp>
-#include <thread>
 
 #include "app/device_simulation/haply_simulation.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/fixtures/meshes.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
@@ -82,14 +81,12 @@ TEST(DeviceDesk, HandednessSaysWhichArmHoldsTheNeedle) {
       DeviceDesk desk(swapped ? station : Station{}, scene, handedness, place);
       cases::Inputs inputs;
       haptics::HandInputs hands;
-      bool healthy = false;
-      for (int i = 0; i < 3000 && !healthy; ++i) {
+      const auto both_are_healthy = [&] {
         desk.read(true, true, 0.001, inputs, hands);
         desk.send({}, 0.001);
-        healthy = desk.healthy(haptics::Side::left) && desk.healthy(haptics::Side::right);
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      }
-      ASSERT_TRUE(healthy);
+        return desk.healthy(haptics::Side::left) && desk.healthy(haptics::Side::right);
+      };
+      ASSERT_TRUE(fixtures::until(both_are_healthy, fixtures::kPatienceS, 0.001));
       // The user faces him from his left: what is at the user's right is towards the head.
       const bool needle_at_right = inputs.needle.position_lps_mm.z > inputs.probe.position_lps_mm.z;
       EXPECT_EQ(needle_at_right, (handedness == haptics::Handedness::right) != swapped);

@@ -11,23 +11,14 @@
 #include "assessment/operators/plan.h"
 #include "sim/engine/step.h"
 #include "sim/tissue/breathing.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::app {
 namespace {
 
 const cases::Case& ball(double lesion_hu = 500.0) {
   const auto make = [](double hu) {
-    volume::AnalyticVolume analytic;
-    analytic.size_voxels = {88, 88, 88};
-    analytic.spacing_mm = {2.5, 2.5, 2.5};
-    analytic.origin_mm = {-108.75, -108.75, -108.75};
-    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 100.0}, 40.0, ""});
-    cases::Case scene;
-    scene.volume = volume::rasterize(analytic);
-    scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
-    scene.skin_index = cases::MeshIndex(scene.skin);
+    cases::Case scene = fixtures::ball_case({88, 2.5, 100.0, 40.0, 5});
     scene.lesions.push_back({{10.0, -40.0, -12.0}, 6.0, hu});
     scene.picture.modality = cases::Modality::xray;
     return scene;

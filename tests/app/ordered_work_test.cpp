@@ -6,6 +6,8 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "tests/fixtures/until.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -19,8 +21,7 @@ TEST(InOrder, TakesInOrderWhateverTheThreads) {
           std::size_t now = ++ahead, before = most;
           while (now > before && !most.compare_exchange_weak(before, now)) {
           }
-          // The first are the slowest.
-          std::this_thread::sleep_for(std::chrono::microseconds(i % 10 == 0 ? 2000 : 10));
+          fixtures::let_pass(i % 10 == 0 ? 2e-3 : 1e-5);  // stands for work: the first are the slowest
           return i * i;
         },
         [&](std::size_t i, std::size_t made) {

@@ -15,8 +15,7 @@
 #include "app/attempt_loop.h"
 #include "app/simulation.h"
 #include "assessment/operators/plan.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::app {
 namespace {
@@ -30,16 +29,8 @@ struct Scene {
 };
 const Scene& ball() {
   static const Scene kScene = [] {
-    constexpr double kBallMm = 100.0;
     Scene made;
-    volume::AnalyticVolume analytic;
-    analytic.size_voxels = {55, 55, 55};
-    analytic.spacing_mm = {4, 4, 4};
-    analytic.origin_mm = {-108, -108, -108};
-    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, kBallMm}, 50.0, ""});
-    made.scene.volume = volume::rasterize(analytic);
-    made.scene.skin = fixtures::sphere_mesh({0, 0, 0}, kBallMm, 4);
-    made.scene.skin_index = cases::MeshIndex(made.scene.skin);
+    made.scene = fixtures::ball_case({55, 4.0, 100.0});
     made.scene.lesions.push_back({{0.0, -55.0, 0.0}, 6.0, 5.0});
     made.scene.structures.push_back({"organ", volume::TissueClass::soft_tissue, cases::StructureRule::organ,
                                      cases::Sphere{{0.0, -45.0, 0.0}, 35.0}});

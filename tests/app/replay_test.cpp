@@ -10,22 +10,13 @@
 #include "app/guidance_screen.h"
 #include "app/slice_picture.h"
 #include "sim/engine/step.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::app {
 namespace {
 
 cases::Case ball(cases::Modality modality) {
-  volume::AnalyticVolume analytic;
-  analytic.size_voxels = {88, 88, 88};
-  analytic.spacing_mm = {2.5, 2.5, 2.5};
-  analytic.origin_mm = {-108.75, -108.75, -108.75};
-  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 100.0}, 40.0, ""});
-  cases::Case scene;
-  scene.volume = volume::rasterize(analytic);
-  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 6);
-  scene.skin_index = cases::MeshIndex(scene.skin);
+  cases::Case scene = fixtures::ball_case({88, 2.5, 100.0, 40.0, 6});
   scene.lesions.push_back({{0.0, -60.0, 0.0}, 6.0, 500.0});
   scene.structures.push_back({"duct", {}, cases::StructureRule::critical, cases::Sphere{{0.0, -62.0, 0.0}, 15.0}});
   scene.structures.push_back({"elsewhere", {}, cases::StructureRule::major, cases::Sphere{{80.0, 0.0, 50.0}, 5.0}});

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/train/sound_waves.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
@@ -114,11 +115,10 @@ TEST(Speaker, WithoutADeviceItIsSilentAndSaysSo) {
   Speaker::Settings settings;
   settings.muted = true;
   Speaker speaker(settings);
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  fixtures::let_pass(0.02);  // nothing can be waited for: it must not ask
   EXPECT_EQ(speaker.state(), Speaker::State::unasked) << "who is muted asks for nothing";
   speaker.set_muted(false);
-  for (int i = 0; i < 500 && speaker.state() == Speaker::State::unasked; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  fixtures::until([&] { return speaker.state() != Speaker::State::unasked; });
   EXPECT_EQ(speaker.state(), Speaker::State::none);
   play(speaker, Sound::ow);
   EXPECT_EQ(speaker.take_played().size(), 1U);

@@ -3,69 +3,33 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
-#include <thread>
 
 #include "app/case_check.h"
 #include "casedb/curriculum.h"
 #include "casedb/versions.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/new_ball.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::app {
 namespace {
 
+using fixtures::until;
 using Phase = PersonAttempt::Phase;
 constexpr const char* kPassword = "a long password";
-
-bool until(const std::function<bool()>& holds, double most_s = 60.0) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
 
 class TrainerTest : public testing::Test {
  protected:
   // A ball of soft tissue, practised by slices; its target 25 mm below the skin.
   static constexpr double kDepthMm = 25.0;
-  std::filesystem::path folder_ = [] {
-    const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "trainer" /
-                        testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder);
-    return folder;
-  }();
+  std::filesystem::path folder_ = fixtures::fresh_test_folder("app") / "library";
   std::string case_id_;
 
   void SetUp() override {
     casedb::Library library = std::move(casedb::Library::open_or_create(folder_).value());
-    volume::AnalyticVolume analytic;
-    analytic.size_voxels = {60, 60, 60};
-    analytic.spacing_mm = {2, 2, 2};
-    analytic.origin_mm = {-59, -59, -59};
-    analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 50.0}, 50.0, ""});
-    casedb::NewCase made;
-    made.title = "Ball";
-    made.origin = "import";
-    made.no_burned_in_text = true;
-    made.volume = volume::rasterize(analytic);
-    made.skin = fixtures::sphere_mesh({0, 0, 0}, 50.0, 4);
-    made.difficulty = casedb::Difficulty::easy;
-    made.planned_entry_lps_mm = glm::dvec3(0.0, -50.0, 0.0);
-    assessment::Criterion hit;
-    hit.metric = "hit";
-    hit.value = 1.0;
-    made.rule.criteria = {hit};
-    case_id_ = casedb::add_case(library, made);
-    cases::Lesion lesion;
-    lesion.center_lps_mm = {0.0, kDepthMm - 50.0, 0.0};
-    lesion.radius_mm = 6.0;
-    lesion.hu = 20.0;
-    ASSERT_TRUE(casedb::add_lesion(library, case_id_, lesion));
+    case_id_ = casedb::add_case(library, fixtures::new_ball());
+    ASSERT_TRUE(casedb::add_lesion(library, case_id_, fixtures::ball_target(kDepthMm)));
     ASSERT_TRUE(casedb::add_user(library, "mona", casedb::Role::mentor, kPassword));
     ASSERT_TRUE(casedb::add_user(library, "tina", casedb::Role::trainee, kPassword));
   }
@@ -86,19 +50,20 @@ class TrainerTest : public testing::Test {
       return trainer.attempt() != nullptr && trainer.attempt()->phase() == Phase::ready;
     });
   }
+  static constexpr double kTellingS = 0.02;  // from one telling of the hands to the next, as a window's frames
   // Tells the hands of one wish, and waits until they have done it.
   void advance(PersonAttempt& attempt, HandsTold& told, double to_mm) {
     Seen seen;
-    EXPECT_TRUE(until([&] {
+    const auto there = [&] {
       if (const auto newest = attempt.seen()) seen = *newest;
       const double left_mm = to_mm - seen.inserted_mm;
       if (std::abs(left_mm) < 1.0) return true;
       told.sum.advance_mm += seen.inserted ? 0.1 * left_mm : 0.5;
-      told.between_s = 0.02;
+      told.between_s = kTellingS;
       attempt.tell(told);
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
       return false;
-    })) << seen.inserted_mm;
+    };
+    EXPECT_TRUE(until(there, fixtures::kPatienceS, kTellingS)) << seen.inserted_mm;
   }
   void fire_at_the_target(PersonAttempt& attempt) {
     HandsTold told;

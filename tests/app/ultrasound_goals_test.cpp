@@ -2,6 +2,7 @@
 // nowhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,11 @@ Readings readings_of(const Setting& setting, void (*measure)(const Setting&, Rea
   Readings readings;
   measure(setting, readings);
   return readings;
+}
+
+std::ptrdiff_t count_of(const Readings& readings, const char* word) {
+  return std::count_if(readings.begin(), readings.end(),
+                       [&](const Reading& one) { return one.what.find(word) != std::string::npos; });
 }
 
 TEST(Reading, NothingToMeasureHoldsNowhere) {
@@ -72,7 +78,10 @@ TEST(UltrasoundGoals, SeeANeedleInTheWrongPlace) {
     wrong.needle->tip_lps_mm += 1.0 * wrong.needle->direction;  // a millimetre too far
     paint(tissue, view, wrong, picture);
   };
-  for (const Reading& reading : readings_of(setting, &measure_needle_place)) {
+  const Readings readings = readings_of(setting, &measure_needle_place);
+  EXPECT_EQ(count_of(readings, "tip"), 1);
+  EXPECT_GT(readings.size(), 1U) << "and something that the tip's place leaves alone";
+  for (const Reading& reading : readings) {
     const bool tip = reading.what.find("tip") != std::string::npos;
     EXPECT_EQ(reading.holds(Quality::fast), !tip) << reading.what;
     if (tip) {
@@ -90,7 +99,10 @@ TEST(UltrasoundGoals, SeeSpeckleBlurredAcross) {
     wide.probe.aperture_mm /= 1.5;
     paint(tissue, wide, inserted, picture);
   };
-  for (const Reading& reading : readings_of(setting, &measure_widths)) {
+  const Readings readings = readings_of(setting, &measure_widths);
+  EXPECT_GE(count_of(readings, "width"), 1);
+  EXPECT_GT(readings.size(), static_cast<std::size_t>(count_of(readings, "width")));
+  for (const Reading& reading : readings) {
     const bool width = reading.what.rfind("width", 0) == 0;
     EXPECT_EQ(reading.holds(Quality::fast), !width) << reading.what << " " << reading.off;
     if (width) {
@@ -109,6 +121,7 @@ TEST(UltrasoundGoals, AnEmptyPictureHoldsNothing) {
     // The display's goals make their own pictures, and nothing is the same bits as nothing.
     if (goal.number == 1 || goal.number == 14 || goal.number == 15) continue;
     const Readings readings = readings_of(setting, goal.measure);
+    EXPECT_FALSE(readings.empty()) << "goal " << goal.number << " says nothing of it";
     for (const Reading& reading : readings)
       EXPECT_FALSE(reading.holds(Quality::fast)) << reading.goal << " " << reading.what << " " << reading.off;
   }

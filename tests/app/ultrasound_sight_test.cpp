@@ -11,8 +11,7 @@
 #include "app/picture_clock.h"
 #include "assessment/operators/plan.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::app {
 namespace {
@@ -21,22 +20,13 @@ constexpr double kBallMm = 100.0;
 
 // With a cyst 55 mm below the skin; a plate of bone, as wide as asked for, 25 mm above it.
 cases::Case make_ball(double bone_half_mm) {
-  volume::AnalyticVolume analytic;
-  analytic.size_voxels = {88, 88, 88};
-  analytic.spacing_mm = {2.5, 2.5, 2.5};
-  analytic.origin_mm = {-108.75, -108.75, -108.75};
-  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, kBallMm}, 50.0, ""});
-  if (bone_half_mm > 0.0) {
-    volume::Shape& plate = analytic.shapes.emplace_back();
-    plate.geometry = volume::Box{{-bone_half_mm, -74, -bone_half_mm}, {bone_half_mm, -66, bone_half_mm}};
-    plate.hu = 900.0;
-  }
-  cases::Case scene;
-  scene.volume = volume::rasterize(analytic);
+  fixtures::Ball made{88, 2.5, kBallMm, 50.0, 5};
+  if (bone_half_mm > 0.0)
+    made.inside = {
+        {volume::Box{{-bone_half_mm, -74, -bone_half_mm}, {bone_half_mm, -66, bone_half_mm}}, 900.0, ""}};
+  cases::Case scene = fixtures::ball_case(made);
   scene.classes = volume::tissue_classes(scene.volume);
   scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
-  scene.skin = fixtures::sphere_mesh({0, 0, 0}, kBallMm, 5);
-  scene.skin_index = cases::MeshIndex(scene.skin);
   scene.lesions.push_back({{0.0, -45.0, 0.0}, 6.0, 5.0});
   scene.picture.modality = cases::Modality::ultrasound;
   return scene;

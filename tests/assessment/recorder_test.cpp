@@ -8,6 +8,7 @@
 
 #include "sim/base/rng.h"
 #include "tests/fixtures/allocations.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -85,7 +86,7 @@ TEST(Recorder, AServoNeverWaitsForTheDisk) {
   std::vector<cases::RecordingChunk> chunks;
   std::atomic<bool> hang{true};
   Recorder recorder(1, 0.001, [&](const cases::RecordingChunk& chunk) {
-    while (hang) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(fixtures::until([&] { return !hang; }));
     chunks.push_back(chunk);
     return base::Result<void>{};
   });

@@ -80,13 +80,14 @@ double status_mb(int pid, const std::string& field) {
 }
 
 // As a mouse of 125 Hz tells it: to and fro, with the button held.
-void drag_about(const fixtures::Screen& screen, double for_s) {
+void drag_about(fixtures::Trainee& trainee, double for_s) {
   const int steps = static_cast<int>(for_s / 0.008);
-  std::string words = "mousemove 350 300 sleep 0.1 mousedown 1";
+  const auto [x, y] = trainee.place_of("room").at(0.5, 0.5);
+  std::string words = "mousemove " + std::to_string(x) + " " + std::to_string(y) + " sleep 0.1 mousedown 1";
   for (int i = 0; i < steps; ++i)
     words += std::string(" mousemove_relative -- ") + (i / 60 % 2 == 0 ? "1" : "-1") + " 0 sleep 0.008";
-  EXPECT_EQ(std::system(("DISPLAY=" + screen.display() + " xdotool " + words + " mouseup 1").c_str()),
-            0);  // NOLINT
+  const std::string display = "DISPLAY=" + trainee.screen().display();
+  EXPECT_EQ(std::system((display + " xdotool " + words + " mouseup 1").c_str()), 0);  // NOLINT
 }
 
 TEST(Window, Bench) {
@@ -111,9 +112,9 @@ TEST(Window, Bench) {
     trainee.prepare();
     ASSERT_NO_FATAL_FAILURE(trainee.press_probe_on());
     const double from_s = trainee.now()["t_s"];
-    drag_about(trainee.screen(), 0.5 * measured_s);
+    drag_about(trainee, 0.5 * measured_s);
     trainee.take("needle");
-    drag_about(trainee.screen(), 0.5 * measured_s);
+    drag_about(trainee, 0.5 * measured_s);
     const double to_s = trainee.now()["t_s"];
     const double resident_mb = status_mb(trainee.program().pid(), "VmRSS");
     const double most_mb = status_mb(trainee.program().pid(), "VmHWM");

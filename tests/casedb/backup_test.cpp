@@ -88,7 +88,7 @@ TEST_F(BackupTest, NothingIsOverwritten) {
   fs::remove_all(restored_);
   std::ofstream(restored_) << "text";
   EXPECT_EQ(refusal(), "exists");
-  EXPECT_EQ(content_of(restored_), "text");
+  EXPECT_EQ(fixtures::whole_file(restored_), "text");
   fs::remove(restored_);
   fs::create_directory(restored_);  // empty
   EXPECT_EQ(refusal(), "none");
@@ -131,7 +131,7 @@ TEST_F(BackupTest, OfALibraryInUseIsOneState) {
 TEST_F(BackupTest, OfADamagedLibraryIsRefusedAndLeavesNothing) {
   make();
   const fs::path asset = fs::directory_iterator(folder_ / "assets")->path();
-  const std::string good = content_of(asset);
+  const std::string good = fixtures::whole_file(asset);
   std::ofstream(asset, std::ios::binary) << good << 'x';
   EXPECT_EQ(backed_up(), "asset_damaged");
   fs::remove(asset);
@@ -148,7 +148,7 @@ TEST_F(BackupTest, AnyChangedByteIsRefusedAndNothingIsThere) {
   ASSERT_EQ(files.size(), 7U);
   base::Rng rng(5);
   for (const fs::path& file : files) {
-    const std::string good = content_of(file);
+    const std::string good = fixtures::whole_file(file);
     for (int kind = 0; kind < 4; ++kind) {
       std::string bad = good;
       const auto at = static_cast<std::size_t>(rng.uniform() * static_cast<double>(good.size()));
@@ -175,7 +175,7 @@ TEST_F(BackupTest, AnyChangedByteIsRefusedAndNothingIsThere) {
 TEST_F(BackupTest, AListThatLeadsElsewhereIsRefused) {
   make();
   ASSERT_EQ(backed_up(), "none");
-  const std::string good = content_of(backup_ / "backup.txt");
+  const std::string good = fixtures::whole_file(backup_ / "backup.txt");
   const std::string end = "end 6\n", hash(64, 'a');
   ASSERT_TRUE(good.ends_with(end));
   for (const std::string& name : {std::string("../x"), std::string("/etc/passwd"), std::string("assets/../../x"),
@@ -202,8 +202,8 @@ TEST_F(BackupTest, OfANewerSchemaIsRefused) {
   ASSERT_EQ(backed_up(), "none");
   const fs::path file = backup_ / "seldinger.sqlite";
   { Sqlite(file).run("PRAGMA user_version = 9999"); }
-  std::string list = content_of(backup_ / "backup.txt");
-  const std::string bytes = content_of(file);
+  std::string list = fixtures::whole_file(backup_ / "backup.txt");
+  const std::string bytes = fixtures::whole_file(file);
   const std::size_t at = list.find("file seldinger.sqlite ");
   list.replace(
       at, list.find('\n', at) - at,

@@ -40,7 +40,7 @@ inline void replace(std::string& text, const std::string& from, const std::strin
 inline Parts parts_of(const std::filesystem::path& file) {
   const OpenFile in(file);
   const BundleList list = read_bundle_list(in).value();
-  const std::string bytes = content_of(file);
+  const std::string bytes = fixtures::whole_file(file);
   Parts parts;
   std::uint64_t list_bytes = 0;
   std::memcpy(&list_bytes, bytes.data() + 16, sizeof list_bytes);

@@ -78,9 +78,9 @@ TEST_F(BundleTest, ACaseIsTheSameElsewhere) {
 
 TEST_F(BundleTest, TheSameLibraryGivesTheSameBytes) {
   write();
-  const std::string first = content_of(file_);
+  const std::string first = fixtures::whole_file(file_);
   write();
-  EXPECT_EQ(content_of(file_), first);
+  EXPECT_EQ(fixtures::whole_file(file_), first);
 }
 
 TEST_F(BundleTest, ACaseThatIsThereAlreadyIsLeftAlone) {
@@ -117,7 +117,7 @@ TEST_F(BundleTest, NothingOfPeopleIsInIt) {
   const std::vector<std::byte> rows = bytes_from_rows(home_.database(), case_id_);
   const std::string pseudonym = home_.database().text("SELECT pseudonym FROM person");
   for (const std::string& text :
-       {content_of(file_), std::string(reinterpret_cast<const char*>(rows.data()), rows.size())})
+       {fixtures::whole_file(file_), std::string(reinterpret_cast<const char*>(rows.data()), rows.size())})
     for (const std::string& secret :
          {std::string("Jane"), std::string("argon2id"), person_id, attempt_id, pseudonym})
       EXPECT_EQ(text.find(secret), std::string::npos) << secret;
@@ -163,7 +163,7 @@ TEST_F(BundleTest, ANewerSchemaOrFormatIsRefused) {
   put(file_, parts);
   EXPECT_EQ(refusal(), "newer_schema");
   write();
-  std::string bytes = content_of(file_);
+  std::string bytes = fixtures::whole_file(file_);
   bytes[8] = 2;
   std::ofstream(file_, std::ios::binary) << bytes;
   EXPECT_EQ(refusal(), "bundle_version");
@@ -178,7 +178,7 @@ TEST_F(BundleTest, ANewerSchemaOrFormatIsRefused) {
 TEST_F(BundleTest, AnyTruncationAndTrailingBytesAreRefused) {
   write();
   const auto before = state_of(away_);
-  const std::string good = content_of(file_);
+  const std::string good = fixtures::whole_file(file_);
   for (std::size_t size = 0; size < good.size(); size += size < 700 ? 1 : 37) {
     std::ofstream(file_, std::ios::binary) << good.substr(0, size);
     const std::string code = refusal();

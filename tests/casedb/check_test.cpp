@@ -63,7 +63,7 @@ TEST_F(CheckTest, WhatIsNoLibraryIsRefused) {
 
 TEST_F(CheckTest, ADamagedPageIsAFindingAndNothingIsRepaired) {
   std::ofstream(folder_ / "assets" / std::string(64, 'a')) << "nobody's";
-  const std::string good = content_of(folder_ / "seldinger.sqlite");
+  const std::string good = fixtures::whole_file(folder_ / "seldinger.sqlite");
   std::string bad = good;
   bad.replace(good.size() - 4096, 64, std::string(64, '\x77'));
   std::ofstream(folder_ / "seldinger.sqlite", std::ios::binary) << bad;
@@ -78,11 +78,11 @@ TEST_F(CheckTest, ABrokenReferenceIsFound) {
 }
 
 TEST_F(CheckTest, AMissingAndADamagedFileAreFoundAndStay) {
-  std::string bytes = content_of(folder_ / "assets" / volume_sha256_);
+  std::string bytes = fixtures::whole_file(folder_ / "assets" / volume_sha256_);
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   std::ofstream(folder_ / "assets" / volume_sha256_, std::ios::binary) << bytes;
   EXPECT_EQ(found(true), Codes{"asset_damaged"});
-  EXPECT_EQ(content_of(folder_ / "assets" / volume_sha256_), bytes);
+  EXPECT_EQ(fixtures::whole_file(folder_ / "assets" / volume_sha256_), bytes);
   fs::remove(folder_ / "assets" / volume_sha256_);
   EXPECT_EQ(found(true), Codes{"asset_missing"});
 }

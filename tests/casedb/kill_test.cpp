@@ -4,12 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <set>
-#include <thread>
 
 #include "sim/base/rng.h"
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -76,10 +75,10 @@ TEST(KillTest, NothingAcknowledgedIsLostAndNothingIsHalf) {
       pollfd first_id{ends[0], POLLIN, 0};
       EXPECT_EQ(::poll(&first_id, 1, 30'000), 1);
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(rng.uniform() * 120'000)));
+    fixtures::let_pass(rng.uniform() * 0.12);  // the moment of the kill is what is tested
     for (const pid_t child : children) {
       ::kill(child, SIGKILL);
-      std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(rng.uniform() * 10'000)));
+      fixtures::let_pass(rng.uniform() * 0.01);  // and that of the other one's
     }
     for (const pid_t child : children) {
       int status = 0;
@@ -132,7 +131,7 @@ TEST(KillTest, AKilledCreationLeavesALibraryOrRoomForOne) {
       }
       ::_exit(0);
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(rng.uniform() * 25'000)));
+    fixtures::let_pass(rng.uniform() * 0.025);  // the moment of the kill is what is tested
     ::kill(child, SIGKILL);
     int status = 0;
     ::waitpid(child, &status, 0);

@@ -6,7 +6,6 @@
 #include <bit>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 
@@ -14,17 +13,14 @@
 #include "casedb/sqlite.h"
 #include "casedb/store.h"
 #include "sim/base/rng.h"
+#include "tests/fixtures/files.h"
+#include "tests/fixtures/folders.h"
 
 namespace seldinger::casedb {
 
 // An empty place of its own for the running test.
 inline std::filesystem::path fresh_folder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "casedb" /
-                      (std::string(test->test_suite_name()) + "." + test->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+  return fixtures::fresh_test_folder("casedb");
 }
 
 inline Library open_library(const std::filesystem::path& folder) {
@@ -33,18 +29,13 @@ inline Library open_library(const std::filesystem::path& folder) {
   return std::move(library.value());
 }
 
-inline std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // Every file below the folder with its bytes. Only while no library there is open in this process: closing a file
 // that SQLite also has open would drop SQLite's locks.
 inline std::map<std::string, std::string> contents_of(const std::filesystem::path& folder) {
   std::map<std::string, std::string> contents;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     contents[std::filesystem::relative(entry.path(), folder).string()] =
-        entry.is_regular_file() ? content_of(entry.path()) : std::string("folder");
+        entry.is_regular_file() ? fixtures::whole_file(entry.path()) : std::string("folder");
   return contents;
 }
 

@@ -87,7 +87,7 @@ TEST_F(LibraryTest, AFileIsNoLibrary) {
   std::ofstream(library_) << "text";
   EXPECT_EQ(refusal_to_open(), "no_library");
   EXPECT_EQ(refusal_to_create(), "not_a_library");
-  EXPECT_EQ(content_of(library_), "text");
+  EXPECT_EQ(fixtures::whole_file(library_), "text");
 }
 
 TEST_F(LibraryTest, AFolderOfSomethingElseIsRefusedUntouched) {
@@ -119,8 +119,8 @@ TEST_F(LibraryTest, WhatAKilledCreationLeavesIsNoHindrance) {
 
 TEST_F(LibraryTest, AnEmptyOrForeignDatabaseIsNoLibraryOfOurs) {
   make();
-  const std::string ours = content_of(library_ / "seldinger.sqlite");
-  const std::string names = content_of(library_ / "identities.sqlite");
+  const std::string ours = fixtures::whole_file(library_ / "seldinger.sqlite");
+  const std::string names = fixtures::whole_file(library_ / "identities.sqlite");
   for (const std::string& content : {std::string(), std::string(10000, 'x'), names}) {
     std::ofstream(library_ / "seldinger.sqlite", std::ios::binary) << content;
     const auto before = contents_of(library_);
@@ -143,7 +143,7 @@ TEST_F(LibraryTest, ANewerSchemaIsRefusedUntouched) {
 
 TEST_F(LibraryTest, DamageIsRefused) {
   make();
-  const std::string good = content_of(library_ / "seldinger.sqlite");
+  const std::string good = fixtures::whole_file(library_ / "seldinger.sqlite");
   for (std::size_t page = 0; page < good.size() / 4096; ++page) {
     std::string bad = good;
     const std::size_t from = page * 4096 + (page == 0 ? 100 : 0);  // behind the file's header
@@ -226,7 +226,7 @@ TEST_F(LibraryTest, AnAssetIsNamedByItsSha256) {
   const auto stored = library.store_asset(abc);
   EXPECT_TRUE(stored.created);
   EXPECT_EQ(stored.sha256, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");  // FIPS 180-2, B.1
-  EXPECT_EQ(content_of(library_ / "assets" / stored.sha256), "abc");
+  EXPECT_EQ(fixtures::whole_file(library_ / "assets" / stored.sha256), "abc");
   EXPECT_EQ(library.load_asset(stored.sha256).value(), abc);
   EXPECT_EQ(std::distance(fs::directory_iterator(library_ / "assets"), {}), 1);  // no temporary file
 }
@@ -251,7 +251,7 @@ TEST_F(LibraryTest, ATruncatedAssetIsReplacedButNotTakenBack) {
 TEST_F(LibraryTest, AMissingOrDamagedAssetIsRefused) {
   auto library = open_library(library_);
   const auto stored = library.store_asset(some_bytes(1000));
-  std::string bytes = content_of(library_ / "assets" / stored.sha256);
+  std::string bytes = fixtures::whole_file(library_ / "assets" / stored.sha256);
   bytes[500] = static_cast<char>(bytes[500] ^ 1);
   std::ofstream(library_ / "assets" / stored.sha256, std::ios::binary) << bytes;
   EXPECT_EQ(library.load_asset(stored.sha256).error().code, "asset_damaged");

@@ -75,7 +75,7 @@ TEST_F(MigrateTest, ACopyNeverOverwritesAnother) {
   make_version(1);
   std::ofstream(file_.string() + ".v1-backup") << "older";
   EXPECT_EQ(refusal(first_steps(2)), "none");
-  EXPECT_EQ(content_of(file_.string() + ".v1-backup"), "older");
+  EXPECT_EQ(fixtures::whole_file(file_.string() + ".v1-backup"), "older");
   Sqlite copy(file_.string() + ".v1-backup-2");
   EXPECT_EQ(copy.integer("SELECT x FROM a"), 41);
 }
@@ -92,9 +92,9 @@ TEST_F(MigrateTest, AFailingStepLeavesTheVersionBefore) {
 TEST_F(MigrateTest, ANewerSchemaIsRefusedUntouched) {
   make_version(1);
   EXPECT_EQ(refusal(first_steps(2)), "none");
-  const std::string before = content_of(file_);
+  const std::string before = fixtures::whole_file(file_);
   EXPECT_EQ(refusal(first_steps(1)), "newer_schema");
-  EXPECT_EQ(content_of(file_), before);
+  EXPECT_EQ(fixtures::whole_file(file_), before);
 }
 
 TEST_F(MigrateTest, AnotherProgramsDatabaseIsRefusedUntouched) {
@@ -102,14 +102,14 @@ TEST_F(MigrateTest, AnotherProgramsDatabaseIsRefusedUntouched) {
     Sqlite database(file_, Sqlite::Mode::create);
     database.run("CREATE TABLE theirs (x INTEGER); PRAGMA user_version = 1");
   }
-  const std::string before = content_of(file_);
+  const std::string before = fixtures::whole_file(file_);
   EXPECT_EQ(refusal(first_steps(1)), "not_a_library");
   {
     Sqlite database(file_);
     database.run("PRAGMA application_id = 99");
   }
   EXPECT_EQ(refusal(first_steps(1)), "not_a_library");
-  EXPECT_EQ(content_of(file_).size(), before.size());
+  EXPECT_EQ(fixtures::whole_file(file_).size(), before.size());
   Sqlite database(file_);
   EXPECT_EQ(database.text("PRAGMA journal_mode"), "delete");
   EXPECT_EQ(database.text("SELECT group_concat(name) FROM sqlite_schema"), "theirs");
@@ -119,12 +119,12 @@ TEST_F(MigrateTest, WhatIsNoDatabaseIsRefusedUntouched) {
   const std::string text(5000, 'x');
   std::ofstream(file_) << text;
   EXPECT_EQ(refusal(first_steps(1)), "not_a_library");
-  EXPECT_EQ(content_of(file_), text);
+  EXPECT_EQ(fixtures::whole_file(file_), text);
 }
 
 TEST_F(MigrateTest, ADamagedFileIsRefused) {
   make_version(1);
-  const std::string good = content_of(file_);
+  const std::string good = fixtures::whole_file(file_);
   ASSERT_EQ(good.size(), 8192U);  // page 1: header and schema; page 2: table a
   for (const auto& [from, count] : {std::pair(100UL, 200UL), std::pair(4096UL, 300UL), std::pair(200UL, 7992UL)}) {
     std::string bad = good;

@@ -3,6 +3,7 @@
 
 #include "casedb/migrate.h"
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -27,7 +28,7 @@ class SchemaTest : public testing::Test {
     const std::string sum = sum_of(database);
     const auto put = folder_ / "schema.sql";
     std::ofstream(put, std::ios::binary) << sum;
-    EXPECT_EQ(content_of(std::filesystem::path(SELDINGER_SOURCE_DIR) / file), sum)
+    EXPECT_EQ(fixtures::whole_file(fixtures::source_dir() / file), sum)
         << file << " is not the sum of the migrations: copy " << put << " over it.";
   }
   void refuse(const std::string& sql) {

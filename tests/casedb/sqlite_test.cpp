@@ -1,10 +1,14 @@
 // The door of SQLite: settings of every connection, values that come back as they went in, transactions, failures.
 #include "casedb/sqlite.h"
 
+#include <sqlite3.h>
+
+#include <atomic>
 #include <limits>
 #include <thread>
 
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -110,7 +114,32 @@ TEST_F(SqliteTest, AFailureToWriteIsTheDisks) {
   }
 }
 
+// SQLite's own file system, which counts how often a connection sleeps since another holds its lock.
+class SleepCounter {
+ public:
+  SleepCounter() {
+    sleeps = 0;
+    own_ = *usual();
+    own_.zName = "counts sleeps";
+    own_.xSleep = [](sqlite3_vfs*, int us) {
+      ++sleeps;
+      return usual()->xSleep(usual(), us);
+    };
+    EXPECT_EQ(sqlite3_vfs_register(&own_, 1), SQLITE_OK);
+  }
+  ~SleepCounter() { sqlite3_vfs_unregister(&own_); }
+  SleepCounter(const SleepCounter&) = delete;
+  SleepCounter& operator=(const SleepCounter&) = delete;
+
+  static inline std::atomic<int> sleeps{0};
+
+ private:
+  static sqlite3_vfs* usual() { return sqlite3_vfs_find("unix"); }
+  sqlite3_vfs own_{};
+};
+
 TEST_F(SqliteTest, AWriterWaitsForAnother) {
+  const SleepCounter counter;
   database_.run("PRAGMA journal_mode = WAL");
   database_.run("CREATE TABLE t (a INTEGER) STRICT");
   auto first = std::make_unique<Transaction>(database_);
@@ -120,7 +149,7 @@ TEST_F(SqliteTest, AWriterWaitsForAnother) {
     other.run("INSERT INTO t VALUES (2)");
     transaction.commit();
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_TRUE(fixtures::until([&] { return SleepCounter::sleeps > 0; })) << "the second found no lock";
   database_.run("INSERT INTO t VALUES (1)");
   first->commit();
   first.reset();

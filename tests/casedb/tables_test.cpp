@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -59,7 +60,7 @@ TEST_F(TablesTest, ChangingColumnsAreThere) {
 // A file that a column names and the question does not ask for would be taken away as nobody's.
 TEST_F(TablesTest, AssetIsUsedAsksEveryColumnThatNamesOne) {
   const std::string question =
-      content_of(std::filesystem::path(SELDINGER_SOURCE_DIR) / "casedb" / "store" / "asset_is_used.sql");
+      fixtures::whole_file(fixtures::source_dir() / "casedb" / "store" / "asset_is_used.sql");
   ASSERT_GE(asset_columns(database_).size(), 5U);
   for (const AssetColumn& at : asset_columns(database_)) {
     EXPECT_NE(question.find(at.table), std::string::npos) << at.table;

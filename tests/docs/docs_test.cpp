@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "app/command.h"
@@ -13,13 +11,14 @@
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
 #include "casedb/import/allow_list.h"
+#include "tests/fixtures/files.h"
+#include "tests/fixtures/places.h"
 #include "web/routes.h"
 
 namespace {
 
 std::string file(const std::string& name) {
-  std::ifstream stream(std::string(SELDINGER_SOURCE_DIR) + "/" + name);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return seldinger::fixtures::whole_file(seldinger::fixtures::source_dir() / name);
 }
 
 TEST(Docs, CommandsAreTheTable) {
@@ -75,7 +74,7 @@ TEST(Docs, TheReadmesLinksLeadSomewhere) {
   int links = 0;
   for (std::size_t at = readme.find("]("); at != std::string::npos; at = readme.find("](", at + 1), ++links) {
     const std::string target = readme.substr(at + 2, readme.find(')', at) - at - 2);
-    EXPECT_TRUE(std::filesystem::exists(std::string(SELDINGER_SOURCE_DIR) + "/" + target)) << target;
+    EXPECT_TRUE(std::filesystem::exists(seldinger::fixtures::source_dir().string() + "/" + target)) << target;
   }
   EXPECT_GT(links, 5);
 }

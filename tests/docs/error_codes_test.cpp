@@ -1,6 +1,7 @@
 // Every code that the product's sources give to an error, a finding or a warning is in the table of
 // app/error_codes.cpp, and every code of the table is given somewhere.
 #include "app/error_codes.h"
+#include "tests/fixtures/places.h"
 
 #include <gtest/gtest.h>
 
@@ -158,7 +159,7 @@ TEST(ErrorCodes, AreSeenInEachFormThatGivesOne) {
 TEST(ErrorCodes, OfTheSourcesAreThoseOfTheTable) {
   std::map<std::string, std::string> given;  // code → a file that gives it
   for (const char* layer : {"sim", "assessment", "casedb", "session", "reports", "web", "app"}) {
-    const fs::path folder = fs::path(SELDINGER_SOURCE_DIR) / layer;
+    const fs::path folder = seldinger::fixtures::source_dir() / layer;
     if (!fs::exists(folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();

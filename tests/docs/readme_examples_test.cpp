@@ -9,14 +9,15 @@
 
 #include "tests/fixtures/png_picture.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
-const std::string kProgram = SELDINGER_PROGRAM;
-const fs::path kRoot = SELDINGER_SOURCE_DIR;
+const std::string kProgram = seldinger::fixtures::program();
+const fs::path kRoot = seldinger::fixtures::source_dir();
 
 // With every run of white space as one space.
 std::string on_one_line(const std::string& text) {

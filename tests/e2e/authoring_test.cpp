@@ -12,8 +12,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kProgram;
 
 // A small body in a MetaImage: a trunk of soft tissue of 60 mm radius in air, with a plate of bone in front.
 void write_ball(const std::filesystem::path& file, bool labels) {

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
@@ -59,6 +60,7 @@ TEST(Cli, UsageErrorsAreTwo) {
 }
 
 TEST(Cli, BadSourcesAreRefusedAndTheLibraryStaysByteIdentical) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("cli_bad_sources");
   const std::string library = (scratch / "library").string();
   ASSERT_EQ(
@@ -102,6 +104,7 @@ TEST(Cli, BadSourcesAreRefusedAndTheLibraryStaysByteIdentical) {
 }
 
 TEST(Cli, ALostSliceIsNeverLeftOutInSilence) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("cli_lost_slice");
   const auto import = [&](const std::string& folder) {
     return run(
@@ -131,6 +134,7 @@ TEST(Cli, ALostSliceIsNeverLeftOutInSilence) {
 }
 
 TEST(Cli, AFullDiskIsFourAndChangesNothing) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("cli_full_disk");
   const std::string library = (scratch / "library").string(), small = kData + "/dicom-samples/CT_small.dcm";
   ASSERT_EQ(run(kProgram + " import " + small + " --library " + library, scratch).exit_code, 0);
@@ -154,6 +158,7 @@ TEST(Cli, AFullDiskIsFourAndChangesNothing) {
 }
 
 TEST(Cli, MissingLibrariesCasesAndAttemptsAreRefused) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("cli_missing");
   const std::string library = (scratch / "library").string();
   expect_refused(run(kProgram + " case list --library " + library, scratch), "no_library");
@@ -169,6 +174,7 @@ TEST(Cli, MissingLibrariesCasesAndAttemptsAreRefused) {
 }
 
 TEST(Cli, ImportAnswersTheContractAndTheTitleIsNotTheSources) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("cli_import");
   const std::string library = (scratch / "library").string();
   const auto ran =

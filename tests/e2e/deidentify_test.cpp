@@ -13,6 +13,7 @@
 #include "tests/casedb/export/planted_dicom.h"
 #include "tests/casedb/import/head_phantom.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -21,8 +22,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 std::string quoted(const fs::path& path) {
   std::string text = path.string();
@@ -61,6 +62,7 @@ class NoIdentifier : public testing::Test {
 };
 
 TEST_F(NoIdentifier, ComesIntoALibrary) {
+  SELDINGER_NEEDS_SHARED_DATA();
   std::size_t planted = 0;
   for (const PlantedSyntax syntax : kPlantedSyntaxes) {
     const std::string number = std::to_string(static_cast<int>(syntax));
@@ -128,6 +130,7 @@ TEST_F(NoIdentifier, IsInARefusal) {
 }
 
 TEST_F(NoIdentifier, IsInWhatDeidentifyWrites) {
+  SELDINGER_NEEDS_SHARED_DATA();
   // A key of our own: among thousands of digits drawn anew each time, a planted date of eight turns up by chance.
   const fs::path key = folder_ / "key";
   std::ofstream(key) << std::string(64, '5') << "\n";
@@ -206,6 +209,7 @@ TEST_F(NoIdentifier, AFaceIsRefusedCroppedOrTakenAway) {
 }
 
 TEST_F(NoIdentifier, SomebodyWhoMayConfirmsThatNoTextIsBurnedIn) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const fs::path library = folder_ / "library";
   const std::string source = quoted(fs::path(kData) / "dicom-samples/CT_small.dcm"),
                     to = " --library " + quoted(library);

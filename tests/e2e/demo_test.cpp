@@ -7,6 +7,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -15,8 +16,8 @@ using Json = nlohmann::json;
 using fixtures::metric;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 // The demo on a real patient, once for all tests here.
 struct RealDemo {
@@ -39,6 +40,7 @@ RealDemo& real_demo() {
 }
 
 TEST(Demo, TheLesionKeepsItsStatedRuleOnARealPatient) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const Json& lesion = real_demo().answer.at("lesion");
   EXPECT_EQ(lesion.at("radius_mm"), 6.0);
   EXPECT_GE(lesion.at("depth_below_skin_mm").get<double>(), 30.0);
@@ -47,6 +49,7 @@ TEST(Demo, TheLesionKeepsItsStatedRuleOnARealPatient) {
 }
 
 TEST(Demo, ThreeOperatorsAreRecordedScoredAndReplayable) {
+  SELDINGER_NEEDS_SHARED_DATA();
   RealDemo& demo = real_demo();
   ASSERT_EQ(demo.answer.at("attempts").size(), 3U);
   for (const Json& attempt : demo.answer.at("attempts")) {
@@ -66,6 +69,7 @@ TEST(Demo, ThreeOperatorsAreRecordedScoredAndReplayable) {
 }
 
 TEST(Demo, ASecondRunUsesWhatIsThere) {
+  SELDINGER_NEEDS_SHARED_DATA();
   RealDemo& demo = real_demo();
   const auto again = run(kProgram + " demo --no-serve --json --library " + demo.library + " --ct " + kData +
                              "/ct-abdomen-contrast-dicom",
@@ -78,6 +82,7 @@ TEST(Demo, ASecondRunUsesWhatIsThere) {
 }
 
 TEST(Demo, TheExpertHitsAndTheNoviceIsFartherAway) {
+  SELDINGER_NEEDS_SHARED_DATA();
   RealDemo& demo = real_demo();
   const auto simulate = [&](const std::string& who) {
     const auto ran = run(kProgram + " simulate --library " + demo.library + " --case " +
@@ -100,6 +105,7 @@ TEST(Demo, TheExpertHitsAndTheNoviceIsFartherAway) {
 }
 
 TEST(Demo, ATamperedRecordingIsFoundOut) {
+  SELDINGER_NEEDS_SHARED_DATA();
   RealDemo& demo = real_demo();
   const auto copy = demo.scratch / "tampered";
   std::filesystem::remove_all(copy);

@@ -8,12 +8,13 @@
 #include <thread>
 
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger {
 namespace {
 
 using Json = nlohmann::json;
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 // `device simulate` in the background, on a port of its own choice.
 class Simulated {
@@ -31,13 +32,12 @@ class Simulated {
       if (std::freopen(said_.c_str(), "w", stdout) != nullptr) ::execv(kProgram.c_str(), arguments.data());
       ::_exit(127);
     }
-    for (int i = 0; i < 1000 && port_.empty(); ++i) {
+    EXPECT_TRUE(fixtures::until([&] {
       const std::string said = fixtures::whole_file(said_);
       if (const auto at = said.rfind(':'); at != std::string::npos && said.back() == '\n')
         port_ = said.substr(at + 1, said.size() - at - 2);
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    EXPECT_FALSE(port_.empty());
+      return !port_.empty();
+    }));
   }
   ~Simulated() {
     ::kill(child_, SIGTERM);

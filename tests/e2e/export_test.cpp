@@ -8,7 +8,9 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/csv_table.h"
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -19,7 +21,7 @@ using fixtures::run;
 using fixtures::whole_file;
 namespace fs = std::filesystem;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 // One library for all: the torso by ultrasound and by fluoroscopy, what people wrote everywhere it can stand.
 struct Made {
@@ -40,7 +42,7 @@ struct Made {
   Made() {
     case_id = answer("demo --no-serve").at("case_id").get<std::string>();
     xray_case_id = answer("demo --no-serve --modality xray").at("case_id").get<std::string>();
-    const Json written = answer("import " + std::string(SELDINGER_SHARED_DATA_DIR) +
+    const Json written = answer("import " + fixtures::shared_data_dir().string() +
                                 "/ct-abdomen-pelvis/abdomen_pelvis_2x.mha --title '=HYPERLINK(\"Quagmire\")'");
     const std::string ct = written.at("case_id").get<std::string>();
     EXPECT_EQ(command("case lesion " + ct + " --center-mm 63,77,-620 --radius-mm 8 --hu 60").exit_code, 0);
@@ -89,6 +91,7 @@ std::size_t row_of(const fixtures::CsvTable& attempts, const Json& stored) {
 }
 
 TEST(RawExport, EveryNumberIsTheStoredOneBitForBit) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const Json told = made().answer("export --out " + made().at("all"));
   ASSERT_EQ(told.at("attempts"), made().attempts.size());
   const auto attempts = csv_table(whole_file(made().at("all/attempts.csv")));
@@ -136,6 +139,7 @@ TEST(RawExport, EveryNumberIsTheStoredOneBitForBit) {
 }
 
 TEST(RawExport, HoldsNothingThatIdentifies) {
+  SELDINGER_NEEDS_SHARED_DATA();
   ASSERT_EQ(made().command("export --out " + made().at("scanned")).exit_code, 0);
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(made().at("scanned"))) {
@@ -156,6 +160,7 @@ TEST(RawExport, HoldsNothingThatIdentifies) {
 }
 
 TEST(RawExport, APersonsAttemptsAreOrderedAndWithoutDates) {
+  SELDINGER_NEEDS_SHARED_DATA();
   ASSERT_EQ(made().command("export --raw none --out " + made().at("tables")).exit_code, 0);
   const auto attempts = csv_table(whole_file(made().at("tables/attempts.csv")));
   std::string person;
@@ -187,6 +192,7 @@ TEST(RawExport, APersonsAttemptsAreOrderedAndWithoutDates) {
 }
 
 TEST(RawExport, NamesAreOfOneExportUnlessThereIsAKey) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto names = [](const std::string& folder, const char* column) {
     std::set<std::string> all;
     const auto table = csv_table(whole_file(made().at(folder + "/attempts.csv")));
@@ -210,6 +216,7 @@ TEST(RawExport, NamesAreOfOneExportUnlessThereIsAKey) {
 }
 
 TEST(RawExport, APoseFileScoresAsTheStoredAttempt) {
+  SELDINGER_NEEDS_SHARED_DATA();
   ASSERT_EQ(made().command("export --out " + made().at("scored") + " --case " + made().case_id).exit_code, 0);
   const auto attempts = csv_table(whole_file(made().at("scored/attempts.csv")));
   int compared = 0;
@@ -249,6 +256,7 @@ TEST(RawExport, APoseFileScoresAsTheStoredAttempt) {
 }
 
 TEST(RawExport, RefusesAndLeavesNothing) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto before = fixtures::fingerprint(made().library);
   const auto refused = [&](const std::string& words, const std::string& code) {
     const auto ran = made().command("export " + words);
@@ -270,7 +278,8 @@ TEST(RawExport, RefusesAndLeavesNothing) {
 
 // The page's own lines run, and it names the files that there are.
 TEST(RawExport, TheDocumentSaysWhatHappens) {
-  const std::string page = whole_file(fs::path(SELDINGER_SOURCE_DIR) / "docs" / "export.md");
+  SELDINGER_NEEDS_SHARED_DATA();
+  const std::string page = whole_file(fixtures::source_dir() / "docs" / "export.md");
   std::istringstream lines(page);
   std::set<std::string> named;
   int commands = 0;

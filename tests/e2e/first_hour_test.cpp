@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -15,10 +16,10 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 std::vector<std::string> commands_of_the_page() {
-  std::istringstream page(fixtures::whole_file(std::string(SELDINGER_SOURCE_DIR) + "/docs/first-hour.md"));
+  std::istringstream page(fixtures::whole_file(fixtures::source_dir().string() + "/docs/first-hour.md"));
   std::vector<std::string> commands;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {
@@ -80,6 +81,7 @@ TEST_F(FirstHour, HasThreeDrillsThatHoldTheirCheck) {
 }
 
 TEST_F(FirstHour, EachHasAnExpertsPassToWatchThatReplaysTrue) {
+  ASSERT_EQ(made_.at("drills").size(), 3U);
   for (const Json& drill : made_.at("drills")) {
     SCOPED_TRACE(drill.at("title"));
     EXPECT_EQ(drill.at("hit").at("synthetic"), true);
@@ -101,10 +103,12 @@ TEST_F(FirstHour, EachHasAnExpertsPassToWatchThatReplaysTrue) {
 }
 
 TEST_F(FirstHour, NovicesDoNotPassWithoutLearning) {
+  ASSERT_EQ(made_.at("drills").size(), 3U);
   for (const Json& drill : made_.at("drills")) {
     const std::string id = drill.at("case_id");
     const Json criteria = ask("case show " + id).at("rule");
     const Json ran = ask("simulate --count 5 --no-pictures --seed 1 --operator novice --case " + id);
+    ASSERT_EQ(ran.at("attempts").size(), 5U);
     int passed = 0;
     for (const Json& attempt : ran.at("attempts")) passed += passes(attempt, criteria) ? 1 : 0;
     EXPECT_LE(passed, 1) << drill.at("title");

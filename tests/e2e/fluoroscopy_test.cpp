@@ -8,6 +8,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -16,8 +17,8 @@ using Json = nlohmann::json;
 using fixtures::metric;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 struct XrayDemo {
   std::filesystem::path scratch = fixtures::fresh_folder("demo_xray");
@@ -103,6 +104,7 @@ TEST(XrayDemo, StandsBesideTheOneUnderAProbe) {
 }
 
 TEST(XrayImport, KeepsModalityAndPosition) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("import_xray");
   const std::string library = (scratch / "library").string();
   const std::string import =

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/command_library.h"
+#include "tests/fixtures/places.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -26,7 +28,7 @@ class GradingCommands : public testing::Test {
   // A case from a real abdomen under MPR, with a rule; published.
   std::string real_case() {
     done("user add mentor --role mentor");
-    const Json made = answer("import '" + std::string(SELDINGER_SHARED_DATA_DIR) +
+    const Json made = answer("import '" + fixtures::shared_data_dir().string() +
                              "/ct-abdomen-contrast-dicom' --title Liver --no-burned-in-text --by mentor");
     const std::string id = made.at("case_id");
     done("case lesion " + id + " --center-mm -115,-5,-98 --radius-mm 7.5 --hu 12");
@@ -39,6 +41,7 @@ class GradingCommands : public testing::Test {
 };
 
 TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const std::string id = real_case();
   const Json experts = answer("simulate --case " + id + " --operator expert --count 5");
   const Json novices = answer("simulate --case " + id + " --operator novice --count 5 --seed 21");
@@ -94,6 +97,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
 }
 
 TEST_F(GradingCommands, ACurriculumFromDraftToDue) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const std::string id = real_case();
   done("user add director --role director");
   done("user add trainee --role trainee --level trainee");

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
 namespace {
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 struct Row {
   double t_s, depth_mm, force_n;
@@ -104,7 +105,7 @@ TEST(HapticsStability, HoldsAndIsWhatTheDocumentSays) {
   const auto scratch = fixtures::fresh_folder("haptics_stability");
   const auto page = fixtures::run(kProgram + " haptics stability", scratch);
   EXPECT_EQ(page.exit_code, 0);
-  EXPECT_EQ(page.out, fixtures::whole_file(std::string(SELDINGER_SOURCE_DIR) + "/docs/stability.md"));
+  EXPECT_EQ(page.out, fixtures::whole_file(fixtures::source_dir().string() + "/docs/stability.md"));
   const auto answer = fixtures::run(kProgram + " haptics stability --json", scratch);
   EXPECT_EQ(answer.exit_code, 0);
   const auto json = nlohmann::json::parse(answer.out);

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 void write(const fs::path& path, const std::string& text) {
   std::ofstream(path) << text;

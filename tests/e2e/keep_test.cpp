@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -14,8 +16,8 @@ using Json = nlohmann::json;
 using fixtures::run;
 namespace fs = std::filesystem;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 class KeepTest : public testing::Test {
  protected:
@@ -24,6 +26,7 @@ class KeepTest : public testing::Test {
   std::string library_ = (scratch_ / "library").string(), case_id_;
 
   void SetUp() override {
+    SELDINGER_NEEDS_SHARED_DATA();
     const auto imported =
         command("import " + kData + "/dicom-samples/CT_small.dcm --title Small --json --library " + library_);
     ASSERT_EQ(imported.exit_code, 0) << imported.err;
@@ -74,6 +77,7 @@ TEST_F(KeepTest, CheckTellsAndRepairs) {
 }
 
 TEST_F(KeepTest, ACaseGoesToAnotherSite) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto written =
       command("case bundle " + case_id_ + " --out " + at("a.sdbundle") + " --json --library " + library_);
   ASSERT_EQ(written.exit_code, 0) << written.err;
@@ -106,7 +110,7 @@ TEST_F(KeepTest, ACaseGoesToAnotherSite) {
 
 // The page's own lines, with its paths put below the scratch folder.
 TEST_F(KeepTest, TheRoutineOfTheDocumentsRuns) {
-  std::istringstream page(fixtures::whole_file(fs::path(SELDINGER_SOURCE_DIR) / "docs" / "keeping.md"));
+  std::istringstream page(fixtures::whole_file(fixtures::source_dir() / "docs" / "keeping.md"));
   int commands = 0;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {

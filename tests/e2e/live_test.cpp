@@ -11,6 +11,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 class LiveTest : public testing::Test {
  protected:
@@ -118,8 +119,7 @@ TEST_F(LiveTest, AProgramThatDiesLeavesAnInterruptedAttempt) {
     const Json list = ask("attempt list");
     return list["running"].empty() ? 0.0 : list["running"][0]["stored_s"].get<double>();
   };
-  for (int i = 0; i < 300 && stored_s() < 2.0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_GE(stored_s(), 2.0);
+  EXPECT_TRUE(fixtures::until([&] { return stored_s() >= 2.0; }, fixtures::kPatienceS, 0.1));
   EXPECT_EQ(count(), 0U) << "while it runs, nobody takes it";
   ASSERT_EQ(::kill(child, SIGKILL), 0);
   ASSERT_EQ(::waitpid(child, nullptr, 0), child);

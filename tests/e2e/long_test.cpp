@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger {
 namespace {
@@ -19,8 +21,8 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 double metric(const Json& attempt, const std::string& id) {
   for (const Json& one : attempt.at("metrics"))
@@ -39,6 +41,7 @@ bool passes(const Json& attempt, const Json& criteria) {
 }
 
 TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
+  SELDINGER_NEEDS_SHARED_DATA();
   for (const std::string source : {"ct-abdomen-contrast-dicom", "ct-abdomen-pelvis/abdomen_pelvis.nii.gz"}) {
     SCOPED_TRACE(source);
     const auto scratch = fixtures::fresh_folder("long_operators");
@@ -68,6 +71,7 @@ TEST(Long, ExpertsHitAndEveryAttemptReplaysOnEveryTrunk) {
 
 // All eight, with the real CTs: what tests/e2e/simulate_test does for those of the built-in torso.
 TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("long_graded");
   const std::string library = " --library " + (scratch / "library").string();
   const auto ran = run(kProgram + " demo --cases --json --ct " + kData + "/ct-abdomen-contrast-dicom --ct " +
@@ -102,6 +106,7 @@ TEST(Long, ExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
 
 // The real contrast CT's liver, 16 mm down and 15 mm to the front with each breath.
 TEST(Long, ExpertsPassABreathingLiverAndNovicesMostlyDoNot) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("long_breath");
   const std::string library = " --library " + (scratch / "library").string();
   const auto made =
@@ -183,9 +188,8 @@ TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
       ::_exit(127);
     }
     // Once it writes, it is killed at another moment of its work each round.
-    for (int wait = 0; wait < 3000 && fixtures::whole_file(out).empty(); ++wait)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    std::this_thread::sleep_for(std::chrono::milliseconds(round * 17 % 300));
+    fixtures::until([&] { return !fixtures::whole_file(out).empty(); });
+    fixtures::let_pass(0.001 * (round * 17 % 300));
     ::kill(pid, SIGKILL);
     int status = 0;
     ::waitpid(pid, &status, 0);

@@ -6,12 +6,13 @@
 
 #include "app/bench_stages.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger {
 namespace {
 
 namespace fs = std::filesystem;
-const std::string kProgram = SELDINGER_PROGRAM;
+const std::string kProgram = seldinger::fixtures::program();
 
 // A copy of the product in a folder of its own, without seldinger-measure.
 class Alone {

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -12,10 +14,10 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 std::vector<std::string> commands_of_the_page() {
-  std::istringstream page(fixtures::whole_file(std::string(SELDINGER_SOURCE_DIR) + "/docs/mentor.md"));
+  std::istringstream page(fixtures::whole_file(fixtures::source_dir().string() + "/docs/mentor.md"));
   std::vector<std::string> commands;
   bool inside = false;
   for (std::string line; std::getline(page, line);) {
@@ -37,6 +39,7 @@ std::string id_of(const std::string& printed) {
 }
 
 TEST(MentorPage, ItsCommandsLeadFromDicomToAPublishedCase) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("mentor_page");
   const std::string library = (scratch / "library").string();
   const auto commands = commands_of_the_page();
@@ -46,7 +49,7 @@ TEST(MentorPage, ItsCommandsLeadFromDicomToAPublishedCase) {
     std::string line = with(with(command, "CASE", case_id), "NEXT", next_id);
     line = with(line, "--library library", "--library '" + library + "'");
     line = with(line, "import ct ",
-                "import '" + std::string(SELDINGER_SHARED_DATA_DIR) + "/ct-abdomen-contrast-dicom' ");
+                "import '" + fixtures::shared_data_dir().string() + "/ct-abdomen-contrast-dicom' ");
     const auto ran = run("printf 'a password\\n' | " + kProgram + " " + line, scratch);
     ASSERT_EQ(ran.exit_code, 0) << command << "\n" << ran.err;
     if (command.rfind("import ", 0) == 0) case_id = id_of(ran.out);

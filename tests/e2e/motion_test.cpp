@@ -2,6 +2,7 @@
 // told at rest, and a still patient who is the same as ever.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 class MotionTest : public testing::Test {
  protected:
@@ -147,11 +148,13 @@ TEST_F(MotionTest, ExpertsHitInAHeldBreathAndNovicesMostlyDoNotHoldIt) {
   }
   // Of who lies still nothing is said about breath.
   const Json still = ask("simulate --seed 1 --operator expert --case " + version(""));
-  for (const Json& one : still["attempts"][0]["metrics"])
-    if (one["id"] == "fired_breath_held") {
-      EXPECT_TRUE(one["value"].is_null());
-      EXPECT_EQ(one["reason"], "patient_lies_still");
-    }
+  for (const char* id : {"fired_breath_held", "advance_breath_held_share"}) {
+    const Json& metrics = still["attempts"][0]["metrics"];
+    const auto one = std::find_if(metrics.begin(), metrics.end(), [&](const Json& it) { return it["id"] == id; });
+    ASSERT_NE(one, metrics.end()) << id;
+    EXPECT_TRUE((*one)["value"].is_null()) << *one;
+    EXPECT_EQ((*one)["reason"], "patient_lies_still");
+  }
 }
 
 TEST_F(MotionTest, NobodyBreathesDeeperThanThatAndEveryModalityTakesWhoDoes) {

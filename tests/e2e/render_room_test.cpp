@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -11,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 // A ball of water of 60 mm, the middle at the origin.
 Json ball_scene() {
@@ -96,7 +98,8 @@ TEST(RenderRoom, RefusesWhatItCannotShow) {
 
 // The pictures of docs/scenes/real, of real patients.
 TEST(RenderRoom, DocumentedScenes) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes" / "real";
+  SELDINGER_NEEDS_SHARED_DATA();
+  const std::filesystem::path folder = fixtures::source_dir() / "docs" / "scenes" / "real";
   for (const std::string name : {"room_abdomen.json", "room_c_arm.json"}) {
     std::ifstream stream(folder / name);
     Json scene = Json::parse(stream);

@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 constexpr int kBeams = 128, kSamples = 1024;
 constexpr double kDepthMm = 100.0;
 

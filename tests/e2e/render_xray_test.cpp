@@ -6,7 +6,9 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 constexpr int kPx = 65;
 constexpr double kWaterPerMm = 0.018366;      // 80 keV (contracts.md)
 constexpr double kIronPerMm = 0.5950 / 1.27;  // 80 keV: 1.27 mm of steel are 0.595
@@ -169,7 +171,8 @@ TEST(RenderXray, WithoutGlTheGpuFailsAndTheCpuServes) {
 
 // The pictures of docs/scenes/real, made from the real abdomen: what they show is told, and CPU and GPU agree.
 TEST(RenderXray, DocumentedScenesOfTheRealAbdomen) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_SOURCE_DIR) / "docs" / "scenes" / "real";
+  SELDINGER_NEEDS_SHARED_DATA();
+  const std::filesystem::path folder = fixtures::source_dir() / "docs" / "scenes" / "real";
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().filename().string().rfind("xray_", 0) != 0) continue;

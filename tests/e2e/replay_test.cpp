@@ -17,7 +17,7 @@ using fixtures::run;
 using fixtures::whole_file;
 namespace fs = std::filesystem;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 struct Made {
   fs::path scratch = fixtures::fresh_folder("replay_output");
@@ -53,6 +53,7 @@ std::size_t count(const std::string& text, const std::string& what) {
 }
 
 TEST(ReplayOutput, ASheetOfEveryModality) {
+  ASSERT_EQ(made().attempt.size(), 3U);
   for (const auto& [modality, id] : made().attempt) {
     const std::string file = made().at(modality + ".html");
     const auto ran = made().command("replay " + id + " --json --out " + file);

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
+using fixtures::kProgram;
 
 bool passes(const Json& attempt, const Json& criteria) {
   for (const Json& criterion : criteria) {

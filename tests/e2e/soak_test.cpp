@@ -80,7 +80,7 @@ class Soak : public testing::Test {
     if (ultrasound) {
       ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
     } else {
-      screen.point(350, 300);
+      trainee_->point_at_room();
       screen.hold("p", 1.5);
       screen.hold("Left", 0.7);
       screen.hold("p", 1.5);
@@ -107,7 +107,7 @@ class Soak : public testing::Test {
     ASSERT_TRUE(trainee_->reaches("debrief", 120.0));
     trainee_->screen().press("w");
     ASSERT_TRUE(trainee_->reaches("watch", 60.0));
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    trainee_->passes(2.0);  // what is watched is drawn meanwhile
     trainee_->screen().press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief", 60.0));
     ASSERT_NO_FATAL_FAILURE(trainee_->leave_debrief());

@@ -27,7 +27,7 @@ class Service {
   Service(const std::filesystem::path& scratch, const std::string& port)
       : said_(scratch / ("service-" + port + ".txt")),
         process_({kProgram, "device", "simulate", "--port", port, "--seconds", "300"}, said_) {
-    EXPECT_TRUE(until([&] { return fixtures::whole_file(said_).ends_with("\n"); }, 20.0));
+    EXPECT_TRUE(until([&] { return fixtures::whole_file(said_).ends_with("\n"); }));
   }
   std::string port() const {
     const std::string said = fixtures::whole_file(said_);
@@ -35,7 +35,7 @@ class Service {
   }
   void kill() {
     process_.signal(SIGKILL);
-    EXPECT_TRUE(until([&] { return process_.ended(); }, 10.0));
+    EXPECT_TRUE(until([&] { return process_.ended(); }));
   }
 
  private:
@@ -78,9 +78,10 @@ struct AtTheEntry {
     return {at_mm, glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0}), false};  // the stylus' z is up
   }
   void go_down_to(double mm) {
-    for (; std::abs(mm - deep_mm) > 1e-9; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+    while (std::abs(mm - deep_mm) > 1e-9) {
       deep_mm += std::clamp(mm - deep_mm, -0.3, 0.3);
       led->lead(1, stylus({0.0, devices::kEntryAboveMm - deep_mm, 0.0}));
+      fixtures::let_pass(0.01);  // a hand's speed: 30 mm/s
     }
   }
   double asked_n() const { return glm::length(led->service().arm(1).asked_n); }
@@ -102,22 +103,16 @@ TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAtte
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   const Json both = {"ok", "ok"};
-  ASSERT_TRUE(until([&] { return arms_are(trainee, both); }, 30.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return arms_are(trainee, both); })) << trainee.now();
   for (const char* key : {"y", "F4"}) trainee.screen().press(key);
   // The mouse's start melts into the arm's place outside the body.
-  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+  ASSERT_TRUE(trainee.stands_still([](const Json& line) { return place(line, "needle_lps_mm"); }, 0.1))
+      << trainee.now();
   desk.go_down_to(30.0);
   const auto inserted_mm = [&] { return trainee.now().value("inserted_mm", 0.0); };
-  ASSERT_TRUE(until([&] { return inserted_mm() > 10.0 && desk.asked_n() > 0.2; }, 20.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return inserted_mm() > 10.0 && desk.asked_n() > 0.2; })) << trainee.now();
   // The hand is there: else its own way would count as the fault's.
-  ASSERT_TRUE(until(
-      [&] {
-        const double was_mm = inserted_mm();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1000));
-        return std::abs(inserted_mm() - was_mm) < 0.3;
-      },
-      30.0))
-      << trainee.now();
+  ASSERT_TRUE(trainee.stands_still("inserted_mm", 0.3)) << trainee.now();
   trainee.keep_picture();
 
   struct Fault {
@@ -149,25 +144,24 @@ TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAtte
     fault.begin();
     if (!fault.arms.is_null()) {
       EXPECT_TRUE(until([&] { return desk.motor_n() <= fault.most_n; }, 2.0)) << "the motors let go";
-      EXPECT_TRUE(until([&] { return arms_are(trainee, fault.arms); }, 10.0)) << trainee.now();
+      EXPECT_TRUE(until([&] { return arms_are(trainee, fault.arms); })) << trainee.now();
       for (int i = 0; i < 50; ++i) {
         EXPECT_LE(desk.motor_n(), fault.most_n) << "and stay so";
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        fixtures::let_pass(0.01);  // half a second in which nothing may come
       }
     }
-    EXPECT_TRUE(until([&] { return trainee.now().value("attempt_s", 0.0) > before_s + 1.0; }, 10.0))
-        << "it goes on";
+    EXPECT_TRUE(until([&] { return trainee.now().value("attempt_s", 0.0) > before_s + 1.0; })) << "it goes on";
     const bool swapped = std::string(fault.name).find("places") != std::string::npos;
     if (!swapped) service.set({});
-    ASSERT_TRUE(until([&] { return arms_are(trainee, both); }, 20.0)) << trainee.now();
-    EXPECT_TRUE(until([&] { return desk.asked_n() > 0.1; }, 10.0)) << "it is felt again";
+    ASSERT_TRUE(until([&] { return arms_are(trainee, both); })) << trainee.now();
+    EXPECT_TRUE(until([&] { return desk.asked_n() > 0.1; })) << "it is felt again";
     EXPECT_LT(glm::length(place(trainee.now(), "needle_lps_mm") - before), 6.0) << "nothing was torn";
     EXPECT_GT(inserted_mm(), 5.0);
     service.set({});
   }
   trainee.keep_picture();
   desk.go_down_to(-20.0);
-  EXPECT_TRUE(until([&] { return inserted_mm() <= 0.0; }, 20.0)) << trainee.now();
+  EXPECT_TRUE(until([&] { return inserted_mm() <= 0.0; })) << trainee.now();
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
   EXPECT_EQ(library.ask("replay " + library.persons_attempt() + " --verify")["verified"], true);
 }
@@ -184,47 +178,42 @@ TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfte
     return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
   };
   trainee.screen().press("F10");
-  ASSERT_TRUE(trainee.reaches("devices", 10.0)) << "before anybody logs in";
-  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); }, 20.0)) << trainee.now();
+  ASSERT_TRUE(trainee.reaches("devices")) << "before anybody logs in";
+  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); })) << trainee.now();
   for (const char* key : {"2", "c"}) trainee.screen().press(key);
-  ASSERT_TRUE(until([&] { return asks("on a: "); }, 10.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return asks("on a: "); })) << trainee.now();
   for (const char* point : {"on b: ", "on c: ", "on d: ", "on e: ", "on f: ", "All points"}) {
     trainee.screen().press("v");
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // the hand comes to rest
-    for (int tries = 0; tries < 5 && !asks(point); ++tries) {
+    // A point is taken of a hand that has come to rest; until then it is asked for again.
+    ASSERT_TRUE(until([&] {
       trainee.screen().press("space");
-      until([&] { return asks(point); }, 3.0);
-    }
-    ASSERT_TRUE(asks(point)) << trainee.now();
+      return until([&] { return asks(point); }, 3.0);
+    })) << trainee.now();
   }
   trainee.keep_picture();
   EXPECT_FALSE(std::filesystem::exists(station));
   trainee.screen().press("Return");
-  ASSERT_TRUE(until([&] { return std::filesystem::exists(station); }, 10.0));
+  ASSERT_TRUE(until([&] { return std::filesystem::exists(station); }));
   const Json kept = Json::parse(fixtures::whole_file(station));
   EXPECT_EQ(kept["devices"]["right"]["points"].size(), 6U);
   EXPECT_EQ(kept["devices"]["right"]["device_id"], "sim-right");
   EXPECT_LT(kept["devices"]["right"]["residual_max_mm"].get<double>(), 1.0);
 
   trainee.screen().press("t");
-  ASSERT_TRUE(until([&] { return asks("as far as it goes"); }, 10.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return asks("as far as it goes"); })) << trainee.now();
   for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 1.5);
   for (int more = 0; more < 6 && asks("as far as it goes"); ++more)
     for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 0.6);
-  ASSERT_TRUE(until([&] { return asks("fit for an attempt"); }, 60.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return asks("fit for an attempt"); })) << trainee.now();
   trainee.keep_picture();
 
   trainee.screen().press("Escape");
-  ASSERT_TRUE(trainee.reaches("log_in", 10.0)) << "back where one was";
-  trainee.screen().click(630, 335);
-  trainee.screen().type("mona");
-  trainee.screen().press("Tab");
-  trainee.screen().type(kPassword);
-  trainee.screen().press("Return");
-  ASSERT_TRUE(trainee.reaches("ready", 60.0)) << "the case of this workstation";
+  ASSERT_TRUE(trainee.reaches("log_in")) << "back where one was";
+  trainee.say_who("mona", kPassword);
+  ASSERT_TRUE(trainee.reaches("ready")) << "the case of this workstation";
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   trainee.screen().press("y");
-  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); }, 20.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); })) << trainee.now();
   trainee.screen().press("F10");
   ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(20.0));
   EXPECT_GT(trainee.now().value("inserted_mm", 0.0), 12.0) << "the mouse leads the arm, the arm the needle";
@@ -245,7 +234,7 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   const auto both_are = [&](const char* state) { return arms_are(trainee, Json::array({state, state})); };
-  ASSERT_TRUE(until([&] { return both_are("ok"); }, 20.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return both_are("ok"); })) << trainee.now();
   trainee.screen().press("y");
   // Both go round circles of 20 mm.
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
@@ -253,8 +242,9 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   trainee.keep_picture();
 
   service->kill();
-  ASSERT_TRUE(until([&] { return both_are("lost"); }, 10.0)) << trainee.now();
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  ASSERT_TRUE(until([&] { return both_are("lost"); })) << trainee.now();
+  const auto needle_at = [](const Json& line) { return place(line, "needle_lps_mm"); };
+  ASSERT_TRUE(trainee.stands_still(needle_at, 0.5)) << trainee.now();
   const double lost_s = trainee.now().value("attempt_s", 0.0);
   EXPECT_LT(way_mm(trainee, "needle_lps_mm", 2.0), 0.5) << "it stays";
   EXPECT_LT(way_mm(trainee, "probe_lps_mm", 1.0), 0.5);
@@ -264,10 +254,10 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   const glm::dvec3 stayed = place(trainee.now(), "needle_lps_mm");
   ASSERT_EQ(trainee.now().value("held", ""), "needle");
   for (int i = 0; i < 8; ++i) trainee.screen().press("Page_Up");
-  EXPECT_TRUE(until([&] { return glm::length(place(trainee.now(), "needle_lps_mm") - stayed) > 0.5; }, 10.0));
+  EXPECT_TRUE(until([&] { return glm::length(place(trainee.now(), "needle_lps_mm") - stayed) > 0.5; }));
 
   service = std::make_unique<Service>(library.folder(), port);
-  ASSERT_TRUE(until([&] { return both_are("ok"); }, 20.0)) << trainee.now();
+  ASSERT_TRUE(until([&] { return both_are("ok"); })) << trainee.now();
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
   EXPECT_GT(way_mm(trainee, "probe_lps_mm", 4.0), 25.0);
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());

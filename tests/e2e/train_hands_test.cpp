@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/command_library.h"
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/spacenav_daemon.h"
 #include "tests/fixtures/trainee.h"
 
@@ -19,26 +20,26 @@ using fixtures::kPassword;
 using fixtures::kProgram;
 using fixtures::until;
 
-glm::dvec3 needle(const fixtures::Trainee& trainee) {
-  const Json at = trainee.now().value("needle_lps_mm", Json::array({0, 0, 0}));
+glm::dvec3 needle_in(const Json& line) {
+  const Json at = line.value("needle_lps_mm", Json::array({0, 0, 0}));
   return {at[0], at[1], at[2]};
+}
+glm::dvec3 needle(const fixtures::Trainee& trainee) {
+  return needle_in(trainee.now());
 }
 
 // The needle moves by so much, or the time is over.
 bool moves(const fixtures::Trainee& trainee, double mm) {
   const glm::dvec3 from = needle(trainee);
-  return until([&] { return glm::length(needle(trainee) - from) > mm; }, 15.0);
+  return until([&] { return glm::length(needle(trainee) - from) > mm; });
 }
 
-bool rests(const fixtures::Trainee& trainee) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  const glm::dvec3 from = needle(trainee);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  return glm::length(needle(trainee) - from) < 0.5;
+bool rests(fixtures::Trainee& trainee) {
+  return trainee.stands_still([](const Json& line) { return needle_in(line); }, 0.5, 1.5);
 }
 
 bool holds(const fixtures::Trainee& trainee, const char* tool) {
-  return until([&] { return trainee.now().value("held", "") == tool; }, 10.0);
+  return until([&] { return trainee.now().value("held", "") == tool; });
 }
 
 void enter(fixtures::Trainee& trainee) {
@@ -63,7 +64,6 @@ TEST(TrainHands, AThreeDMouseLeadsTheNeedleAndRestsWhenItsDaemonIsGone) {
     daemon.button(1, true);
     daemon.button(1, false);
     EXPECT_TRUE(holds(trainee, tool)) << "a short press changes the tool";
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
   }
   daemon.motion({-120, 0, 0}, {});
   EXPECT_TRUE(moves(trainee, 5.0));
@@ -82,7 +82,7 @@ TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
   const std::string still = "0 0 0 0 -1 -1";
   says(still);
   ::setenv("SELDINGER_FAKE_GAMEPAD", (scratch / "pad").c_str(), 1);
-  ::setenv("LD_PRELOAD", SELDINGER_FAKE_GAMEPAD_LIBRARY, 1);
+  ::setenv("LD_PRELOAD", fixtures::built_target("fake_gamepad").c_str(), 1);
   fixtures::Trainee trainee(kProgram, library.path(), library.folder());
   ::unsetenv("LD_PRELOAD");
   ::unsetenv("SELDINGER_FAKE_GAMEPAD");
@@ -92,15 +92,15 @@ TEST(TrainHands, AGamepadLeadsTheNeedleFiresAndMayBeUnplugged) {
   says("");
   EXPECT_TRUE(rests(trainee)) << "unplugged with its stick held";
   says("0 0 0 0 -1 1");  // the right trigger pushes
-  EXPECT_TRUE(until([&] { return trainee.now().value("inserted_mm", 0.0) > 5.0; }, 30.0)) << trainee.now();
+  EXPECT_TRUE(until([&] { return trainee.now().value("inserted_mm", 0.0) > 5.0; })) << trainee.now();
   says(still);
   EXPECT_TRUE(rests(trainee));
   says(still + " 2");
   EXPECT_TRUE(holds(trainee, "probe")) << "X takes the other tool";
   says(still);
-  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_TRUE(trainee.passes(0.5)) << "some frames with no button down";
   says(still + " 0");
-  EXPECT_TRUE(until([&] { return trainee.now().value("fired", false); }, 10.0)) << "A fires";
+  EXPECT_TRUE(until([&] { return trainee.now().value("fired", false); })) << "A fires";
   says(still);
   trainee.keep_picture();
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());

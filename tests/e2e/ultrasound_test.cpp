@@ -9,6 +9,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/process.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger {
 namespace {
@@ -17,8 +18,8 @@ using Json = nlohmann::json;
 using fixtures::metric;
 using fixtures::run;
 
-const std::string kProgram = SELDINGER_PROGRAM;
-const std::string kData = SELDINGER_SHARED_DATA_DIR;
+using fixtures::kData;
+using fixtures::kProgram;
 
 struct UltrasoundDemo {
   std::filesystem::path scratch;
@@ -109,11 +110,13 @@ TEST(UltrasoundDemo, TheExpertHitsInTheBuiltInTorso) {
 }
 
 TEST(UltrasoundDemo, TheExpertHitsInARealPatientWithoutContrast) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const UltrasoundDemo real("pelvis", " --ct " + kData + "/ct-abdomen-pelvis/abdomen_pelvis.nii.gz");
   real.expect_experts_hit_and_novices_are_worse();
 }
 
 TEST(UltrasoundImport, KeepsTheModality) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("import_ultrasound");
   const std::string library = (scratch / "library").string();
   const auto ran = run(kProgram + " import " + kData +

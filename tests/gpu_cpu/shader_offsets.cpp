@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/fixtures/places.h"
+
 namespace seldinger::imaging {
 
 std::map<std::string, std::size_t> offsets_from_compiler(const base::EmbeddedFile& shader,
                                                          const std::string& block) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "shader_offsets";
+  const std::filesystem::path folder = fixtures::test_out_dir() / "shader_offsets";
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / shader.name;
   std::ofstream(file) << shader.content;

@@ -8,6 +8,8 @@
 #include "sim/base/rng.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/volume/classes.h"
+#include "tests/fixtures/places.h"
+#include "tests/fixtures/shared_data.h"
 #include "tests/gpu_cpu/ultrasound_pair.h"
 
 namespace seldinger::imaging {
@@ -20,7 +22,7 @@ struct Patient {
 };
 
 Patient patient(const char* name) {
-  auto source = casedb::read_source(std::filesystem::path(SELDINGER_SHARED_DATA_DIR) / name);
+  auto source = casedb::read_source(fixtures::shared_data_dir() / name);
   if (!source) {
     ADD_FAILURE() << name;
     return {};
@@ -57,6 +59,7 @@ void expect_alike(const Patient& p, UltrasoundView view, double needle_mm) {
 }
 
 TEST(UltrasoundOfRealCt, TheLiverBetweenTheRibs) {
+  SELDINGER_NEEDS_SHARED_DATA();
   UltrasoundView view;
   view.origin_lps_mm = {-149.4, -55.5, -506.0};
   view.axial = glm::normalize(glm::dvec3(0.7021, 0.7121, 0.0));
@@ -71,6 +74,7 @@ TEST(UltrasoundOfRealCt, TheLiverBetweenTheRibs) {
 
 // From the skin in any direction, as hands hold probes.
 TEST(UltrasoundOfRealCt, FromAnyPlaceOfTheSkin) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const Patient abdomen = patient("ct-abdomen-pelvis/abdomen_pelvis_2x.mha");
   ASSERT_FALSE(abdomen.classes.empty());
   const glm::ivec3 size = abdomen.volume.size_voxels;
@@ -110,6 +114,7 @@ TEST(UltrasoundOfRealCt, FromAnyPlaceOfTheSkin) {
 }
 
 TEST(UltrasoundOfRealCt, TheNeckWithALinearProbe) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const Patient neck = patient("ct-neck/neck.nrrd");
   ASSERT_FALSE(neck.classes.empty());
   // From the front, onto the first tissue below the middle of the volume's anterior face.

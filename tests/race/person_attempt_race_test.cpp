@@ -3,7 +3,6 @@
 // race fails it; `./run test --long` runs it.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <thread>
@@ -11,32 +10,25 @@
 #include "app/device_simulation/haply_simulation.h"
 #include "app/train/speaker.h"
 #include "app/train/trainer.h"
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/until.h"
 #include "tests/race/ball_library.h"
 
 namespace seldinger::app {
 namespace {
 
 using Phase = PersonAttempt::Phase;
-constexpr auto kFrame = std::chrono::milliseconds(20);
+constexpr double kFrameS = 0.02;
 constexpr double kAttemptS = 6.0;
 
-bool until(const std::function<bool()>& holds, double most_s = 120.0) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
-  while (!holds()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(kFrame);
-  }
-  return true;
+// Asked as often as a window draws.
+bool until(const std::function<bool()>& holds) {
+  return fixtures::until(holds, 120.0, kFrameS);
 }
 
 class PersonAttemptRace : public testing::Test {
  protected:
-  std::filesystem::path folder_ = [] {
-    const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "person_attempt_race" /
-                        testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder);
-    return folder;
-  }();
+  std::filesystem::path folder_ = fixtures::fresh_test_folder("race") / "library";
 
   bool looks_until(Trainer& trainer, const std::function<bool()>& holds) {
     return until([&] {
@@ -134,7 +126,7 @@ TEST_F(PersonAttemptRace, WithTwoArmsThatAreLostAndComeBack) {
   arms.place.port = (*service)->port();
   std::thread trouble([&] {
     for (int i = 0; i < 8; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(700));
+      fixtures::let_pass(0.7);  // troubles come apart in time, at whatever the threads are doing
       (*service)->set({.silent = i % 2 == 0, .delay_s = i % 3 == 0 ? 0.004 : 0.0});
       if (i == 5) (*service)->hang_up();
     }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/trainee.h"
 #include "tests/race/ball_library.h"
@@ -18,7 +19,7 @@ class WindowRace : public testing::Test {
   void SetUp() override {
     scratch_ = fixtures::fresh_folder("window_race");
     fixtures::make_ball_library(scratch_ / "library", {cases::Modality::ultrasound, cases::Modality::xray});
-    trainee_ = std::make_unique<fixtures::Trainee>(SELDINGER_PROGRAM, (scratch_ / "library").string(), scratch_);
+    trainee_ = std::make_unique<fixtures::Trainee>(fixtures::program(), (scratch_ / "library").string(), scratch_);
   }
   const fixtures::Screen& screen() const { return trainee_->screen(); }
   // What is pressed next is seen in the window's next frame; these are slow here.
@@ -27,16 +28,12 @@ class WindowRace : public testing::Test {
     EXPECT_TRUE(until([&] { return trainee_->now().value("t_s", 0.0) > from_s + seconds; }, 60.0));
   }
   void begin(int line) {
-    screen().click(1200, 131 + 30 * line);
-    ASSERT_TRUE(trainee_->reaches("ready", 120.0)) << trainee_->now();
-    screen().click(687, 335);
-    wait(1.0);
-    screen().press("Return");
-    ASSERT_TRUE(trainee_->reaches("attempt", 60.0)) << trainee_->now();
+    trainee_->open_case(line);
+    trainee_->enter_room();
     screen().press("y");
     wait(1.0);
     screen().press("F4");
-    screen().point(350, 300);
+    trainee_->point_at_room();
   }
   void begin_again() {
     screen().press("F5");
@@ -65,15 +62,18 @@ TEST_F(WindowRace, AMinuteByUltrasoundAndFluoroscopyHasNone) {
   wait(2.0);
   screen().press("Tab");
   screen().wheel(12, 50);
-  screen().drag(350, 300, 380, 320);
+  const auto [x, y] = trainee_->place_of("room").at(0.5, 0.5);
+  screen().drag(x, y, x + 30, y + 20);
   screen().press("f");  // frozen; knobs, and live again
   wait(2.0);
-  screen().drag(790, 535, 840, 535);
+  const auto knob = trainee_->place_of("knob");
+  screen().drag(knob.at(0.3, 0.5).first, knob.at(0.3, 0.5).second, knob.at(0.7, 0.5).first,
+                knob.at(0.7, 0.5).second);
   screen().press("f");
   screen().press("m");
   wait(2.0);
   ASSERT_NO_FATAL_FAILURE(begin_again());
-  screen().point(350, 300);
+  trainee_->point_at_room();
   screen().wheel(10, 100);
   screen().press("Escape");  // a pause
   wait(2.0);

@@ -12,10 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/fixtures/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = SELDINGER_SOURCE_DIR;
+const fs::path kRoot = seldinger::fixtures::source_dir();
 
 constexpr int kMostLines = 80;
 constexpr int kLinesPerComment = 12;  // of a longer function: at least one comment line for so many

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/fixtures/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kRoot = SELDINGER_SOURCE_DIR;
+const fs::path kRoot = seldinger::fixtures::source_dir();
 
 // A folder, and the folders it may include from beside itself.
 const std::map<std::string, std::set<std::string>> kMayUse = {

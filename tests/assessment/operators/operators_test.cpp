@@ -10,20 +10,14 @@
 #include "assessment/operators/profile.h"
 #include "assessment/operators/scripted.h"
 #include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::assessment {
 namespace {
 
 // A ball of soft tissue with a bone plate above (−y) the target and gas on one side.
 volume::Volume ball(std::vector<volume::Shape> inside) {
-  volume::AnalyticVolume analytic;
-  analytic.size_voxels = {120, 120, 120};
-  analytic.spacing_mm = {2, 2, 2};
-  analytic.origin_mm = {-119, -119, -119};
-  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 100.0}, 60.0, ""});
-  for (auto& shape : inside) analytic.shapes.push_back(std::move(shape));
-  return volume::rasterize(analytic);
+  return fixtures::ball_volume({120, 2.0, 100.0, 60.0, 5, std::move(inside)});
 }
 
 const cases::MeshIndex& skin() {

@@ -18,6 +18,8 @@
 
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
+#include "tests/fixtures/files.h"
+#include "tests/fixtures/folders.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -27,10 +29,7 @@ using Image = itk::Image<std::int16_t, 3>;
 
 // An empty folder of this test alone.
 fs::path fresh_folder(const std::string& name) {
-  const fs::path folder = fs::path(SELDINGER_TEST_OUT_DIR) / "casedb_export" / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
+  return fixtures::fresh_test_folder(fs::path("casedb_export") / name);
 }
 
 volume::Volume filled(glm::ivec3 size, glm::dvec3 spacing_mm, const glm::dmat3& direction, glm::dvec3 origin_mm) {
@@ -81,11 +80,6 @@ void expect_same(const volume::Volume& expected, Image& image) {
   EXPECT_TRUE(std::equal(expected.hu.begin(), expected.hu.end(), voxel));
 }
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::string tag_of(const fs::path& path, std::uint16_t group, std::uint16_t element) {
   gdcm::Reader reader;
   reader.SetFileName(path.c_str());
@@ -117,9 +111,9 @@ TEST(DicomSeries, two_writes_give_the_same_bytes) {
   ASSERT_TRUE(write_dicom_series(oblique(), {"test"}, second).has_value());
   for (int number = 1; number <= 5; ++number) {
     const std::string name = "slice_000" + std::to_string(number) + ".dcm";
-    const std::string bytes = bytes_of(first / name);
+    const std::string bytes = fixtures::whole_file(first / name);
     EXPECT_GT(bytes.size(), 8U * 11U * 2U);
-    EXPECT_EQ(bytes, bytes_of(second / name));
+    EXPECT_EQ(bytes, fixtures::whole_file(second / name));
   }
 }
 

@@ -8,14 +8,13 @@
 #include "casedb/import/import.h"
 #include "sim/volume/body_mask.h"
 #include "sim/volume/phantom.h"
+#include "tests/fixtures/folders.h"
 
 namespace seldinger::casedb {
 namespace {
 
 TEST(PhantomImport, the_written_phantom_is_imported_without_a_warning_and_voxel_for_voxel) {
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "casedb_export" / "phantom";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = fixtures::fresh_test_folder("casedb_export");
   const volume::Phantom phantom = volume::make_phantom();
   const auto written = write_dicom_series(phantom.volume, {"Seldinger built-in torso phantom"}, folder);
   ASSERT_TRUE(written.has_value());

@@ -10,6 +10,7 @@
 
 #include "casedb/import/basic_profile.h"
 #include "casedb/import/dicom_file.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -190,8 +191,7 @@ void own_picture(PlantedSet& set, int slice, PlantedSyntax syntax) {
 
 // The pixels of a real slice in JPEG 2000.
 void borrowed_picture(PlantedSet& set) {
-  const DicomFile file =
-      read_dicom_file(std::filesystem::path(SELDINGER_SHARED_DATA_DIR) / "dicom-samples/chest_j2k_lossless.dcm");
+  const DicomFile file = read_dicom_file(fixtures::shared_data_dir() / "dicom-samples/chest_j2k_lossless.dcm");
   ASSERT_FALSE(file.pixel_pieces.empty());
   for (const std::uint32_t tag : {0x00280010U, 0x00280011U, 0x00280100U, 0x00280101U, 0x00280102U, 0x00280103U})
     add(set, tag, "US", file.values.at(tag).bytes);

@@ -5,6 +5,7 @@
 #include "dicom_writer.h"
 #include "import_case.h"
 #include "packed_frame.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -252,6 +253,7 @@ TEST_F(DicomDamage, DerivedPicturesThatAreNoCtVolume) {
 }
 
 TEST_F(DicomDamage, LossAboveEightToOneIsRefused) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto declared = [&](const char* ratio) {
     return one(slice(0).text(0x00282110, "CS", "01").text(0x00282112, "DS", ratio));
   };
@@ -262,7 +264,7 @@ TEST_F(DicomDamage, LossAboveEightToOneIsRefused) {
   ASSERT_TRUE(source);
   EXPECT_TRUE(has_code(source->warnings, "lossy"));
   // What is packed smaller than it says counts by its size.
-  std::string sample = file_bytes(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
+  std::string sample = fixtures::whole_file(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
   const std::size_t begin = sample.find("\xFF\xD8\xFF"), end = sample.rfind("\xFF\xD9") + 2;
   const std::string frame = sample.substr(begin, end - begin);
   EXPECT_EQ(one(TestDicom::ct_slice({512, 512}).fragments("1.2.840.10008.1.2.4.51", {frame})), "");
@@ -271,7 +273,8 @@ TEST_F(DicomDamage, LossAboveEightToOneIsRefused) {
 }
 
 TEST_F(DicomDamage, LossUnderTheNameOfNoLossIsRefused) {
-  const std::string sample = file_bytes(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
+  SELDINGER_NEEDS_SHARED_DATA();
+  const std::string sample = fixtures::whole_file(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
   const std::size_t begin = sample.find("\xFF\xD8\xFF"), end = sample.rfind("\xFF\xD9") + 2;
   TestDicom file = TestDicom::ct_slice({512, 512});
   EXPECT_EQ(one(file.fragments("1.2.840.10008.1.2.4.70", {sample.substr(begin, end - begin)})), "lossy");

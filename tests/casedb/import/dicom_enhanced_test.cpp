@@ -3,6 +3,7 @@
 
 #include "dicom_writer.h"
 #include "import_case.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -85,7 +86,8 @@ TEST_F(DicomEnhanced, PackedFramesByTableOrOneFragmentEach) {
 }
 
 TEST_F(DicomEnhanced, FramesInJpegAreTheSampleTwice) {
-  const std::string sample = file_bytes(shared_data("dicom-samples/chest_jpeg_lossless_sv1.dcm"));
+  SELDINGER_NEEDS_SHARED_DATA();
+  const std::string sample = fixtures::whole_file(shared_data("dicom-samples/chest_jpeg_lossless_sv1.dcm"));
   const std::size_t begin = sample.find("\xFF\xD8\xFF"), end = sample.rfind("\xFF\xD9") + 2;
   const std::string frame = sample.substr(begin, end - begin) + std::string((end - begin) % 2, '\0');
   TestDicom file = enhanced_ct({512, 512}, places({0, 2}));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "import_case.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -39,6 +40,7 @@ const std::map<std::string, Row> kRows = {
 };
 
 TEST_F(DicomSamples, EachDoesWhatTheReadmeSays) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto chest = read(shared_data("dicom-samples/chest_explicit_le.dcm"));
   ASSERT_TRUE(chest);
   std::size_t seen = 0;
@@ -65,6 +67,7 @@ TEST_F(DicomSamples, EachDoesWhatTheReadmeSays) {
 }
 
 TEST_F(DicomSamples, TheLossyOneIsCloseAndNotIdentical) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto plain = read(shared_data("dicom-samples/chest_explicit_le.dcm")),
              lossy = read(shared_data("dicom-samples/chest_jpeg12_lossy.dcm"));
   ASSERT_TRUE(plain && lossy);

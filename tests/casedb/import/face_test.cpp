@@ -14,6 +14,7 @@
 #include "head_phantom.h"
 #include "import_case.h"
 #include "sim/volume/phantom.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -100,6 +101,7 @@ TEST(Face, IsFoundInAPartOfItAndNotWhereThereIsNone) {
 }
 
 TEST(Face, TheRealVolumesAndTheTorsoHaveNone) {
+  SELDINGER_NEEDS_SHARED_DATA();
   for (const char* name :
        {"ct-neck/neck.nrrd", "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-abdomen-pelvis/abdomen_pelvis.nii.gz",
         "ct-abdomen-contrast-dicom", "dicom-samples/chest_rle.dcm", "dicom-samples/CT_small.dcm"}) {

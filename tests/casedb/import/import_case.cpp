@@ -6,16 +6,14 @@
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
-#include <sstream>
+
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {
 
 void ImportCase::SetUp() {
-  const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-  folder_ = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "casedb_import" /
-            (std::string(kPlanted) + "_" + info->test_suite_name() + "_" + info->name());
-  std::filesystem::remove_all(folder_);
-  std::filesystem::create_directories(folder_);
+  folder_ = fixtures::fresh_test_folder(std::filesystem::path("casedb_import") / kPlanted);
 }
 
 void ImportCase::TearDown() {
@@ -61,15 +59,7 @@ std::string numbered(std::string name, int number) {
 }
 
 std::filesystem::path shared_data(const std::string& name) {
-  return std::filesystem::path(SELDINGER_SHARED_DATA_DIR) / name;
-}
-
-std::string file_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in.good()) << file;
-  std::ostringstream all;
-  all << in.rdbuf();
-  return all.str();
+  return fixtures::shared_data_dir() / name;
 }
 
 namespace {

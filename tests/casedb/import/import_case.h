@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "casedb/import/import.h"
+#include "tests/fixtures/files.h"
 
 namespace seldinger::casedb {
 
@@ -29,12 +30,11 @@ class ImportCase : public ::testing::Test {
   std::string refusal(const std::filesystem::path& source, const std::optional<std::string>& series = {});
   std::filesystem::path write(const std::string& name, const std::string& bytes) const;
 
-  std::filesystem::path folder_;  // empty at the start; its name holds kPlanted
+  std::filesystem::path folder_;  // empty at the start; kPlanted is in its path
 };
 
 std::string numbered(std::string name, int number);
 std::filesystem::path shared_data(const std::string& name);
-std::string file_bytes(const std::filesystem::path& file);
 std::string gzip(const std::string& bytes);
 std::string zlib_stream(const std::string& bytes);
 std::string little_endian(const std::vector<std::int16_t>& values);

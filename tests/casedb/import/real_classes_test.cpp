@@ -4,6 +4,7 @@
 
 #include "import_case.h"
 #include "sim/volume/classes.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -46,6 +47,7 @@ class RealClasses : public ImportCase {
 };
 
 TEST_F(RealClasses, InTheContrastAbdomenNothingEnhancedIsBone) {
+  SELDINGER_NEEDS_SHARED_DATA();
   take(shared_data("ct-abdomen-contrast-dicom"));
   for (const glm::dvec3& p : {glm::dvec3{-107, 51, -153},
                               {52, 66, -153},
@@ -67,6 +69,7 @@ TEST_F(RealClasses, InTheContrastAbdomenNothingEnhancedIsBone) {
 }
 
 TEST_F(RealClasses, InThePlainAbdomenTheSpineIsBoneAndTheBladderFluid) {
+  SELDINGER_NEEDS_SHARED_DATA();
   take(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz"));
   for (const glm::dvec3& p : {glm::dvec3{-89, 58, -583},
                               {63, 77, -583},
@@ -88,6 +91,7 @@ TEST_F(RealClasses, InThePlainAbdomenTheSpineIsBoneAndTheBladderFluid) {
 }
 
 TEST_F(RealClasses, InTheNeckTheTracheaIsGasBetweenTwoLungs) {
+  SELDINGER_NEEDS_SHARED_DATA();
   take(shared_data("ct-neck/neck.nrrd"));
   expect_at(glm::ivec3{145, 130, 3}, TissueClass::lung);
   expect_at(glm::ivec3{250, 130, 3}, TissueClass::lung);
@@ -98,6 +102,7 @@ TEST_F(RealClasses, InTheNeckTheTracheaIsGasBetweenTwoLungs) {
 }
 
 TEST_F(RealClasses, InTheThoraxInletTheTracheaIsGasBetweenTwoLungs) {
+  SELDINGER_NEEDS_SHARED_DATA();
   take(shared_data("ct-thorax-inlet/thorax_inlet_1mm.mha"));
   expect_at(glm::ivec3{165, 180, 2}, TissueClass::lung);
   expect_at(glm::ivec3{310, 180, 2}, TissueClass::lung);
@@ -108,6 +113,7 @@ TEST_F(RealClasses, InTheThoraxInletTheTracheaIsGasBetweenTwoLungs) {
 }
 
 TEST_F(RealClasses, ClassesAreStoredInATenthOfAByteAVoxel) {
+  SELDINGER_NEEDS_SHARED_DATA();
   take(shared_data("ct-abdomen-pelvis/abdomen_pelvis_2x.mha"));
   const auto bytes = volume::bytes_from_classes(classes_);
   EXPECT_LT(bytes.size(), classes_.size() / 10);

@@ -9,6 +9,7 @@
 #include "import_case.h"
 #include "sim/case/mesh_index.h"
 #include "sim/volume/body_mask.h"
+#include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -38,6 +39,7 @@ const Landmark kPelvis[] = {{{-89, 58, -583}, 24}, {{63, 77, -583}, 33},    {{-1
                             {{-11, 28, -838}, -2}, {{-16, -79, -583}, -106}};
 
 TEST_F(RealCt, LandmarksOfTheDicomSeries) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto source = read(shared_data("ct-abdomen-contrast-dicom"));
   ASSERT_TRUE(source);
   EXPECT_EQ(source->volume.size_voxels, glm::ivec3(512, 512, 35));
@@ -49,6 +51,7 @@ TEST_F(RealCt, LandmarksOfTheDicomSeries) {
 }
 
 TEST_F(RealCt, LandmarksOfTheDicomSeriesStayWhenASliceIsLostAndOthersAreDoubled) {
+  SELDINGER_NEEDS_SHARED_DATA();
   for (const auto& entry : std::filesystem::directory_iterator(shared_data("ct-abdomen-contrast-dicom"))) {
     const std::string name = entry.path().filename();
     if (name == "1-24.dcm") continue;  // 10 mm or more beside every landmark
@@ -77,6 +80,7 @@ TEST_F(RealCt, LandmarksOfTheDicomSeriesStayWhenASliceIsLostAndOthersAreDoubled)
 }
 
 TEST_F(RealCt, LandmarksOfTheNifti) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto source = read(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz"));
   ASSERT_TRUE(source);
   EXPECT_EQ(source->volume.size_voxels, glm::ivec3(512, 390, 99));
@@ -85,6 +89,7 @@ TEST_F(RealCt, LandmarksOfTheNifti) {
 }
 
 TEST_F(RealCt, TheMetaImageIsTheNiftiAveraged) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto full = read(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz")),
              half = read(shared_data("ct-abdomen-pelvis/abdomen_pelvis_2x.mha"));
   ASSERT_TRUE(full && half);
@@ -109,10 +114,11 @@ TEST_F(RealCt, TheMetaImageIsTheNiftiAveraged) {
 }
 
 TEST_F(RealCt, NrrdVoxelsAreThoseOfTheFile) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto file = shared_data("ct-neck/neck.nrrd");
   const auto source = read(file);
   ASSERT_TRUE(source);
-  std::string bytes = file_bytes(file);
+  std::string bytes = fixtures::whole_file(file);
   const std::size_t data = bytes.find("\n\n") + 2;
   std::vector<std::int16_t> voxels(410 * 290 * 28);
   z_stream stream{};
@@ -131,6 +137,7 @@ TEST_F(RealCt, NrrdVoxelsAreThoseOfTheFile) {
 }
 
 TEST_F(RealCt, TheThoraxInletIsReadAsItsHeaderSays) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto source = read(shared_data("ct-thorax-inlet/thorax_inlet_1mm.mha"));
   ASSERT_TRUE(source);
   const glm::dmat4 expected({0.759765625, 0, 0, 0}, {0, 0.759765625, 0, 0}, {0, 0, 1, 0},
@@ -142,6 +149,7 @@ TEST_F(RealCt, TheThoraxInletIsReadAsItsHeaderSays) {
 }
 
 TEST_F(RealCt, SixLosslessSyntaxesAreOneSlice) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto sample = [&](const std::string& name) { return read(shared_data("dicom-samples/" + name + ".dcm")); };
   const auto plain = sample("chest_explicit_le");
   ASSERT_TRUE(plain);
@@ -167,6 +175,7 @@ TEST_F(RealCt, SixLosslessSyntaxesAreOneSlice) {
 }
 
 TEST_F(RealCt, SeveralSeriesInOneFolderAreRefused) {
+  SELDINGER_NEEDS_SHARED_DATA();
   EXPECT_EQ(refusal(shared_data("dicom-samples")), "several_series");
 }
 
@@ -203,6 +212,7 @@ int skin_crossings(const cases::MeshIndex& index, glm::dvec3 p, const glm::dvec3
 }
 
 TEST_F(RealCt, TheSkinOfTheAbdomenIsCrossedOnceFromBehind) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto source = read(shared_data("ct-abdomen-pelvis/abdomen_pelvis.nii.gz"));
   ASSERT_TRUE(source);
   const auto skin = skin_surface(source->volume);
@@ -234,6 +244,7 @@ TEST_F(RealCt, TheSkinOfTheAbdomenIsCrossedOnceFromBehind) {
 }
 
 TEST_F(RealCt, TheMattressCoverThatTouchesTheBackIsNoBody) {
+  SELDINGER_NEEDS_SHARED_DATA();
   const auto source = read(shared_data("ct-abdomen-contrast-dicom"));
   ASSERT_TRUE(source);
   const auto skin = skin_surface(source->volume);
@@ -252,6 +263,7 @@ TEST_F(RealCt, TheMattressCoverThatTouchesTheBackIsNoBody) {
 }
 
 TEST_F(RealCt, EverySkinIsClosedAndFacesOutwards) {
+  SELDINGER_NEEDS_SHARED_DATA();
   for (const char* name :
        {"ct-neck/neck.nrrd", "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-abdomen-pelvis/abdomen_pelvis_2x.mha"}) {
     const auto source = read(shared_data(name));

@@ -9,6 +9,7 @@
 #include "sim/base/vectors.h"
 #include "sim/devices/turning.h"
 #include "tests/fixtures/mutate.h"
+#include "tests/fixtures/outcomes.h"
 
 namespace seldinger::devices {
 namespace {
@@ -96,10 +97,13 @@ TEST(HaplyJson, DamageIsReadWithoutHarm) {
   base::Rng rng(7);
   const std::string command = text_of(std::vector<HaplyForce>{{"04BA", {0.5, 0.25, -1.25}}});
   int usable = 0;
+  fixtures::Outcomes messages, commands;
   for (int i = 0; i < rounds; ++i) {
     std::string text = i % 2 == 0 ? std::string(kFirst) : command;
     fixtures::mutate(text, rng);
-    if (const auto message = haply_message(text)) {
+    const auto message = haply_message(text);
+    messages.add(message);
+    if (message) {
       ++usable;
       for (const auto& arm : message->arms)
         if (arm.position_m) {
@@ -112,9 +116,12 @@ TEST(HaplyJson, DamageIsReadWithoutHarm) {
         }
     }
     const auto forces = haply_forces(text);
+    commands.add(forces);
     for (const auto& force : forces.value_or(std::vector<HaplyForce>{}))
       ASSERT_TRUE(base::is_finite(force.force_n));
   }
+  messages.expect_both();
+  commands.expect_both();
   EXPECT_GT(usable, rounds / 100) << "some damage leaves JSON: that is what the fields' own checks are for";
   const std::string deep(60'000, '[');
   EXPECT_FALSE(haply_message(deep));

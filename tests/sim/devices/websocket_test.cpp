@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
-#include <thread>
+
+#include "tests/fixtures/until.h"
 
 namespace seldinger::devices {
 namespace {
@@ -41,8 +41,7 @@ TEST(WebSocket, WhoIsClosedWhileItBabblesIsThereForTheNext) {
   place.port = (*server)->port();
   place.retry_s = 0.001;
   const WebSocketClient client(place, listener);
-  for (int tenths = 0; tenths < 100 && (listener.begun < 20 || babbler.ended < 20); ++tenths)
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  fixtures::until([&] { return listener.begun >= 20 && babbler.ended >= 20; });
   EXPECT_GE(listener.begun, 20) << "the client found its way back each time";
   EXPECT_GE(babbler.ended, 20);
 }

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/fixtures/places.h"
+
 namespace seldinger {
 namespace {
 
@@ -29,14 +31,24 @@ std::size_t first_difference(const std::string& a, const std::string& b) {
   return line;
 }
 
-TEST(Determinism, TheSameHashAtEveryTickInEveryBuild) {
-  const std::string debug = output_of(DETERMINISM_PROBE_DEBUG);
-  ASSERT_GT(debug.size(), 17U * 10'000U) << debug.substr(0, 200);
-  const std::string optimised = output_of(DETERMINISM_PROBE_O2);
+// A line of hash for each tick.
+std::string told_by_debug() {
+  const std::string debug = output_of(fixtures::built_target("determinism_debug"));
+  EXPECT_GT(debug.size(), 17U * 10'000U) << debug.substr(0, 200);
+  return debug;
+}
+
+TEST(Determinism, TheSameHashAtEveryTickInDebugAndOptimised) {
+  const std::string debug = told_by_debug();
+  const std::string optimised = output_of(fixtures::built_target("determinism_o2"));
   EXPECT_TRUE(optimised == debug) << "-O2 differs from Debug at tick " << first_difference(debug, optimised);
-  ASSERT_TRUE(__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2"))
-      << "this processor cannot run the build with FMA; run this test on one that can";
-  const std::string fused = output_of(DETERMINISM_PROBE_FMA);
+}
+
+TEST(Determinism, TheSameHashAtEveryTickWithFma) {
+  if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2"))
+    GTEST_SKIP() << "the build with FMA cannot run: this processor lacks FMA or AVX2";
+  const std::string debug = told_by_debug();
+  const std::string fused = output_of(fixtures::built_target("determinism_fma"));
   EXPECT_TRUE(fused == debug) << "-O3 with FMA differs from Debug at tick " << first_difference(debug, fused);
 }
 

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "tests/fixtures/allocations.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::engine {
 namespace {
@@ -48,13 +47,13 @@ TEST_P(Running, TicksUntilItIsStoppedAndAllocatesNothing) {
     if (ticks < 40) elapsed_s = elapsed_s + since_s;
     ++ticks;
   });
-  while (ticks <= 40) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(fixtures::until([&] { return ticks > 40; }));
   loop.stop();
   EXPECT_EQ(first, last);
   EXPECT_GE(elapsed_s, 0.040 - 1e-3) << "40 ticks take at least 39 ms, however late they are";
   const int done = ticks;
   loop.stop();
-  std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  fixtures::let_pass(0.005);  // five ticks' time, in which none may come
   EXPECT_EQ(ticks, done) << "stopped is stopped";
   const cases::ServoRecord& record = loop.record();
   EXPECT_EQ(record.ticks, static_cast<std::uint64_t>(done));

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/fixtures/places.h"
+
 namespace seldinger::imaging {
 namespace {
 
@@ -33,7 +35,7 @@ testing::AssertionResult images_agree(const HuImage& result, const HuImage& refe
   }
   if (beyond == 0) return testing::AssertionSuccess();
 
-  const std::filesystem::path folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "imaging" / name;
+  const std::filesystem::path folder = fixtures::test_out_dir() / "imaging" / name;
   std::filesystem::create_directories(folder);
   write_pgm(folder / "result.pgm", result, width_px, 1024.0, 4096.0);
   write_pgm(folder / "reference.pgm", reference, width_px, 1024.0, 4096.0);

@@ -1,5 +1,5 @@
 // Compares two HU pictures. A failing comparison leaves result, reference and difference as PGM files below
-// SELDINGER_TEST_OUT_DIR and says where, and which pixel is worst.
+// the folder of tests' output and says where, and which pixel is worst.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "tests/fixtures/places.h"
+
 namespace seldinger::imaging {
 namespace {
 
@@ -13,7 +15,7 @@ TEST(ImageComparison, NamesTheWorstPixelAndLeavesThreePictures) {
   HuImage result = reference;
   result[2] = 11.0F;
   result[7] = 15.0F;  // column 3, row 1 of width 4
-  const auto folder = std::filesystem::path(SELDINGER_TEST_OUT_DIR) / "imaging" / "comparison_of_itself";
+  const auto folder = fixtures::test_out_dir() / "imaging" / "comparison_of_itself";
   std::filesystem::remove_all(folder);
   const testing::AssertionResult answer = images_agree(result, reference, 4, 0.5, {}, "comparison_of_itself");
   EXPECT_FALSE(answer);
