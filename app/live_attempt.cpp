@@ -29,6 +29,18 @@ constexpr double kPulsesLookedForHz = 500.0;
 LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene, Keep keep)
     : library_(library), head_(std::move(head)), scene_(scene), keep_(keep) {}
 
+LiveAttempt::LiveAttempt(casedb::Library& library, InterruptedAttempt interrupted, const cases::Case& scene)
+    : library_(library),
+      head_(interrupted.attempt()),
+      scene_(scene),
+      keep_(Keep::stored),
+      before_(std::move(interrupted)) {}
+
+assessment::RecordedBefore LiveAttempt::recorded_before() const {
+  if (!before_) return {};
+  return {before_->ticks(), static_cast<std::uint32_t>(before_->attempt().chunks)};
+}
+
 base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   const bool xray = scene_.picture.modality == cases::Modality::xray;
   Sight see;
@@ -40,32 +52,51 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   std::string attempt_id;
   std::optional<casedb::RunningMark> mark;
   std::optional<casedb::Library> recorders_library;  // one thread at a time uses a library
-  if (keep_ == Keep::stored) {
+  if (before_) {
+    attempt_id = before_->attempt().attempt_id;
+    if (const auto noted = casedb::note_resumption(library_, attempt_id); !noted) return noted.error();
+  } else if (keep_ == Keep::stored) {
     auto opened = casedb::open_attempt(library_, head_);
     if (!opened) return opened.error();
     attempt_id = std::move(*opened);
     mark.emplace(library_.folder(), attempt_id);
+  }
+  if (keep_ == Keep::stored) {
     auto library = casedb::Library::open(library_.folder());
     if (!library) return library.error();
     recorders_library.emplace(std::move(*library));
+    if (with.opened) with.opened(attempt_id);
   }
   std::vector<cases::RecordingChunk> not_kept;  // the recorder's thread, until it has finished
-  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
-                                [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
-                                  if (recorders_library)
-                                    return casedb::add_chunk(*recorders_library, attempt_id, chunk);
-                                  not_kept.push_back(chunk);
-                                  return {};
-                                });
+  assessment::Recorder recorder(
+      engine::kStepVersion, engine::kTickSeconds,
+      [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
+        if (recorders_library) return casedb::add_chunk(*recorders_library, attempt_id, chunk);
+        not_kept.push_back(chunk);
+        return {};
+      },
+      recorded_before());
 
   const engine::Tick tick(scene_);
-  engine::TickState now;
+  engine::TickState now = before_ ? before_->now() : engine::TickState{};
+  std::optional<cases::FrameTruth> last;  // of a fluoroscope that is live
+  cases::ExposureReport reported;
+  if (room && before_ && before_->pulse()) {
+    // Whether its report had come in, nobody knows; twice does not count twice.
+    const engine::Moment& pulse = *before_->pulse();
+    const FluoroscopyRoom::Exposed exposed = room->expose(pulse.state, pulse.displacement);
+    reported = exposed.report;
+    last = exposed.truth;
+    const auto& frames = before_->recording().frames;
+    if (frames.empty() || frames.back().t_s < exposed.truth.t_s) recorder.frame(exposed.truth);
+    if (!frames.empty() && frames.back().t_s > exposed.truth.t_s) last.reset();  // it is held, and that is told
+  }
   base::Snapshot<engine::Moment> moments;
   base::Snapshot<engine::Moment> pulses;
   base::Snapshot<cases::FrameTruth> frames;
   base::Snapshot<cases::ExposureReport> reports;
   std::atomic<bool> over{false};
-  engine::ServoLoop servo({}, [&, report = cases::ExposureReport{}](double elapsed_s) mutable {
+  engine::ServoLoop servo({}, [&, report = reported, resumes = before_.has_value()](double elapsed_s) mutable {
     if (over || (with.paused && with.paused())) {
       over = over || with.done();
       return;
@@ -78,6 +109,10 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     for (int i = 0; i < due && !over; ++i) {
       cases::Inputs inputs = with.hands(now.state, i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
+      if (resumes && inputs.event == cases::EventKind::none) {
+        inputs.event = cases::EventKind::resumed;
+        resumes = false;
+      }
       const bool kept =
           recorder.tick(tick.advance_hands(inputs, with.read ? with.read() : engine::ToolsRead(), now));
       if (with.feel) with.feel(tick, now);
@@ -90,8 +125,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   });
 
   const auto begun = std::chrono::steady_clock::now();
-  std::optional<cases::FrameTruth> last;  // of a fluoroscope that is live
-  cases::ConsoleSetting console;
+  cases::ConsoleSetting console = now.state.probe.console;
   for (double due_s = 0.0; !over && !recorder.failed();
        due_s += 1.0 / (xray ? kPulsesLookedForHz : picture_rate_hz(scene_.picture, console))) {
     std::this_thread::sleep_until(begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -141,42 +175,6 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     if (const auto closed = casedb::close_attempt(library_, attempt_id, outcome); !closed) return closed.error();
   }
   return StoredAttempt{std::move(attempt_id), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
-}
-
-namespace {
-
-// Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
-  const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
-  const auto row = casedb::find_case(library, attempt.case_id);
-  if (!recording || recording->poses.empty() || !row) return {};
-  for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
-    if (lesion.lesion_id == attempt.lesion_id) {
-      auto scene = build_case(library, *row, lesion.form, attempt.picture, Needs::metrics);
-      if (!scene) return {};
-      scene->instrument = attempt.instrument;
-      scene->approach = attempt.approach;
-      auto scored = score(*scene, *recording);
-      return scored ? std::move(*scored) : Scored{};
-    }
-  return {};
-}
-
-}  // namespace
-
-std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
-  std::vector<std::string> closed;
-  for (const casedb::OpenAttempt& attempt : casedb::list_open_attempts(library)) {
-    if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
-    casedb::AttemptOutcome outcome;
-    outcome.end = casedb::AttemptEnd::interrupted;
-    Scored scored = score_of(library, attempt);
-    outcome.metrics = std::move(scored.metrics);
-    outcome.steps = std::move(scored.steps);
-    // Another process may have been faster.
-    if (casedb::close_attempt(library, attempt.attempt_id, outcome)) closed.push_back(attempt.attempt_id);
-  }
-  return closed;
 }
 
 }  // namespace seldinger::app
