@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "app/attempt_loop.h"
 #include "app/scene_picture.h"
 #include "assessment/metrics/metric.h"
+#include "assessment/score.h"
 #include "casedb/case_json.h"
 #include "casedb/grading.h"
 #include "casedb/store.h"
@@ -59,7 +59,7 @@ std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
 // Metrics and steps; of a stored attempt its grade, else null.
-std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade);
+std::string json_of_score(const assessment::Scored& scored, const casedb::AttemptGrade* grade);
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
 // An attempt whose recording cannot be read has no course.
 struct Course {

@@ -1,8 +1,6 @@
 #include "app/attempt_loop.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <memory>
 
 #include "app/attempt_ticks.h"
@@ -12,22 +10,14 @@
 #include "app/png.h"
 #include "app/slice_picture.h"
 #include "app/ultrasound_sight.h"
-#include "assessment/metrics/registry.h"
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
-#include "assessment/signals.h"
 #include "sim/engine/step.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/visibility.h"
 
 namespace seldinger::app {
 namespace {
-
-imaging::NeedlePose needle_of(const cases::Case& scene, const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) {
-  const cases::Instrument& instrument = scene.instrument;
-  return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
-          instrument.hu};
-}
 
 cases::ToolPose probe_of(const cases::PoseSample& pose) {
   return {pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral};
@@ -124,7 +114,7 @@ cases::Recording run_xray_attempt(const cases::Case& scene, const assessment::Pu
 
 Sight sight_of(const cases::Case& scene) {
   const auto needle = [&scene](const cases::State& state) {
-    return needle_of(scene, state.needle.tip_lps_mm, state.needle.direction);
+    return imaging::needle_pose(scene.instrument, state.needle.tip_lps_mm, state.needle.direction);
   };
   CHECK(scene.picture.modality != cases::Modality::xray);
   if (scene.picture.modality == cases::Modality::ultrasound)
@@ -147,40 +137,6 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
   if (scene.picture.modality == cases::Modality::xray)
     return run_xray_attempt(scene, plan, profile, seed, scenario);
   return run_probe_attempt(scene, plan, profile, seed, scenario, sight_of(scene));
-}
-
-base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording) {
-  assessment::AttemptSetting setting;
-  setting.skin = &scene.skin_index;
-  if (!scene.lesions.empty()) setting.target = scene.lesions[0];
-  setting.instrument = scene.instrument;
-  setting.modality = scene.picture.modality;
-  setting.approach = scene.approach;
-  setting.structures = scene.structures;
-  if (scene.planned_entry_lps_mm && setting.target) {
-    const glm::dvec3 way = setting.target->center_lps_mm - *scene.planned_entry_lps_mm;
-    if (glm::length(way) > 0.0)
-      setting.plan = assessment::PlannedEntry{*scene.planned_entry_lps_mm, glm::normalize(way)};
-  }
-  setting.subject = scene.subject;
-  setting.position = scene.position;
-  setting.defer_is_right = scene.defer_is_right;
-  setting.breathes = scene.breathing.has_value();
-  setting.yields = scene.yields;
-  return assessment::make_signals(setting, recording);
-}
-
-base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording) {
-  const auto signals = signals_of(scene, recording);
-  if (!signals) return signals.error();
-  return Scored{assessment::measure_all(*signals), assessment::walk_steps(*signals)};
-}
-
-base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
-                                                           const cases::Recording& recording) {
-  const auto signals = signals_of(scene, recording);
-  if (!signals) return signals.error();
-  return assessment::measure_all(*signals);
 }
 
 namespace {
@@ -243,8 +199,9 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
     for (const cases::PoseSample& one : recording.poses)
       if (one.t_s <= recording.endpoint->t_s) pose = one;
   const imaging::NeedlePose needle =
-      recording.endpoint ? needle_of(scene, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
-                         : needle_of(scene, pose.tip_lps_mm, pose.needle_direction);
+      recording.endpoint
+          ? imaging::needle_pose(scene.instrument, recording.endpoint->tip_lps_mm, recording.endpoint->direction)
+          : imaging::needle_pose(scene.instrument, pose.tip_lps_mm, pose.needle_direction);
   const cases::ConsoleSetting console = console_at_end(recording);
   const tissue::Displacement displacement = displacement_at_end(scene, recording);
   if (scene.picture.modality == cases::Modality::ultrasound)

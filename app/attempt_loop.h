@@ -6,16 +6,12 @@
 #include <functional>
 #include <span>
 
-#include "assessment/metrics/metric.h"
 #include "assessment/operators/plan.h"
 #include "assessment/operators/profile.h"
-#include "assessment/procedure/steps.h"
-#include "assessment/signals.h"
-#include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/recording.h"
 #include "sim/case/state.h"
-#include "sim/imaging/mpr/mpr.h"
+#include "sim/tissue/displacement.h"
 
 namespace seldinger::app {
 
@@ -30,18 +26,6 @@ cases::Recording run_attempt(const cases::Case& scene, const assessment::Punctur
 // (CHECKed); the scene must outlive it.
 using Sight = std::function<cases::FrameTruth(const cases::State&, const tissue::Displacement&)>;
 Sight sight_of(const cases::Case& scene);
-
-// What metrics measure of a recording made in this scene, which must outlive it.
-base::Result<assessment::Signals> signals_of(const cases::Case& scene, const cases::Recording& recording);
-// What a recording made in this scene says: its metrics, and what became of each step.
-struct Scored {
-  std::vector<assessment::MetricValue> metrics;
-  std::vector<assessment::StepResult> steps;
-};
-base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording);
-// The metrics alone.
-base::Result<std::vector<assessment::MetricValue>> measure(const cases::Case& scene,
-                                                           const cases::Recording& recording);
 
 // The picture when the trigger fell (or last), as PNG: slice or ultrasound under the probe, or the fluoroscope's
 // last image. Empty where there is none.

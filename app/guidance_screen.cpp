@@ -32,9 +32,8 @@ const GreyPicture& GuidanceScreen::picture() {
     return picture_;
   }
   const cases::PoseSample pose = pose_of(shown_);
-  const cases::Instrument& tool = scene_.instrument;
-  const imaging::NeedlePose needle{pose.tip_lps_mm, pose.needle_direction, tool.length_mm,
-                                   tool.radius_mm,  tool.inner_radius_mm,  tool.hu};
+  const imaging::NeedlePose needle =
+      imaging::needle_pose(scene_.instrument, pose.tip_lps_mm, pose.needle_direction);
   const cases::ConsoleSetting& console = shown_.probe.console;
   picture_ = sight_
                  ? sight_->picture({pose.probe_origin_lps_mm, pose.probe_axial, pose.probe_lateral}, console,

@@ -11,6 +11,7 @@
 #include "app/case_build.h"
 #include "app/fluoroscopy.h"
 #include "app/ultrasound_sight.h"
+#include "assessment/score.h"
 #include "casedb/running_mark.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/engine/step.h"
@@ -129,7 +130,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   const auto recording = keep_ == Keep::stored ? casedb::load_open_recording(library_, attempt_id)
                                                : cases::recording_from_chunks(not_kept);
   if (!recording) return recording.error();
-  auto scored = score(scene_, *recording);
+  auto scored = assessment::score(scene_, *recording);
   if (!scored) return scored.error();
   outcome.metrics = std::move(scored->metrics);
   outcome.steps = std::move(scored->steps);
@@ -143,7 +144,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
 namespace {
 
 // Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+assessment::Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
   const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
   const auto row = casedb::find_case(library, attempt.case_id);
   if (!recording || recording->poses.empty() || !row) return {};
@@ -153,8 +154,8 @@ Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
       if (!scene) return {};
       scene->instrument = attempt.instrument;
       scene->approach = attempt.approach;
-      auto scored = score(*scene, *recording);
-      return scored ? std::move(*scored) : Scored{};
+      auto scored = assessment::score(*scene, *recording);
+      return scored ? std::move(*scored) : assessment::Scored{};
     }
   return {};
 }
@@ -167,7 +168,7 @@ std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
     if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
     casedb::AttemptOutcome outcome;
     outcome.end = casedb::AttemptEnd::interrupted;
-    Scored scored = score_of(library, attempt);
+    assessment::Scored scored = score_of(library, attempt);
     outcome.metrics = std::move(scored.metrics);
     outcome.steps = std::move(scored.steps);
     // Another process may have been faster.

@@ -7,6 +7,7 @@
 #include "app/live_attempt.h"
 #include "app/ordered_work.h"
 #include "assessment/operators/scripted.h"
+#include "assessment/score.h"
 #include "sim/base/hash.h"
 #include "sim/engine/step.h"
 
@@ -56,7 +57,7 @@ base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProf
   attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
                 : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
                                                           : casedb::AttemptEnd::time_limit;
-  auto scored = score(task_.scene, attempt.recording);
+  auto scored = assessment::score(task_.scene, attempt.recording);
   if (!scored) return scored.error();
   attempt.metrics = std::move(scored->metrics);
   attempt.steps = std::move(scored->steps);

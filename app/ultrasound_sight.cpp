@@ -108,12 +108,6 @@ UltrasoundSight::UltrasoundSight(const cases::Case& scene)
   CHECK(scene.classes.size() == scene.volume.hu.size());
 }
 
-imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const {
-  const cases::Instrument& instrument = scene_.instrument;
-  return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
-          instrument.hu};
-}
-
 imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& view,
                                                 const imaging::Inserted& inserted,
                                                 const tissue::Displacement& displacement) const {
@@ -140,7 +134,8 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   pressed.probe.position_lps_mm += press_mm(probe) * pressed.probe.axis;
   pressed.probe_first.position_lps_mm += press_mm(probe) * pressed.probe_first.axis;
   const auto needle = [&](double inserted_mm) {
-    return needle_at(plan.entry_lps_mm + inserted_mm * plan.direction, plan.direction);
+    return imaging::needle_pose(scene_.instrument, plan.entry_lps_mm + inserted_mm * plan.direction,
+                                plan.direction);
   };
   const imaging::UltrasoundView unheld = console_view(picture, {}), view = held(unheld, pressed.probe);
   const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);

@@ -72,7 +72,6 @@ class UltrasoundSight {
   struct Screen;  // what pictures need beside the tissue, made with the first
   imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
                                  const tissue::Displacement& displacement) const;
-  imaging::NeedlePose needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const;
 
   const cases::Case& scene_;
   imaging::TissueVolume tissue_;

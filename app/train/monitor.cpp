@@ -21,9 +21,7 @@ double seconds_since(Clock::time_point then) {
 }
 
 imaging::NeedlePose needle_of(const cases::Case& scene, const cases::State& state) {
-  const cases::Instrument& tool = scene.instrument;
-  return {state.needle.tip_lps_mm, state.needle.direction, tool.length_mm,
-          tool.radius_mm,          tool.inner_radius_mm,   tool.hu};
+  return imaging::needle_pose(scene.instrument, state.needle.tip_lps_mm, state.needle.direction);
 }
 
 // As the picture of the case is set.

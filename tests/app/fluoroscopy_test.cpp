@@ -9,6 +9,7 @@
 
 #include "app/attempt_loop.h"
 #include "assessment/operators/plan.h"
+#include "assessment/score.h"
 #include "sim/engine/step.h"
 #include "sim/tissue/breathing.h"
 #include "sim/volume/analytic.h"
@@ -240,7 +241,7 @@ TEST(XrayAttempt, IsReplayedBitForBitWithoutImaging) {
 TEST(XrayAttempt, ItsMetricsAreWhatTheMachineAddedUp) {
   for (const char* who : {"novice", "expert"}) {
     const cases::Recording recording = attempt_of(who, 1);
-    const auto metrics = measure(ball(), recording);
+    const auto metrics = assessment::measure(ball(), recording);
     ASSERT_TRUE(metrics.has_value());
     cases::State state;
     for (const cases::Inputs& inputs : recording.inputs) {

@@ -15,6 +15,7 @@
 #include "app/attempt_loop.h"
 #include "app/simulation.h"
 #include "assessment/operators/plan.h"
+#include "assessment/score.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
 
@@ -60,7 +61,7 @@ Values measured(const assessment::OperatorProfile& profile, std::uint64_t seed, 
   for (const SimulatedTrial& trial : simulated_trials(profile, seed, 1, kPeople)) {
     const auto person = assessment::at_attempt(trial.profile, attempt_number);
     const auto scored =
-        score(ball().scene, run_attempt(ball().scene, ball().plan, person, trial.seed + 1000 * attempt_number));
+        assessment::score(ball().scene, run_attempt(ball().scene, ball().plan, person, trial.seed + 1000 * attempt_number));
     CHECK(scored.has_value());
     for (const assessment::MetricValue& metric : scored->metrics)
       if (metric.value) values[metric.id].push_back(*metric.value);

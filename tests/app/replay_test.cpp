@@ -9,6 +9,7 @@
 #include "app/canvas.h"
 #include "app/guidance_screen.h"
 #include "app/slice_picture.h"
+#include "assessment/score.h"
 #include "sim/engine/step.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
@@ -104,7 +105,7 @@ assessment::Signals signals_in(const cases::Case& scene) {
     pose.needle_direction = {0.0, 1.0, 0.0};
     recording.poses.push_back(pose);
   }
-  auto signals = signals_of(scene, recording);
+  auto signals = assessment::signals_of(scene, recording);
   EXPECT_TRUE(signals);
   return std::move(*signals);
 }

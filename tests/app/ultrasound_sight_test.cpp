@@ -10,6 +10,7 @@
 #include "app/guidance_screen.h"
 #include "app/picture_clock.h"
 #include "assessment/operators/plan.h"
+#include "assessment/score.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
@@ -225,7 +226,7 @@ TEST(UltrasoundAttempt, IsRecordedAtTheRateOfSoundAndReplayable) {
   EXPECT_TRUE(replay(bare, recording).same);
   const auto stored = cases::recording_from_chunks(cases::chunks_from_recording(recording));
   ASSERT_TRUE(stored.has_value());
-  const auto a = measure(p.scene, recording), b = measure(bare, *stored);
+  const auto a = assessment::measure(p.scene, recording), b = assessment::measure(bare, *stored);
   ASSERT_TRUE(a.has_value() && b.has_value());
   for (std::size_t i = 0; i < a->size(); ++i) EXPECT_EQ((*a)[i].value, (*b)[i].value) << (*a)[i].id;
 }
