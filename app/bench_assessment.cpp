@@ -147,7 +147,8 @@ base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
     double simulated_s = 0.0;
     time_into(row, quick ? 3 : 11, [&] {
       const auto recording = run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
-      if (assessment::score(scene, recording)) simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
+      if (assessment::score(scene, recording))
+        simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
     });
     if (!(simulated_s > 0.0)) return base::Error{"bench_failed", "the attempt cannot be scored"};
     row.size = bench_number(60e3 / row.ms_median) + " attempts a minute";

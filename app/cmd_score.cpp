@@ -73,7 +73,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
 }
 
 base::Result<assessment::Scored> score_poses(const std::string& poses, const std::string& scene_path,
-                                 const std::string& library, std::vector<std::string>& notes) {
+                                             const std::string& library, std::vector<std::string>& notes) {
   const auto scene = read_scene(scene_path, notes);
   if (!scene) return scene.error();
   if (scene->motion)
@@ -113,7 +113,7 @@ base::Result<assessment::Scored> score_poses(const std::string& poses, const std
 
 // What it is worth as measured now; `grade` is set with it.
 base::Result<assessment::Scored> score_attempt(const std::string& attempt_id, const std::string& folder,
-                                   std::optional<casedb::AttemptGrade>& grade) {
+                                               std::optional<casedb::AttemptGrade>& grade) {
   auto library = casedb::Library::open(folder);
   if (!library) return library.error();
   auto attempt = casedb::find_attempt(*library, attempt_id);
