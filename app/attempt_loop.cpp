@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/attempt_ticks.h"
 #include "app/fluoroscopy.h"
 #include "app/frame_truth.h"
 #include "app/picture_clock.h"
@@ -13,6 +12,7 @@
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
 #include "sim/engine/step.h"
+#include "sim/engine/tick.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/visibility.h"
 
@@ -26,32 +26,33 @@ cases::ToolPose probe_of(const cases::PoseSample& pose) {
 // One attempt in virtual time, and its recording.
 class Attempt {
  public:
-  Attempt(const cases::Case& scene, std::span<const cases::Event> scenario) : ticks_(scene), scenario_(scenario) {
+  Attempt(const cases::Case& scene, std::span<const cases::Event> scenario) : tick_(scene), scenario_(scenario) {
     recording_.step_version = engine::kStepVersion;
     recording_.dt_s = engine::kTickSeconds;
     recording_.events.emplace();
   }
-  const cases::State& state() const noexcept { return ticks_.state(); }
-  const tissue::Displacement& displacement() const noexcept { return ticks_.displacement(); }
+  const cases::State& state() const noexcept { return now_.state; }
+  const tissue::Displacement& displacement() const noexcept { return now_.displacement; }
 
   // What was said in it.
   cases::EventKind tick(cases::Inputs hands) {
-    scenario_.add_to(hands, state().t_s);
-    const assessment::RecordedTick tick = ticks_.advance(hands);
+    scenario_.add_to(hands, state().t_s, now_.happened);
+    const cases::RecordedTick tick = tick_.advance_hands(hands, {}, now_);
     recording_.inputs.push_back(tick.inputs);
     recording_.hashes.push_back(tick.hash);
     if (tick.pose) recording_.poses.push_back(*tick.pose);
     if (tick.force) recording_.forces.push_back(*tick.force);
     if (tick.endpoint) recording_.endpoint = tick.endpoint;
-    assessment::add_events(state().t_s, tick, *recording_.events);
+    cases::add_events(state().t_s, tick, *recording_.events);
     return hands.event;
   }
   void picture(const cases::FrameTruth& frame) { recording_.frames.push_back(frame); }
   cases::Recording take() { return std::move(recording_); }
 
  private:
-  AttemptTicks ticks_;
-  Scenario scenario_;
+  engine::Tick tick_;
+  engine::TickState now_;
+  engine::Scenario scenario_;
   cases::Recording recording_;
 };
 
@@ -148,13 +149,14 @@ std::vector<std::byte> png_of(const GreyPicture& picture) {
 // The last image before the trigger: the inputs, stepped through again until its pulse. Only what moves tissue asks
 // for more than the step.
 std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
-  Moment exposed;
+  engine::Moment exposed;
   if (scene.breathing || scene.yields) {
-    Room room(scene);
+    const engine::Tick tick(scene);
+    engine::TickState now;
     for (const cases::Inputs& inputs : recording.inputs) {
-      if (room.state().fire.fired) break;
-      room.advance(inputs, recording.dt_s);
-      if (room.state().fluoroscopy.frame_due) exposed = room.moment();
+      if (now.state.fire.fired) break;
+      tick.advance(inputs, recording.dt_s, now);
+      if (now.state.fluoroscopy.frame_due) exposed = engine::moment_of(now);
     }
   } else {
     cases::State state;
@@ -171,10 +173,11 @@ std::vector<std::byte> xray_picture_at_endpoint(const cases::Case& scene, const 
 // When the trigger fell, or last.
 tissue::Displacement displacement_at_end(const cases::Case& scene, const cases::Recording& recording) {
   if (!scene.breathing && !scene.yields) return {};
-  Room room(scene);
+  const engine::Tick tick(scene);
+  engine::TickState now;
   for (const cases::Inputs& inputs : recording.inputs)
-    if (!room.state().fire.fired) room.advance(inputs, recording.dt_s);
-  return room.displacement();
+    if (!now.state.fire.fired) tick.advance(inputs, recording.dt_s, now);
+  return now.displacement;
 }
 
 // As it stood when the trigger fell, or last.
@@ -212,7 +215,8 @@ std::vector<std::byte> picture_at_endpoint(const cases::Case& scene, const cases
 
 Replay replay(const cases::Case& scene, const cases::Recording& recording, const TickSeen& seen) {
   const bool comparable = recording.step_version == engine::kStepVersion;
-  Room room(scene);
+  const engine::Tick whole(scene);
+  engine::TickState now;
   std::vector<cases::Event> events;
   std::size_t poses = 0;
   std::optional<cases::Endpoint> endpoint;
@@ -220,9 +224,9 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording, const
     return at < rows.size() && rows[at] == row;
   };
   for (std::size_t i = 0; i < recording.inputs.size(); ++i) {
-    const assessment::RecordedTick tick = room.advance(recording.inputs[i], recording.dt_s);
+    const cases::RecordedTick tick = whole.advance(recording.inputs[i], recording.dt_s, now);
     const std::size_t told = events.size();
-    assessment::add_events(room.state().t_s, tick, events);
+    cases::add_events(now.state.t_s, tick, events);
     if (tick.endpoint) endpoint = tick.endpoint;
     bool same = tick.hash == recording.hashes[i];
     if (tick.pose) {
@@ -232,12 +236,12 @@ Replay replay(const cases::Case& scene, const cases::Recording& recording, const
     }
     for (std::size_t e = told; recording.events && e < events.size(); ++e)
       same = same && is_next(*recording.events, e, events[e]);
-    if (!same && comparable) return {false, room.state().tick};
-    if (seen) seen(room.state(), room.displacement());
+    if (!same && comparable) return {false, now.state.tick};
+    if (seen) seen(now.state, now.displacement);
   }
   if (!comparable) return {false, 0};
   const bool events_same = !recording.events || recording.events->size() == events.size();
-  return {poses == recording.poses.size() && endpoint == recording.endpoint && events_same, room.state().tick};
+  return {poses == recording.poses.size() && endpoint == recording.endpoint && events_same, now.state.tick};
 }
 
 }  // namespace seldinger::app

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "app/attempt_loop.h"
-#include "app/attempt_ticks.h"
 #include "app/bench.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
@@ -16,6 +15,7 @@
 #include "casedb/import/surface.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
+#include "sim/engine/tick.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
@@ -84,18 +84,19 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   const auto row_of = [](const char* method, const char* setting, const std::string& size) {
     return BenchRow{"assessment", method, setting, "cpu", "1 thread", size, 0, 0, 0, 0, "", "", ""};
   };
-  AttemptTicks ticks(scene);
-  std::vector<assessment::RecordedTick> second;
-  for (std::size_t i = 0; i < kTicks; ++i) second.push_back(ticks.advance(once.inputs[i]));
+  const engine::Tick tick_of(scene);
+  engine::TickState now;
+  std::vector<cases::RecordedTick> second;
+  for (std::size_t i = 0; i < kTicks; ++i) second.push_back(tick_of.advance_hands(once.inputs[i], {}, now));
   BenchRow handed =
-      row_of("recorder", "ticks handed over", std::to_string(sizeof(assessment::RecordedTick)) + " bytes each");
+      row_of("recorder", "ticks handed over", std::to_string(sizeof(cases::RecordedTick)) + " bytes each");
   handed.n = quick ? 5 : 21;
   assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
                                 [](const cases::RecordingChunk&) { return base::Result<void>{}; });
   std::vector<double> times_ms;
   for (int i = 0; i < handed.n; ++i) {
     const auto begun = std::chrono::steady_clock::now();
-    for (const assessment::RecordedTick& tick : second) recorder.tick(tick);
+    for (const cases::RecordedTick& tick : second) recorder.tick(tick);
     times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
     std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the queue is emptied meanwhile
   }
@@ -114,7 +115,7 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   piece.dt_s = engine::kTickSeconds;
   piece.events.emplace();
   for (int half = 0; half < 2; ++half)
-    for (const assessment::RecordedTick& tick : second) {
+    for (const cases::RecordedTick& tick : second) {
       piece.inputs.push_back(tick.inputs);
       piece.hashes.push_back(tick.hash);
       if (tick.pose) piece.poses.push_back(*tick.pose);

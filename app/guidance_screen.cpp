@@ -1,7 +1,7 @@
 #include "app/guidance_screen.h"
 
-#include "app/attempt_ticks.h"
 #include "app/slice_picture.h"
+#include "sim/case/recorded_tick.h"
 
 namespace seldinger::app {
 

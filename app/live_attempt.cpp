@@ -11,6 +11,7 @@
 #include "app/case_build.h"
 #include "app/fluoroscopy.h"
 #include "app/ultrasound_sight.h"
+#include "assessment/recorder.h"
 #include "assessment/score.h"
 #include "casedb/running_mark.h"
 #include "sim/engine/servo_loop.h"
@@ -58,9 +59,10 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
                                   return {};
                                 });
 
-  AttemptTicks ticks(scene_);
-  base::Snapshot<Moment> moments;
-  base::Snapshot<Moment> pulses;
+  const engine::Tick tick(scene_);
+  engine::TickState now;
+  base::Snapshot<engine::Moment> moments;
+  base::Snapshot<engine::Moment> pulses;
   base::Snapshot<cases::FrameTruth> frames;
   base::Snapshot<cases::ExposureReport> reports;
   std::atomic<bool> over{false};
@@ -75,14 +77,15 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     const int due =
         std::clamp(static_cast<int>(std::lround(elapsed_s / engine::kTickSeconds)), 1, kMostTicksAtOnce);
     for (int i = 0; i < due && !over; ++i) {
-      cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
+      cases::Inputs inputs = with.hands(now.state, i == 0 && frame ? &*frame : nullptr);
       inputs.exposure = report;
-      const bool kept = recorder.tick(ticks.advance(inputs, with.read ? with.read() : ToolsRead()));
-      if (with.feel) with.feel(ticks.room());
-      if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.moment());
-      if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
+      const bool kept =
+          recorder.tick(tick.advance_hands(inputs, with.read ? with.read() : engine::ToolsRead(), now));
+      if (with.feel) with.feel(tick, now);
+      if (now.state.fluoroscopy.frame_due) pulses.put(engine::moment_of(now));
+      if (!kept || with.done() || now.state.t_s >= kMostLiveSeconds) over = true;
     }
-    const Moment moment = ticks.moment();
+    const engine::Moment moment = engine::moment_of(now);
     moments.put(moment);
     if (with.watch) with.watch(moment);
   });
@@ -123,7 +126,7 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
 
   casedb::AttemptOutcome outcome;
   outcome.servo = servo.record();
-  outcome.end = ticks.state().fire.fired ? casedb::AttemptEnd::fired
+  outcome.end = now.state.fire.fired     ? casedb::AttemptEnd::fired
                 : recorder.fell_behind() ? casedb::AttemptEnd::interrupted
                 : with.done()            ? casedb::AttemptEnd::stopped
                                          : casedb::AttemptEnd::time_limit;

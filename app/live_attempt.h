@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "app/attempt_ticks.h"
 #include "casedb/store.h"
 #include "sim/base/snapshot.h"
+#include "sim/engine/tick.h"
 
 namespace seldinger::app {
 
@@ -31,12 +31,12 @@ class LiveAttempt {
   // Who takes part. All but `ended` are asked by the servo: they must not allocate, lock or wait.
   struct With {
     Hands hands;
-    std::function<ToolsRead()> read{};           // after `hands`: what of them an arm said
-    std::function<void(const Room&)> feel{};     // after each tick: what hands feel in it
-    std::function<bool()> done;                  // after each tick
-    std::function<bool()> paused{};              // while it says so, no time goes by
-    std::function<void(const Moment&)> watch{};  // what else there is to do with a tick
-    std::function<void()> ended{};               // no tick comes any more; scoring and storing follow
+    std::function<engine::ToolsRead()> read{};  // after `hands`: what of them an arm said
+    std::function<void(const engine::Tick&, const engine::TickState&)> feel{};  // after each: what hands feel in it
+    std::function<bool()> done;                                                 // after each tick
+    std::function<bool()> paused{};                                             // while it says so, no time goes by
+    std::function<void(const engine::Moment&)> watch{};  // what else there is to do with a tick
+    std::function<void()> ended{};                       // no tick comes any more; scoring and storing follow
   };
 
   // Not kept: nothing of it comes into the library; a mentor tries a draft, which stays one that can be changed.

@@ -34,12 +34,13 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
   if (task_.scene.picture.modality == cases::Modality::xray)
     return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
   assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
-  Scenario scenario(scenario_);
+  const engine::Scenario scenario(scenario_);
+  std::uint32_t happened = 0;
   LiveAttempt live(*library_, head_of(task_, profile.name, seed, std::nullopt), task_.scene);
   const auto stored = live.run({.hands =
                                     [&](const cases::State& state, const cases::FrameTruth* frame) {
                                       cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
-                                      scenario.add_to(inputs, state.t_s);
+                                      scenario.add_to(inputs, state.t_s, happened);
                                       person.hear(inputs.event);
                                       return inputs;
                                     },

@@ -12,22 +12,10 @@
 #include <vector>
 
 #include "sim/base/result.h"
+#include "sim/case/recorded_tick.h"
 #include "sim/case/recording.h"
 
 namespace seldinger::assessment {
-
-// What one tick leaves behind. Pose and force: every tenth.
-struct RecordedTick {
-  cases::Inputs inputs;
-  std::uint32_t hash = 0;
-  std::optional<cases::PoseSample> pose{};
-  std::optional<cases::ForceSample> force{};
-  cases::EventKind reaction = cases::EventKind::none;  // the patient's; what was asked for is in the inputs
-  std::optional<cases::Endpoint> endpoint{};
-};
-
-// What was asked for in a tick that ended at t_s, then the reaction.
-void add_events(double t_s, const RecordedTick& tick, std::vector<cases::Event>& events);
 
 class Recorder {
  public:
@@ -42,7 +30,7 @@ class Recorder {
 
   // By the servo only. Allocates and locks nothing. False, from then on: the queue was full (kQueueTicks behind),
   // and the recording ends with the tick before.
-  bool tick(const RecordedTick& tick) noexcept;
+  bool tick(const cases::RecordedTick& tick) noexcept;
   // What a picture showed, by rising time; by any thread but the servo's.
   void frame(const cases::FrameTruth& frame);
 
@@ -63,7 +51,7 @@ class Recorder {
   std::uint32_t step_version_;
   double dt_s_;
   Store store_;
-  std::vector<RecordedTick> queue_;
+  std::vector<cases::RecordedTick> queue_;
   alignas(64) std::atomic<std::uint64_t> pushed_{0};
   alignas(64) std::atomic<std::uint64_t> taken_{0};
   std::atomic<bool> full_{false}, broken_{false}, stopping_{false};

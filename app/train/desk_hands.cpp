@@ -59,7 +59,7 @@ void DeskHands::lead(const cases::Inputs& wanted) noexcept {
   }
 }
 
-ToolsRead DeskHands::read() const noexcept {
+engine::ToolsRead DeskHands::read() const noexcept {
   return {!mouse_leads(Tool::needle), !mouse_leads(Tool::probe)};
 }
 
@@ -127,11 +127,11 @@ void DeskHands::advance(const devices::HandIntent& intent, const cases::State& s
   last_ = inputs;
 }
 
-void DeskHands::feel(const Room& room, double elapsed_s) noexcept {
+void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, double elapsed_s) noexcept {
   if (!desk_) return;
   if (!forces_) return desk_->send({}, elapsed_s);
   haptics::HandInputs felt = held_;
-  for (haptics::HandInput& hand : felt) room.bring_to_rest(hand);
+  for (haptics::HandInput& hand : felt) tick.bring_to_rest(now, hand);
   desk_->send(forces_->advance(felt, elapsed_s, felt_), elapsed_s);
 }
 

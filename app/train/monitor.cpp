@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/attempt_ticks.h"
 #include "app/fluoroscopy.h"
 #include "app/train/speckle_choice.h"
 #include "app/ultrasound_sight.h"
@@ -58,7 +57,7 @@ class Monitor::Painter {
   imaging::Console* console() { return console_ ? &*console_ : nullptr; }
 
   // Of a new moment.
-  void draw(const Moment& moment, ShownPicture& shown) {
+  void draw(const engine::Moment& moment, ShownPicture& shown) {
     const cases::State& state = moment.state;
     shown.told_s = moment.told_s;
     shown.live = room_ ? state.fluoroscopy.live : !state.probe.frozen;
@@ -159,7 +158,7 @@ class Monitor::Painter {
   double converted_depth_mm_ = 0.0;
   imaging::PolarPicture polar_;
   std::optional<FluoroscopyRoom> room_;
-  Moment slice_;  // of which the slice is
+  engine::Moment slice_;  // of which the slice is
   HuWindow window_ = kHuWindows[0];
   std::uint64_t pictures_ = 0;
 };
@@ -198,7 +197,7 @@ std::string Monitor::method() const {
   return method_;
 }
 
-void Monitor::show(const Moment& moment) noexcept {
+void Monitor::show(const engine::Moment& moment) noexcept {
   moments_.put(moment);
   if (moment.state.fluoroscopy.frames == pulses_seen_) return;
   pulses_seen_ = moment.state.fluoroscopy.frames;

@@ -13,11 +13,11 @@
 #include <string>
 #include <thread>
 
-#include "app/attempt_ticks.h"
 #include "app/grey_picture.h"
 #include "app/slice_picture.h"
 #include "sim/base/snapshot.h"
 #include "sim/case/case.h"
+#include "sim/engine/tick.h"
 #include "sim/imaging/ultrasound/console.h"
 
 namespace seldinger::app {
@@ -53,7 +53,7 @@ class Monitor {
   Monitor& operator=(const Monitor&) = delete;
 
   // By the servo after each tick: waits for nothing.
-  void show(const Moment& moment) noexcept;
+  void show(const engine::Moment& moment) noexcept;
 
   // By the window. `change` is called on the monitor's thread, soon; ultrasound only.
   void set_console(std::function<void(imaging::Console&)> change);
@@ -78,7 +78,7 @@ class Monitor {
   std::uint64_t seed_;
   PicturesBy by_;
   std::string method_;  // mutex_'s
-  base::Snapshot<Moment> moments_, pulses_;
+  base::Snapshot<engine::Moment> moments_, pulses_;
   std::uint32_t pulses_seen_ = 0;  // the servo's
   mutable std::mutex mutex_;
   std::condition_variable woken_;

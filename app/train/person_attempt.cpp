@@ -102,13 +102,13 @@ cases::Inputs PersonAttempt::hands(const cases::State& state) {
   return inputs;
 }
 
-void PersonAttempt::feel(const Room& room) {
-  hands_->feel(room, engine::kTickSeconds);
+void PersonAttempt::feel(const engine::Tick& tick, const engine::TickState& now) {
+  hands_->feel(tick, now, engine::kTickSeconds);
   if (ArmsWatch* arms = hands_->watch(); arms != nullptr && arms->due(engine::kTickSeconds))
     arms_seen_.put(arms->seen());
 }
 
-void PersonAttempt::watch(Moment moment) {
+void PersonAttempt::watch(engine::Moment moment) {
   moment.told_s = told_s_;
   if (moment.force) forces_ = {moment.force->needle_axial_n, moment.force->probe_n};
   Seen seen{moment};
@@ -159,7 +159,7 @@ void PersonAttempt::run() {
     const auto stored =
         live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
                   .read = [this] { return hands_->read(); },
-                  .feel = [this](const Room& room) { feel(room); },
+                  .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
                   .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
                   .paused =
                       [this] {
@@ -167,7 +167,7 @@ void PersonAttempt::run() {
                         hands_->let_go();
                         return true;
                       },
-                  .watch = [this](const Moment& moment) { watch(moment); },
+                  .watch = [this](const engine::Moment& moment) { watch(moment); },
                   .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
     hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());

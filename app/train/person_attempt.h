@@ -33,7 +33,7 @@ struct HandsTold {
 
 // What the servo tells the window: the newest tick, and how the hands hold their tools.
 struct Seen {
-  Moment moment;
+  engine::Moment moment;
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
   double inserted_mm = 0.0, press_mm = 0.0;  // press: of the probe's face below the skin
@@ -93,8 +93,8 @@ class PersonAttempt {
  private:
   void run();
   cases::Inputs hands(const cases::State& state);
-  void watch(Moment moment);
-  void feel(const Room& room);
+  void watch(engine::Moment moment);
+  void feel(const engine::Tick& tick, const engine::TickState& now);
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};

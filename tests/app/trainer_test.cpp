@@ -202,7 +202,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   WatchedAttempt& watched = *trainer.watched();
   watched.set_speed(50.0);
   ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
-  std::optional<Moment> last;
+  std::optional<engine::Moment> last;
   while (const auto moment = watched.moment()) last = moment;
   ASSERT_TRUE(last);
   const std::uint64_t all_ticks = last->state.tick;
@@ -274,7 +274,7 @@ TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
   WatchedAttempt& watched = *trainer.watched();
   watched.set_speed(50.0);
   ASSERT_TRUE(until([&] { return watched.phase() == WatchedAttempt::Phase::over; }));
-  std::optional<Moment> last;
+  std::optional<engine::Moment> last;
   while (const auto moment = watched.moment()) last = moment;
   ASSERT_TRUE(last);
   EXPECT_EQ(last->state.probe.console.slice_mm, 30.0);

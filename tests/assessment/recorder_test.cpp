@@ -12,8 +12,8 @@
 namespace seldinger::assessment {
 namespace {
 
-RecordedTick tick_of(std::uint64_t at) {
-  RecordedTick tick;
+cases::RecordedTick tick_of(std::uint64_t at) {
+  cases::RecordedTick tick;
   tick.inputs.needle.position_lps_mm = {base::uniform_at(1, at), static_cast<double>(at), 3.0};
   tick.hash = static_cast<std::uint32_t>(at * 2654435761U);
   const double t_s = static_cast<double>(at + 1) * 0.001;
@@ -64,7 +64,7 @@ TEST(Recorder, WhatGoesInComesOut) {
     EXPECT_GT(recording->frames[i].t_s, recording->frames[i - 1].t_s);
   std::vector<cases::Event> events;
   for (std::uint64_t at = 0; at < kTicks; ++at)
-    add_events(static_cast<double>(at + 1) * 0.001, tick_of(at), events);
+    cases::add_events(static_cast<double>(at + 1) * 0.001, tick_of(at), events);
   EXPECT_EQ(events.size(), 4U + 2U);
   EXPECT_EQ(recording->events, events);
   EXPECT_EQ(recording->endpoint, tick_of(4321).endpoint);
@@ -90,10 +90,10 @@ TEST(Recorder, AServoNeverWaitsForTheDisk) {
     return base::Result<void>{};
   });
   std::uint64_t taken = 0;
-  std::vector<RecordedTick> ticks;
+  std::vector<cases::RecordedTick> ticks;
   for (std::uint64_t at = 0; at < 12000; ++at) ticks.push_back(tick_of(at));
   const long before = fixtures::allocations_of_this_thread();
-  for (const RecordedTick& tick : ticks) taken += recorder.tick(tick) ? 1 : 0;
+  for (const cases::RecordedTick& tick : ticks) taken += recorder.tick(tick) ? 1 : 0;
   EXPECT_EQ(fixtures::allocations_of_this_thread(), before);
   EXPECT_TRUE(recorder.fell_behind());
   EXPECT_LT(taken, ticks.size());
