@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scene_picture.h"
+#include "app/simulation.h"
 #include "assessment/metrics/metric.h"
 #include "assessment/score.h"
 #include "casedb/case_json.h"
@@ -17,15 +18,6 @@ struct PointSample {
   glm::dvec3 lps_mm{0.0};
   std::optional<double> hu_nearest, hu_trilinear;
   std::optional<std::string> label;  // of cases whose tissues are known
-};
-
-struct SimulatedAttempt {
-  std::string attempt_id, operator_name;
-  std::uint64_t seed = 0;
-  std::vector<assessment::MetricValue> metrics;
-  std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
-  std::uint64_t number = 0;               // of the attempt, from 0
-  std::optional<casedb::AttemptGrade> grade{};
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 #include <thread>
 
-#include "app/attempt_loop.h"
 #include "app/bench.h"
+#include "app/simulated_attempt.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
 #include "assessment/recorder.h"

@@ -7,7 +7,9 @@
 #include "app/command.h"
 #include "app/file.h"
 #include "app/grade_text.h"
+#include "app/metrics_text.h"
 #include "app/simulation.h"
+#include "app/this_program.h"
 
 namespace seldinger::app {
 namespace {
@@ -60,7 +62,8 @@ int run_simulate(const Arguments& arguments) {
   if (!profile) return refuse(profile.error());
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  auto simulation = Simulation::prepare(*library, case_id, arguments.text("--lesion"), kind, modality);
+  auto simulation =
+      Simulation::prepare(*library, this_program(), case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
   if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
   std::vector<SimulatedAttempt> attempts;

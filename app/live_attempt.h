@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/program.h"
 #include "casedb/store.h"
 #include "sim/base/snapshot.h"
 #include "sim/engine/tick.h"
@@ -43,7 +44,7 @@ class LiveAttempt {
   enum class Keep { stored, not_kept };
 
   // The library and the scene (with what its modality needs) must outlive it.
-  LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene,
+  LiveAttempt(casedb::Library& library, Program program, casedb::AttemptHead head, const cases::Case& scene,
               Keep keep = Keep::stored);
 
   // Until `done` says so, kMostLiveSeconds are over, or it cannot be recorded any more. Stored, scored and durable
@@ -52,6 +53,7 @@ class LiveAttempt {
 
  private:
   casedb::Library& library_;
+  Program program_;
   casedb::AttemptHead head_;
   const cases::Case& scene_;
   Keep keep_;

@@ -99,7 +99,7 @@ imaging::UltrasoundView console_view(const cases::Picture& picture, const cases:
 }
 
 double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept {
-  if (picture.modality != cases::Modality::ultrasound || !(console.depth_mm > 0.0)) return picture.rate_hz;
+  if (!(console.depth_mm > 0.0)) return picture.rate_hz;
   return sound_rate_hz(console_view(picture, console).depth_mm);
 }
 

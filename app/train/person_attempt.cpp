@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/guidance.h"
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
@@ -61,7 +62,7 @@ void PersonAttempt::begin(bool left_handed) {
                                                         scene.skin_index.normal(near.triangle), near.triangle);
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
-  if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside
+  if (!guidance_kind(scene.picture.modality).probe_guides) start.probe = plan.probe;  // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<Monitor>(task_->scene, 0, wanted_.by);
@@ -153,9 +154,10 @@ void PersonAttempt::run() {
       begun_.wait(lock, [this] { return begin_ || gone_; });
       if (!begin_) return;
     }
-    LiveAttempt live(*library,
-                     head_of(*task_, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
-                     task_->scene, wanted_.keep);
+    LiveAttempt live(
+        *library, wanted_.program,
+        head_of(*task_, wanted_.program, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
+        task_->scene, wanted_.keep);
     const auto stored =
         live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
                   .read = [this] { return hands_->read(); },

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/attempt_loop.h"
+#include "app/simulated_attempt.h"
 #include "app/simulation.h"
 #include "assessment/operators/plan.h"
 #include "assessment/score.h"
