@@ -10,23 +10,17 @@
 namespace seldinger::app {
 namespace {
 
-// What a picture is made of.
-struct Moment {
-  cases::State state;
-  tissue::Displacement displacement{};
-};
-
 // The last pulse before the trigger: the inputs, stepped through again until then. Only what moves tissue asks for
 // more than the step.
-std::optional<Moment> last_pulse(const cases::Case& scene, const cases::Recording& recording) {
-  std::optional<Moment> pulse;
+std::optional<engine::Moment> last_pulse(const cases::Case& scene, const cases::Recording& recording) {
+  std::optional<engine::Moment> pulse;
   if (scene.breathing || scene.yields) {
     const engine::Tick tick(scene);
     engine::TickState now;
     for (const cases::Inputs& inputs : recording.inputs) {
       if (now.state.fire.fired) break;
       tick.advance(inputs, recording.dt_s, now);
-      if (now.state.fluoroscopy.frame_due) pulse = Moment{now.state, now.displacement};
+      if (now.state.fluoroscopy.frame_due) pulse = engine::moment_of(now);
     }
     return pulse;
   }
@@ -34,7 +28,7 @@ std::optional<Moment> last_pulse(const cases::Case& scene, const cases::Recordin
   for (const cases::Inputs& inputs : recording.inputs) {
     if (state.fire.fired) break;
     engine::step(scene, inputs, recording.dt_s, state);
-    if (state.fluoroscopy.frame_due) pulse = Moment{state};
+    if (state.fluoroscopy.frame_due) pulse = engine::Moment{state};
   }
   return pulse;
 }
@@ -61,13 +55,13 @@ cases::ConsoleSetting console_at_end(const cases::Recording& recording) {
 
 // When the trigger fell, or last, by what was recorded: the needle as the endpoint has it, the probe in the last
 // pose until then, the console as it stood.
-Moment moment_at_end(const cases::Case& scene, const cases::Recording& recording) {
+engine::Moment moment_at_end(const cases::Case& scene, const cases::Recording& recording) {
   CHECK(!recording.poses.empty());
   cases::PoseSample pose = recording.poses.back();
   if (recording.endpoint)
     for (const cases::PoseSample& one : recording.poses)
       if (one.t_s <= recording.endpoint->t_s) pose = one;
-  Moment end;
+  engine::Moment end;
   end.state.t_s = pose.t_s;
   end.state.needle.tip_lps_mm = recording.endpoint ? recording.endpoint->tip_lps_mm : pose.tip_lps_mm;
   end.state.needle.direction = recording.endpoint ? recording.endpoint->direction : pose.needle_direction;
@@ -84,7 +78,7 @@ Moment moment_at_end(const cases::Case& scene, const cases::Recording& recording
 GreyPicture picture_at_endpoint(const cases::Case& scene, const cases::Recording& recording) {
   CHECK(!recording.hashes.empty());
   const std::unique_ptr<Guidance> guidance = guidance_of(scene);
-  const std::optional<Moment> moment =
+  const std::optional<engine::Moment> moment =
       guidance->pulsed() ? last_pulse(scene, recording) : moment_at_end(scene, recording);
   if (!moment) return {};
   return guidance->picture(moment->state, moment->displacement, {recording.hashes.back(), recording.frames.size()});
