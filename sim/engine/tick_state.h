@@ -2,9 +2,13 @@
 // so far. Plain data with one writer, engine/tick.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
+#include "sim/base/result.h"
 #include "sim/case/recording.h"
 #include "sim/case/state.h"
 #include "sim/devices/virtual_device.h"
@@ -39,5 +43,14 @@ struct TickState {
   std::uint32_t happened = 0;                 // how many of a scenario's events have happened
   std::uint64_t hash = 0;                     // cases::state_hash, chained
 };
+
+// Of every field, by its bits; the same on every machine. (What recordings keep of each tick is TickState::hash,
+// of `state` alone.)
+std::uint64_t tick_state_hash(const TickState& now) noexcept;
+
+// As bytes, and back, every bit as it was. Refused: `damaged` (cut short, foreign, altered), `state_version` (of
+// another format or step version).
+std::vector<std::byte> saved(const TickState& now);
+base::Result<TickState> restored(std::span<const std::byte> bytes);
 
 }  // namespace seldinger::engine
