@@ -6,11 +6,12 @@
 #include <glm/common.hpp>
 #include <thread>
 
-#include "app/attempt_loop.h"
 #include "app/bench.h"
+#include "app/simulated_attempt.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
 #include "assessment/recorder.h"
+#include "assessment/score.h"
 #include "casedb/import/surface.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
@@ -147,7 +148,8 @@ base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
     double simulated_s = 0.0;
     time_into(row, quick ? 3 : 11, [&] {
       const auto recording = run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
-      if (score(scene, recording)) simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
+      if (assessment::score(scene, recording))
+        simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
     });
     if (!(simulated_s > 0.0)) return base::Error{"bench_failed", "the attempt cannot be scored"};
     row.size = bench_number(60e3 / row.ms_median) + " attempts a minute";
@@ -172,7 +174,7 @@ base::Result<void> bench_assessment(bool quick, std::vector<BenchRow>& rows) {
                  ""};
     std::size_t values = 0;
     time_into(row, quick ? 3 : 11, [&] {
-      const auto metrics = measure(scene, recording);
+      const auto metrics = assessment::measure(scene, recording);
       values += metrics ? metrics->size() : 0;
     });
     if (values == 0) return base::Error{"bench_failed", "the attempt cannot be scored"};

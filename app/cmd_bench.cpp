@@ -9,11 +9,11 @@
 #include <functional>
 #include <thread>
 
-#include "app/attempt_loop.h"
 #include "app/bench.h"
 #include "app/command.h"
 #include "app/file.h"
 #include "app/import_case.h"
+#include "app/simulated_attempt.h"
 #include "assessment/operators/lesion_site.h"
 #include "casedb/import/import.h"
 #include "casedb/import/surface.h"

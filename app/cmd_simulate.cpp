@@ -7,7 +7,9 @@
 #include "app/command.h"
 #include "app/file.h"
 #include "app/grade_text.h"
+#include "app/metrics_text.h"
 #include "app/simulation.h"
+#include "app/this_program.h"
 
 namespace seldinger::app {
 namespace {
@@ -71,8 +73,8 @@ int resume(const Arguments& arguments) {
     profile = *given;
   }
   if (!profile) throw UsageError("the attempt's operator is unknown: --operator names the profile's file");
-  auto simulation = Simulation::prepare(*library, attempt.case_id, attempt.lesion_id, attempt.instrument.kind,
-                                        attempt.picture.modality);
+  auto simulation = Simulation::prepare(*library, this_program(), attempt.case_id, attempt.lesion_id,
+                                        attempt.instrument.kind, attempt.picture.modality);
   if (!simulation) return refuse(simulation.error());
   if (const auto set = simulation->set_scenario(scenario_of(arguments)); !set) return refuse(set.error());
   casedb::Grader grader(*library);
@@ -112,7 +114,8 @@ int run_simulate(const Arguments& arguments) {
   if (!profile) return refuse(profile.error());
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
-  auto simulation = Simulation::prepare(*library, case_id, arguments.text("--lesion"), kind, modality);
+  auto simulation =
+      Simulation::prepare(*library, this_program(), case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
   if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
   std::vector<SimulatedAttempt> attempts;

@@ -1,7 +1,7 @@
 #include "app/interrupted_attempt.h"
 
-#include "app/attempt_loop.h"
 #include "app/case_build.h"
+#include "assessment/score.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
 
@@ -9,7 +9,7 @@ namespace seldinger::app {
 namespace {
 
 // Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+assessment::Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
   const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
   const auto row = casedb::find_case(library, attempt.case_id);
   if (!recording || recording->poses.empty() || !row) return {};
@@ -19,8 +19,8 @@ Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
       if (!scene) return {};
       scene->instrument = attempt.instrument;
       scene->approach = attempt.approach;
-      auto scored = score(*scene, *recording);
-      return scored ? std::move(*scored) : Scored{};
+      auto scored = assessment::score(*scene, *recording);
+      return scored ? std::move(*scored) : assessment::Scored{};
     }
   return {};
 }
@@ -100,7 +100,7 @@ bool close_interrupted_attempt(casedb::Library& library, const casedb::OpenAttem
   if (casedb::is_running(library.folder(), attempt.attempt_id)) return false;
   casedb::AttemptOutcome outcome;
   outcome.end = casedb::AttemptEnd::interrupted;
-  Scored scored = score_of(library, attempt);
+  assessment::Scored scored = score_of(library, attempt);
   outcome.metrics = std::move(scored.metrics);
   outcome.steps = std::move(scored.steps);
   // Another process may have been faster.

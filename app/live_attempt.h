@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/interrupted_attempt.h"
-#include "assessment/recorder.h"
+#include "app/program.h"
 #include "casedb/store.h"
 #include "sim/base/snapshot.h"
 #include "sim/engine/tick.h"
@@ -46,10 +46,10 @@ class LiveAttempt {
   enum class Keep { stored, not_kept };
 
   // The library and the scene (with what its modality needs) must outlive it.
-  LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene,
+  LiveAttempt(casedb::Library& library, Program program, casedb::AttemptHead head, const cases::Case& scene,
               Keep keep = Keep::stored);
   // Goes on with one that was interrupted, replayed in this scene: its recording goes on, too, and says so.
-  LiveAttempt(casedb::Library& library, InterruptedAttempt interrupted, const cases::Case& scene);
+  LiveAttempt(casedb::Library& library, Program program, InterruptedAttempt interrupted, const cases::Case& scene);
 
   const casedb::AttemptHead& head() const noexcept { return head_; }
 
@@ -58,13 +58,12 @@ class LiveAttempt {
   base::Result<StoredAttempt> run(const With& with);
 
  private:
-  assessment::RecordedBefore recorded_before() const;
-
   casedb::Library& library_;
+  Program program_;
   casedb::AttemptHead head_;
   const cases::Case& scene_;
   Keep keep_;
-  std::optional<InterruptedAttempt> before_;
+  std::optional<InterruptedAttempt> before_;  // what is gone on with
 };
 
 }  // namespace seldinger::app

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "app/guidance.h"
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
@@ -83,7 +84,7 @@ void PersonAttempt::take_up_tools(bool left_handed) {
                                                         scene.skin_index.normal(near.triangle), near.triangle);
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
-  if (scene.picture.modality == cases::Modality::xray) start.probe = plan.probe;  // laid aside
+  if (!guidance_kind(scene.picture.modality).probe_guides) start.probe = plan.probe;  // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<Monitor>(task_->scene, 0, wanted_.by);
@@ -92,9 +93,10 @@ void PersonAttempt::take_up_tools(bool left_handed) {
 // A new one, or the one that is gone on with, replayed.
 base::Result<LiveAttempt> PersonAttempt::live(casedb::Library& library) {
   if (!resumed_)
-    return LiveAttempt(library,
-                       head_of(*task_, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
-                       task_->scene, wanted_.keep);
+    return LiveAttempt(
+        library, wanted_.program,
+        head_of(*task_, wanted_.program, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
+        task_->scene, wanted_.keep);
   auto interrupted = InterruptedAttempt::take(library, *resumed_);
   if (!interrupted) return interrupted.error();
   if (!was_made_at(interrupted->attempt(), *task_))
@@ -107,7 +109,7 @@ base::Result<LiveAttempt> PersonAttempt::live(casedb::Library& library) {
   fluoroscope_.pedal = false;  // nobody's foot has been on it
   console_ = left.console;
   phase_.store(Phase::running, std::memory_order_release);
-  return LiveAttempt(library, std::move(*interrupted), task_->scene);
+  return LiveAttempt(library, wanted_.program, std::move(*interrupted), task_->scene);
 }
 
 bool PersonAttempt::say(cases::EventKind kind) noexcept {

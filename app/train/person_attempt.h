@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "app/live_attempt.h"
+#include "app/program.h"
 #include "app/task.h"
 #include "app/train/desk_hands.h"
 #include "app/train/monitor.h"
@@ -46,6 +47,7 @@ class PersonAttempt {
  public:
   struct Wanted {
     std::filesystem::path library;
+    Program program;
     std::string case_id;
     std::optional<cases::Modality> modality;  // else the case's own
     std::string person_id;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/this_program.h"
 #include "casedb/changeable_case.h"
 #include "casedb/expert_replay.h"
 #include "sim/base/failure.h"
@@ -283,9 +284,9 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   attempt_.reset();  // before the next: a case is large
   interrupted_.reset();
   if (!trying_) interrupted_ = find_interrupted(library_, account_.person_id, chosen_.case_id);
-  attempt_ = std::make_unique<PersonAttempt>(
-      PersonAttempt::Wanted{library_.folder(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task),
-                            arms_, by_, trying_ ? LiveAttempt::Keep::not_kept : LiveAttempt::Keep::stored});
+  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
+      library_.folder(), this_program(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_,
+      by_, trying_ ? LiveAttempt::Keep::not_kept : LiveAttempt::Keep::stored});
   screen_ = TrainerScreen::briefing;
 }
 
@@ -355,7 +356,7 @@ Debrief Trainer::debrief_of_try() {
   const std::shared_ptr<const Task> task = attempt_->task();
   casedb::AttemptRow row;
   static_cast<casedb::AttemptHead&>(row) =
-      head_of(*task, std::string(casedb::kPersonOperator), 0, account_.person_id);
+      head_of(*task, this_program(), std::string(casedb::kPersonOperator), 0, account_.person_id);
   row.case_title = task->row.title;
   row.lesion = task->lesion.lesion;
   row.end = made.end;

@@ -10,9 +10,11 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "app/attempt_loop.h"
 #include "app/interrupted_attempt.h"
+#include "app/replayed_attempt.h"
+#include "app/simulated_attempt.h"
 #include "app/simulation.h"
+#include "app/this_program.h"
 #include "sim/engine/step.h"
 #include "sim/volume/analytic.h"
 #include "tests/fixtures/meshes.h"
@@ -58,7 +60,7 @@ class ResumeTest : public testing::Test {
     ASSERT_GE(child, 0);
     if (child == 0) {
       auto library = casedb::Library::open(folder_);
-      auto simulation = Simulation::prepare(*library, case_id_, "");
+      auto simulation = Simulation::prepare(*library, this_program(), case_id_, "");
       static_cast<void>(simulation->live_attempt(*assessment::named_profile(profile), seed));
       ::_exit(0);
     }
@@ -80,7 +82,7 @@ class ResumeTest : public testing::Test {
   std::string leave_behind(casedb::Library& library, const cases::Recording& recording) {
     auto task = prepare_task(library, case_id_, "");
     EXPECT_TRUE(task);
-    const auto id = casedb::open_attempt(library, head_of(*task, "novice", 3, std::nullopt));
+    const auto id = casedb::open_attempt(library, head_of(*task, this_program(), "novice", 3, std::nullopt));
     EXPECT_TRUE(id);
     for (const cases::RecordingChunk& chunk : cases::chunks_from_recording(recording))
       EXPECT_TRUE(casedb::add_chunk(library, *id, chunk));
@@ -116,7 +118,7 @@ TEST_F(ResumeTest, AfterAKillTheAttemptGoesOnAndIsOneRecording) {
   EXPECT_EQ(interrupted->ticks(), before.inputs.size());
   EXPECT_TRUE(close_interrupted_attempts(library).empty()) << "who goes on with it holds it";
   EXPECT_EQ(InterruptedAttempt::take(library, id).error().code, "attempt_runs");
-  auto simulation = Simulation::prepare(library, case_id_, "");
+  auto simulation = Simulation::prepare(library, this_program(), case_id_, "");
   ASSERT_TRUE(simulation);
   const auto made = simulation->resume(std::move(*interrupted), *assessment::named_profile("novice"));
   ASSERT_TRUE(made) << made.error().text;
@@ -181,7 +183,7 @@ TEST_F(ResumeTest, WhatCannotGoOnIsRefusedAndStaysOpen) {
   EXPECT_EQ(InterruptedAttempt::take(library, std::string(36, 'x')).error().code, "no_attempt");
   const cases::Recording recording = recording_of(*task, 4000);
   {
-    const auto id = casedb::open_attempt(library, head_of(*task, "novice", 3, std::nullopt));
+    const auto id = casedb::open_attempt(library, head_of(*task, this_program(), "novice", 3, std::nullopt));
     ASSERT_TRUE(id);
     EXPECT_FALSE(is_interrupted(library, casedb::list_open_attempts(library).at(0)));
     EXPECT_EQ(InterruptedAttempt::take(library, *id).error().code, "nothing_recorded");
@@ -218,7 +220,7 @@ TEST_F(ResumeTest, AnAttemptAtAnotherTaskIsNotGoneOnWith) {
   const std::string id = leave_behind(library, recording_of(*task, 2000));
   auto interrupted = InterruptedAttempt::take(library, id);
   ASSERT_TRUE(interrupted);
-  auto other = Simulation::prepare(library, case_id_, "", cases::InstrumentKind::core);
+  auto other = Simulation::prepare(library, this_program(), case_id_, "", cases::InstrumentKind::core);
   ASSERT_TRUE(other);
   EXPECT_EQ(other->resume(std::move(*interrupted), *assessment::named_profile("novice")).error().code,
             "other_case");

@@ -9,7 +9,8 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "app/attempt_loop.h"
+#include "app/replayed_attempt.h"
+#include "app/this_program.h"
 #include "casedb/sqlite.h"
 #include "casedb/versions.h"
 #include "sim/engine/step.h"
@@ -455,7 +456,8 @@ class InterruptedTrainerTest : public TrainerTest {
     const auto task = prepare_task(library, case_id_, "");
     ASSERT_TRUE(task);
     const auto id = casedb::open_attempt(
-        library, head_of(*task, std::string(casedb::kPersonOperator), 0, std::optional(person_id_)));
+        library,
+        head_of(*task, this_program(), std::string(casedb::kPersonOperator), 0, std::optional(person_id_)));
     ASSERT_TRUE(id);
     attempt_id_ = *id;
     const engine::Tick tick(task->scene);
