@@ -132,7 +132,7 @@ std::string json_of_lesion(const std::string& lesion_id) {
   return text({{"lesion_id", lesion_id}});
 }
 
-std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade) {
+std::string json_of_score(const assessment::Scored& scored, const casedb::AttemptGrade* grade) {
   Json json = {{"metrics", json_of_metrics(scored.metrics)}, {"steps", json_of_steps(scored.steps)}};
   if (grade != nullptr) {
     casedb::add_grade(*grade, json);

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "app/attempt_loop.h"
 #include "app/scene_picture.h"
+#include "app/simulation.h"
 #include "assessment/metrics/metric.h"
+#include "assessment/score.h"
 #include "casedb/case_json.h"
 #include "casedb/grading.h"
 #include "casedb/store.h"
@@ -17,15 +18,6 @@ struct PointSample {
   glm::dvec3 lps_mm{0.0};
   std::optional<double> hu_nearest, hu_trilinear;
   std::optional<std::string> label;  // of cases whose tissues are known
-};
-
-struct SimulatedAttempt {
-  std::string attempt_id, operator_name;
-  std::uint64_t seed = 0;
-  std::vector<assessment::MetricValue> metrics;
-  std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
-  std::uint64_t number = 0;               // of the attempt, from 0
-  std::optional<casedb::AttemptGrade> grade{};
 };
 
 // What scoring attempts again has found. A difference: a value that is stored under the same version.
@@ -59,7 +51,7 @@ std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
 std::string json_of_lesion(const std::string& lesion_id);
 // Metrics and steps; of a stored attempt its grade, else null.
-std::string json_of_score(const Scored& scored, const casedb::AttemptGrade* grade);
+std::string json_of_score(const assessment::Scored& scored, const casedb::AttemptGrade* grade);
 std::string json_of_simulation(const std::vector<SimulatedAttempt>& attempts);
 // An attempt whose recording cannot be read has no course.
 struct Course {

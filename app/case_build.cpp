@@ -55,10 +55,6 @@ class Voxels {
 
 }  // namespace
 
-Needs needs_of(cases::Modality modality) noexcept {
-  return modality == cases::Modality::ultrasound ? Needs::ultrasound : Needs::touch;
-}
-
 void add_lesion(const cases::LesionForm& form, cases::Case& scene) {
   cases::Lesion lesion = cases::lesion_of(form);
   if (lesion.in_volume()) {

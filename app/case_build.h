@@ -1,15 +1,12 @@
 // Builds the Case of a simulation from the library, or of a scoring from a scene.
 #pragma once
 
+#include "app/guidance_needs.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 
 namespace seldinger::app {
-
-// What is built depends on what looks at it or feels it: classes cost a file and a byte a voxel.
-// Touch asks the class of a voxel, ultrasound also how bright it is; scoring does without both.
-enum class Needs { metrics, touch, ultrasound };
 
 // What of a stored case stays as it is, loaded once by who builds the case again and again. Without classes where
 // they are not needed.
@@ -40,8 +37,5 @@ void add_lesion(const cases::LesionForm& form, cases::Case& scene);
 
 // As an attempt was made: its lesion, instrument, picture and approach.
 base::Result<cases::Case> build_case_of(casedb::Library& library, const casedb::AttemptRow& attempt, Needs needs);
-
-// What an attempt by this modality needs.
-Needs needs_of(cases::Modality modality) noexcept;
 
 }  // namespace seldinger::app

@@ -13,6 +13,7 @@
 #include "app/import_case.h"
 #include "app/serving.h"
 #include "app/simulation.h"
+#include "app/this_program.h"
 #include "app/ultrasound_sight.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
@@ -108,7 +109,7 @@ base::Result<void> demo_attempts(casedb::Library& library, DemoAnswer& answer) {
     for (const SimulatedAttempt& attempt : answer.attempts) there = there || attempt.operator_name == name;
     if (there) continue;
     if (!simulation) {
-      auto prepared = Simulation::prepare(library, answer.found.case_id, answer.lesion.lesion_id);
+      auto prepared = Simulation::prepare(library, this_program(), answer.found.case_id, answer.lesion.lesion_id);
       if (!prepared) return prepared.error();
       simulation.emplace(std::move(*prepared));
     }

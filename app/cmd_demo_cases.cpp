@@ -12,6 +12,7 @@
 #include "app/demo_library.h"
 #include "app/import_case.h"
 #include "app/simulation.h"
+#include "app/this_program.h"
 #include "assessment/metrics/registry.h"
 #include "casedb/curriculum.h"
 #include "casedb/grading.h"
@@ -80,7 +81,7 @@ base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, co
       answer.seed = attempt.seed;
       return {};
     }
-  auto simulation = Simulation::prepare(library, answer.case_id, {});
+  auto simulation = Simulation::prepare(library, this_program(), answer.case_id, {});
   if (!simulation) return titled(simulation.error(), answer.title);
   for (std::uint64_t seed = 1; seed <= kMostSeeds; ++seed) {
     const auto attempt = simulation->attempt(*assessment::named_profile("expert"), seed, std::nullopt);

@@ -116,7 +116,7 @@ int run_haptics_selftest(const Arguments& arguments) {
   constexpr double kSkinDecimation = 0.7;  // as import's
   const auto torso = torso_under_hands(kSkinDecimation);
   if (!torso) return refuse(torso.error());
-  const haptics::TwoHands hands(torso->scene, two_virtual_devices());
+  const haptics::TwoHands hands(torso->scene, haptics::two_virtual_devices());
   HandsAtWork work(torso->plan, haptics::Handedness::right);
   haptics::HandStates states{};
   engine::ServoLoop loop({}, [&](double elapsed_s) {

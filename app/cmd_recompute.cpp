@@ -4,9 +4,9 @@
 #include <cstdio>
 
 #include "app/answers_json.h"
-#include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/command.h"
+#include "assessment/score.h"
 
 namespace seldinger::app {
 namespace {
@@ -52,7 +52,7 @@ base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow&
   if (!scene) return scene.error();
   const auto recording = casedb::load_recording(library, attempt.attempt_id);
   if (!recording) return recording.error();
-  const auto scored = score(**scene, *recording);
+  const auto scored = assessment::score(**scene, *recording);
   if (!scored) return scored.error();
   for (const assessment::MetricValue& now : scored->metrics)
     for (const assessment::MetricValue& stored : attempt.metrics)

@@ -2,10 +2,10 @@
 #include <cstdio>
 
 #include "app/answers_json.h"
-#include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/command.h"
 #include "app/replay_output.h"
+#include "app/replayed_attempt.h"
 #include "sim/engine/step.h"
 
 namespace seldinger::app {

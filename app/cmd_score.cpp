@@ -3,28 +3,23 @@
 #include <glm/geometric.hpp>
 
 #include "app/answers_json.h"
-#include "app/attempt_loop.h"
 #include "app/case_build.h"
 #include "app/command.h"
 #include "app/file.h"
 #include "app/frame_truth.h"
 #include "app/grade_text.h"
+#include "app/metrics_text.h"
 #include "app/poses_csv.h"
 #include "app/scene.h"
-#include "app/simulation.h"
 #include "app/ultrasound_sight.h"
 #include "app/xray_sight.h"
+#include "assessment/score.h"
 #include "casedb/import/surface.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 
 namespace seldinger::app {
 namespace {
-
-imaging::NeedlePose needle_of(const cases::Instrument& instrument) {
-  return {{},           {0.0, 0.0, 1.0}, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
-          instrument.hu};
-}
 
 // What the picture at each row's probe pose shows: the view's kind, depth and size (contracts.md, Attempts).
 void add_frames(const Scene& scene, const imaging::MprView& size, cases::Recording& recording) {
@@ -45,7 +40,7 @@ void add_frames(const Scene& scene, const XrayView& view, const volume::Volume& 
                 cases::Recording& recording) {
   XraySight sight(volume, view);
   imaging::Inserted inserted = scene.inserted;
-  if (!inserted.needle) inserted.needle = needle_of(scene.instrument);
+  if (!inserted.needle) inserted.needle = imaging::needle_pose(scene.instrument, {}, {0.0, 0.0, 1.0});
   for (const cases::PoseSample& pose : recording.poses) {
     inserted.needle->tip_lps_mm = pose.tip_lps_mm;
     inserted.needle->direction = glm::normalize(pose.needle_direction);
@@ -62,7 +57,7 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
   const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
   imaging::UltrasoundView view = of_scene.view;
   imaging::Inserted inserted = scene.inserted;
-  if (!inserted.needle) inserted.needle = needle_of(scene.instrument);
+  if (!inserted.needle) inserted.needle = imaging::needle_pose(scene.instrument, {}, {0.0, 0.0, 1.0});
   for (const cases::PoseSample& pose : recording.poses) {
     view.origin_lps_mm = pose.probe_origin_lps_mm;
     view.axial = glm::normalize(pose.probe_axial);
@@ -77,8 +72,8 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
   return {};
 }
 
-base::Result<Scored> score_poses(const std::string& poses, const std::string& scene_path,
-                                 const std::string& library, std::vector<std::string>& notes) {
+base::Result<assessment::Scored> score_poses(const std::string& poses, const std::string& scene_path,
+                                             const std::string& library, std::vector<std::string>& notes) {
   const auto scene = read_scene(scene_path, notes);
   if (!scene) return scene.error();
   if (scene->motion)
@@ -113,12 +108,12 @@ base::Result<Scored> score_poses(const std::string& poses, const std::string& sc
       if (!added) return added.error();
     }
   }
-  return score(built, *recording);
+  return assessment::score(built, *recording);
 }
 
 // What it is worth as measured now; `grade` is set with it.
-base::Result<Scored> score_attempt(const std::string& attempt_id, const std::string& folder,
-                                   std::optional<casedb::AttemptGrade>& grade) {
+base::Result<assessment::Scored> score_attempt(const std::string& attempt_id, const std::string& folder,
+                                               std::optional<casedb::AttemptGrade>& grade) {
   auto library = casedb::Library::open(folder);
   if (!library) return library.error();
   auto attempt = casedb::find_attempt(*library, attempt_id);
@@ -127,7 +122,7 @@ base::Result<Scored> score_attempt(const std::string& attempt_id, const std::str
   if (!recording) return recording.error();
   const auto scene = build_case_of(*library, *attempt, Needs::metrics);
   if (!scene) return scene.error();
-  auto scored = score(*scene, *recording);
+  auto scored = assessment::score(*scene, *recording);
   if (!scored) return scored;
   // Stored versions that are measured no more stay, for a rule that names one.
   std::vector<assessment::MetricValue>& older = attempt->older_metrics;

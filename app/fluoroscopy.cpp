@@ -24,14 +24,12 @@ constexpr int kMeterPx = 64;
 // Needles are where hands are, lesions where tissue has taken them.
 imaging::Inserted inserted_of(const cases::Case& scene, const cases::NeedleState& needle,
                               const tissue::Displacement& displacement) {
-  const cases::Instrument& instrument = scene.instrument;
   imaging::Inserted inserted;
   inserted.lesions = scene.lesions;
   if (tissue::count_sources(displacement) > 0)
     for (cases::Lesion& lesion : inserted.lesions)
       lesion.center_lps_mm = tissue::displaced(displacement, lesion.center_lps_mm);
-  inserted.needle = imaging::NeedlePose{needle.tip_lps_mm,    needle.direction,           instrument.length_mm,
-                                        instrument.radius_mm, instrument.inner_radius_mm, instrument.hu};
+  inserted.needle = imaging::needle_pose(scene.instrument, needle.tip_lps_mm, needle.direction);
   return inserted;
 }
 

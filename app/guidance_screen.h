@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 
-#include "app/fluoroscopy.h"
 #include "app/grey_picture.h"
-#include "app/picture_clock.h"
-#include "app/ultrasound_sight.h"
+#include "app/guidance.h"
 #include "sim/case/case.h"
 #include "sim/case/state.h"
 #include "sim/tissue/displacement.h"
@@ -28,13 +26,10 @@ class GuidanceScreen {
   bool live() const noexcept { return live_; }  // neither frozen nor held
 
  private:
-  const cases::Case& scene_;
+  std::unique_ptr<Guidance> guidance_;
   std::uint64_t seed_;
-  std::optional<UltrasoundSight> sight_;
-  std::optional<FluoroscopyRoom> room_;
   cases::State shown_;  // of which the screen shows the picture
   tissue::Displacement shown_displacement_{};
-  PictureClock clock_;
   bool live_ = false, drawn_ = true;
   GreyPicture picture_;
 };

@@ -7,10 +7,11 @@
 #include <optional>
 #include <thread>
 
-#include "app/attempt_loop.h"
 #include "app/case_build.h"
-#include "app/fluoroscopy.h"
-#include "app/ultrasound_sight.h"
+#include "app/endpoint_picture.h"
+#include "app/guidance.h"
+#include "assessment/recorder.h"
+#include "assessment/score.h"
 #include "casedb/running_mark.h"
 #include "sim/engine/servo_loop.h"
 #include "sim/engine/step.h"
@@ -20,160 +21,197 @@ namespace {
 
 // A stall longer than this is not caught up with: hands would seem to have stood still for as long.
 constexpr int kMostTicksAtOnce = 20;
-// A pulse's report reaches the servo well before the next pulse, which comes after 1/15 s at the earliest.
-constexpr double kPulsesLookedForHz = 500.0;
 
-}  // namespace
-
-LiveAttempt::LiveAttempt(casedb::Library& library, casedb::AttemptHead head, const cases::Case& scene, Keep keep)
-    : library_(library), head_(std::move(head)), scene_(scene), keep_(keep) {}
-
-base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
-  const bool xray = scene_.picture.modality == cases::Modality::xray;
-  Sight see;
-  std::optional<FluoroscopyRoom> room;
-  if (xray)
-    room.emplace(scene_);
-  else
-    see = sight_of(scene_);
-  std::string attempt_id;
-  std::optional<casedb::RunningMark> mark;
-  std::optional<casedb::Library> recorders_library;  // one thread at a time uses a library
-  if (keep_ == Keep::stored) {
-    auto opened = casedb::open_attempt(library_, head_);
+// Where the recording goes: into the library, piece by piece while it is made, or into memory until it is scored.
+class Store {
+ public:
+  // The library keeps it from now on. Without, memory does.
+  base::Result<void> open(casedb::Library& library, const casedb::AttemptHead& head) {
+    auto opened = casedb::open_attempt(library, head);
     if (!opened) return opened.error();
-    attempt_id = std::move(*opened);
-    mark.emplace(library_.folder(), attempt_id);
-    auto library = casedb::Library::open(library_.folder());
-    if (!library) return library.error();
-    recorders_library.emplace(std::move(*library));
+    attempt_id_ = std::move(*opened);
+    mark_.emplace(library.folder(), attempt_id_);
+    return use(library);
   }
-  std::vector<cases::RecordingChunk> not_kept;  // the recorder's thread, until it has finished
-  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
-                                [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
-                                  if (recorders_library)
-                                    return casedb::add_chunk(*recorders_library, attempt_id, chunk);
-                                  not_kept.push_back(chunk);
-                                  return {};
-                                });
+  // One that was interrupted, which holds its mark: the library goes on with it.
+  base::Result<void> reopen(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+    if (const auto noted = casedb::note_resumption(library, attempt.attempt_id); !noted) return noted.error();
+    attempt_id_ = attempt.attempt_id;
+    return use(library);
+  }
+  base::Result<void> use(const casedb::Library& library) {
+    auto own = casedb::Library::open(library.folder());
+    if (!own) return own.error();
+    recorders_library_.emplace(std::move(*own));
+    return {};
+  }
+  // By the recorder's thread, until it has finished.
+  base::Result<void> add(const cases::RecordingChunk& chunk) {
+    if (recorders_library_) return casedb::add_chunk(*recorders_library_, attempt_id_, chunk);
+    in_memory_.push_back(chunk);
+    return {};
+  }
+  base::Result<cases::Recording> recording(casedb::Library& library) const {
+    return recorders_library_ ? casedb::load_open_recording(library, attempt_id_)
+                              : cases::recording_from_chunks(in_memory_);
+  }
+  const std::string& attempt_id() const noexcept { return attempt_id_; }  // empty: memory's
 
-  AttemptTicks ticks(scene_);
-  base::Snapshot<Moment> moments;
-  base::Snapshot<Moment> pulses;
-  base::Snapshot<cases::FrameTruth> frames;
-  base::Snapshot<cases::ExposureReport> reports;
-  std::atomic<bool> over{false};
-  engine::ServoLoop servo({}, [&, report = cases::ExposureReport{}](double elapsed_s) mutable {
-    if (over || (with.paused && with.paused())) {
-      over = over || with.done();
+ private:
+  std::string attempt_id_;
+  std::optional<casedb::RunningMark> mark_;
+  std::optional<casedb::Library> recorders_library_;  // one thread at a time uses a library
+  std::vector<cases::RecordingChunk> in_memory_;
+};
+
+// The attempt while it runs: ticks on the servo's thread, pictures on the caller's.
+class Running {
+ public:
+  Running(const cases::Case& scene, const LiveAttempt::With& with, assessment::Recorder& recorder)
+      : with_(with), recorder_(recorder), tick_(scene), guidance_(guidance_of(scene)) {}
+
+  // Before it runs: from where an attempt ended that was interrupted.
+  void go_on_from(const InterruptedAttempt& before) {
+    now_ = before.now();
+    says_resumed_ = true;
+    if (!guidance_->pulsed() || !before.pulse()) return;
+    // Whether the last pulse's report had come in, nobody knows; told twice it counts once.
+    const cases::FrameTruth frame = guidance_->see(before.pulse()->state, before.pulse()->displacement);
+    report_ = guidance_->state().report;
+    const std::vector<cases::FrameTruth>& frames = before.recording().frames;
+    if (frames.empty() || frames.back().t_s < frame.t_s) recorder_.frame(frame);
+    if (!frames.empty() && frames.back().t_s > frame.t_s) static_cast<void>(guidance_->stay(now_.state));  // told
+  }
+
+  // Until it is over. How time was kept.
+  cases::ServoRecord run() {
+    engine::ServoLoop servo({}, [this](double elapsed_s) { turn(elapsed_s); });
+    guide();
+    servo.stop();
+    return servo.record();
+  }
+
+  const cases::State& state() const noexcept { return now_.state; }
+
+ private:
+  // By the servo: the ticks that are due.
+  void turn(double elapsed_s) {
+    if (over_ || (with_.paused && with_.paused())) {
+      over_ = over_ || with_.done();
       return;
     }
-    const auto frame = frames.take();
-    if (const auto exposed = reports.take()) report = *exposed;
+    const auto frame = frames_.take();
+    if (const auto exposed = reports_.take()) report_ = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
     const int due =
         std::clamp(static_cast<int>(std::lround(elapsed_s / engine::kTickSeconds)), 1, kMostTicksAtOnce);
-    for (int i = 0; i < due && !over; ++i) {
-      cases::Inputs inputs = with.hands(ticks.state(), i == 0 && frame ? &*frame : nullptr);
-      inputs.exposure = report;
-      const bool kept = recorder.tick(ticks.advance(inputs, with.read ? with.read() : ToolsRead()));
-      if (with.feel) with.feel(ticks.room());
-      if (ticks.state().fluoroscopy.frame_due) pulses.put(ticks.moment());
-      if (!kept || with.done() || ticks.state().t_s >= kMostLiveSeconds) over = true;
-    }
-    const Moment moment = ticks.moment();
-    moments.put(moment);
-    if (with.watch) with.watch(moment);
-  });
-
-  const auto begun = std::chrono::steady_clock::now();
-  std::optional<cases::FrameTruth> last;  // of a fluoroscope that is live
-  cases::ConsoleSetting console;
-  for (double due_s = 0.0; !over && !recorder.failed();
-       due_s += 1.0 / (xray ? kPulsesLookedForHz : picture_rate_hz(scene_.picture, console))) {
-    std::this_thread::sleep_until(begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                              std::chrono::duration<double>(due_s)));
-    const auto moment = moments.take();
-    if (room) {
-      if (const auto pulse = pulses.take()) {
-        const FluoroscopyRoom::Exposed exposed = room->expose(pulse->state, pulse->displacement);
-        reports.put(exposed.report);
-        recorder.frame(exposed.truth);
-        last = exposed.truth;
-      } else if (moment && last && !moment->state.fluoroscopy.live) {
-        last->t_s = moment->state.t_s;  // the last image stays, and shows nothing that happens
-        last->live = false;
-        last->beam.reset();
-        recorder.frame(*last);
-        last.reset();
-      }
-      continue;
-    }
-    if (!moment) continue;
-    console = moment->state.probe.console;
-    cases::FrameTruth frame = see(moment->state, moment->displacement);
-    frame.live = !moment->state.probe.frozen;
-    recorder.frame(frame);
-    frames.put(frame);
+    for (int i = 0; i < due && !over_; ++i) tick(i == 0 && frame ? &*frame : nullptr);
+    const engine::Moment moment = engine::moment_of(now_);
+    moments_.put(moment);
+    if (with_.watch) with_.watch(moment);
   }
-  servo.stop();
+
+  void tick(const cases::FrameTruth* frame) {
+    cases::Inputs inputs = with_.hands(now_.state, frame);
+    inputs.exposure = report_;
+    if (says_resumed_ && inputs.event == cases::EventKind::none) {
+      inputs.event = cases::EventKind::resumed;
+      says_resumed_ = false;
+    }
+    const bool kept =
+        recorder_.tick(tick_.advance_hands(inputs, with_.read ? with_.read() : engine::ToolsRead(), now_));
+    if (with_.feel) with_.feel(tick_, now_);
+    if (now_.state.fluoroscopy.frame_due) pulses_.put(engine::moment_of(now_));
+    if (!kept || with_.done() || now_.state.t_s >= kMostLiveSeconds) over_ = true;
+  }
+
+  // Looks for new pictures, as often as the machine makes them.
+  void guide() {
+    const auto begun = std::chrono::steady_clock::now();
+    cases::ConsoleSetting console;
+    for (double due_s = 0.0; !over_ && !recorder_.failed(); due_s += 1.0 / guidance_->rate_hz(console)) {
+      std::this_thread::sleep_until(begun + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                                std::chrono::duration<double>(due_s)));
+      const auto newest = moments_.take(), pulse = pulses_.take();
+      if (newest) console = newest->state.probe.console;
+      if (const auto& moment = guidance_->pulsed() ? pulse : newest) {
+        show(*moment);
+      } else if (newest) {
+        if (const auto held = guidance_->stay(newest->state)) recorder_.frame(*held);
+      }
+    }
+  }
+
+  void show(const engine::Moment& moment) {
+    const cases::FrameTruth& frame = guidance_->see(moment.state, moment.displacement);
+    reports_.put(guidance_->state().report);  // first: the servo needs it before the next pulse
+    recorder_.frame(frame);
+    frames_.put(frame);
+  }
+
+  const LiveAttempt::With& with_;
+  assessment::Recorder& recorder_;
+  const engine::Tick tick_;  // with the next two: the servo's
+  engine::TickState now_;
+  cases::ExposureReport report_;
+  bool says_resumed_ = false;
+  std::unique_ptr<Guidance> guidance_;  // the caller's
+  base::Snapshot<engine::Moment> moments_, pulses_;
+  base::Snapshot<cases::FrameTruth> frames_;
+  base::Snapshot<cases::ExposureReport> reports_;
+  std::atomic<bool> over_{false};
+};
+
+}  // namespace
+
+LiveAttempt::LiveAttempt(casedb::Library& library, Program program, casedb::AttemptHead head,
+                         const cases::Case& scene, Keep keep)
+    : library_(library), program_(std::move(program)), head_(std::move(head)), scene_(scene), keep_(keep) {}
+
+LiveAttempt::LiveAttempt(casedb::Library& library, Program program, InterruptedAttempt interrupted,
+                         const cases::Case& scene)
+    : library_(library),
+      program_(std::move(program)),
+      head_(interrupted.attempt()),
+      scene_(scene),
+      keep_(Keep::stored),
+      before_(std::move(interrupted)) {}
+
+base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
+  Store store;
+  assessment::RecordedBefore recorded;
+  if (keep_ == Keep::stored) {
+    const auto opened = before_ ? store.reopen(library_, before_->attempt()) : store.open(library_, head_);
+    if (!opened) return opened.error();
+    if (with.opened) with.opened(store.attempt_id());
+  }
+  if (before_) recorded = {before_->ticks(), static_cast<std::uint32_t>(before_->attempt().chunks)};
+  assessment::Recorder recorder(
+      engine::kStepVersion, engine::kTickSeconds,
+      [&](const cases::RecordingChunk& chunk) { return store.add(chunk); }, recorded);
+  Running running(scene_, with, recorder);
+  if (before_) running.go_on_from(*before_);
+  casedb::AttemptOutcome outcome;
+  outcome.servo = running.run();
   if (with.ended) with.ended();
   if (const auto chunks = recorder.finish(); !chunks) return chunks.error();
 
-  casedb::AttemptOutcome outcome;
-  outcome.servo = servo.record();
-  outcome.end = ticks.state().fire.fired ? casedb::AttemptEnd::fired
-                : recorder.fell_behind() ? casedb::AttemptEnd::interrupted
-                : with.done()            ? casedb::AttemptEnd::stopped
-                                         : casedb::AttemptEnd::time_limit;
-  const auto recording = keep_ == Keep::stored ? casedb::load_open_recording(library_, attempt_id)
-                                               : cases::recording_from_chunks(not_kept);
+  outcome.end = running.state().fire.fired ? casedb::AttemptEnd::fired
+                : recorder.fell_behind()   ? casedb::AttemptEnd::interrupted
+                : with.done()              ? casedb::AttemptEnd::stopped
+                                           : casedb::AttemptEnd::time_limit;
+  const auto recording = store.recording(library_);
   if (!recording) return recording.error();
-  auto scored = score(scene_, *recording);
+  auto scored = assessment::score(scene_, *recording);
   if (!scored) return scored.error();
   outcome.metrics = std::move(scored->metrics);
   outcome.steps = std::move(scored->steps);
   if (keep_ == Keep::stored) {
-    outcome.picture_png = picture_at_endpoint(scene_, *recording);
-    if (const auto closed = casedb::close_attempt(library_, attempt_id, outcome); !closed) return closed.error();
+    outcome.picture_png = program_.file_of(picture_at_endpoint(scene_, *recording));
+    if (const auto closed = casedb::close_attempt(library_, store.attempt_id(), outcome); !closed)
+      return closed.error();
   }
-  return StoredAttempt{std::move(attempt_id), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
-}
-
-namespace {
-
-// Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
-  const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
-  const auto row = casedb::find_case(library, attempt.case_id);
-  if (!recording || recording->poses.empty() || !row) return {};
-  for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
-    if (lesion.lesion_id == attempt.lesion_id) {
-      auto scene = build_case(library, *row, lesion.form, attempt.picture, Needs::metrics);
-      if (!scene) return {};
-      scene->instrument = attempt.instrument;
-      scene->approach = attempt.approach;
-      auto scored = score(*scene, *recording);
-      return scored ? std::move(*scored) : Scored{};
-    }
-  return {};
-}
-
-}  // namespace
-
-std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
-  std::vector<std::string> closed;
-  for (const casedb::OpenAttempt& attempt : casedb::list_open_attempts(library)) {
-    if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
-    casedb::AttemptOutcome outcome;
-    outcome.end = casedb::AttemptEnd::interrupted;
-    Scored scored = score_of(library, attempt);
-    outcome.metrics = std::move(scored.metrics);
-    outcome.steps = std::move(scored.steps);
-    // Another process may have been faster.
-    if (casedb::close_attempt(library, attempt.attempt_id, outcome)) closed.push_back(attempt.attempt_id);
-  }
-  return closed;
+  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
 }
 
 }  // namespace seldinger::app

@@ -1,5 +1,5 @@
 // The program `seldinger`.
-#include "app/program.h"
+#include "app/run_program.h"
 
 int main(int argc, char** argv) {
   return seldinger::app::run_program(argc, argv, seldinger::app::commands());

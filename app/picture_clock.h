@@ -27,6 +27,7 @@ class PictureClock {
   }
   // Until now, with those that nobody asked for.
   long long count() const noexcept { return count_; }
+  bool operator==(const PictureClock&) const = default;
 
  private:
   double rate_hz_ = 0.0, since_s_ = 0.0, last_s_ = 0.0;

@@ -1,13 +1,18 @@
-// A program of commands: finds the command, runs it, and turns what goes wrong into exit codes.
+// What attempts take from the program that makes them.
 #pragma once
 
-#include <span>
+#include <cstddef>
+#include <string>
+#include <vector>
 
-#include "app/command.h"
+#include "app/grey_picture.h"
 
 namespace seldinger::app {
 
-// What main() does with its arguments. Never throws.
-int run_program(int argc, char** argv, std::span<const Command> commands);
+struct Program {
+  std::string version;  // stored with each attempt
+  // A picture as a file to be stored; none of a picture without pixels.
+  std::vector<std::byte> (*file_of)(const GreyPicture& picture);
+};
 
 }  // namespace seldinger::app

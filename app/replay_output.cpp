@@ -12,6 +12,7 @@
 #include "app/replay_frame.h"
 #include "app/video_file.h"
 #include "assessment/moments.h"
+#include "assessment/score.h"
 #include "casedb/disk.h"
 #include "reports/replay_sheet.h"
 #include "sim/engine/step.h"
@@ -152,7 +153,7 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
   auto built = build_case_of(library, attempt, needs);
   if (!built) return built.error();
   Scene s{std::move(*built), {}, {}, {}};
-  auto signals = signals_of(s.scene, recording);
+  auto signals = assessment::signals_of(s.scene, recording);
   if (!signals) return signals.error();
   s.signals = std::move(*signals);
   s.course = reports::course_of(s.signals, recording);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "app/attempt_loop.h"
+#include "app/replayed_attempt.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {

@@ -71,11 +71,6 @@ void refine(cases::Case& scene, int size) {
   scene.classes = std::move(classes);
 }
 
-std::array<haptics::HandSettings, 2> two_virtual_devices() {
-  const haptics::HandSettings omni{*haptics::find_haptic_device("omni")};
-  return {omni, omni};
-}
-
 HandsAtWork::HandsAtWork(const assessment::PuncturePlan& plan, haptics::Handedness handedness,
                          std::array<haptics::Tool, 2> tools)
     : plan_(plan), handedness_(handedness), tools_(tools) {}

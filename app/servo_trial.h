@@ -23,8 +23,6 @@ base::Result<ServoScene> torso_under_hands(double decimate_share);
 // The same body in size³ voxels, each the nearest of before: for time, not for looks.
 void refine(cases::Case& scene, int size);
 
-std::array<haptics::HandSettings, 2> two_virtual_devices();
-
 // What the devices say, tick by tick; the same every time.
 class HandsAtWork {
  public:

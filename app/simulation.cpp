@@ -1,24 +1,23 @@
 #include "app/simulation.h"
 
-#include <algorithm>
-#include <cstdio>
-
-#include "app/attempt_loop.h"
-#include "app/live_attempt.h"
+#include "app/endpoint_picture.h"
+#include "app/guidance.h"
 #include "app/ordered_work.h"
-#include "assessment/operators/scripted.h"
+#include "app/simulated_attempt.h"
+#include "assessment/score.h"
+#include "sim/base/check.h"
 #include "sim/base/hash.h"
 #include "sim/engine/step.h"
 
 namespace seldinger::app {
 
-base::Result<Simulation> Simulation::prepare(casedb::Library& library, const std::string& case_id,
+base::Result<Simulation> Simulation::prepare(casedb::Library& library, Program program, const std::string& case_id,
                                              const std::string& lesion_id,
                                              std::optional<cases::InstrumentKind> kind,
                                              std::optional<cases::Modality> modality) {
   auto task = prepare_task(library, case_id, lesion_id, kind, modality);
   if (!task) return task.error();
-  return Simulation(library, std::move(*task));
+  return Simulation(library, std::move(program), std::move(*task));
 }
 
 base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
@@ -29,38 +28,71 @@ base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
 }
 
 base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::OperatorProfile& profile,
-                                                        std::uint64_t seed) {
-  if (task_.scene.picture.modality == cases::Modality::xray)
+                                                        std::uint64_t seed, const Opened& opened) {
+  // Whoever looks for needle and target in pulses is not made for real time.
+  if (!guidance_kind(task_.scene.picture.modality).probe_guides)
     return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
   assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
-  Scenario scenario(scenario_);
-  LiveAttempt live(*library_, head_of(task_, profile.name, seed, std::nullopt), task_.scene);
+  return run_live(
+      LiveAttempt(*library_, program_, head_of(task_, program_, profile.name, seed, std::nullopt), task_.scene),
+      person, 0, seed, opened);
+}
+
+// The operator sees and hears what was recorded, and what they would have done then is left out: hands did what was
+// recorded. A picture is seen in the first tick after it, as it is in all but a few attempts.
+base::Result<SimulatedAttempt> Simulation::resume(InterruptedAttempt interrupted,
+                                                  const assessment::OperatorProfile& profile) {
+  const std::uint64_t seed = interrupted.attempt().seed;
+  CHECK(interrupted.attempt().synthetic());
+  if (!was_made_at(interrupted.attempt(), task_))
+    return base::Error{"other_case", "the attempt was made at another task than this"};
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
+  std::uint32_t happened = 0;
+  auto frame = interrupted.recording().frames.begin();
+  const auto frames_end = interrupted.recording().frames.end();
+  const auto replayed =
+      interrupted.replay(task_.scene, [&](const cases::State& before, const cases::Inputs& inputs) {
+        const bool new_frame = frame != frames_end && frame->t_s <= before.t_s;
+        person.act(before, new_frame ? &*frame : nullptr, engine::kTickSeconds);
+        if (new_frame) ++frame;
+        if (happened < scenario_.size() && inputs.event == scenario_[happened].kind) ++happened;
+        person.hear(inputs.event);
+      });
+  if (!replayed) return replayed.error();
+  return run_live(LiveAttempt(*library_, program_, std::move(interrupted), task_.scene), person, happened, seed);
+}
+
+base::Result<SimulatedAttempt> Simulation::run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                                    std::uint32_t happened, std::uint64_t seed,
+                                                    const Opened& opened) const {
+  const engine::Scenario scenario(scenario_);
   const auto stored = live.run({.hands =
                                     [&](const cases::State& state, const cases::FrameTruth* frame) {
                                       cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
-                                      scenario.add_to(inputs, state.t_s);
+                                      scenario.add_to(inputs, state.t_s, happened);
                                       person.hear(inputs.event);
                                       return inputs;
                                     },
+                                .opened = opened,
                                 .done = [&] { return person.done(); }});
   if (!stored) return stored.error();
-  return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
+  return SimulatedAttempt{stored->attempt_id, live.head().operator_name, seed, stored->metrics};
 }
 
 base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                                   const std::optional<std::string>& person_id, bool picture) const {
   casedb::NewAttempt attempt;
-  static_cast<casedb::AttemptHead&>(attempt) = head_of(task_, profile.name, seed, person_id);
+  static_cast<casedb::AttemptHead&>(attempt) = head_of(task_, program_, profile.name, seed, person_id);
   attempt.recording = run_attempt(task_.scene, task_.plan, profile, seed, scenario_);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
   attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
                 : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
                                                           : casedb::AttemptEnd::time_limit;
-  auto scored = score(task_.scene, attempt.recording);
+  auto scored = assessment::score(task_.scene, attempt.recording);
   if (!scored) return scored.error();
   attempt.metrics = std::move(scored->metrics);
   attempt.steps = std::move(scored->steps);
-  if (picture) attempt.picture_png = picture_at_endpoint(task_.scene, attempt.recording);
+  if (picture) attempt.picture_png = program_.file_of(picture_at_endpoint(task_.scene, attempt.recording));
   return attempt;
 }
 
@@ -109,18 +141,6 @@ std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& 
                         people ? std::optional<std::uint64_t>(p + 1) : std::nullopt, i});
   }
   return trials;
-}
-
-void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
-  std::size_t longest = 0;
-  for (const assessment::MetricValue& metric : metrics) longest = std::max(longest, metric.id.size());
-  const int width = static_cast<int>(longest);
-  for (const assessment::MetricValue& metric : metrics) {
-    if (metric.value)
-      std::printf("  %-*s %10.3f %s\n", width, metric.id.c_str(), *metric.value, metric.unit.c_str());
-    else
-      std::printf("  %-*s          – (%s)\n", width, metric.id.c_str(), metric.reason.c_str());
-  }
 }
 
 }  // namespace seldinger::app

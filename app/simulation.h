@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/answers_json.h"
+#include "app/interrupted_attempt.h"
+#include "app/live_attempt.h"
+#include "app/program.h"
 #include "app/task.h"
+#include "assessment/metrics/metric.h"
 #include "assessment/operators/profile.h"
+#include "assessment/operators/scripted.h"
+#include "casedb/grading.h"
 #include "casedb/store.h"
 
 namespace seldinger::app {
@@ -26,10 +31,20 @@ struct SimulatedTrial {
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                              std::size_t count, std::optional<std::size_t> people);
 
+// One that was made and stored.
+struct SimulatedAttempt {
+  std::string attempt_id, operator_name;
+  std::uint64_t seed = 0;
+  std::vector<assessment::MetricValue> metrics;
+  std::optional<std::uint64_t> person{};  // as its trial's
+  std::uint64_t number = 0;               // likewise
+  std::optional<casedb::AttemptGrade> grade{};
+};
+
 class Simulation {
  public:
   // As prepare_task. `library` must outlive it.
-  static base::Result<Simulation> prepare(casedb::Library& library, const std::string& case_id,
+  static base::Result<Simulation> prepare(casedb::Library& library, Program program, const std::string& case_id,
                                           const std::string& lesion_id,
                                           std::optional<cases::InstrumentKind> kind = std::nullopt,
                                           std::optional<cases::Modality> modality = std::nullopt);
@@ -47,20 +62,31 @@ class Simulation {
                               const std::function<void(SimulatedAttempt)>& stored);
 
   // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
-  // was kept is stored with it. Refused: `not_in_real_time` under xray.
-  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed);
+  // was kept is stored with it. Refused: `not_in_real_time` under a fluoroscope. `opened` is told the attempt's id
+  // once there is one: whoever knows it can go on with it if this program dies.
+  using Opened = std::function<void(const std::string& attempt_id)>;
+  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                              const Opened& opened = {});
+
+  // Goes on with one of these that was interrupted, by the operator who made it: brought up to date by what was
+  // recorded. CHECKs that it is nobody's. Refused: `other_case` (it was made at another case or lesion, or
+  // otherwise), as InterruptedAttempt::replay.
+  base::Result<SimulatedAttempt> resume(InterruptedAttempt interrupted, const assessment::OperatorProfile& profile);
 
  private:
   // Changes nothing, so that threads may make many at once.
   base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                         const std::optional<std::string>& person_id, bool picture) const;
-  Simulation(casedb::Library& library, Task task) : library_(&library), task_(std::move(task)) {}
+  base::Result<SimulatedAttempt> run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                          std::uint32_t happened, std::uint64_t seed,
+                                          const Opened& opened = {}) const;
+  Simulation(casedb::Library& library, Program program, Task task)
+      : library_(&library), program_(std::move(program)), task_(std::move(task)) {}
 
   casedb::Library* library_;
+  Program program_;
   Task task_;
   std::vector<cases::Event> scenario_;
 };
-
-void print_metrics(const std::vector<assessment::MetricValue>& metrics);
 
 }  // namespace seldinger::app

@@ -2,29 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
 #include "app/case_build.h"
-#include "app/ultrasound_sight.h"
-#include "app/version.h"
+#include "app/guidance.h"
 
 namespace seldinger::app {
-namespace {
-
-// What loading takes of the whole; the rest is the plan. Measured on the built-in torso and the contrast abdomen:
-// 0.28 and 0.34, 0.84 and 0.84, 0.62 and 0.66.
-double built_share(cases::Modality modality) {
-  switch (modality) {
-    case cases::Modality::ultrasound:
-      return 0.3;
-    case cases::Modality::xray:
-      return 0.84;
-    case cases::Modality::mpr:
-      break;
-  }
-  return 0.65;
-}
-
-}  // namespace
 
 base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
                                 std::optional<cases::InstrumentKind> kind, std::optional<cases::Modality> modality,
@@ -47,17 +30,15 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   const auto tell = [&told](double share) {
     if (told) told(share);
   };
-  const double built = built_share(picture.modality);
-  auto scene = build_case(library, *row, found->form, picture, needs_of(picture.modality));
+  const GuidanceKind& guidance = guidance_kind(picture.modality);
+  const double built = guidance.loading_share;
+  auto scene = build_case(library, *row, found->form, picture, guidance.needs);
   if (!scene) return scene.error();
   tell(built);
   scene->instrument.kind = kind.value_or(row->instrument.kind);
   assessment::PathLimits limits = assessment::path_limits(*scene);
   limits.told = [&](double share) { tell(built + (1.0 - built) * share); };
-  if (picture.modality == cases::Modality::ultrasound)
-    limits.looks_from = [&](const assessment::PuncturePlan& plan) {
-      return UltrasoundSight(*scene).looks_from(plan, scene->lesions.front());
-    };
+  if (guidance.looks_from != nullptr) limits.looks_from = guidance.looks_from(*scene);
   auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
   if (!plan) return plan.error();
   if (plan->picture) scene->picture = *plan->picture;
@@ -66,7 +47,7 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
   return Task{*row, *found, std::move(*scene), *plan};
 }
 
-casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::uint64_t seed,
+casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,
                             const std::optional<std::string>& person_id) {
   casedb::AttemptHead head;
   head.case_id = task.row.case_id;
@@ -74,7 +55,7 @@ casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::ui
   head.person_id = person_id;
   head.operator_name = std::move(operator_name);
   head.seed = seed;
-  head.program_version = kVersion;
+  head.program_version = program.version;
   head.instrument = task.scene.instrument;
   head.picture = task.scene.picture;
   head.approach = task.scene.approach;
@@ -82,6 +63,19 @@ casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::ui
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();
   return head;
+}
+
+bool was_made_at(const casedb::AttemptHead& attempt, const Task& task) {
+  const auto measures = [](const cases::Instrument& tool) {
+    return std::tuple(tool.kind, tool.length_mm, tool.radius_mm, tool.inner_radius_mm, tool.hu, tool.throw_mm,
+                      tool.notch_mm, tool.dead_tip_mm);
+  };
+  const auto shown = [](const cases::Picture& picture) {
+    return std::tuple(picture.modality, picture.depth_mm, picture.width_mm, picture.rate_hz, picture.probe);
+  };
+  return attempt.case_id == task.row.case_id && attempt.lesion_id == task.lesion.lesion_id &&
+         measures(attempt.instrument) == measures(task.scene.instrument) &&
+         shown(attempt.picture) == shown(task.scene.picture) && attempt.approach == task.scene.approach;
 }
 
 }  // namespace seldinger::app

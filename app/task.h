@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "app/program.h"
 #include "assessment/operators/plan.h"
 #include "casedb/store.h"
 #include "sim/base/result.h"
@@ -29,8 +30,11 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
                                 std::optional<cases::Modality> modality = std::nullopt,
                                 const std::function<void(double share)>& told = {});
 
-// Of an attempt at it that begins now.
-casedb::AttemptHead head_of(const Task& task, std::string operator_name, std::uint64_t seed,
+// Of an attempt at it that begins now, in this program.
+casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,
                             const std::optional<std::string>& person_id);
+
+// Whether an attempt was made at this very task: the same target, needle, picture and approach.
+bool was_made_at(const casedb::AttemptHead& attempt, const Task& task);
 
 }  // namespace seldinger::app

@@ -99,19 +99,13 @@ imaging::UltrasoundView console_view(const cases::Picture& picture, const cases:
 }
 
 double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept {
-  if (picture.modality != cases::Modality::ultrasound || !(console.depth_mm > 0.0)) return picture.rate_hz;
+  if (!(console.depth_mm > 0.0)) return picture.rate_hz;
   return sound_rate_hz(console_view(picture, console).depth_mm);
 }
 
 UltrasoundSight::UltrasoundSight(const cases::Case& scene)
     : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
   CHECK(scene.classes.size() == scene.volume.hu.size());
-}
-
-imaging::NeedlePose UltrasoundSight::needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const {
-  const cases::Instrument& instrument = scene_.instrument;
-  return {tip_lps_mm,   direction, instrument.length_mm, instrument.radius_mm, instrument.inner_radius_mm,
-          instrument.hu};
 }
 
 imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& view,
@@ -140,7 +134,8 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
   pressed.probe.position_lps_mm += press_mm(probe) * pressed.probe.axis;
   pressed.probe_first.position_lps_mm += press_mm(probe) * pressed.probe_first.axis;
   const auto needle = [&](double inserted_mm) {
-    return needle_at(plan.entry_lps_mm + inserted_mm * plan.direction, plan.direction);
+    return imaging::needle_pose(scene_.instrument, plan.entry_lps_mm + inserted_mm * plan.direction,
+                                plan.direction);
   };
   const imaging::UltrasoundView unheld = console_view(picture, {}), view = held(unheld, pressed.probe);
   const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);

@@ -11,6 +11,7 @@
 #include "assessment/operators/plan.h"
 #include "sim/case/case.h"
 #include "sim/case/mesh_index.h"
+#include "sim/case/state.h"
 #include "sim/gpu/context.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
@@ -32,9 +33,14 @@ std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::U
 // screen's 60 Hz.
 cases::Picture ultrasound_picture(double target_below_skin_mm);
 
-// How often the machine under the probe makes a picture: as the case says, until a depth is asked for; then as
-// sound allows.
+// How often an ultrasound machine makes a picture: as the case says, until a depth is asked for; then as sound
+// allows.
 double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept;
+
+// Where the probe is.
+inline cases::ToolPose probe_in(const cases::State& state) noexcept {
+  return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+}
 
 // The picture's view as the console stands, without a pose.
 imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console);
@@ -72,7 +78,6 @@ class UltrasoundSight {
   struct Screen;  // what pictures need beside the tissue, made with the first
   imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
                                  const tissue::Displacement& displacement) const;
-  imaging::NeedlePose needle_at(const glm::dvec3& tip_lps_mm, const glm::dvec3& direction) const;
 
   const cases::Case& scene_;
   imaging::TissueVolume tissue_;

@@ -15,13 +15,13 @@ constexpr std::chrono::milliseconds kNap{20};
 
 }  // namespace
 
-void add_events(double t_s, const RecordedTick& tick, std::vector<cases::Event>& events) {
-  for (const cases::EventKind kind : {tick.inputs.event, tick.reaction})
-    if (kind != cases::EventKind::none) events.push_back({t_s, kind});
-}
-
-Recorder::Recorder(std::uint32_t step_version, double dt_s, Store store)
-    : step_version_(step_version), dt_s_(dt_s), store_(std::move(store)), queue_(kQueueTicks) {
+Recorder::Recorder(std::uint32_t step_version, double dt_s, Store store, RecordedBefore before)
+    : step_version_(step_version),
+      dt_s_(dt_s),
+      store_(std::move(store)),
+      queue_(kQueueTicks),
+      ticks_(before.ticks),
+      chunks_(before.chunks) {
   CHECK(dt_s > 0.0);
   piece_.events.emplace();
   thread_ = std::thread([this] { run(); });
@@ -31,7 +31,7 @@ Recorder::~Recorder() {
   static_cast<void>(finish());
 }
 
-bool Recorder::tick(const RecordedTick& tick) noexcept {
+bool Recorder::tick(const cases::RecordedTick& tick) noexcept {
   if (full_.load(std::memory_order_relaxed)) return false;
   const std::uint64_t at = pushed_.load(std::memory_order_relaxed);
   if (at - taken_.load(std::memory_order_acquire) >= kQueueTicks) {
@@ -79,13 +79,13 @@ void Recorder::run() {
 void Recorder::take(std::size_t ticks) {
   std::uint64_t at = taken_.load(std::memory_order_relaxed);
   for (std::size_t i = 0; i < ticks; ++i, ++at) {
-    const RecordedTick& tick = queue_[at % kQueueTicks];
+    const cases::RecordedTick& tick = queue_[at % kQueueTicks];
     piece_.inputs.push_back(tick.inputs);
     piece_.hashes.push_back(tick.hash);
     if (tick.pose) piece_.poses.push_back(*tick.pose);
     if (tick.force) piece_.forces.push_back(*tick.force);
     if (tick.endpoint) piece_.endpoint = tick.endpoint;
-    add_events(static_cast<double>(ticks_ + i + 1) * dt_s_, tick, *piece_.events);
+    cases::add_events(static_cast<double>(ticks_ + i + 1) * dt_s_, tick, *piece_.events);
   }
   taken_.store(at, std::memory_order_release);
   ticks_ += ticks;

@@ -12,22 +12,16 @@
 #include <vector>
 
 #include "sim/base/result.h"
+#include "sim/case/recorded_tick.h"
 #include "sim/case/recording.h"
 
 namespace seldinger::assessment {
 
-// What one tick leaves behind. Pose and force: every tenth.
-struct RecordedTick {
-  cases::Inputs inputs;
-  std::uint32_t hash = 0;
-  std::optional<cases::PoseSample> pose{};
-  std::optional<cases::ForceSample> force{};
-  cases::EventKind reaction = cases::EventKind::none;  // the patient's; what was asked for is in the inputs
-  std::optional<cases::Endpoint> endpoint{};
+// What of a recording was stored by a recorder that is gone.
+struct RecordedBefore {
+  std::uint64_t ticks = 0;
+  std::uint32_t chunks = 0;
 };
-
-// What was asked for in a tick that ended at t_s, then the reaction.
-void add_events(double t_s, const RecordedTick& tick, std::vector<cases::Event>& events);
 
 class Recorder {
  public:
@@ -35,14 +29,14 @@ class Recorder {
   using Store = std::function<base::Result<void>(const cases::RecordingChunk&)>;
 
   // dt_s > 0 (CHECKed).
-  Recorder(std::uint32_t step_version, double dt_s, Store store);
+  Recorder(std::uint32_t step_version, double dt_s, Store store, RecordedBefore before = {});
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();  // as finish
 
   // By the servo only. Allocates and locks nothing. False, from then on: the queue was full (kQueueTicks behind),
   // and the recording ends with the tick before.
-  bool tick(const RecordedTick& tick) noexcept;
+  bool tick(const cases::RecordedTick& tick) noexcept;
   // What a picture showed, by rising time; by any thread but the servo's.
   void frame(const cases::FrameTruth& frame);
 
@@ -63,7 +57,7 @@ class Recorder {
   std::uint32_t step_version_;
   double dt_s_;
   Store store_;
-  std::vector<RecordedTick> queue_;
+  std::vector<cases::RecordedTick> queue_;
   alignas(64) std::atomic<std::uint64_t> pushed_{0};
   alignas(64) std::atomic<std::uint64_t> taken_{0};
   std::atomic<bool> full_{false}, broken_{false}, stopping_{false};

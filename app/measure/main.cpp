@@ -5,7 +5,7 @@
 
 #include "app/command.h"
 #include "app/measure/commands.h"
-#include "app/program.h"
+#include "app/run_program.h"
 #include "sim/base/check.h"
 
 namespace seldinger::measure {

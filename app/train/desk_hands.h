@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include "app/attempt_ticks.h"
 #include "app/device_desk.h"
 #include "app/train/braced_hand.h"
 #include "sim/devices/hands.h"
+#include "sim/engine/tick.h"
 #include "sim/haptics/two_hands.h"
 
 namespace seldinger::app {
@@ -32,12 +32,15 @@ class DeskHands {
   DeskHands(const cases::Case& scene, const devices::HandsStart& start, const devices::HandsSettings& settings,
             haptics::Handedness handedness, const Arms* arms);
 
+  // Before the first tick, where an attempt goes on: tools are where they were left, and arms are re-gripped there.
+  void take_over(const cases::Inputs& left, const cases::State& state) noexcept;
+
   // One tick: poses, trigger and frozen picture into `inputs`. The tool of a lost arm stays until mouse or keys
   // move it; an arm that comes back goes on from where its tool is then.
   void advance(const devices::HandIntent& intent, const cases::State& state, const devices::AxialForces& forces,
                double elapsed_s, cases::Inputs& inputs) noexcept;
   // What the arms feel of the tick that was done goes to their motors.
-  void feel(const Room& room, double elapsed_s) noexcept;
+  void feel(const engine::Tick& tick, const engine::TickState& now, double elapsed_s) noexcept;
   // Instead of both while no time goes by.
   void let_go() noexcept;
 
@@ -45,7 +48,7 @@ class DeskHands {
   // The tool is where mouse and keys led it last.
   bool mouse_leads(haptics::Tool tool) const noexcept;
   // What of the last tick's poses an arm said.
-  ToolsRead read() const noexcept;
+  engine::ToolsRead read() const noexcept;
   // How far the probe's face is below the skin at rest, whoever holds it; negative: above. At most kLookMm.
   double press_mm(const cases::State& state) const noexcept;
   // None: there are no arms.

@@ -8,40 +8,22 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
 
-#include "app/attempt_ticks.h"
-#include "app/grey_picture.h"
-#include "app/slice_picture.h"
+#include "app/guidance.h"
+#include "app/screen_painter.h"
 #include "sim/base/snapshot.h"
 #include "sim/case/case.h"
-#include "sim/imaging/ultrasound/console.h"
+#include "sim/engine/tick.h"
 
 namespace seldinger::app {
 
 // Seconds of the machine's steady clock: by it lags from hand to picture are told, across threads.
 double clock_s() noexcept;
-
-// What makes ultrasound's pictures. Slices and fluoroscopy are the CPU's.
-enum class PicturesBy { cpu, gpu };
-
-// What is on the screen, and how it came there.
-struct ShownPicture {
-  GreyPicture picture;
-  // Pixel (c, r) is at ((c − (width − 1)/2), top/pixel + r + ½); pixel 0: fluoroscopy, which has no one scale.
-  double pixel_mm = 0.0, top_mm = 0.0;
-  cases::ConsoleSetting console{};  // as it stood then, in what the probe can do; slices: in what is offered
-  double t_s = 0.0;                 // the attempt's time that it shows
-  double told_s = 0.0;              // of the moment that it shows (Moment)
-  std::uint64_t number = 0;         // rises with each new picture
-  bool live = false;                // neither frozen nor a held last image
-  double rate_hz = 0.0;             // pictures a second, lately
-  double drawn_in_s = 0.0;          // what the last one took
-  int cine_pictures = 0, cine_back = 0;
-};
 
 class Monitor {
  public:
@@ -53,7 +35,7 @@ class Monitor {
   Monitor& operator=(const Monitor&) = delete;
 
   // By the servo after each tick: waits for nothing.
-  void show(const Moment& moment) noexcept;
+  void show(const engine::Moment& moment) noexcept;
 
   // By the window. `change` is called on the monitor's thread, soon; ultrasound only.
   void set_console(std::function<void(imaging::Console&)> change);
@@ -71,14 +53,13 @@ class Monitor {
   std::string method() const;
 
  private:
-  class Painter;
   void run();
 
-  const cases::Case& scene_;
+  std::unique_ptr<Guidance> guidance_;
   std::uint64_t seed_;
   PicturesBy by_;
   std::string method_;  // mutex_'s
-  base::Snapshot<Moment> moments_, pulses_;
+  base::Snapshot<engine::Moment> moments_, pulses_;
   std::uint32_t pulses_seen_ = 0;  // the servo's
   mutable std::mutex mutex_;
   std::condition_variable woken_;

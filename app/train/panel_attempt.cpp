@@ -63,7 +63,20 @@ void meter(const char* label, double force_n, double most_n) {
 }  // namespace
 
 void AttemptPanel::begin(Trainer& trainer) {
-  if (!trainer.begin(options_.left_handed)) return;
+  if (trainer.begin(options_.left_handed)) set_up(trainer);
+}
+
+void AttemptPanel::resume(Trainer& trainer) {
+  resuming_ = trainer.resume(options_.left_handed) || resuming_;
+}
+
+void AttemptPanel::look(Trainer& trainer) {
+  if (!resuming_ || trainer.resuming()) return;
+  resuming_ = false;
+  if (trainer.screen() == TrainerScreen::attempt) set_up(trainer);
+}
+
+void AttemptPanel::set_up(Trainer& trainer) {
   const cases::Case& scene = trainer.attempt()->task()->scene;
   room_.begin(scene, options_.left_handed);
   monitor_.begin(scene);
@@ -136,7 +149,7 @@ void AttemptPanel::draw_top(Trainer& trainer) {
 // What the patient does, over the room, as long as one would hear it.
 void AttemptPanel::draw_reaction() {
   constexpr double kShownS = 2.5;
-  const Moment& moment = seen_.moment;
+  const engine::Moment& moment = seen_.moment;
   if (moment.reaction == EventKind::none || moment.state.t_s > moment.reaction_t_s + kShownS) return;
   const cases::EventInfo* info = cases::find_event(moment.reaction);
   if (info == nullptr) return;
@@ -268,7 +281,7 @@ void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
 
 void AttemptPanel::draw_hands(const Task& task) {
   if (seen_.arms.used) draw_arms();
-  const Moment& moment = seen_.moment;
+  const engine::Moment& moment = seen_.moment;
   const bool needle = seen_.held == devices::HeldTool::needle;
   // An arm's tool is in the hand at the arm.
   if (seen_.by_mouse || by_led_arms_) {

@@ -123,6 +123,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   if (phantom) draw_hands(row);
   ImGui::EndChild();
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  if (trainer.resuming()) {
+    ImGui::TextUnformatted("Going through what was recorded …");
+    end_screen();
+    return false;
+  }
   if (noted_button("Back")) {
     trainer.back();
     end_screen();
@@ -135,6 +140,14 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
       end_screen();
       return false;
     }
+  }
+  if (trainer.interrupted()) {
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!ready);
+    if (noted_button("Go on with the interrupted attempt (R)") || (ready && keys.pressed('R'))) resume_ = true;
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    quiet("A new one closes it as it is.");
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "app/live_attempt.h"
+#include "app/program.h"
 #include "app/task.h"
 #include "app/train/desk_hands.h"
 #include "app/train/monitor.h"
@@ -33,7 +34,7 @@ struct HandsTold {
 
 // What the servo tells the window: the newest tick, and how the hands hold their tools.
 struct Seen {
-  Moment moment;
+  engine::Moment moment;
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
   double inserted_mm = 0.0, press_mm = 0.0;  // press: of the probe's face below the skin
@@ -46,6 +47,7 @@ class PersonAttempt {
  public:
   struct Wanted {
     std::filesystem::path library;
+    Program program;
     std::string case_id;
     std::optional<cases::Modality> modality;  // else the case's own
     std::string person_id;
@@ -73,6 +75,9 @@ class PersonAttempt {
   void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);
+  // The same, from `ready` over `preparing` to `running`: goes on with an attempt at this task that was
+  // interrupted, with hands where they were. `refused` where that cannot be.
+  void resume(std::string attempt_id, bool left_handed);
   void tell(const HandsTold& told) noexcept { told_.put(told); }
   // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
   bool say(cases::EventKind kind) noexcept;
@@ -92,9 +97,11 @@ class PersonAttempt {
 
  private:
   void run();
+  void take_up_tools(bool left_handed);
+  base::Result<LiveAttempt> live(casedb::Library& library);
   cases::Inputs hands(const cases::State& state);
-  void watch(Moment moment);
-  void feel(const Room& room);
+  void watch(engine::Moment moment);
+  void feel(const engine::Tick& tick, const engine::TickState& now);
 
   Wanted wanted_;
   std::atomic<Phase> phase_{Phase::preparing};
@@ -120,6 +127,8 @@ class PersonAttempt {
   std::mutex mutex_;
   std::condition_variable begun_;
   bool begin_ = false, gone_ = false;
+  std::optional<std::string> resumed_;  // the attempt that is gone on with
+  bool left_handed_ = false;
   std::thread thread_;  // last: it uses the rest
 };
 

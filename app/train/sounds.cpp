@@ -40,7 +40,7 @@ constexpr std::array<Row, 8> kHeard = {{
     {EventKind::pressure_drop, Sound::alarm_high},
 }};
 
-double probe_n(const Moment& moment) noexcept {
+double probe_n(const engine::Moment& moment) noexcept {
   return moment.force ? moment.force->probe_n : 0.0;
 }
 
@@ -56,7 +56,7 @@ const SoundInfo& info_of(Sound sound) noexcept {
 
 std::vector<Sounding> sounds_of(const Seen& before, const Seen& now, cases::InstrumentKind instrument) {
   std::vector<Sounding> heard;
-  const Moment &then = before.moment, &moment = now.moment;
+  const engine::Moment &then = before.moment, &moment = now.moment;
   if (moment.state.t_s <= then.state.t_s) return heard;
 
   if (probe_n(moment) > kHeardTouchN && probe_n(then) <= kHeardTouchN) heard.push_back({Sound::touch});
@@ -78,7 +78,7 @@ std::vector<Sounding> sounds_of(const Seen& before, const Seen& now, cases::Inst
       heard.push_back({Sound::alarm_medium});
       break;
     }
-  const auto signals = [](const Moment& at) {
+  const auto signals = [](const engine::Moment& at) {
     return std::floor(at.state.fluoroscopy.fluoroscopy_time_s / kBeamTimerS);
   };
   if (signals(moment) > signals(then)) heard.push_back({Sound::beam_timer});

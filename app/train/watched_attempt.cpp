@@ -58,17 +58,18 @@ double WatchedAttempt::duration_s() const {
 void WatchedAttempt::play() {
   const std::size_t ticks = recording_.inputs.size();
   const auto piece = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
-  std::optional<Room> room(std::in_place, *scene_);
+  const engine::Tick whole(*scene_);
+  engine::TickState now;
   std::size_t tick = 0;
-  std::optional<Moment> pulse;  // a fluoroscope's picture stays until its next
+  std::optional<engine::Moment> pulse;  // a fluoroscope's picture stays until its next
   const auto advance = [&] {
-    room->advance(recording_.inputs[tick++], recording_.dt_s);
-    if (room->state().fluoroscopy.frame_due) pulse = room->moment();
+    whole.advance(recording_.inputs[tick++], recording_.dt_s, now);
+    if (now.state.fluoroscopy.frame_due) pulse = engine::moment_of(now);
   };
   const auto show = [&] {
     if (pulse) monitor_->show(*pulse);
     pulse.reset();
-    const Moment moment = room->moment();
+    const engine::Moment moment = engine::moment_of(now);
     moments_.put(moment);
     monitor_->show(moment);
   };
@@ -76,7 +77,7 @@ void WatchedAttempt::play() {
     if (const double wanted_s = wanted_s_.exchange(kNowhere); wanted_s != kNowhere) {
       const auto to = std::min(ticks, static_cast<std::size_t>(wanted_s / recording_.dt_s));
       if (to < tick) {
-        room.emplace(*scene_);
+        now = {};
         tick = 0;
       }
       while (tick < to && !ending_ && wanted_s_ == kNowhere) advance();

@@ -33,7 +33,7 @@ class WatchedAttempt {
   const cases::Recording& recording() const;
   Monitor& monitor();
 
-  std::optional<Moment> moment() noexcept { return moments_.take(); }  // the newest since the last call
+  std::optional<engine::Moment> moment() noexcept { return moments_.take(); }  // the newest since the last call
   double duration_s() const;
   void set_speed(double times) noexcept { speed_ = times; }  // 0: it stands
   double speed() const noexcept { return speed_; }
@@ -53,7 +53,7 @@ class WatchedAttempt {
   std::shared_ptr<const cases::Case> scene_;
   cases::Recording recording_;
   std::unique_ptr<Monitor> monitor_;
-  base::Snapshot<Moment> moments_;
+  base::Snapshot<engine::Moment> moments_;
   static constexpr double kNowhere = -1.0;
   std::atomic<double> speed_{1.0}, wanted_s_{kNowhere};
   std::atomic<bool> ending_{false};

@@ -24,6 +24,7 @@ struct PictureFix {
   bool tip = false, target = false;  // inside the collimated field
   bool target_clear = false;         // seen itself; otherwise found by what lies about it
   glm::dvec2 tip_mm{0.0}, target_mm{0.0};
+  bool operator==(const PictureFix&) const = default;
 };
 
 class FluoroscopyOperator {

@@ -58,6 +58,7 @@ struct FrameTruth {
   std::optional<BeamTruth> beam{};        // of a fluoroscope's pulse; none for a held image and other modalities
   std::optional<NearPlane> near_plane{};  // of ultrasound; none for other modalities and before format 3
   bool joint() const noexcept { return needle_tip && target; }
+  bool operator==(const FrameTruth&) const = default;
 };
 
 // What tissue asked of the motors: a model's force, whatever a device made of it.

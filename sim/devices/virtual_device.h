@@ -14,20 +14,32 @@ struct VirtualDeviceOptions {
   double encoder_unit = 1.0 / 8192.0;  // reading step of axis components: 0.007°
 };
 
+// What must be kept from reading to reading. A new one stands where the hand is first.
+struct VirtualDeviceState {
+  cases::ToolPose pose;
+  bool started = false;
+};
+
+// The arm's reading after dt_s of the hand wanting `hand`.
+cases::ToolPose advance(const cases::ToolPose& hand, double dt_s, VirtualDeviceState& state,
+                        const VirtualDeviceOptions& options = {}) noexcept;
+// Of an arm that is there, which has lag enough of its own: where it was read to be, through this encoder; a hand
+// goes on from there.
+cases::ToolPose follow(const cases::ToolPose& read, VirtualDeviceState& state,
+                       const VirtualDeviceOptions& options = {}) noexcept;
+
+// The same as one object.
 class VirtualDevice {
  public:
   explicit VirtualDevice(const VirtualDeviceOptions& options = {}) : options_(options) {}
-
-  // The arm's reading after dt_s of the hand wanting `hand`. The first call stands where the hand is.
-  cases::ToolPose advance(const cases::ToolPose& hand, double dt_s) noexcept;
-  // Of an arm that is there, which has lag enough of its own: where it was read to be, through this encoder; a hand
-  // goes on from there.
-  cases::ToolPose follow(const cases::ToolPose& read) noexcept;
+  cases::ToolPose advance(const cases::ToolPose& hand, double dt_s) noexcept {
+    return devices::advance(hand, dt_s, state_, options_);
+  }
+  cases::ToolPose follow(const cases::ToolPose& read) noexcept { return devices::follow(read, state_, options_); }
 
  private:
   VirtualDeviceOptions options_;
-  cases::ToolPose pose_;
-  bool started_ = false;
+  VirtualDeviceState state_;
 };
 
 }  // namespace seldinger::devices

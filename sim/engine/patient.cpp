@@ -13,6 +13,15 @@ using cases::EventKind;
 
 constexpr double kPointingMm = 150.0;  // a needle held nearer than this points at a place on the skin
 
+void note(EventKind kind, PatientState& patient) noexcept {
+  for (EventKind& place : patient.waiting) {
+    if (place == kind) return;
+    if (place != EventKind::none) continue;
+    place = kind;
+    return;
+  }
+}
+
 }  // namespace
 
 Patient::Patient(const cases::Case& scene) : scene_(scene) {
@@ -40,44 +49,36 @@ bool Patient::in_bone(const glm::dvec3& tip_lps_mm) const noexcept {
   return scene_.classes[index] == volume::TissueClass::bone;
 }
 
-void Patient::note(EventKind kind) noexcept {
-  for (EventKind& place : waiting_) {
-    if (place == kind) return;
-    if (place != EventKind::none) continue;
-    place = kind;
-    return;
-  }
-}
-
-EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& state) noexcept {
+EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& state,
+                           PatientState& patient) const noexcept {
   if (scene_.subject == cases::Subject::phantom) return EventKind::none;
   const cases::NeedleState& needle = state.needle;
   if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty())
-    numb_lps_mm_[numbed_++ % numb_lps_mm_.size()] = pointed_at(needle);
-  if (inputs.event == EventKind::breathe_again) let_go_ = true;
+    patient.numb_lps_mm[patient.numbed++ % patient.numb_lps_mm.size()] = pointed_at(needle);
+  if (inputs.event == EventKind::breathe_again) patient.let_go = true;
   const bool held = tissue::holds(state.breath.state);
-  if (held && !held_) {
-    note(EventKind::breath_held);
-    let_go_ = false;
+  if (held && !patient.held) {
+    note(EventKind::breath_held, patient);
+    patient.let_go = false;
   }
-  if (!held && held_ && !let_go_) note(EventKind::breath_lost);
-  held_ = held;
+  if (!held && patient.held && !patient.let_go) note(EventKind::breath_lost, patient);
+  patient.held = held;
 
-  if (needle.skin.in_body && !was_in_body_) {
+  if (needle.skin.in_body && !patient.was_in_body) {
     bool numb = false;
-    for (std::size_t i = 0; i < std::min<std::size_t>(numbed_, numb_lps_mm_.size()); ++i)
-      numb = numb || glm::distance(numb_lps_mm_[i], needle.skin.entry_lps_mm) <= kNumbMm;
-    if (!numb) note(EventKind::pain_skin);
+    for (std::size_t i = 0; i < std::min<std::size_t>(patient.numbed, patient.numb_lps_mm.size()); ++i)
+      numb = numb || glm::distance(patient.numb_lps_mm[i], needle.skin.entry_lps_mm) <= kNumbMm;
+    if (!numb) note(EventKind::pain_skin, patient);
   }
-  was_in_body_ = needle.skin.in_body;
+  patient.was_in_body = needle.skin.in_body;
   if (needle.skin.in_body && in_bone(needle.skin.tip_lps_mm)) {
-    if (state.t_s - bone_s_ >= kBoneAgainSeconds) note(EventKind::pain_bone);
-    bone_s_ = state.t_s;
+    if (state.t_s - patient.bone_s >= kBoneAgainSeconds) note(EventKind::pain_bone, patient);
+    patient.bone_s = state.t_s;
   }
 
-  const EventKind told = waiting_[0];
-  std::rotate(waiting_.begin(), waiting_.begin() + 1, waiting_.end());
-  waiting_.back() = EventKind::none;
+  const EventKind told = patient.waiting[0];
+  std::rotate(patient.waiting.begin(), patient.waiting.begin() + 1, patient.waiting.end());
+  patient.waiting.back() = EventKind::none;
   return told;
 }
 

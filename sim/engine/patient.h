@@ -20,6 +20,15 @@ constexpr double kNumbMm = 15.0;
 // Bone felt again so much later hurts again.
 constexpr double kBoneAgainSeconds = 0.5;
 
+// What must be kept from tick to tick. A new one: nothing was done yet.
+struct PatientState {
+  std::array<glm::dvec3, 4> numb_lps_mm{};  // the latest places
+  std::uint32_t numbed = 0;                 // how many there were
+  bool was_in_body = false, held = false, let_go = false;
+  double bone_s = -1e9;
+  std::array<cases::EventKind, 4> waiting{};  // reactions not told yet, in their order
+};
+
 class Patient {
  public:
   // The scene must outlive it. Without classes nothing is bone.
@@ -27,21 +36,16 @@ class Patient {
 
   // After a tick: what the inputs asked, and where the needle is now. At most one reaction a tick; a second one
   // comes in the next. Allocates nothing.
-  cases::EventKind advance(const cases::Inputs& inputs, const cases::State& state) noexcept;
+  cases::EventKind advance(const cases::Inputs& inputs, const cases::State& state,
+                           PatientState& patient) const noexcept;
 
  private:
   // The tip, the skin and bone as they lie in the patient at rest.
   glm::dvec3 pointed_at(const cases::NeedleState& needle) const noexcept;
   bool in_bone(const glm::dvec3& tip_lps_mm) const noexcept;
-  void note(cases::EventKind kind) noexcept;
 
   const cases::Case& scene_;
   glm::dmat4 voxel_from_lps_{1.0};
-  std::array<glm::dvec3, 4> numb_lps_mm_{};  // the latest places
-  std::uint32_t numbed_ = 0;                 // how many there were
-  bool was_in_body_ = false, held_ = false, let_go_ = false;
-  double bone_s_ = -1e9;
-  std::array<cases::EventKind, 4> waiting_{};  // reactions not told yet, in their order
 };
 
 }  // namespace seldinger::engine

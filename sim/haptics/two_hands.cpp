@@ -45,6 +45,11 @@ void take_up(Tool tool, int delay_ticks, HandState& state) noexcept {
 
 }  // namespace
 
+std::array<HandSettings, 2> two_virtual_devices() {
+  const HandSettings omni{*find_haptic_device("omni")};
+  return {omni, omni};
+}
+
 TwoHands::TwoHands(const cases::Case& scene, const std::array<HandSettings, 2>& settings)
     : skin_(&scene.skin_index),
       bone_(scene.volume, kBoneHu),

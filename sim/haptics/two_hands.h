@@ -64,6 +64,9 @@ using HandInputs = std::array<HandInput, 2>;
 using HandStates = std::array<HandState, 2>;
 using HandForces = std::array<HandForce, 2>;
 
+// Two arms without hardware, as stiff as a Phantom Omni bears.
+std::array<HandSettings, 2> two_virtual_devices();
+
 class TwoHands {
  public:
   // The scene has a class per voxel (CHECKed) and must outlive this; its instrument is the needle.

@@ -35,15 +35,16 @@ TEST(DeskHands, AnArmFeelsWhatItsToolPressesOnAndALostOneLeavesItToTheMouse) {
   const glm::dvec3 above = torso->plan.entry_lps_mm + 60.0 * up;
   const devices::HandsStart start{{above, -up, {0, 0, 1}}, {above + 20.0 * up, -up, {0, 0, 1}}};
   DeskHands hands(scene, start, {}, haptics::Handedness::right, &there);
-  AttemptTicks ticks(scene);
+  const engine::Tick whole(scene);
+  engine::TickState now;
   devices::HandIntent nothing;
   cases::Inputs inputs;
   double most_n = 0.0;
   const auto tick = [&](const devices::HandIntent& intent) {
     inputs = {};
-    hands.advance(intent, ticks.state(), {}, kTickS, inputs);
-    ticks.advance(inputs);
-    hands.feel(ticks.room(), kTickS);
+    hands.advance(intent, now.state, {}, kTickS, inputs);
+    whole.advance_hands(inputs, {}, now);
+    hands.feel(whole, now, kTickS);
     most_n = std::max(most_n, (*service)->arm(0).asked_n.y);
     fixtures::let_pass(kTickS);  // the service's arms move in real time
   };

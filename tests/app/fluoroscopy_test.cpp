@@ -1,4 +1,4 @@
-// Tests of app/fluoroscopy and of attempts under X-ray in app/attempt_loop: a ball of soft tissue with a lesion
+// Tests of app/fluoroscopy and of attempts under X-ray: a ball of soft tissue with a lesion
 // full of contrast agent.
 #include "app/fluoroscopy.h"
 
@@ -7,8 +7,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/attempt_loop.h"
+#include "app/endpoint_picture.h"
+#include "app/replayed_attempt.h"
+#include "app/simulated_attempt.h"
+#include "app/this_program.h"
 #include "assessment/operators/plan.h"
+#include "assessment/score.h"
 #include "sim/engine/step.h"
 #include "sim/tissue/breathing.h"
 #include "tests/fixtures/ball_case.h"
@@ -231,7 +235,7 @@ TEST(XrayAttempt, IsReplayedBitForBitWithoutImaging) {
 TEST(XrayAttempt, ItsMetricsAreWhatTheMachineAddedUp) {
   for (const char* who : {"novice", "expert"}) {
     const cases::Recording recording = attempt_of(who, 1);
-    const auto metrics = measure(ball(), recording);
+    const auto metrics = assessment::measure(ball(), recording);
     ASSERT_TRUE(metrics.has_value());
     cases::State state;
     for (const cases::Inputs& inputs : recording.inputs) {
@@ -255,15 +259,19 @@ TEST(XrayAttempt, ItsMetricsAreWhatTheMachineAddedUp) {
   }
 }
 
+std::vector<std::byte> stored_picture(const cases::Case& scene, const cases::Recording& recording) {
+  return this_program().file_of(picture_at_endpoint(scene, recording));
+}
+
 TEST(XrayAttempt, HasThePictureOfItsLastPulse) {
   const cases::Recording recording = attempt_of("expert", 1);
-  const auto png = picture_at_endpoint(ball(), recording);
+  const auto png = stored_picture(ball(), recording);
   ASSERT_GT(png.size(), 1000U);
   EXPECT_EQ(png[1], std::byte{'P'});
-  EXPECT_EQ(png, picture_at_endpoint(ball(), recording));
+  EXPECT_EQ(png, stored_picture(ball(), recording));
   cases::Recording never = recording;
   for (cases::Inputs& inputs : never.inputs) inputs.fluoroscope.pedal = false;
-  EXPECT_TRUE(picture_at_endpoint(ball(), never).empty()) << "nobody exposed anything";
+  EXPECT_TRUE(stored_picture(ball(), never).empty()) << "nobody exposed anything";
 }
 
 TEST(XrayAttempt, FramesEndWithAHeldImage) {

@@ -24,7 +24,7 @@ class MonitorTest : public testing::Test {
     return shown;
   }
   cases::Case scene;
-  Moment moment;
+  engine::Moment moment;
 };
 
 TEST_F(MonitorTest, APictureThatIsAskedForIsOfTheNewestMoment) {

@@ -12,10 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "app/attempt_loop.h"
+#include "app/simulated_attempt.h"
 #include "app/simulation.h"
 #include "assessment/operators/plan.h"
 #include "tests/fixtures/ball_case.h"
+#include "assessment/score.h"
+#include "sim/volume/analytic.h"
+#include "tests/fixtures/meshes.h"
 
 namespace seldinger::app {
 namespace {
@@ -50,8 +53,8 @@ Values measured(const assessment::OperatorProfile& profile, std::uint64_t seed, 
   Values values;
   for (const SimulatedTrial& trial : simulated_trials(profile, seed, 1, kPeople)) {
     const auto person = assessment::at_attempt(trial.profile, attempt_number);
-    const auto scored =
-        score(ball().scene, run_attempt(ball().scene, ball().plan, person, trial.seed + 1000 * attempt_number));
+    const auto scored = assessment::score(
+        ball().scene, run_attempt(ball().scene, ball().plan, person, trial.seed + 1000 * attempt_number));
     CHECK(scored.has_value());
     for (const assessment::MetricValue& metric : scored->metrics)
       if (metric.value) values[metric.id].push_back(*metric.value);

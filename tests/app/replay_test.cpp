@@ -4,11 +4,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/attempt_loop.h"
 #include "app/body_planes.h"
 #include "app/canvas.h"
+#include "app/guidance.h"
 #include "app/guidance_screen.h"
+#include "app/replayed_attempt.h"
 #include "app/slice_picture.h"
+#include "assessment/score.h"
 #include "sim/engine/step.h"
 #include "tests/fixtures/ball_case.h"
 
@@ -95,7 +97,7 @@ assessment::Signals signals_in(const cases::Case& scene) {
     pose.needle_direction = {0.0, 1.0, 0.0};
     recording.poses.push_back(pose);
   }
-  auto signals = signals_of(scene, recording);
+  auto signals = assessment::signals_of(scene, recording);
   EXPECT_TRUE(signals);
   return std::move(*signals);
 }
@@ -194,7 +196,10 @@ TEST(GuidanceScreen, AFrozenPictureStays) {
 TEST(GuidanceScreen, ASliceBesideTheProbeIsWhatIsShownAndTold) {
   const cases::Case scene = ball(cases::Modality::mpr);
   GuidanceScreen screen(scene, 1);
-  const Sight see = sight_of(scene);
+  const auto guidance = guidance_of(scene);
+  const auto see = [&](const cases::State& now, const tissue::Displacement& displacement) {
+    return guidance->see(now, displacement);
+  };
   cases::State state;
   cases::Inputs inputs;
   inputs.probe = {{0.0, -100.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};

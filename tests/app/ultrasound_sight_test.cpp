@@ -1,4 +1,4 @@
-// Tests of app/ultrasound_sight and of attempts under ultrasound in app/attempt_loop: a ball of tissue with a cyst.
+// Tests of app/ultrasound_sight and of attempts under ultrasound: a ball of tissue with a cyst.
 #include "app/ultrasound_sight.h"
 
 #include <gtest/gtest.h>
@@ -6,10 +6,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/attempt_loop.h"
+#include "app/endpoint_picture.h"
+#include "app/guidance.h"
 #include "app/guidance_screen.h"
 #include "app/picture_clock.h"
+#include "app/replayed_attempt.h"
+#include "app/simulated_attempt.h"
+#include "app/this_program.h"
 #include "assessment/operators/plan.h"
+#include "assessment/score.h"
 #include "sim/imaging/ultrasound/echogenicity.h"
 #include "tests/fixtures/ball_case.h"
 
@@ -215,7 +220,7 @@ TEST(UltrasoundAttempt, IsRecordedAtTheRateOfSoundAndReplayable) {
   EXPECT_TRUE(replay(bare, recording).same);
   const auto stored = cases::recording_from_chunks(cases::chunks_from_recording(recording));
   ASSERT_TRUE(stored.has_value());
-  const auto a = measure(p.scene, recording), b = measure(bare, *stored);
+  const auto a = assessment::measure(p.scene, recording), b = assessment::measure(bare, *stored);
   ASSERT_TRUE(a.has_value() && b.has_value());
   for (std::size_t i = 0; i < a->size(); ++i) EXPECT_EQ((*a)[i].value, (*b)[i].value) << (*a)[i].id;
 }
@@ -234,7 +239,10 @@ cases::State at_target(const Planned& p) {
 
 TEST(UltrasoundConsole, WhatIsSaidToShowIsOfThePictureAsItStands) {
   const Planned& p = planned();
-  const Sight see = sight_of(p.scene);
+  const auto guidance = guidance_of(p.scene);
+  const auto see = [&](const cases::State& now, const tissue::Displacement& displacement) {
+    return guidance->see(now, displacement);
+  };
   cases::State state = at_target(p);
   EXPECT_TRUE(see(state, {}).joint());
   state.probe.console.depth_mm = imaging::kC52v.least_depth_mm;
@@ -285,19 +293,23 @@ TEST(UltrasoundConsole, IsThatOfTheCaseUntilItIsTurned) {
   EXPECT_EQ(picture_rate_hz(picture, {9e9, 0.0, 0.0}), picture_rate_hz(picture, {300.0, 0.0, 0.0}));
 }
 
+std::vector<std::byte> stored_picture(const cases::Case& scene, const cases::Recording& recording) {
+  return this_program().file_of(picture_at_endpoint(scene, recording));
+}
+
 TEST(UltrasoundConsole, TheStoredPictureIsAsItStoodWhenTheTriggerFell) {
   const Planned& p = planned();
   auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 4);
   ASSERT_TRUE(recording.endpoint.has_value());
-  const auto plain = picture_at_endpoint(p.scene, recording);
+  const auto plain = stored_picture(p.scene, recording);
   const auto fired = static_cast<std::size_t>(std::lround(recording.endpoint->t_s / recording.dt_s));
   ASSERT_LT(fired, recording.inputs.size());
   ASSERT_TRUE(recording.inputs[fired - 1].fire && !recording.inputs[fired - 2].fire);
   auto turned = recording;
   for (std::size_t i = fired; i < turned.inputs.size(); ++i) turned.inputs[i].console.depth_mm = 120.0;
-  EXPECT_EQ(picture_at_endpoint(p.scene, turned), plain) << "afterwards";
+  EXPECT_EQ(stored_picture(p.scene, turned), plain) << "afterwards";
   turned.inputs[fired - 1].console.depth_mm = 120.0;
-  const auto deep = picture_at_endpoint(p.scene, turned);
+  const auto deep = stored_picture(p.scene, turned);
   EXPECT_NE(deep, plain) << "in the same tick";
   // The same inputs by another picture: the same motion, other hashes from the turn on.
   EXPECT_EQ(replay(p.scene, turned).first_difference_tick, fired);
@@ -347,10 +359,10 @@ TEST(PictureClock, KeepsItsRateAndGoesOnFromTheLastPictureAtAnother) {
 TEST(UltrasoundAttempt, HasThePictureOfItsEndpoint) {
   const Planned& p = planned();
   const auto recording = run_attempt(p.scene, p.plan, *assessment::named_profile("expert"), 4);
-  const auto png = picture_at_endpoint(p.scene, recording);
+  const auto png = stored_picture(p.scene, recording);
   ASSERT_GT(png.size(), 10'000U);
   EXPECT_EQ(png[1], std::byte{'P'});
-  EXPECT_EQ(png, picture_at_endpoint(p.scene, recording)) << "noise is the attempt's own";
+  EXPECT_EQ(png, stored_picture(p.scene, recording)) << "noise is the attempt's own";
 }
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace seldinger::assessment {
 namespace {
 
-RecordedTick tick_of(std::uint64_t at) {
-  RecordedTick tick;
+cases::RecordedTick tick_of(std::uint64_t at) {
+  cases::RecordedTick tick;
   tick.inputs.needle.position_lps_mm = {base::uniform_at(1, at), static_cast<double>(at), 3.0};
   tick.hash = static_cast<std::uint32_t>(at * 2654435761U);
   const double t_s = static_cast<double>(at + 1) * 0.001;
@@ -65,7 +65,7 @@ TEST(Recorder, WhatGoesInComesOut) {
     EXPECT_GT(recording->frames[i].t_s, recording->frames[i - 1].t_s);
   std::vector<cases::Event> events;
   for (std::uint64_t at = 0; at < kTicks; ++at)
-    add_events(static_cast<double>(at + 1) * 0.001, tick_of(at), events);
+    cases::add_events(static_cast<double>(at + 1) * 0.001, tick_of(at), events);
   EXPECT_EQ(events.size(), 4U + 2U);
   EXPECT_EQ(recording->events, events);
   EXPECT_EQ(recording->endpoint, tick_of(4321).endpoint);
@@ -91,10 +91,10 @@ TEST(Recorder, AServoNeverWaitsForTheDisk) {
     return base::Result<void>{};
   });
   std::uint64_t taken = 0;
-  std::vector<RecordedTick> ticks;
+  std::vector<cases::RecordedTick> ticks;
   for (std::uint64_t at = 0; at < 12000; ++at) ticks.push_back(tick_of(at));
   const long before = fixtures::allocations_of_this_thread();
-  for (const RecordedTick& tick : ticks) taken += recorder.tick(tick) ? 1 : 0;
+  for (const cases::RecordedTick& tick : ticks) taken += recorder.tick(tick) ? 1 : 0;
   EXPECT_EQ(fixtures::allocations_of_this_thread(), before);
   EXPECT_TRUE(recorder.fell_behind());
   EXPECT_LT(taken, ticks.size());
@@ -116,6 +116,35 @@ TEST(Recorder, TheFirstErrorOfTheDiskIsKept) {
   EXPECT_EQ(asked, 2) << "nothing is stored behind a hole";
   EXPECT_TRUE(recorder.failed());
   EXPECT_FALSE(recorder.fell_behind());
+}
+
+// One recorder stored two whole chunks and was gone; another goes on where they end.
+TEST(Recorder, GoesOnWhereAnotherEnded) {
+  std::vector<cases::RecordingChunk> whole, pieces;
+  const auto record = [](std::vector<cases::RecordingChunk>& chunks, std::uint64_t from, std::uint64_t to,
+                         RecordedBefore before) {
+    Recorder recorder(
+        5, 0.001,
+        [&](const cases::RecordingChunk& chunk) {
+          chunks.push_back(chunk);
+          return base::Result<void>{};
+        },
+        before);
+    for (std::uint64_t at = from; at < to; ++at) {
+      EXPECT_TRUE(recorder.tick(tick_of(at)));
+      if (at % 33 == 0) recorder.frame(frame_at(static_cast<double>(at + 1) * 0.001));
+    }
+    return recorder.finish().value();
+  };
+  EXPECT_EQ(record(whole, 0, 6100, {}), 4U);
+  EXPECT_EQ(record(pieces, 0, 4000, {}), 2U);
+  EXPECT_EQ(record(pieces, 4000, 6100, {4000, 2}), 4U);
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(pieces[i].sequence, i);
+    EXPECT_EQ(pieces[i].checksum, whole[i].checksum) << "bit for bit, chunk " << i;
+  }
+  EXPECT_EQ(record(pieces, 0, 0, {6100, 4}), 4U) << "nothing came: no empty chunk";
 }
 
 }  // namespace

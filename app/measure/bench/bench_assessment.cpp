@@ -6,15 +6,16 @@
 #include <glm/common.hpp>
 #include <thread>
 
-#include "app/attempt_loop.h"
-#include "app/attempt_ticks.h"
 #include "app/measure/bench/bench.h"
+#include "app/simulated_attempt.h"
 #include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
 #include "assessment/recorder.h"
+#include "assessment/score.h"
 #include "casedb/import/surface.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
+#include "sim/engine/tick.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::measure {
@@ -83,18 +84,19 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   const auto row_of = [](const char* method, const char* setting, const std::string& size) {
     return BenchRow{"assessment", method, setting, "cpu", "1 thread", size, 0, 0, 0, 0, "", "", ""};
   };
-  app::AttemptTicks ticks(scene);
-  std::vector<assessment::RecordedTick> second;
-  for (std::size_t i = 0; i < kTicks; ++i) second.push_back(ticks.advance(once.inputs[i]));
+  const engine::Tick tick_of(scene);
+  engine::TickState now;
+  std::vector<cases::RecordedTick> second;
+  for (std::size_t i = 0; i < kTicks; ++i) second.push_back(tick_of.advance_hands(once.inputs[i], {}, now));
   BenchRow handed =
-      row_of("recorder", "ticks handed over", std::to_string(sizeof(assessment::RecordedTick)) + " bytes each");
+      row_of("recorder", "ticks handed over", std::to_string(sizeof(cases::RecordedTick)) + " bytes each");
   handed.n = quick ? 5 : 21;
   assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
                                 [](const cases::RecordingChunk&) { return base::Result<void>{}; });
   std::vector<double> times_ms;
   for (int i = 0; i < handed.n; ++i) {
     const auto begun = std::chrono::steady_clock::now();
-    for (const assessment::RecordedTick& tick : second) recorder.tick(tick);
+    for (const cases::RecordedTick& tick : second) recorder.tick(tick);
     times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun).count());
     std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the queue is emptied meanwhile
   }
@@ -113,7 +115,7 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   piece.dt_s = engine::kTickSeconds;
   piece.events.emplace();
   for (int half = 0; half < 2; ++half)
-    for (const assessment::RecordedTick& tick : second) {
+    for (const cases::RecordedTick& tick : second) {
       piece.inputs.push_back(tick.inputs);
       piece.hashes.push_back(tick.hash);
       if (tick.pose) piece.poses.push_back(*tick.pose);
@@ -146,7 +148,7 @@ base::Result<void> bench_assessment(const app::Arguments&, bool quick, std::vect
     double simulated_s = 0.0;
     time_into(row, quick ? 3 : 11, [&] {
       const auto recording = app::run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
-      if (app::score(scene, recording))
+      if (assessment::score(scene, recording))
         simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
     });
     if (!(simulated_s > 0.0)) return base::Error{"bench_failed", "the attempt cannot be scored"};
@@ -172,7 +174,7 @@ base::Result<void> bench_assessment(const app::Arguments&, bool quick, std::vect
                  ""};
     std::size_t values = 0;
     time_into(row, quick ? 3 : 11, [&] {
-      const auto metrics = app::measure(scene, recording);
+      const auto metrics = assessment::measure(scene, recording);
       values += metrics ? metrics->size() : 0;
     });
     if (values == 0) return base::Error{"bench_failed", "the attempt cannot be scored"};

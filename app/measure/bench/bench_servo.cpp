@@ -4,9 +4,9 @@
 #include <chrono>
 #include <limits>
 
-#include "app/attempt_ticks.h"
 #include "app/measure/bench/bench.h"
 #include "app/servo_trial.h"
+#include "sim/engine/tick.h"
 
 namespace seldinger::measure {
 namespace {
@@ -76,11 +76,12 @@ void bench_room(const app::ServoScene& torso, const char* name, bool quick, std:
       (hand.tool == haptics::Tool::needle ? inputs.needle : inputs.probe) = hand.pose;
   }
   std::vector<double> least_ms(recording.size(), std::numeric_limits<double>::infinity()), all_ms;
+  const engine::Tick whole(torso.scene);
   for (int replay = 0; replay < kReplays; ++replay) {
-    app::Room room(torso.scene);
+    engine::TickState now;
     for (std::size_t tick = 0; tick < recording.size(); ++tick) {
       const auto start = std::chrono::steady_clock::now();
-      room.advance(recording[tick], haptics::kTickS);
+      whole.advance(recording[tick], haptics::kTickS, now);
       all_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
       least_ms[tick] = std::min(least_ms[tick], all_ms.back());
     }
@@ -104,7 +105,7 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
   auto torso = app::torso_under_hands(quick ? kQuickSkinDecimation : kSkinDecimation);
   if (!torso) return torso.error();
   if (!quick) app::refine(torso->scene, kSize);
-  const haptics::TwoHands hands(torso->scene, app::two_virtual_devices());
+  const haptics::TwoHands hands(torso->scene, haptics::two_virtual_devices());
   struct Pair {
     const char* name;
     std::array<haptics::Tool, 2> tools;

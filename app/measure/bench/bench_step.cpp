@@ -1,5 +1,5 @@
 // bench --stage step: a whole simulated attempt, and one tick of it.
-#include "app/attempt_loop.h"
+#include "app/simulated_attempt.h"
 #include "app/measure/bench/bench.h"
 #include "assessment/operators/lesion_site.h"
 #include "casedb/import/surface.h"

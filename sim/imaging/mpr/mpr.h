@@ -6,11 +6,10 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "sim/case/case.h"
 #include "sim/gpu/context.h"
+#include "sim/imaging/inserted.h"
 #include "sim/tissue/displacement.h"
 #include "sim/volume/volume.h"
 
@@ -29,21 +28,6 @@ struct MprView {
   double needle_slab_mm =
       0.0;  // the needle is shown where it passes within half of this from the plane; 0 = its cut
 };
-
-// The finite cylinder tip − t·direction, 0 ≤ t ≤ length. Its lumen (inner_radius_mm > 0) is empty and shows as air,
-// −1000 HU, over whatever lies there; with a slab the needle shows solid. A pose that is not finite is not shown.
-struct NeedlePose {
-  glm::dvec3 tip_lps_mm{0.0};
-  glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, hub → tip
-  double length_mm = 200.0, radius_mm = 0.36, inner_radius_mm = 0.0, hu = 3000.0;
-};
-
-// What is inserted into the volume.
-struct Inserted {
-  std::optional<NeedlePose> needle;
-  std::vector<cases::Lesion> lesions;  // at most kMaxLesions; the first that contains a point wins
-};
-constexpr int kMaxLesions = 16;
 
 // HU, row-major, width_px · height_px. Outside the volume: −1024.
 using HuImage = std::vector<float>;

@@ -8,7 +8,6 @@
 #include <glm/vec3.hpp>
 
 #include "sim/base/check.h"
-#include "sim/base/vectors.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/tissue/rest_plane.h"
 
@@ -23,13 +22,6 @@ inline void check_view(const MprView& view, const Inserted& inserted) {
   CHECK(std::abs(glm::dot(view.u, view.u) - 1.0) <= kSlack && std::abs(glm::dot(view.v, view.v) - 1.0) <= kSlack);
   CHECK(std::abs(glm::dot(view.u, view.v)) <= kSlack);
   CHECK(inserted.lesions.size() <= static_cast<std::size_t>(kMaxLesions));
-}
-
-using base::is_finite;
-
-inline bool is_finite(const NeedlePose& needle) noexcept {
-  return is_finite(needle.tip_lps_mm) && is_finite(needle.direction) && std::isfinite(needle.length_mm) &&
-         std::isfinite(needle.radius_mm) && std::isfinite(needle.inner_radius_mm);
 }
 
 struct Plane {

@@ -5,19 +5,14 @@
 #include <optional>
 
 #include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/visible.h"
 
 namespace seldinger::imaging {
 
 constexpr double kMprSlabHalfMm = 2.0;  // contracts.md, "mpr: |y| ≤ 2 mm"
 
-struct Visible {
-  bool needle_tip = false;
-  double needle_length_mm = 0.0;  // of the shaft inside slab and rectangle
-  bool target = false;
-  bool joint = false;  // needle_tip and target
-};
-
 // `target` is the centre of the target lesion. The rectangle's borders are the outer edges of the border pixels.
+// `needle_length_mm` is the length of the shaft inside slab and rectangle.
 Visible mpr_visible(const MprView& view, const std::optional<NeedlePose>& needle,
                     const std::optional<glm::dvec3>& target_lps_mm) noexcept;
 

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/inserted.h"
 #include "sim/imaging/ultrasound/probe.h"
 #include "sim/imaging/ultrasound/tissue.h"
 #include "sim/tissue/displacement.h"

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "sim/case/recording.h"
-#include "sim/imaging/mpr/visibility.h"
 #include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/visible.h"
 
 namespace seldinger::imaging {
 

@@ -7,7 +7,6 @@
 
 #include "shaders/shared/xray.glsl.h"
 #include "sim/base/check.h"
-#include "sim/imaging/mpr/plane.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -4,7 +4,7 @@
 // moving needle needs no new projection.
 #pragma once
 
-#include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/inserted.h"
 #include "sim/imaging/xray/projection.h"
 
 namespace seldinger::imaging {

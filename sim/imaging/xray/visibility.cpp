@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "sim/base/vectors.h"
-#include "sim/imaging/mpr/plane.h"
 #include "sim/imaging/mpr/segment_clip.h"
 #include "sim/imaging/xray/instruments.h"
 

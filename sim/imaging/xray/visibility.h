@@ -10,7 +10,8 @@
 // So a needle is seen in an abdomen, an opacified calyx too, and a soft-tissue lesion is not.
 #pragma once
 
-#include "sim/imaging/mpr/visibility.h"
+#include "sim/imaging/inserted.h"
+#include "sim/imaging/visible.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/projection.h"
 

@@ -24,7 +24,8 @@ namespace {
 cases::State under_probe(const cases::Case& scene, const assessment::PuncturePlan& plan) {
   assessment::ScriptedOperator person(*assessment::named_profile("novice"), plan, scene.instrument, 42);
   devices::VirtualDevice needle_arm, probe_arm;
-  engine::Patient patient(scene);
+  const engine::Patient patient(scene);
+  engine::PatientState memory;
   const engine::MovingTissue tissue(scene);
   const haptics::HandStates hands{};
   cases::State state;
@@ -39,7 +40,7 @@ cases::State under_probe(const cases::Case& scene, const assessment::PuncturePla
     if (tick == 500) inputs.event = cases::EventKind::breath_hold_request;
     engine::step(scene, inputs, 0.001, tissue.felt_by_needle(state, hands), state);
     hash = base::hash_combine(cases::state_hash(state, hash),
-                              static_cast<std::uint64_t>(patient.advance(inputs, state)));
+                              static_cast<std::uint64_t>(patient.advance(inputs, state, memory)));
     std::printf("%016llx\n", static_cast<unsigned long long>(hash));
   }
   return state;

@@ -39,7 +39,7 @@ class Trial {
     inputs.needle = {{x_mm, y_mm, 0.3}, {0, 1, 0}, {1, 0, 0}};
     inputs.event = event;
     step(scene_, inputs, 0.001, state_);
-    const EventKind reaction = patient_.advance(inputs, state_);
+    const EventKind reaction = patient_.advance(inputs, state_, memory_);
     if (reaction != EventKind::none) told.push_back({state_.t_s, reaction});
   }
   void move(double from_mm, double to_mm, double mm_s = 100.0) {
@@ -60,6 +60,7 @@ class Trial {
  private:
   const cases::Case& scene_;
   Patient patient_;
+  PatientState memory_;
   cases::State state_;
 };
 
@@ -160,7 +161,8 @@ TEST(Patient, WhatHappensAtOnceIsToldOneAfterTheOther) {
 
 TEST(Patient, MakesNoAllocation) {
   const cases::Case scene = body();
-  Patient patient(scene);
+  const Patient patient(scene);
+  PatientState memory;
   cases::State state;
   cases::Inputs inputs;
   const long before = fixtures::allocations();
@@ -168,7 +170,7 @@ TEST(Patient, MakesNoAllocation) {
     inputs.needle = {{0.3, -120.0 + 0.1 * i, 0.3}, {0, 1, 0}, {1, 0, 0}};
     inputs.event = i % 50 == 0 ? EventKind::anaesthetic : EventKind::none;
     step(scene, inputs, 0.001, state);
-    patient.advance(inputs, state);
+    patient.advance(inputs, state, memory);
   }
   EXPECT_EQ(fixtures::allocations(), before);
 }

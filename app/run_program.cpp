@@ -1,4 +1,4 @@
-#include "app/program.h"
+#include "app/run_program.h"
 
 #include <algorithm>
 #include <csignal>

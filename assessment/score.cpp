@@ -1,0 +1,41 @@
+#include "assessment/score.h"
+
+#include <glm/geometric.hpp>
+
+#include "assessment/metrics/registry.h"
+
+namespace seldinger::assessment {
+
+base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recording& recording) {
+  AttemptSetting setting;
+  setting.skin = &scene.skin_index;
+  if (!scene.lesions.empty()) setting.target = scene.lesions[0];
+  setting.instrument = scene.instrument;
+  setting.modality = scene.picture.modality;
+  setting.approach = scene.approach;
+  setting.structures = scene.structures;
+  if (scene.planned_entry_lps_mm && setting.target) {
+    const glm::dvec3 way = setting.target->center_lps_mm - *scene.planned_entry_lps_mm;
+    if (glm::length(way) > 0.0) setting.plan = PlannedEntry{*scene.planned_entry_lps_mm, glm::normalize(way)};
+  }
+  setting.subject = scene.subject;
+  setting.position = scene.position;
+  setting.defer_is_right = scene.defer_is_right;
+  setting.breathes = scene.breathing.has_value();
+  setting.yields = scene.yields;
+  return make_signals(setting, recording);
+}
+
+base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording) {
+  const auto signals = signals_of(scene, recording);
+  if (!signals) return signals.error();
+  return Scored{measure_all(*signals), walk_steps(*signals)};
+}
+
+base::Result<std::vector<MetricValue>> measure(const cases::Case& scene, const cases::Recording& recording) {
+  const auto signals = signals_of(scene, recording);
+  if (!signals) return signals.error();
+  return measure_all(*signals);
+}
+
+}  // namespace seldinger::assessment
