@@ -17,7 +17,7 @@ using fixtures::kPassword;
 
 // Shares of the axial plane's width and height at z = 0, where the cursor begins: air, the liver, skin on the right
 // side.
-constexpr std::pair<double, double> kOutside{0.05, 0.1}, kLiver{0.3, 0.5}, kFlank{0.1, 0.5};
+constexpr std::pair<double, double> kOutside{0.043, 0.10}, kLiver{0.244, 0.447}, kFlank{0.078, 0.475};
 
 class TrainBenchTest : public testing::Test {
  protected:

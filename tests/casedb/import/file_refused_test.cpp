@@ -106,7 +106,9 @@ TEST_F(FileRefused, RandomHeadersAreReadOrRefused) {
     for (int round = 0; round < 300; ++round) {
       std::string bytes = whole;
       const std::size_t header = whole.size() - 1024;
-      for (int i = 0; i < 3; ++i) bytes[random() % header] = static_cast<char>(random());
+      // Digits as well: in a header of text any other byte is refused at the door.
+      for (int i = 0; i <= round % 3; ++i)
+        bytes[random() % header] = static_cast<char>(round % 2 == 0 ? random() : '0' + random() % 10);
       outcomes.add(read(write(name, bytes)));
     }
     outcomes.expect_both();
