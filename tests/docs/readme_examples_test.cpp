@@ -56,7 +56,7 @@ std::vector<std::string> examples_in(const std::string& markdown) {
 // path.
 fs::path clean_copy(const std::string& name) {
   const fs::path copy = fixtures::fresh_folder(name) / "a" / "b" / "c" / "d" / "seldinger";
-  fs::create_directories(copy);
+  fs::create_directories(copy / "docs");
   fs::copy(kRoot / "docs" / "scenes", copy / "docs" / "scenes", fs::copy_options::recursive);
   return copy;
 }
@@ -166,8 +166,9 @@ TEST_F(Scenes, TheRadiographShowsSpineAndRibs) {
 // Where a sheet says that a needle lies in the picture, its tip is seen; beside the plane it is not.
 TEST_F(Scenes, NeedlesAreWhereTheSheetsSay) {
   int rows = 0;
-  for (const char* name : {"us_breath.sheet.json", "us_jiggle.sheet.json"})
-    for (const Json& row : read(name).at("rows")) {
+  for (const char* name : {"us_breath.sheet.json", "us_jiggle.sheet.json"}) {
+    const Json sheet = read(name);
+    for (const Json& row : sheet.at("rows")) {
       SCOPED_TRACE(row.at("name"));
       Json scene = read(row.at("scene"));
       scene.merge_patch(row.at("set"));
@@ -175,6 +176,7 @@ TEST_F(Scenes, NeedlesAreWhereTheSheetsSay) {
       EXPECT_EQ(render(scene, "needle.png").at("visible").at("needle_tip"), !beside);
       ++rows;
     }
+  }
   EXPECT_EQ(rows, 6);
 }
 
