@@ -4,7 +4,7 @@
 #include "app/answers_json.h"
 #include "app/command.h"
 #include "app/grade_text.h"
-#include "app/live_attempt.h"
+#include "app/interrupted_attempt.h"
 #include "app/metrics_text.h"
 #include "app/servo_answer.h"
 #include "reports/attempt_words.h"

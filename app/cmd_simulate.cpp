@@ -33,9 +33,65 @@ cases::Event mentors_event(const std::string& text) {
   return {t_s, *kind};
 }
 
+std::vector<cases::Event> scenario_of(const Arguments& arguments) {
+  std::vector<cases::Event> scenario;
+  if (arguments.has("--event"))
+    for (const std::string& text : arguments.all("--event")) scenario.push_back(mentors_event(text));
+  std::stable_sort(scenario.begin(), scenario.end(),
+                   [](const cases::Event& a, const cases::Event& b) { return a.t_s < b.t_s; });
+  return scenario;
+}
+
+SimulatedAttempt graded(casedb::Library& library, casedb::Grader& grader, SimulatedAttempt attempt) {
+  if (const auto row = casedb::find_attempt(library, attempt.attempt_id)) attempt.grade = grader.look_at(*row);
+  return attempt;
+}
+
+void print(const SimulatedAttempt& attempt) {
+  std::printf("attempt %s  simulated %s  seed %llu\n", attempt.attempt_id.c_str(), attempt.operator_name.c_str(),
+              static_cast<unsigned long long>(attempt.seed));
+  if (attempt.grade) std::fputs(text_of_grade(*attempt.grade).c_str(), stdout);
+  print_metrics(attempt.metrics);
+  std::fflush(stdout);  // it is stored: whoever reads along may know
+}
+
+int resume(const Arguments& arguments) {
+  for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--jobs", "--instrument",
+                             "--modality", "--no-pictures"})
+    if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --resume");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  auto interrupted = InterruptedAttempt::take(*library, arguments.text("--resume"));
+  if (!interrupted) return refuse(interrupted.error());
+  const casedb::OpenAttempt& attempt = interrupted->attempt();
+  if (!attempt.synthetic())
+    return refuse({"not_simulated", "a person made this attempt: they can go on with it in `seldinger train`"});
+  auto profile = assessment::named_profile(attempt.operator_name);
+  if (arguments.has("--operator")) {
+    const auto given = profile_of(arguments.text("--operator"));
+    if (!given) return refuse(given.error());
+    profile = *given;
+  }
+  if (!profile) throw UsageError("the attempt's operator is unknown: --operator names the profile's file");
+  auto simulation = Simulation::prepare(*library, this_program(), attempt.case_id, attempt.lesion_id,
+                                        attempt.instrument.kind, attempt.picture.modality);
+  if (!simulation) return refuse(simulation.error());
+  if (const auto set = simulation->set_scenario(scenario_of(arguments)); !set) return refuse(set.error());
+  casedb::Grader grader(*library);
+  auto made = simulation->resume(std::move(*interrupted), *profile);
+  if (!made) return refuse(made.error());
+  const SimulatedAttempt stored = graded(*library, grader, std::move(*made));
+  if (arguments.has("--json"))
+    std::fputs(json_of_simulation({stored}).c_str(), stdout);
+  else
+    print(stored);
+  return kDone;
+}
+
 }  // namespace
 
 int run_simulate(const Arguments& arguments) {
+  if (arguments.has("--resume")) return resume(arguments);
   const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
@@ -53,11 +109,7 @@ int run_simulate(const Arguments& arguments) {
     modality = casedb::modality_from(arguments.text("--modality"));
     if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   }
-  std::vector<cases::Event> scenario;
-  if (arguments.has("--event"))
-    for (const std::string& text : arguments.all("--event")) scenario.push_back(mentors_event(text));
-  std::stable_sort(scenario.begin(), scenario.end(),
-                   [](const cases::Event& a, const cases::Event& b) { return a.t_s < b.t_s; });
+  std::vector<cases::Event> scenario = scenario_of(arguments);
   const auto profile = profile_of(arguments.required("--operator"));
   if (!profile) return refuse(profile.error());
   auto library = casedb::Library::open(folder);
@@ -69,14 +121,8 @@ int run_simulate(const Arguments& arguments) {
   std::vector<SimulatedAttempt> attempts;
   casedb::Grader grader(*library);  // against the experts as they were before this run
   const auto stored = [&](SimulatedAttempt attempt) {
-    if (const auto row = casedb::find_attempt(*library, attempt.attempt_id)) attempt.grade = grader.look_at(*row);
-    attempts.push_back(std::move(attempt));
-    if (arguments.has("--json")) return;
-    std::printf("attempt %s  simulated %s  seed %llu\n", attempts.back().attempt_id.c_str(),
-                attempts.back().operator_name.c_str(), static_cast<unsigned long long>(attempts.back().seed));
-    if (attempts.back().grade) std::fputs(text_of_grade(*attempts.back().grade).c_str(), stdout);
-    print_metrics(attempts.back().metrics);
-    std::fflush(stdout);  // it is stored: whoever reads along may know
+    attempts.push_back(graded(*library, grader, std::move(attempt)));
+    if (!arguments.has("--json")) print(attempts.back());
   };
   const auto trials = simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
   if (!arguments.has("--real-time")) {
@@ -85,7 +131,10 @@ int run_simulate(const Arguments& arguments) {
     if (!done) return refuse(done.error());
   } else {
     for (const SimulatedTrial& trial : trials) {
-      auto attempt = simulation->live_attempt(trial.profile, trial.seed);
+      auto attempt = simulation->live_attempt(trial.profile, trial.seed, [](const std::string& id) {
+        std::fprintf(stderr, "attempt %s is recorded; should this program die, simulate --resume goes on with it\n",
+                     id.c_str());
+      });
       if (!attempt) return refuse(attempt.error());
       attempt->person = trial.person;
       attempt->number = trial.number;

@@ -142,6 +142,9 @@ constexpr Option kSimulateOptions[] = {
     {"--event", "KIND@SECONDS",
      "a mentor's event at that time: cough, bleeding or pressure_drop; may be given many times", true},
     {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
+    {"--resume", "ATTEMPT",
+     "go on with an interrupted attempt in real time: case, needle and seed are its own, and so is the operator, "
+     "unless --operator names the file it was made with; give its --event again"},
     kJson};
 constexpr Option kScoreOptions[] = {kLibrary,
                                     {"--poses", "FILE.csv", "poses of an attempt made elsewhere"},

@@ -31,6 +31,15 @@ class Store {
     if (!opened) return opened.error();
     attempt_id_ = std::move(*opened);
     mark_.emplace(library.folder(), attempt_id_);
+    return use(library);
+  }
+  // One that was interrupted, which holds its mark: the library goes on with it.
+  base::Result<void> reopen(casedb::Library& library, const casedb::OpenAttempt& attempt) {
+    if (const auto noted = casedb::note_resumption(library, attempt.attempt_id); !noted) return noted.error();
+    attempt_id_ = attempt.attempt_id;
+    return use(library);
+  }
+  base::Result<void> use(const casedb::Library& library) {
     auto own = casedb::Library::open(library.folder());
     if (!own) return own.error();
     recorders_library_.emplace(std::move(*own));
@@ -60,6 +69,19 @@ class Running {
  public:
   Running(const cases::Case& scene, const LiveAttempt::With& with, assessment::Recorder& recorder)
       : with_(with), recorder_(recorder), tick_(scene), guidance_(guidance_of(scene)) {}
+
+  // Before it runs: from where an attempt ended that was interrupted.
+  void go_on_from(const InterruptedAttempt& before) {
+    now_ = before.now();
+    says_resumed_ = true;
+    if (!guidance_->pulsed() || !before.pulse()) return;
+    // Whether the last pulse's report had come in, nobody knows; told twice it counts once.
+    const cases::FrameTruth frame = guidance_->see(before.pulse()->state, before.pulse()->displacement);
+    report_ = guidance_->state().report;
+    const std::vector<cases::FrameTruth>& frames = before.recording().frames;
+    if (frames.empty() || frames.back().t_s < frame.t_s) recorder_.frame(frame);
+    if (!frames.empty() && frames.back().t_s > frame.t_s) static_cast<void>(guidance_->stay(now_.state));  // told
+  }
 
   // Until it is over. How time was kept.
   cases::ServoRecord run() {
@@ -92,6 +114,10 @@ class Running {
   void tick(const cases::FrameTruth* frame) {
     cases::Inputs inputs = with_.hands(now_.state, frame);
     inputs.exposure = report_;
+    if (says_resumed_ && inputs.event == cases::EventKind::none) {
+      inputs.event = cases::EventKind::resumed;
+      says_resumed_ = false;
+    }
     const bool kept =
         recorder_.tick(tick_.advance_hands(inputs, with_.read ? with_.read() : engine::ToolsRead(), now_));
     if (with_.feel) with_.feel(tick_, now_);
@@ -128,6 +154,7 @@ class Running {
   const engine::Tick tick_;  // with the next two: the servo's
   engine::TickState now_;
   cases::ExposureReport report_;
+  bool says_resumed_ = false;
   std::unique_ptr<Guidance> guidance_;  // the caller's
   base::Snapshot<engine::Moment> moments_, pulses_;
   base::Snapshot<cases::FrameTruth> frames_;
@@ -141,13 +168,29 @@ LiveAttempt::LiveAttempt(casedb::Library& library, Program program, casedb::Atte
                          const cases::Case& scene, Keep keep)
     : library_(library), program_(std::move(program)), head_(std::move(head)), scene_(scene), keep_(keep) {}
 
+LiveAttempt::LiveAttempt(casedb::Library& library, Program program, InterruptedAttempt interrupted,
+                         const cases::Case& scene)
+    : library_(library),
+      program_(std::move(program)),
+      head_(interrupted.attempt()),
+      scene_(scene),
+      keep_(Keep::stored),
+      before_(std::move(interrupted)) {}
+
 base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   Store store;
-  if (keep_ == Keep::stored)
-    if (const auto opened = store.open(library_, head_); !opened) return opened.error();
-  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
-                                [&](const cases::RecordingChunk& chunk) { return store.add(chunk); });
+  assessment::RecordedBefore recorded;
+  if (keep_ == Keep::stored) {
+    const auto opened = before_ ? store.reopen(library_, before_->attempt()) : store.open(library_, head_);
+    if (!opened) return opened.error();
+    if (with.opened) with.opened(store.attempt_id());
+  }
+  if (before_) recorded = {before_->ticks(), static_cast<std::uint32_t>(before_->attempt().chunks)};
+  assessment::Recorder recorder(
+      engine::kStepVersion, engine::kTickSeconds,
+      [&](const cases::RecordingChunk& chunk) { return store.add(chunk); }, recorded);
   Running running(scene_, with, recorder);
+  if (before_) running.go_on_from(*before_);
   casedb::AttemptOutcome outcome;
   outcome.servo = running.run();
   if (with.ended) with.ended();
@@ -169,42 +212,6 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
       return closed.error();
   }
   return StoredAttempt{store.attempt_id(), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
-}
-
-namespace {
-
-// Empty where nothing can be said: its case cannot be built any more, or nothing was recorded.
-assessment::Scored score_of(casedb::Library& library, const casedb::OpenAttempt& attempt) {
-  const auto recording = casedb::load_open_recording(library, attempt.attempt_id);
-  const auto row = casedb::find_case(library, attempt.case_id);
-  if (!recording || recording->poses.empty() || !row) return {};
-  for (const casedb::LesionRow& lesion : casedb::list_lesions(library, attempt.case_id))
-    if (lesion.lesion_id == attempt.lesion_id) {
-      auto scene = build_case(library, *row, lesion.form, attempt.picture, Needs::metrics);
-      if (!scene) return {};
-      scene->instrument = attempt.instrument;
-      scene->approach = attempt.approach;
-      auto scored = assessment::score(*scene, *recording);
-      return scored ? std::move(*scored) : assessment::Scored{};
-    }
-  return {};
-}
-
-}  // namespace
-
-std::vector<std::string> close_interrupted_attempts(casedb::Library& library) {
-  std::vector<std::string> closed;
-  for (const casedb::OpenAttempt& attempt : casedb::list_open_attempts(library)) {
-    if (casedb::is_running(library.folder(), attempt.attempt_id)) continue;
-    casedb::AttemptOutcome outcome;
-    outcome.end = casedb::AttemptEnd::interrupted;
-    assessment::Scored scored = score_of(library, attempt);
-    outcome.metrics = std::move(scored.metrics);
-    outcome.steps = std::move(scored.steps);
-    // Another process may have been faster.
-    if (casedb::close_attempt(library, attempt.attempt_id, outcome)) closed.push_back(attempt.attempt_id);
-  }
-  return closed;
 }
 
 }  // namespace seldinger::app

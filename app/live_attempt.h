@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/interrupted_attempt.h"
 #include "app/program.h"
 #include "casedb/store.h"
 #include "sim/base/snapshot.h"
@@ -29,10 +30,11 @@ class LiveAttempt {
   // By the servo: what the hands want now; `frame` is a picture that appeared since the last tick.
   using Hands = std::function<cases::Inputs(const cases::State&, const cases::FrameTruth* frame)>;
 
-  // Who takes part. All but `ended` are asked by the servo: they must not allocate, lock or wait.
+  // Who takes part. All but `opened` and `ended` are asked by the servo: they must not allocate, lock or wait.
   struct With {
     Hands hands;
-    std::function<engine::ToolsRead()> read{};  // after `hands`: what of them an arm said
+    std::function<void(const std::string& attempt_id)> opened{};  // before the first tick, by the caller's thread
+    std::function<engine::ToolsRead()> read{};                    // after `hands`: what of them an arm said
     std::function<void(const engine::Tick&, const engine::TickState&)> feel{};  // after each: what hands feel in it
     std::function<bool()> done;                                                 // after each tick
     std::function<bool()> paused{};                                             // while it says so, no time goes by
@@ -46,6 +48,10 @@ class LiveAttempt {
   // The library and the scene (with what its modality needs) must outlive it.
   LiveAttempt(casedb::Library& library, Program program, casedb::AttemptHead head, const cases::Case& scene,
               Keep keep = Keep::stored);
+  // Goes on with one that was interrupted, replayed in this scene: its recording goes on, too, and says so.
+  LiveAttempt(casedb::Library& library, Program program, InterruptedAttempt interrupted, const cases::Case& scene);
+
+  const casedb::AttemptHead& head() const noexcept { return head_; }
 
   // Until `done` says so, kMostLiveSeconds are over, or it cannot be recorded any more. Stored, scored and durable
   // when it returns. Refused as casedb::open_attempt and close_attempt.
@@ -57,10 +63,7 @@ class LiveAttempt {
   casedb::AttemptHead head_;
   const cases::Case& scene_;
   Keep keep_;
+  std::optional<InterruptedAttempt> before_;  // what is gone on with
 };
-
-// Attempts that a program left behind when it died: each becomes an attempt that says so, with the score of what
-// was recorded. Their ids. Those that are running are left alone.
-std::vector<std::string> close_interrupted_attempts(casedb::Library& library);
 
 }  // namespace seldinger::app

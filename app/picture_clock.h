@@ -29,6 +29,13 @@ class PictureClock {
   long long count() const noexcept { return count_; }
   bool operator==(const PictureClock&) const = default;
 
+  // each(…) is called with all that it remembers, for who saves and restores it.
+  template <typename Each, typename Clock>
+  static void visit(Each&& each, Clock& clock) {
+    auto& [rate_hz, since_s, last_s, told, before, count] = clock;
+    each(rate_hz, since_s, last_s, told, before, count);
+  }
+
  private:
   double rate_hz_ = 0.0, since_s_ = 0.0, last_s_ = 0.0;
   long long told_ = 0, before_ = 0, count_ = 0;

@@ -2,11 +2,10 @@
 
 #include "app/endpoint_picture.h"
 #include "app/guidance.h"
-#include "app/live_attempt.h"
 #include "app/ordered_work.h"
 #include "app/simulated_attempt.h"
-#include "assessment/operators/scripted.h"
 #include "assessment/score.h"
+#include "sim/base/check.h"
 #include "sim/base/hash.h"
 #include "sim/engine/step.h"
 
@@ -29,14 +28,44 @@ base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
 }
 
 base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::OperatorProfile& profile,
-                                                        std::uint64_t seed) {
+                                                        std::uint64_t seed, const Opened& opened) {
   // Whoever looks for needle and target in pulses is not made for real time.
   if (!guidance_kind(task_.scene.picture.modality).probe_guides)
     return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
   assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
-  const engine::Scenario scenario(scenario_);
+  return run_live(
+      LiveAttempt(*library_, program_, head_of(task_, program_, profile.name, seed, std::nullopt), task_.scene),
+      person, 0, seed, opened);
+}
+
+// The operator sees and hears what was recorded, and what they would have done then is left out: hands did what was
+// recorded. A picture is seen in the first tick after it, as it is in all but a few attempts.
+base::Result<SimulatedAttempt> Simulation::resume(InterruptedAttempt interrupted,
+                                                  const assessment::OperatorProfile& profile) {
+  const std::uint64_t seed = interrupted.attempt().seed;
+  CHECK(interrupted.attempt().synthetic());
+  if (!was_made_at(interrupted.attempt(), task_))
+    return base::Error{"other_case", "the attempt was made at another task than this"};
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
   std::uint32_t happened = 0;
-  LiveAttempt live(*library_, program_, head_of(task_, program_, profile.name, seed, std::nullopt), task_.scene);
+  auto frame = interrupted.recording().frames.begin();
+  const auto frames_end = interrupted.recording().frames.end();
+  const auto replayed =
+      interrupted.replay(task_.scene, [&](const cases::State& before, const cases::Inputs& inputs) {
+        const bool new_frame = frame != frames_end && frame->t_s <= before.t_s;
+        person.act(before, new_frame ? &*frame : nullptr, engine::kTickSeconds);
+        if (new_frame) ++frame;
+        if (happened < scenario_.size() && inputs.event == scenario_[happened].kind) ++happened;
+        person.hear(inputs.event);
+      });
+  if (!replayed) return replayed.error();
+  return run_live(LiveAttempt(*library_, program_, std::move(interrupted), task_.scene), person, happened, seed);
+}
+
+base::Result<SimulatedAttempt> Simulation::run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                                    std::uint32_t happened, std::uint64_t seed,
+                                                    const Opened& opened) const {
+  const engine::Scenario scenario(scenario_);
   const auto stored = live.run({.hands =
                                     [&](const cases::State& state, const cases::FrameTruth* frame) {
                                       cases::Inputs inputs = person.act(state, frame, engine::kTickSeconds);
@@ -44,9 +73,10 @@ base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::Operat
                                       person.hear(inputs.event);
                                       return inputs;
                                     },
+                                .opened = opened,
                                 .done = [&] { return person.done(); }});
   if (!stored) return stored.error();
-  return SimulatedAttempt{stored->attempt_id, profile.name, seed, stored->metrics};
+  return SimulatedAttempt{stored->attempt_id, live.head().operator_name, seed, stored->metrics};
 }
 
 base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProfile& profile, std::uint64_t seed,

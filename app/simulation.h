@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "app/interrupted_attempt.h"
+#include "app/live_attempt.h"
 #include "app/program.h"
 #include "app/task.h"
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/profile.h"
+#include "assessment/operators/scripted.h"
 #include "casedb/grading.h"
 #include "casedb/store.h"
 
@@ -59,13 +62,24 @@ class Simulation {
                               const std::function<void(SimulatedAttempt)>& stored);
 
   // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
-  // was kept is stored with it. Refused: `not_in_real_time` under a fluoroscope.
-  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed);
+  // was kept is stored with it. Refused: `not_in_real_time` under a fluoroscope. `opened` is told the attempt's id
+  // once there is one: whoever knows it can go on with it if this program dies.
+  using Opened = std::function<void(const std::string& attempt_id)>;
+  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                              const Opened& opened = {});
+
+  // Goes on with one of these that was interrupted, by the operator who made it: brought up to date by what was
+  // recorded. CHECKs that it is nobody's. Refused: `other_case` (it was made at another case or lesion, or
+  // otherwise), as InterruptedAttempt::replay.
+  base::Result<SimulatedAttempt> resume(InterruptedAttempt interrupted, const assessment::OperatorProfile& profile);
 
  private:
   // Changes nothing, so that threads may make many at once.
   base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                         const std::optional<std::string>& person_id, bool picture) const;
+  base::Result<SimulatedAttempt> run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                          std::uint32_t happened, std::uint64_t seed,
+                                          const Opened& opened = {}) const;
   Simulation(casedb::Library& library, Program program, Task task)
       : library_(&library), program_(std::move(program)), task_(std::move(task)) {}
 

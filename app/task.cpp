@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
 #include "app/case_build.h"
 #include "app/guidance.h"
@@ -62,6 +63,19 @@ casedb::AttemptHead head_of(const Task& task, const Program& program, std::strin
       std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
           .count();
   return head;
+}
+
+bool was_made_at(const casedb::AttemptHead& attempt, const Task& task) {
+  const auto measures = [](const cases::Instrument& tool) {
+    return std::tuple(tool.kind, tool.length_mm, tool.radius_mm, tool.inner_radius_mm, tool.hu, tool.throw_mm,
+                      tool.notch_mm, tool.dead_tip_mm);
+  };
+  const auto shown = [](const cases::Picture& picture) {
+    return std::tuple(picture.modality, picture.depth_mm, picture.width_mm, picture.rate_hz, picture.probe);
+  };
+  return attempt.case_id == task.row.case_id && attempt.lesion_id == task.lesion.lesion_id &&
+         measures(attempt.instrument) == measures(task.scene.instrument) &&
+         shown(attempt.picture) == shown(task.scene.picture) && attempt.approach == task.scene.approach;
 }
 
 }  // namespace seldinger::app

@@ -34,4 +34,7 @@ base::Result<Task> prepare_task(casedb::Library& library, const std::string& cas
 casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,
                             const std::optional<std::string>& person_id);
 
+// Whether an attempt was made at this very task: the same target, needle, picture and approach.
+bool was_made_at(const casedb::AttemptHead& attempt, const Task& task);
+
 }  // namespace seldinger::app

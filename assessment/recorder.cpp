@@ -15,8 +15,13 @@ constexpr std::chrono::milliseconds kNap{20};
 
 }  // namespace
 
-Recorder::Recorder(std::uint32_t step_version, double dt_s, Store store)
-    : step_version_(step_version), dt_s_(dt_s), store_(std::move(store)), queue_(kQueueTicks) {
+Recorder::Recorder(std::uint32_t step_version, double dt_s, Store store, RecordedBefore before)
+    : step_version_(step_version),
+      dt_s_(dt_s),
+      store_(std::move(store)),
+      queue_(kQueueTicks),
+      ticks_(before.ticks),
+      chunks_(before.chunks) {
   CHECK(dt_s > 0.0);
   piece_.events.emplace();
   thread_ = std::thread([this] { run(); });

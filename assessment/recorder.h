@@ -17,13 +17,19 @@
 
 namespace seldinger::assessment {
 
+// What of a recording was stored by a recorder that is gone.
+struct RecordedBefore {
+  std::uint64_t ticks = 0;
+  std::uint32_t chunks = 0;
+};
+
 class Recorder {
  public:
   // Called by the recorder's thread, chunk after chunk. After the first error it is called no more.
   using Store = std::function<base::Result<void>(const cases::RecordingChunk&)>;
 
   // dt_s > 0 (CHECKed).
-  Recorder(std::uint32_t step_version, double dt_s, Store store);
+  Recorder(std::uint32_t step_version, double dt_s, Store store, RecordedBefore before = {});
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();  // as finish

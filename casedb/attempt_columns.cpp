@@ -84,6 +84,7 @@ AttemptHead read_head(const Statement& from) {
   head.picture.rate_hz = from.real("picture_rate_hz");
   head.picture.probe = from.text("picture_probe");
   head.started_us = from.integer("started_us");
+  if (!from.is_null("away_s")) head.away_s = from.real("away_s");
   return head;
 }
 

@@ -122,6 +122,8 @@ struct AttemptHead {
   cases::Picture picture;
   cases::Approach approach = cases::Approach::in_plane;
   std::int64_t started_us = 0;
+  // For how long it lay interrupted before somebody went on with it; none: it did not, or nobody knows.
+  std::optional<double> away_s{};
   bool synthetic() const noexcept { return operator_name != kPersonOperator; }
 };
 
@@ -188,6 +190,9 @@ base::Result<std::string> open_attempt(Library& library, const AttemptHead& head
 // Refused: `no_attempt`, `incomplete` (its sequence is not the next one).
 base::Result<void> add_chunk(Library& library, const std::string& attempt_id, const cases::RecordingChunk& chunk);
 base::Result<cases::Recording> load_open_recording(Library& library, const std::string& attempt_id);
+// Somebody goes on with one that a program left behind: for how long nobody was at it, since the last piece was
+// stored and by the wall's clock, is kept with it as far as that is known. `no_attempt`.
+base::Result<void> note_resumption(Library& library, const std::string& attempt_id);
 std::vector<OpenAttempt> list_open_attempts(Library& library);  // oldest first; running ones too
 // Makes it an attempt like any other. Refused: `no_attempt`, and as recording_from_chunks.
 base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome);

@@ -25,7 +25,8 @@ void insert_attempt(Sqlite& database, const NewAttempt& attempt, const std::stri
   insert.bind("state", attempt.recording.endpoint ? "complete" : "unfinished");
   insert.bind("recording_chunks", static_cast<std::int64_t>(recording_chunks));
   insert.bind("picture_sha256", picture_sha256);
-  insert.bind("end_reason", attempt.end ? std::optional(name_of(*attempt.end)) : std::nullopt).run();
+  insert.bind("end_reason", attempt.end ? std::optional(name_of(*attempt.end)) : std::nullopt);
+  insert.bind("away_s", attempt.away_s).run();
 }
 
 void insert_chunks(Sqlite& database, const std::string& attempt_id,

@@ -25,7 +25,26 @@ base::Result<void> add_chunk(Library& library, const std::string& attempt_id, co
     return base::Error{"incomplete", "a piece of the recording is missing"};
   size.rewind();
   Statement insert = question(database, "add_open_chunk");
-  bind_chunk(insert, attempt_id, chunk).run();
+  bind_chunk(insert, attempt_id, chunk).bind("stored_us", now_us()).run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> note_resumption(Library& library, const std::string& attempt_id) {
+  Sqlite& database = library.database();
+  Transaction transaction(database);
+  Statement left = question(database, "open_attempt_left");
+  if (!left.bind("attempt_id", attempt_id).step())
+    return base::Error{"no_attempt", "there is no such open attempt in the library"};
+  if (left.is_null("stored_us")) return {};
+  const double away_s = 1e-6 * static_cast<double>(now_us() - left.integer("stored_us"));
+  if (away_s < 0.0) return {};  // somebody has set the clock back
+  const double before_s = left.is_null("away_s") ? 0.0 : left.real("away_s");
+  left.rewind();
+  question(database, "set_open_attempt_away")
+      .bind("attempt_id", attempt_id)
+      .bind("away_s", before_s + away_s)
+      .run();
   transaction.commit();
   return {};
 }

@@ -35,7 +35,7 @@ CREATE TABLE attempt (
   state TEXT NOT NULL CHECK (state IN ('complete', 'unfinished')), -- complete: the trigger fell
   recording_chunks INTEGER NOT NULL CHECK (recording_chunks > 0), -- how many belong to it
   picture_sha256 TEXT CHECK (length(picture_sha256) = 64), -- PNG in assets/ at the trigger; null: none
-  picture_probe TEXT, end_reason TEXT CHECK (end_reason IN ('fired', 'stopped', 'time_limit', 'device_lost', 'interrupted')), -- of ultrasound; null: another modality
+  picture_probe TEXT, end_reason TEXT CHECK (end_reason IN ('fired', 'stopped', 'time_limit', 'device_lost', 'interrupted')), away_s REAL CHECK (away_s >= 0), -- of ultrasound; null: another modality
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
@@ -174,7 +174,7 @@ CREATE TABLE open_attempt (
   picture_width_mm REAL NOT NULL,
   picture_rate_hz REAL NOT NULL,
   picture_probe TEXT,
-  started_us INTEGER NOT NULL,
+  started_us INTEGER NOT NULL, away_s REAL CHECK (away_s >= 0),
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
@@ -182,7 +182,7 @@ CREATE TABLE open_chunk (
   attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
   sequence INTEGER NOT NULL CHECK (sequence >= 0),
   checksum INTEGER NOT NULL,
-  data BLOB NOT NULL,
+  data BLOB NOT NULL, stored_us INTEGER,
   PRIMARY KEY (attempt_id, sequence)
 ) STRICT;
 

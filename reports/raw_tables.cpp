@@ -332,7 +332,7 @@ const std::vector<Column<EventFact>>& event_columns() {
       attempt_name<Fact>(),
       {{"t_s", "number", "s", "", "since the attempt began"},
        [](CsvLine& line, const Fact& f) { line.number(f.event.t_s); }},
-      {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient"},
+      {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient, workstation"},
        [](CsvLine& line, const Fact& f) { line.text(f.event.info->source); }},
       {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
   };

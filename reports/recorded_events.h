@@ -10,7 +10,7 @@ namespace seldinger::reports {
 
 struct RecordedEventInfo {
   std::string kind;    // snake_case
-  std::string source;  // hand, trainee, mentor, patient
+  std::string source;  // hand, trainee, mentor, patient, workstation
   std::string words;   // for pages
   std::string about;   // one sentence
 };

@@ -10,4 +10,14 @@ cases::ToolPose BracedHand::carried(cases::ToolPose at_rest, double inserted_mm)
   return at_rest;
 }
 
+// The skin that carries it is looked for at rest, where the last guess says: each step comes nearer by as much as
+// breath varies along the skin, which is little.
+cases::ToolPose BracedHand::put_back(const cases::ToolPose& pose, double inserted_mm) const noexcept {
+  constexpr int kSteps = 8;
+  cases::ToolPose at_rest = pose;
+  for (int i = 0; i < kSteps; ++i)
+    at_rest.position_lps_mm += pose.position_lps_mm - carried(at_rest, inserted_mm).position_lps_mm;
+  return at_rest;
+}
+
 }  // namespace seldinger::app

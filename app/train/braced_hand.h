@@ -21,6 +21,8 @@ class BracedHand {
   // From where a hand holds it at the patient at rest to where it is: moved, not turned, by what moves the skin
   // that is nearest to where the shaft enters (inserted_mm up from the tip).
   cases::ToolPose carried(cases::ToolPose at_rest, double inserted_mm) const noexcept;
+  // The other way round: where a hand holds, at the patient at rest, what is there.
+  cases::ToolPose put_back(const cases::ToolPose& pose, double inserted_mm) const noexcept;
 
  private:
   const cases::Case& scene_;

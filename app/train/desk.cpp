@@ -93,6 +93,7 @@ void Desk::draw_screen() {
       break;
     case TrainerScreen::briefing:
       if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);
+      if (briefing_.take_resume()) attempt_.resume(trainer_);
       break;
     case TrainerScreen::attempt:
       attempt_.draw(trainer_, keys, window_.pointer(), other_hands());
@@ -199,6 +200,7 @@ void Desk::frame() {
   due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : between_s_), began_s);
   window_.begin_frame();
   trainer_.look();
+  attempt_.look(trainer_);
   draw_screen();
   turn_sound(window_.keys());
   window_.end_frame();

@@ -52,6 +52,18 @@ DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
   desk_ = std::make_unique<DeviceDesk>(arms->station, scene, handedness, arms->place);
 }
 
+void DeskHands::take_over(const cases::Inputs& left, const cases::State& state) noexcept {
+  devices::HandsStart at{left.needle, left.probe};
+  if (!desk_) {
+    braced_.see(state);
+    at = {braced_.put_back(left.needle, state.needle.inserted_mm), braced_.put_back(left.probe, 0.0)};
+  }
+  mouse_.take_over(at);
+  last_ = left;
+  for (std::size_t side = 0; desk_ && side < 2; ++side)
+    desk_->leave_at(static_cast<Side>(side), pose_in(last_, side));
+}
+
 void DeskHands::lead(const cases::Inputs& wanted) noexcept {
   for (std::size_t side = 0; led_ && side < 2; ++side) {
     const cases::ToolPose& pose = arms_.tools[side] == Tool::needle ? wanted.needle : wanted.probe;

@@ -32,6 +32,9 @@ class DeskHands {
   DeskHands(const cases::Case& scene, const devices::HandsStart& start, const devices::HandsSettings& settings,
             haptics::Handedness handedness, const Arms* arms);
 
+  // Before the first tick, where an attempt goes on: tools are where they were left, and arms are re-gripped there.
+  void take_over(const cases::Inputs& left, const cases::State& state) noexcept;
+
   // One tick: poses, trigger and frozen picture into `inputs`. The tool of a lost arm stays until mouse or keys
   // move it; an arm that comes back goes on from where its tool is then.
   void advance(const devices::HandIntent& intent, const cases::State& state, const devices::AxialForces& forces,

@@ -63,7 +63,20 @@ void meter(const char* label, double force_n, double most_n) {
 }  // namespace
 
 void AttemptPanel::begin(Trainer& trainer) {
-  if (!trainer.begin(options_.left_handed)) return;
+  if (trainer.begin(options_.left_handed)) set_up(trainer);
+}
+
+void AttemptPanel::resume(Trainer& trainer) {
+  resuming_ = trainer.resume(options_.left_handed) || resuming_;
+}
+
+void AttemptPanel::look(Trainer& trainer) {
+  if (!resuming_ || trainer.resuming()) return;
+  resuming_ = false;
+  if (trainer.screen() == TrainerScreen::attempt) set_up(trainer);
+}
+
+void AttemptPanel::set_up(Trainer& trainer) {
   const cases::Case& scene = trainer.attempt()->task()->scene;
   room_.begin(scene, options_.left_handed);
   monitor_.begin(scene);

@@ -27,6 +27,9 @@ class AttemptPanel {
 
   // From the briefing: hands are set up and the sign-in is said.
   void begin(Trainer& trainer);
+  // The same, to go on with an interrupted attempt; and once a frame, whether that has got so far.
+  void resume(Trainer& trainer);
+  void look(Trainer& trainer);
   void draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other);
   // Between frames, as often as one likes: what hands want goes on. `wheel`: notches, where it is the room's.
   void go_on(Trainer& trainer, const Keys& keys, const Pointer& pointer, double wheel, const OtherHands& other);
@@ -50,6 +53,7 @@ class AttemptPanel {
   const gpu::ScreenPicture& picture_at_fire() const noexcept { return at_fire_; }
 
  private:
+  void set_up(Trainer& trainer);
   void draw_top(Trainer& trainer);
   void draw_reaction();
   void draw_steps(Trainer& trainer);
@@ -77,7 +81,7 @@ class AttemptPanel {
   HandsTold told_;
   double told_s_ = 0.0, drawn_s_ = 0.0;
   bool by_led_arms_ = false;  // arms that the mouse leads
-  bool decided_ = false, fired_ = false, leaving_ = false;
+  bool decided_ = false, fired_ = false, leaving_ = false, resuming_ = false;
   double frames_s_ = 0.0;                                                          // the window's rate, lately
   double room_lag_s_ = 0.0, picture_lag_s_ = 0.0;                                  // lately
   double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell

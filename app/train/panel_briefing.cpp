@@ -122,6 +122,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   if (phantom) draw_hands(row);
   ImGui::EndChild();
   const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  if (trainer.resuming()) {
+    ImGui::TextUnformatted("Going through what was recorded …");
+    end_screen();
+    return false;
+  }
   if (ImGui::Button("Back")) {
     trainer.back();
     end_screen();
@@ -134,6 +139,14 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
       end_screen();
       return false;
     }
+  }
+  if (trainer.interrupted()) {
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!ready);
+    if (ImGui::Button("Go on with the interrupted attempt (R)") || (ready && keys.pressed('R'))) resume_ = true;
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    quiet("A new one closes it as it is.");
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);

@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/train/trainer.h"
 #include "app/train/window.h"
@@ -34,12 +35,15 @@ class BriefingPanel {
  public:
   // True: the trainee has signed in and wants to begin.
   bool draw(Trainer& trainer, const Keys& keys);
+  // Once after a drawing in which the trainee wanted to go on with an interrupted attempt.
+  bool take_resume() noexcept { return std::exchange(resume_, false); }
 
  private:
   bool draw_sign_in(const casedb::CaseRow& row);  // whether all of it is checked
 
   std::string case_id_;
   std::array<bool, 5> checked_{};
+  bool resume_ = false;
 };
 
 class DebriefPanel {

@@ -50,6 +50,28 @@ Monitor& PersonAttempt::monitor() {
 
 void PersonAttempt::begin(bool left_handed) {
   CHECK(phase() == Phase::ready);
+  take_up_tools(left_handed);
+  phase_.store(Phase::running, std::memory_order_release);
+  {
+    const std::lock_guard lock(mutex_);
+    begin_ = true;
+  }
+  begun_.notify_all();
+}
+
+void PersonAttempt::resume(std::string attempt_id, bool left_handed) {
+  CHECK(phase() == Phase::ready);
+  phase_.store(Phase::preparing, std::memory_order_release);
+  {
+    const std::lock_guard lock(mutex_);
+    resumed_ = std::move(attempt_id);
+    left_handed_ = left_handed;
+    begin_ = true;
+  }
+  begun_.notify_all();
+}
+
+void PersonAttempt::take_up_tools(bool left_handed) {
   const cases::Case& scene = task_->scene;
   const assessment::PuncturePlan& plan = task_->plan;
   devices::HandsSettings settings;
@@ -66,12 +88,28 @@ void PersonAttempt::begin(bool left_handed) {
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<Monitor>(task_->scene, 0, wanted_.by);
+}
+
+// A new one, or the one that is gone on with, replayed.
+base::Result<LiveAttempt> PersonAttempt::live(casedb::Library& library) {
+  if (!resumed_)
+    return LiveAttempt(
+        library, wanted_.program,
+        head_of(*task_, wanted_.program, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
+        task_->scene, wanted_.keep);
+  auto interrupted = InterruptedAttempt::take(library, *resumed_);
+  if (!interrupted) return interrupted.error();
+  if (!was_made_at(interrupted->attempt(), *task_))
+    return base::Error{"other_case", "the interrupted attempt was made at another task than this"};
+  if (const auto replayed = interrupted->replay(task_->scene); !replayed) return replayed.error();
+  take_up_tools(left_handed_);
+  const cases::Inputs& left = interrupted->recording().inputs.back();
+  hands_->take_over(left, interrupted->now().state);
+  fluoroscope_ = left.fluoroscope;
+  fluoroscope_.pedal = false;  // nobody's foot has been on it
+  console_ = left.console;
   phase_.store(Phase::running, std::memory_order_release);
-  {
-    const std::lock_guard lock(mutex_);
-    begin_ = true;
-  }
-  begun_.notify_all();
+  return LiveAttempt(library, wanted_.program, std::move(*interrupted), task_->scene);
 }
 
 bool PersonAttempt::say(cases::EventKind kind) noexcept {
@@ -154,23 +192,21 @@ void PersonAttempt::run() {
       begun_.wait(lock, [this] { return begin_ || gone_; });
       if (!begin_) return;
     }
-    LiveAttempt live(
-        *library, wanted_.program,
-        head_of(*task_, wanted_.program, std::string(casedb::kPersonOperator), 0, std::optional(wanted_.person_id)),
-        task_->scene, wanted_.keep);
+    auto attempt = live(*library);
+    if (!attempt) return refuse(attempt.error());
     const auto stored =
-        live.run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
-                  .read = [this] { return hands_->read(); },
-                  .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
-                  .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
-                  .paused =
-                      [this] {
-                        if (!paused_.load()) return false;
-                        hands_->let_go();
-                        return true;
-                      },
-                  .watch = [this](const engine::Moment& moment) { watch(moment); },
-                  .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
+        attempt->run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
+                      .read = [this] { return hands_->read(); },
+                      .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
+                      .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
+                      .paused =
+                          [this] {
+                            if (!paused_.load()) return false;
+                            hands_->let_go();
+                            return true;
+                          },
+                      .watch = [this](const engine::Moment& moment) { watch(moment); },
+                      .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
     hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());
     stored_ = *stored;

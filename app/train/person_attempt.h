@@ -75,6 +75,9 @@ class PersonAttempt {
   void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
   // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
   void begin(bool left_handed);
+  // The same, from `ready` over `preparing` to `running`: goes on with an attempt at this task that was
+  // interrupted, with hands where they were. `refused` where that cannot be.
+  void resume(std::string attempt_id, bool left_handed);
   void tell(const HandsTold& told) noexcept { told_.put(told); }
   // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
   bool say(cases::EventKind kind) noexcept;
@@ -94,6 +97,8 @@ class PersonAttempt {
 
  private:
   void run();
+  void take_up_tools(bool left_handed);
+  base::Result<LiveAttempt> live(casedb::Library& library);
   cases::Inputs hands(const cases::State& state);
   void watch(engine::Moment moment);
   void feel(const engine::Tick& tick, const engine::TickState& now);
@@ -122,6 +127,8 @@ class PersonAttempt {
   std::mutex mutex_;
   std::condition_variable begun_;
   bool begin_ = false, gone_ = false;
+  std::optional<std::string> resumed_;  // the attempt that is gone on with
+  bool left_handed_ = false;
   std::thread thread_;  // last: it uses the rest
 };
 

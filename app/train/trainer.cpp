@@ -32,7 +32,10 @@ bool has_attempts(casedb::Library& library, const casedb::CaseRow& row) {
 
 Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
     : library_(std::move(library)), arms_(std::move(arms)) {
-  close_interrupted_attempts(library_);
+  // A person is asked first, when they come to the case.
+  close_interrupted_attempts(library_, [this](const casedb::OpenAttempt& attempt) {
+    return !attempt.synthetic() && attempt.person_id && is_interrupted(library_, attempt);
+  });
 }
 
 void Trainer::log_in(const std::string& name, const std::string& password) {
@@ -71,7 +74,7 @@ std::optional<base::Error> Trainer::open_at_log_in(const std::string& case_id) {
 
 void Trainer::show_devices() {
   if (screen_ == TrainerScreen::attempt || screen_ == TrainerScreen::watch || screen_ == TrainerScreen::devices ||
-      restarting_)
+      restarting_ || resuming_)
     return;
   devices_from_ = screen_;
   refusal_.clear();
@@ -137,7 +140,8 @@ void Trainer::log_out() {
   attempt_.reset();
   debrief_.reset();
   bench_.reset();
-  trying_ = false;
+  interrupted_.reset();
+  trying_ = resuming_ = false;
   choices_.clear();
   drafts_.clear();
   account_ = {};
@@ -276,7 +280,10 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
   const int passes = choice != nullptr && !trying_ ? choice->passes : 0;
   help_ = chosen_.difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - passes) : 0;
   debrief_.reset();
+  resuming_ = false;
   attempt_.reset();  // before the next: a case is large
+  interrupted_.reset();
+  if (!trying_) interrupted_ = find_interrupted(library_, account_.person_id, chosen_.case_id);
   attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
       library_.folder(), this_program(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_,
       by_, trying_ ? LiveAttempt::Keep::not_kept : LiveAttempt::Keep::stored});
@@ -284,6 +291,7 @@ void Trainer::prepare(std::shared_ptr<const Task> task) {
 }
 
 void Trainer::back() {
+  if (resuming_) return;  // it is to run in a moment
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   attempt_.reset();
   debrief_.reset();
@@ -310,13 +318,27 @@ bool Trainer::begin(bool left_handed) {
   if (screen_ != TrainerScreen::briefing || !attempt_ || attempt_->phase() != PersonAttempt::Phase::ready)
     return false;
   restarting_ = false;
+  if (interrupted_ && !trying_) close_interrupted_attempt(library_, *interrupted_);
+  interrupted_.reset();
   attempt_->begin(left_handed);
   if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
 }
 
+bool Trainer::resume(bool left_handed) {
+  if (screen_ != TrainerScreen::briefing || !interrupted_ || trying_ || !attempt_ ||
+      attempt_->phase() != PersonAttempt::Phase::ready)
+    return false;
+  restarting_ = false;
+  resuming_ = true;
+  attempt_->resume(interrupted_->attempt_id, left_handed);
+  interrupted_.reset();
+  return true;
+}
+
 void Trainer::watch(const std::string& attempt_id) {
+  if (resuming_) return;
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   refusal_.clear();
   watched_from_ = screen_;
@@ -351,6 +373,10 @@ void Trainer::look() {
   if (bench_ && screen_ == TrainerScreen::bench) bench_->look();
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();
+  if (resuming_ && phase != PersonAttempt::Phase::preparing) {
+    resuming_ = false;
+    if (phase != PersonAttempt::Phase::refused) screen_ = TrainerScreen::attempt;
+  }
   if (phase == PersonAttempt::Phase::refused) {
     refusal_ = attempt_->error().text;
     attempt_.reset();

@@ -90,8 +90,15 @@ class Trainer {
   void try_draft();
   bool trying() const noexcept { return trying_; }
 
-  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet.
+  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet. An attempt
+  // at the case that was interrupted is closed: it will not be gone on with.
   bool begin(bool left_handed);
+  // The account's attempt at the chosen case that a program left behind when it died; nothing: there is none.
+  const std::optional<casedb::OpenAttempt>& interrupted() const noexcept { return interrupted_; }
+  // Goes on with it instead, from briefing over its replay (`resuming`) to attempt. False: not yet, or there is
+  // none.
+  bool resume(bool left_handed);
+  bool resuming() const noexcept { return resuming_; }
   // The same case once more, to begin as soon as it is ready; a running attempt is stopped and stored.
   void again();
   bool restarting() const noexcept { return restarting_; }
@@ -148,7 +155,8 @@ class Trainer {
   std::unique_ptr<CaseBench> bench_;
   std::unique_ptr<DeviceBench> device_bench_;
   std::string first_case_;  // to be opened at log-in
-  bool restarting_ = false, trying_ = false;
+  std::optional<casedb::OpenAttempt> interrupted_;
+  bool restarting_ = false, trying_ = false, resuming_ = false;
   int help_ = 0;
 };
 

@@ -28,6 +28,8 @@ constexpr EventInfo kKinds[] = {
     {pain_bone, patient, "pain_bone", "pain: bone", "the needle met bone"},
     {breath_held, patient, "breath_held", "holds the breath", "the patient has begun to hold the breath"},
     {breath_lost, patient, "breath_lost", "breathes again", "the patient could hold the breath no longer"},
+    {resumed, workstation, "resumed", "went on after an interruption",
+     "the program had ended too early, and the attempt goes on from what was stored of it"},
 };
 
 }  // namespace
@@ -49,7 +51,7 @@ std::optional<EventKind> event_from(std::string_view name) noexcept {
 }
 
 std::string_view name_of(EventSource source) noexcept {
-  constexpr std::string_view kNames[] = {"trainee", "mentor", "patient"};
+  constexpr std::string_view kNames[] = {"trainee", "mentor", "patient", "workstation"};
   return kNames[static_cast<std::size_t>(source)];
 }
 

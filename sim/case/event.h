@@ -1,5 +1,5 @@
 // What happens at a moment of an attempt, beside what hands do: what the trainee says or asks for, what a mentor
-// makes happen, and how the patient reacts.
+// makes happen, how the patient reacts, and where the workstation failed and the attempt went on.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +33,11 @@ enum class EventKind : std::uint8_t {
   pain_bone = 65,
   breath_held = 66,
   breath_lost = 67,
+  // The workstation's.
+  resumed = 96,
 };
 
-enum class EventSource : std::uint8_t { trainee, mentor, patient };
+enum class EventSource : std::uint8_t { trainee, mentor, patient, workstation };
 
 struct EventInfo {
   EventKind kind;

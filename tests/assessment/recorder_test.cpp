@@ -117,5 +117,34 @@ TEST(Recorder, TheFirstErrorOfTheDiskIsKept) {
   EXPECT_FALSE(recorder.fell_behind());
 }
 
+// One recorder stored two whole chunks and was gone; another goes on where they end.
+TEST(Recorder, GoesOnWhereAnotherEnded) {
+  std::vector<cases::RecordingChunk> whole, pieces;
+  const auto record = [](std::vector<cases::RecordingChunk>& chunks, std::uint64_t from, std::uint64_t to,
+                         RecordedBefore before) {
+    Recorder recorder(
+        5, 0.001,
+        [&](const cases::RecordingChunk& chunk) {
+          chunks.push_back(chunk);
+          return base::Result<void>{};
+        },
+        before);
+    for (std::uint64_t at = from; at < to; ++at) {
+      EXPECT_TRUE(recorder.tick(tick_of(at)));
+      if (at % 33 == 0) recorder.frame(frame_at(static_cast<double>(at + 1) * 0.001));
+    }
+    return recorder.finish().value();
+  };
+  EXPECT_EQ(record(whole, 0, 6100, {}), 4U);
+  EXPECT_EQ(record(pieces, 0, 4000, {}), 2U);
+  EXPECT_EQ(record(pieces, 4000, 6100, {4000, 2}), 4U);
+  ASSERT_EQ(pieces.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(pieces[i].sequence, i);
+    EXPECT_EQ(pieces[i].checksum, whole[i].checksum) << "bit for bit, chunk " << i;
+  }
+  EXPECT_EQ(record(pieces, 0, 0, {6100, 4}), 4U) << "nothing came: no empty chunk";
+}
+
 }  // namespace
 }  // namespace seldinger::assessment

@@ -67,6 +67,40 @@ TEST_F(OpenAttemptsTest, OneThatDiedAtOnceIsAnAttemptWithoutTicks) {
   EXPECT_TRUE(load_recording(library_, id)->inputs.empty());
 }
 
+// For how long nobody was at it is told by when its pieces were stored, and stays with the attempt.
+TEST_F(OpenAttemptsTest, WhoGoesOnWithOneLeavesHowLongItLay) {
+  const std::string id = open_attempt(library_, sample_).value();
+  const auto chunks = cases::chunks_from_recording(sample_.recording);
+  ASSERT_GE(chunks.size(), 2U);
+  ASSERT_TRUE(add_chunk(library_, id, chunks[0]));
+  const auto stored = [&](const std::string& earlier_us) {
+    library_.database().run("UPDATE open_chunk SET stored_us = " + earlier_us);
+  };
+  const auto away_s = [&] { return list_open_attempts(library_).at(0).away_s; };
+  EXPECT_FALSE(away_s());
+  stored("NULL");  // by a program that did not say
+  ASSERT_TRUE(note_resumption(library_, id));
+  EXPECT_FALSE(away_s()) << "not known";
+  stored("stored_us");
+  ASSERT_TRUE(add_chunk(library_, id, chunks[1]));
+  stored("stored_us - 100000000");
+  ASSERT_TRUE(note_resumption(library_, id));
+  ASSERT_TRUE(away_s());
+  EXPECT_NEAR(*away_s(), 100.0, 5.0);
+  ASSERT_TRUE(note_resumption(library_, id));
+  EXPECT_NEAR(*away_s(), 200.0, 10.0) << "all interruptions together";
+  stored("stored_us + 1000000000");
+  ASSERT_TRUE(note_resumption(library_, id));
+  EXPECT_NEAR(*away_s(), 200.0, 10.0) << "a clock that was set back tells nothing";
+  for (std::size_t i = 2; i < chunks.size(); ++i) ASSERT_TRUE(add_chunk(library_, id, chunks[i]));
+  ASSERT_TRUE(close_attempt(library_, id, sample_));
+  ASSERT_TRUE(find_attempt(library_, id)->away_s);
+  EXPECT_NEAR(*find_attempt(library_, id)->away_s, 200.0, 10.0);
+  EXPECT_EQ(note_resumption(library_, id).error().code, "no_attempt") << "it is closed";
+  const std::string other = add_attempt(library_, sample_).value();
+  EXPECT_FALSE(find_attempt(library_, other)->away_s);
+}
+
 TEST_F(OpenAttemptsTest, TheServosRecordStaysWithTheAttempt) {
   cases::ServoRecord servo;
   servo.scheduler = cases::ServoScheduler::fifo;

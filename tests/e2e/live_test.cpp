@@ -135,6 +135,55 @@ TEST_F(LiveTest, AProgramThatDiesLeavesAnInterruptedAttempt) {
   EXPECT_TRUE(ask("attempt list")["running"].empty());
 }
 
+// Or somebody goes on with it: the same attempt, one recording, and the gap is in it.
+TEST_F(LiveTest, WhatAKillInterruptedGoesOn) {
+  const auto err = scratch_ / "killed.err";
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl("/bin/sh", "sh", "-c",
+            ("exec " + kProgram + " simulate --real-time --operator novice --seed 4 --case " + case_id_ +
+             " --library " + library_ + " >/dev/null 2>" + err.string())
+                .c_str(),
+            static_cast<char*>(nullptr));
+    ::_exit(127);
+  }
+  const auto stored_s = [&] {
+    const Json list = ask("attempt list");
+    return list["running"].empty() ? 0.0 : list["running"][0]["stored_s"].get<double>();
+  };
+  for (int i = 0; i < 300 && stored_s() < 4.0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  const std::string id = ask("attempt list")["running"][0]["attempt_id"];
+  EXPECT_NE(fixtures::whole_file(err).find(id), std::string::npos) << "whoever started it can know";
+  EXPECT_EQ(run(kProgram + " simulate --resume " + id + " --library " + library_, scratch_).exit_code, 3)
+      << "it runs";
+  ASSERT_EQ(::kill(child, SIGKILL), 0);
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(run(kProgram + " simulate --resume " + id + " --case " + case_id_ + " --library " + library_, scratch_)
+                .exit_code,
+            2)
+      << "the case is its own";
+  const Json made = ask("simulate --resume " + id);
+  EXPECT_EQ(made["attempts"][0]["attempt_id"], id);
+  EXPECT_EQ(made["attempts"][0]["seed"], 4);
+  const Json shown = ask("attempt show " + id);
+  EXPECT_NE(shown["end"], "interrupted");
+  EXPECT_GT(shown["duration_s"], 4.0);
+  int marks = 0;
+  for (const Json& event : shown["events"])
+    if (event["kind"] == "resumed") {
+      ++marks;
+      EXPECT_EQ(event["source"], "workstation");
+      EXPECT_GT(event["t_s"], 4.0);
+    }
+  EXPECT_EQ(marks, 1);
+  EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
+  EXPECT_EQ(ask("recompute")["not_bit_identical"], 0);
+  EXPECT_EQ(run(kProgram + " simulate --resume " + id + " --library " + library_, scratch_).exit_code, 3)
+      << "it has ended";
+  EXPECT_TRUE(ask("attempt list")["running"].empty());
+}
+
 TEST_F(LiveTest, UnderXrayItIsRefused) {
   const std::string library = (scratch_ / "xray").string();
   const auto demo = run(kProgram + " demo --no-serve --json --modality xray --library " + library, scratch_);

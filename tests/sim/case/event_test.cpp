@@ -19,7 +19,11 @@ TEST(Events, EachHasItsNumberAndItsName) {
     EXPECT_EQ(event_from(info.name), info.kind);
     // The ranges by which a reader of recordings may know whose an unknown one would be.
     const int number = static_cast<int>(info.kind);
-    EXPECT_EQ(name_of(info.source), number < 32 ? "trainee" : number < 64 ? "mentor" : "patient") << info.name;
+    EXPECT_EQ(name_of(info.source), number < 32   ? "trainee"
+                                    : number < 64 ? "mentor"
+                                    : number < 96 ? "patient"
+                                                  : "workstation")
+        << info.name;
   }
   EXPECT_EQ(find_event(EventKind::none), nullptr);
   EXPECT_EQ(find_event(static_cast<EventKind>(250)), nullptr);
