@@ -54,5 +54,22 @@ TEST(BracedHand, GoesWithTheSkinBelowIt) {
   }
 }
 
+// From where a tool was left to what a hand holds, and back: who goes on with an attempt makes no leap.
+TEST(BracedHand, PutsBackWhatItCarried) {
+  const cases::Case scene = ball(true);
+  BracedHand hand(scene);
+  const glm::dvec3 in = glm::normalize(glm::dvec3(0.3, 1.0, 0.2));
+  for (const double level : {0.2, 1.0}) {
+    hand.see(breathed(level));
+    for (double inserted_mm = -20.0; inserted_mm <= 30.0; inserted_mm += 5.0) {
+      const cases::ToolPose left{glm::dvec3(8.0, -46.0, 12.0) + inserted_mm * in, in, {1.0, 0.0, 0.0}};
+      const double in_body_mm = std::max(0.0, inserted_mm);
+      const cases::ToolPose again = hand.carried(hand.put_back(left, in_body_mm), in_body_mm);
+      EXPECT_LT(glm::distance(again.position_lps_mm, left.position_lps_mm), 0.01) << level << " " << inserted_mm;
+      EXPECT_EQ(again.axis, left.axis);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seldinger::app

@@ -38,6 +38,7 @@ cases::Case ball(cases::Modality modality, Tissue tissue) {
   scene.skin_index = cases::MeshIndex(scene.skin);
   scene.lesions.push_back({{0.0, -45.0, 0.0}, 6.0, 500.0});
   scene.picture.modality = modality;
+  if (modality == cases::Modality::ultrasound) scene.picture.probe = "C5-2v";
   if (tissue == Tissue::moving) {
     scene.breathing.emplace();
     scene.yields = true;
