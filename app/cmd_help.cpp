@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <string>
 
-#include "app/command.h"
-#include "app/error_codes.h"
-#include "assessment/metrics/registry.h"
+#include "app/cli/error_codes.h"
+#include "app/commands.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
-#include "casedb/import/allow_list.h"
+#include "assessment/registry.h"
+#include "casedb/import/dicom/allow_list.h"
 #include "web/routes.h"
 
 namespace seldinger::app {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/bench_stages.h"
-#include "app/command.h"
+#include "app/commands.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {

@@ -1,4 +1,5 @@
 // The program `seldinger`.
+#include "app/commands.h"
 #include "app/run_program.h"
 
 int main(int argc, char** argv) {

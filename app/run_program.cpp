@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/version.h"
+#include "app/cli/version.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {

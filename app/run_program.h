@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "app/command.h"
+#include "app/cli/command.h"
 
 namespace seldinger::app {
 

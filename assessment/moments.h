@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "sim/base/result.h"
-#include "sim/case/recorded_tick.h"
-#include "sim/case/recording.h"
+#include "sim/case/record/recorded_tick.h"
+#include "sim/case/record/recording.h"
 
 namespace seldinger::assessment {
 

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 
 namespace seldinger::assessment {
 

@@ -5,10 +5,10 @@
 
 #include "assessment/metrics/metric.h"
 #include "assessment/procedure/steps.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
-#include "sim/case/recording.h"
+#include "sim/case/record/recording.h"
 
 namespace seldinger::assessment {
 

@@ -1,9 +1,14 @@
-# seldinger_layer(NAME SOURCES ... LINKS ... PRIVATE_LINKS ...): one folder is one static library. Its LINKS are the
-# layers its headers use; PRIVATE_LINKS are used by its .cpp files only (the third-party doors).
-# tests/repo reads every #include and holds the same line.
+# seldinger_layer(NAME LINKS ... PRIVATE_LINKS ...): the sources of this folder are one static library. LINKS are the
+# folders whose headers it includes, by the names of their targets (tests/repo holds them against every #include);
+# PRIVATE_LINKS are third-party packages, behind the folder's door.
+# Several sources are compiled as one (a unity build): what they all include is read once, which makes a build from
+# nothing more than twice as fast (docs/decisions/0039).
 function(seldinger_layer NAME)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
-  add_library(seldinger_${NAME} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  add_library(seldinger_${NAME} STATIC ${sources})
+  set_target_properties(seldinger_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8 OPTIMIZE_DEPENDENCIES ON)
   set(links)
   foreach(layer ${ARG_LINKS})
     list(APPEND links seldinger_${layer})

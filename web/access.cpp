@@ -1,7 +1,7 @@
 #include "web/access.h"
 
-#include "casedb/permissions.h"
-#include "reports/attempt_words.h"
+#include "casedb/cases/permissions.h"
+#include "reports/words/attempt_words.h"
 
 namespace seldinger::web {
 

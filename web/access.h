@@ -1,12 +1,14 @@
-// Who may see what on the dashboard, by the one table of who may do what (casedb/permissions.h).
+// Who may see what on the dashboard, by the one table of who may do what (casedb/cases/permissions.h).
 #pragma once
 
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "casedb/curriculum.h"
-#include "casedb/store.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/grading/curriculum.h"
+#include "casedb/people/people.h"
 
 namespace seldinger::web {
 

@@ -1,7 +1,7 @@
 #include "web/attempt_json.h"
 
-#include "casedb/grading_json.h"
-#include "casedb/values_json.h"
+#include "casedb/database/values_json.h"
+#include "casedb/json/grading_json.h"
 
 namespace seldinger::web {
 

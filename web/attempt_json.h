@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "casedb/grading.h"
+#include "casedb/grading/grading.h"
 
 namespace seldinger::web {
 

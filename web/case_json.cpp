@@ -1,6 +1,6 @@
 #include "web/case_json.h"
 
-#include "casedb/values_json.h"
+#include "casedb/database/values_json.h"
 
 namespace seldinger::web {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "casedb/case_checks.h"
-#include "casedb/case_json.h"
+#include "casedb/cases/case_checks.h"
+#include "casedb/json/case_json.h"
 
 namespace seldinger::web {
 

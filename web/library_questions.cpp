@@ -6,7 +6,7 @@
 #include <mutex>
 #include <span>
 
-#include "casedb/credentials.h"
+#include "casedb/database/credentials.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {

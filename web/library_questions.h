@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "casedb/library.h"
+#include "casedb/database/library.h"
 #include "web/questions.h"
 #include "web/server.h"
 

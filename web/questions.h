@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "casedb/case_checks.h"
-#include "casedb/case_json.h"
-#include "casedb/grading.h"
-#include "casedb/store.h"
-#include "reports/curricula_page.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/case_checks.h"
+#include "casedb/cases/cases.h"
+#include "casedb/grading/grading.h"
+#include "casedb/json/case_json.h"
+#include "casedb/people/people.h"
+#include "reports/pages/curricula_page.h"
 
 namespace seldinger::web {
 

@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cstring>
 
-#include "reports/attempt_page.h"
-#include "reports/attempts_page.h"
-#include "reports/case_page.h"
-#include "reports/login_page.h"
-#include "reports/style_sheet.h"
+#include "reports/pages/attempt_page.h"
+#include "reports/pages/attempts_page.h"
+#include "reports/pages/case_page.h"
+#include "reports/pages/login_page.h"
+#include "reports/pages/style_sheet.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
 #include "web/case_json.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "casedb/permissions.h"
+#include "casedb/cases/permissions.h"
 #include "web/http.h"
 #include "web/site.h"
 

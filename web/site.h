@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "reports/page.h"
+#include "reports/pages/page.h"
 #include "web/http.h"
 #include "web/login_limits.h"
 #include "web/questions.h"

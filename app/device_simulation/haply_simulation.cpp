@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "sim/devices/haply_json.h"
-#include "sim/haptics/hand_on_device.h"
+#include "sim/devices/arms/haply_json.h"
+#include "sim/haptics/hand_rig.h"
 
 namespace seldinger::app {
 namespace {
@@ -20,16 +20,14 @@ double seconds_since(Clock::time_point then) {
 }
 
 struct Arm {
-  Arm(const SimulatedArm& what, const haptics::HapticDevice& row) : arm(what), device(row) {
-    stand(arm.at_mm(0.0));
-  }
+  Arm(const SimulatedArm& what, const haptics::ArmModel& row) : arm(what), device(row) { stand(arm.at_mm(0.0)); }
   void stand(const glm::dvec3& at_mm) {
     axes.clear();
     for (int i = 0; i < 3; ++i) axes.emplace_back(device, arm.hand, at_mm[i], 0.0);
   }
   SimulatedArm arm;
-  haptics::HapticDevice device;
-  std::vector<haptics::HandOnDevice> axes;
+  haptics::ArmModel device;
+  std::vector<haptics::HandRig> axes;
   glm::dvec3 asked_n{0.0};
   Clock::time_point asked{};
   std::uint64_t commands = 0;
@@ -52,7 +50,7 @@ std::array<SimulatedArm, 2> circling_arms() {
 
 struct HaplySimulation::Service final : devices::WebSocketPeer {
   Service(const std::array<SimulatedArm, 2>& what) {
-    for (const SimulatedArm& arm : what) arms.emplace_back(arm, *haptics::find_haptic_device("inverse3"));
+    for (const SimulatedArm& arm : what) arms.emplace_back(arm, *haptics::find_arm_model("inverse3"));
   }
 
   void opened(devices::WebSocketLink& link) override {
@@ -108,7 +106,7 @@ struct HaplySimulation::Service final : devices::WebSocketPeer {
     for (Arm& arm : arms) {
       const glm::dvec3 now = arm.arm.at_mm(t_s), next = arm.arm.at_mm(t_s + haptics::kTickS);
       const glm::dvec3 force_n = seconds_since(arm.asked) > kWatchdogS ? glm::dvec3(0.0) : arm.asked_n;
-      // A force on an axis moves it that way; the bench counts one that pushes back.
+      // A force on an axis moves it that way; the rig counts one that pushes back.
       for (int i = 0; i < 3; ++i)
         arm.axes[static_cast<std::size_t>(i)].hold(-force_n[i],
                                                    {now[i], (next[i] - now[i]) / haptics::kTickS, 0.0});

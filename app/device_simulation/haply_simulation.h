@@ -1,5 +1,5 @@
 // A Haply Inverse service without hardware, on loopback: two arms, each a virtual hand on a virtual device along
-// three axes (haptics/hand_on_device), stepped at 1 kHz, that tell their state in answer to forces as the service
+// three axes (haptics/hand_rig), stepped at 1 kHz, that tell their state in answer to forces as the service
 // does. It can be made to fail as services do.
 #pragma once
 
@@ -12,8 +12,8 @@
 #include <string>
 
 #include "sim/base/result.h"
-#include "sim/devices/websocket.h"
-#include "sim/haptics/haptic_device.h"
+#include "sim/devices/arms/websocket.h"
+#include "sim/haptics/arm_model.h"
 
 namespace seldinger::app {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "app/device_simulation/haply_simulation.h"
-#include "sim/devices/calibration.h"
+#include "sim/devices/arms/calibration.h"
 
 namespace seldinger::app {
 

@@ -3,8 +3,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
-#include "app/measure/commands.h"
+#include "app/commands.h"
+#include "app/measure/bench/cmd_bench.h"
+#include "app/measure/goals/cmd_goals.h"
+#include "app/measure/stability/cmd_stability.h"
 #include "app/run_program.h"
 #include "sim/base/check.h"
 

@@ -6,7 +6,7 @@
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 
 namespace seldinger::assessment {
 namespace {

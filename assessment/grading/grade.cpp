@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "assessment/metrics/quality.h"
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 
 namespace seldinger::assessment {
 namespace {

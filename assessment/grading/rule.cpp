@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "sim/base/names.h"
 
 namespace seldinger::assessment {

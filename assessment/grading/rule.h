@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assessment/metrics/needs.h"
+#include "assessment/signals/needs.h"
 #include "sim/base/result.h"
 #include "sim/case/structure.h"
 

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "assessment/metrics/quality.h"
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "sim/base/check.h"
 #include "sim/base/hash.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -159,7 +159,7 @@ Measured probe_drift_advancing(const Signals& signals) {
 
 constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kAdvanceMetrics[] = {
     {"advance_visible_share", 1, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
      "Share of the way that the tip advanced in tissue while a live picture showed it; to and fro by under 1 mm is "
@@ -212,7 +212,7 @@ std::optional<BlindRun> longest_blind_run(const Signals& signals) {
 }
 
 std::span<const MetricInfo> advance_metrics() {
-  return kMetrics;
+  return kAdvanceMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -45,7 +45,7 @@ Measured entry_point_error(const Signals& signals) {
 
 constexpr const char* kPlanned = "planned entry and depth are a step of the task (task analysis, step 6)";
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kApproachMetrics[] = {
     {"closest_approach", 1, "mm", "Closest approach", Group::target, Direction::lower_is_better, kTarget,
      "Least distance of the tip from the target's centre on the whole way; secondary to tip_target_dist. Before a "
      "core "
@@ -65,7 +65,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> approach_metrics() {
-  return kMetrics;
+  return kApproachMetrics;
 }
 
 }  // namespace seldinger::assessment

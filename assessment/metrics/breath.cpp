@@ -1,9 +1,9 @@
 // Metrics of a held breath, where the patient breathes: was it held when it mattered, and was it used.
 #include <algorithm>
 
-#include "assessment/breath_holds.h"
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/breath_holds.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -78,7 +78,7 @@ Measured breath_holds_failed(const Signals& signals) {
 constexpr std::uint32_t kHeld = kEvents | kBreathes;
 constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; clinical.md: check in breath-hold";
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kBreathMetrics[] = {
     {"advance_breath_held_share", 1, "share", "Advance with breath held", Group::procedure,
      Direction::higher_is_better, kHeld | kSkin | kTarget | kMotion,
      "Share of the way that the hand pushed the tip on inside the target's organ (where none is marked, at most 20 "
@@ -111,7 +111,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> breath_metrics() {
-  return kMetrics;
+  return kBreathMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -81,7 +81,7 @@ Measured tip_target_lateral(const Signals& signals) {
   return Measured::of(glm::length(glm::cross(to_target(signals), signals.endpoint->direction)));
 }
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kEndpointMetrics[] = {
     {"hit", 1, "bool", "Target hit", Group::target, Direction::higher_is_better, kEndpoint | kTarget,
      "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target; core needle, at least 5 mm "
      "of "
@@ -116,7 +116,7 @@ bool target_hit(const Signals& signals) {
 }
 
 std::span<const MetricInfo> endpoint_metrics() {
-  return kMetrics;
+  return kEndpointMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 #include "sim/case/viewing_angles.h"
 
 namespace seldinger::assessment {
@@ -104,7 +104,7 @@ constexpr const char* kTechnique =
 constexpr const char* kBullsEye = "bull's-eye puncture with depth view; Miller et al., J. Urol. 178 (2007)";
 constexpr std::uint32_t kUnderBeam = kXray | kBeam;
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kFluoroscopyMetrics[] = {
     {"fluoroscopy_time", 1, "s", "Fluoroscopy time", Group::dose, Direction::lower_is_better, kUnderBeam,
      "Time with the beam on: each pulse stands for the time to the next, 1/rate. No pulse: 0.", kSpent,
      &fluoroscopy_time},
@@ -150,7 +150,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> fluoroscopy_metrics() {
-  return kMetrics;
+  return kFluoroscopyMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -23,7 +23,7 @@ Measured lateral_force_peak(const Signals& signals) {
 
 constexpr const char* kModel = "model force: what the needle's law commanded, not what a hand felt";
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kForcesMetrics[] = {
     {"force_peak_axial", 1, "N", "Peak axial force", Group::safety, Direction::lower_is_better, kForces,
      "Greatest force along the needle against its insertion, up to the endpoint.", kModel, &force_peak_axial},
     {"lateral_force_peak", 1, "N", "Peak lateral force", Group::safety, Direction::lower_is_better, kForces,
@@ -34,7 +34,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> force_metrics() {
-  return kMetrics;
+  return kForcesMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "assessment/metrics/needs.h"
+#include "assessment/signals/needs.h"
 
 namespace seldinger::assessment {
 

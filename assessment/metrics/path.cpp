@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -172,7 +172,7 @@ Measured ldlj(const Signals& signals) {
   return Measured::of(sum / total_s);
 }
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kPathMetrics[] = {
     {"path_tip", 2, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
      "Length of the tip's way while it moved: resampled to 100 Hz, low-passed at 10 Hz (zero-phase 4th-order "
      "Butterworth), at 3 mm/s or more for at least 0.2 s; gaps over 0.25 s are not bridged. One pose: 0.",
@@ -203,7 +203,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> path_metrics() {
-  return kMetrics;
+  return kPathMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -23,7 +23,7 @@ Measured withdrawals_full(const Signals& signals) {
   return Measured::of(count_punctures(signals).full_withdrawals);
 }
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kPuncturesMetrics[] = {
     {"skin_punctures", 1, "count", "Skin punctures", Group::safety, Direction::lower_is_better, kSkin | kMotion,
      "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
      "outside. "
@@ -103,7 +103,7 @@ PunctureCounts count_punctures(const Signals& signals) {
 }
 
 std::span<const MetricInfo> puncture_metrics() {
-  return kMetrics;
+  return kPuncturesMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -3,7 +3,7 @@
 
 #include "assessment/metrics/quality.h"
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -28,7 +28,7 @@ Measured tracking_jumps(const Signals& signals) {
   return Measured::of(jumps);
 }
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kRecordingMetrics[] = {
     {"gap_share", 2, "share", "Tracking gaps", Group::recording, Direction::lower_is_better, 0,
      "Share of the time in gaps between poses: of over 0.25 s, or in which the tip jumped (tracking_jumps); gaps "
      "belong "
@@ -49,7 +49,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> recording_metrics() {
-  return kMetrics;
+  return kRecordingMetrics;
 }
 
 std::string why_not_gradable(std::span<const MetricValue> metrics) {

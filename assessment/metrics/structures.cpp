@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -255,7 +255,7 @@ constexpr const char* kCapsule =
 constexpr const char* kWall =
     "posterior wall puncture, the error of vascular access: Blaivas and Adhikari, Crit. Care Med. 37 (2009) 2345";
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kStructuresMetrics[] = {
     {"nogo_contacts", 1, "count", "No-go contacts", Group::safety, Direction::lower_is_better, kNoGo,
      "Times the tip's way, a core needle's throw included, went more than 0.5 mm inside a structure to stay out "
      "of; the "
@@ -303,7 +303,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> structure_metrics() {
-  return kMetrics;
+  return kStructuresMetrics;
 }
 
 }  // namespace seldinger::assessment

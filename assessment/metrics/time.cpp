@@ -1,6 +1,6 @@
 // Metrics of time.
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -22,7 +22,7 @@ Measured time_puncture_to_target(const Signals& signals) {
   return Measured::of(signals.endpoint->t_s - *counts.first_s);
 }
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kTimeMetrics[] = {
     {"time_total", 1, "s", "Time", Group::time, Direction::lower_is_better, 0,
      "From the first pose to the endpoint; without an endpoint to the last pose.", kJohnson, &time_total},
     {"time_in_tissue", 1, "s", "Time in tissue", Group::time, Direction::lower_is_better, kSkin | kMotion,
@@ -37,7 +37,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> time_metrics() {
-  return kMetrics;
+  return kTimeMetrics;
 }
 
 }  // namespace seldinger::assessment

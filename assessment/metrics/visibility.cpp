@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -65,7 +65,7 @@ Measured vis_joint_session(const Signals& signals) {
 
 constexpr const char* kPerk = "Perk Tutor's TargetsScanned: 5 mm in its code, 2 mm in its comment";
 
-constexpr MetricInfo kMetrics[] = {
+constexpr MetricInfo kVisibilityMetrics[] = {
     {"vis_joint", 1, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin,
      "As vis_needle, for tip and target at once. Null: under_1_s_in_tissue_with_a_live_picture.", kVidal,
@@ -106,7 +106,7 @@ constexpr MetricInfo kMetrics[] = {
 }  // namespace
 
 std::span<const MetricInfo> visibility_metrics() {
-  return kMetrics;
+  return kVisibilityMetrics;
 }
 
 }  // namespace seldinger::assessment

@@ -12,12 +12,12 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kStartMm = 60.0;      // the needle waits this far outside the entry
-constexpr double kTouchMm = 2.0;       // held so near before the skin is punctured
-constexpr double kLiftMm = 12.0;       // outside while the entry is moved
-constexpr double kOutsideMm = 10.0;    // a full withdrawal ends this far outside
-constexpr double kLetGoSeconds = 0.3;  // to put the needle into its holder, or to take it again
-constexpr double kAngleDoneDeg = 0.3;  // nearer, an angle is what was wanted
+constexpr double kBeamStartMm = 60.0;    // the needle waits this far outside the entry
+constexpr double kTouchMm = 2.0;         // held so near before the skin is punctured
+constexpr double kLiftMm = 12.0;         // outside while the entry is moved
+constexpr double kBeamOutsideMm = 10.0;  // a full withdrawal ends this far outside
+constexpr double kLetGoSeconds = 0.3;    // to put the needle into its holder, or to take it again
+constexpr double kAngleDoneDeg = 0.3;    // nearer, an angle is what was wanted
 constexpr double kTableDoneMm = 1.0;
 constexpr double kEaseSeconds = 0.25;  // a machine is slowed down this long before it stands
 constexpr double kAimShare = 0.6;      // of the expected depth, under the bull's-eye view
@@ -77,7 +77,7 @@ FluoroscopyOperator::FluoroscopyOperator(const OperatorProfile& profile, const P
   beam_with_motion_ = chance(profile.beam_while_moving_share);
   hand_ = UnsteadyHand(rng_);
   direction_ = plan.direction;
-  inserted_mm_ = -kStartMm;
+  inserted_mm_ = -kBeamStartMm;
   enter(Phase::sign_in);
 }
 
@@ -154,7 +154,7 @@ void FluoroscopyOperator::redirect(const glm::dvec3& beside_mm) {
   told_mm2_ = 0.0;  // what was seen of the old way says nothing of the new one
   const bool full = chance(profile_.full_withdrawal_share);
   if (full) {
-    withdraw_to_mm_ = -kOutsideMm;
+    withdraw_to_mm_ = -kBeamOutsideMm;
     shift_mm_ = beside_mm;
     stage_ = Stage::skin;
   } else {
@@ -274,7 +274,7 @@ void FluoroscopyOperator::decide(const cases::State& state) {
       if (conduct_.over()) enter(Phase::fire);
       break;
     case Phase::leave:
-      if (inserted_mm_ <= -kOutsideMm - thrown_mm_) enter(Phase::finish);
+      if (inserted_mm_ <= -kBeamOutsideMm - thrown_mm_) enter(Phase::finish);
       break;
     case Phase::finish:
       if (conduct_.over()) enter(Phase::done);
@@ -285,7 +285,7 @@ void FluoroscopyOperator::decide(const cases::State& state) {
       enter(Phase::prepare);
       break;
     case Phase::approach:
-      if (state.needle.skin.depth_mm <= -kTouchMm && inserted_mm_ < kStartMm) break;
+      if (state.needle.skin.depth_mm <= -kTouchMm && inserted_mm_ < kBeamStartMm) break;
       entry_ = believed_tip();
       inserted_mm_ = 0.0;
       begin_look();

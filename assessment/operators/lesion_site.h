@@ -4,7 +4,7 @@
 #include "assessment/operators/plan.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
-#include "sim/case/mesh_index.h"
+#include "sim/case/form/mesh_index.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::assessment {

@@ -10,8 +10,8 @@
 #include "assessment/operators/conduct.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
+#include "sim/case/form/mesh_index.h"
 #include "sim/case/inputs.h"
-#include "sim/case/mesh_index.h"
 #include "sim/case/patient_position.h"
 #include "sim/volume/volume.h"
 

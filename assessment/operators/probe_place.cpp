@@ -16,7 +16,7 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr double kPlaceRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kProbeMinMm = 20.0, kProbeMaxApartMm = 70.0;  // between probe's middle and entry: room for a hand
 constexpr double kProbeMaxDepthMm = 120.0;
 // Out of plane a needle enters beside the middle of the probe's long side, which is this far from its plane.
@@ -75,7 +75,7 @@ std::optional<Stand> stand_at(const cases::MeshIndex& skin, const PathLimits& li
   const bool across = limits.approach == cases::Approach::out_of_plane;
   const glm::dvec3 back = -plan.direction;
   const auto [u, v] = base::perpendiculars(back);
-  const double azimuth = place.azimuth_deg * kRadPerDeg, tilt = place.tilt_deg * kRadPerDeg;
+  const double azimuth = place.azimuth_deg * kPlaceRadPerDeg, tilt = place.tilt_deg * kPlaceRadPerDeg;
   const glm::dvec3 aside = u * base::exact_cos(azimuth) + v * base::exact_sin(azimuth);
   Stand stand;
   stand.outward = back * base::exact_cos(tilt) + aside * base::exact_sin(tilt);
@@ -109,7 +109,7 @@ void stand_along(const Stand& stand, const glm::dvec3& axis, PuncturePlan& plan)
 bool stand_across(const cases::MeshIndex& skin, const Stand& stand, PuncturePlan& plan) {
   plan.probe = {stand.origin, -stand.outward, stand.across};
   const glm::dvec3 inward = -skin.normal(stand.triangle);
-  if (glm::dot(plan.probe.axis, inward) < base::exact_cos(kMostLeanDeg * kRadPerDeg)) return false;
+  if (glm::dot(plan.probe.axis, inward) < base::exact_cos(kMostLeanDeg * kPlaceRadPerDeg)) return false;
   const glm::dvec3 entry_from = plan.entry_lps_mm - stand.origin;
   const double off_mm = std::abs(glm::dot(entry_from, plane_normal(plan.probe)));
   if (off_mm < kHalfCaseMm) return false;
@@ -126,13 +126,13 @@ bool stand_across(const cases::MeshIndex& skin, const Stand& stand, PuncturePlan
 double price(const PathLimits& limits, const PuncturePlan& plan, const ProbeView& view, double probe_mm,
              const std::optional<glm::dvec3>& vessel) {
   const double unseen_mm = std::max(0.0, plan.depth_mm - view.needle_mm);
-  const double angle_deg = base::exact_acos(std::abs(glm::dot(plan.direction, plan.probe.axis))) / kRadPerDeg;
+  const double angle_deg = base::exact_acos(std::abs(glm::dot(plan.direction, plan.probe.axis))) / kPlaceRadPerDeg;
   const double sum = kBlindPrice * std::max(0.0, view.tip_shows_from_mm - kBlindFreeMm) +
                      kShadowPrice * view.shadow_db + kDepthPrice * plan.depth_mm +
                      kSteepPrice * std::max(0.0, kSteepDeg - angle_deg);
   if (limits.approach == cases::Approach::in_plane) return sum + kUnseenPrice * unseen_mm + kDepthPrice * probe_mm;
   const double askew = vessel ? std::min(1.0, std::abs(glm::dot(*vessel, plan.probe.side))) : 0.0;
-  const double askew_deg = vessel ? 90.0 - base::exact_acos(askew) / kRadPerDeg : 0.0;
+  const double askew_deg = vessel ? 90.0 - base::exact_acos(askew) / kPlaceRadPerDeg : 0.0;
   return sum + kOverPrice * probe_mm + kAskewPrice * askew_deg;
 }
 
@@ -152,7 +152,7 @@ std::optional<double> place_probe(const cases::MeshIndex& skin, const PathLimits
     if (across) {
       if (!stand_across(skin, *stand, held)) return false;
     } else if (limits.looks_from) {
-      const double rocked = place.rocked_deg * kRadPerDeg;
+      const double rocked = place.rocked_deg * kPlaceRadPerDeg;
       stand_along(*stand,
                   glm::normalize(stand->upright * base::exact_cos(rocked) +
                                  glm::cross(stand->across, stand->upright) * base::exact_sin(rocked)),

@@ -14,7 +14,7 @@
 #include "sim/base/rng.h"
 #include "sim/case/case.h"
 #include "sim/case/inputs.h"
-#include "sim/case/recording.h"
+#include "sim/case/record/recording.h"
 #include "sim/case/state.h"
 
 namespace seldinger::assessment {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "assessment/breath_holds.h"
 #include "assessment/metrics/tables.h"
-#include "assessment/signals.h"
+#include "assessment/signals/breath_holds.h"
+#include "assessment/signals/signals.h"
 #include "sim/base/check.h"
 #include "sim/case/c_arm.h"
 
@@ -15,7 +15,7 @@ namespace seldinger::assessment {
 namespace {
 
 using cases::EventKind;
-using Moment = std::optional<double>;
+using When = std::optional<double>;
 
 // Judgement, all of them: how near counts as there, and how long after as because of it.
 constexpr double kProbeOnSkinMm = 15.0;  // its middle from the skin: a curved face is pressed in by up to 10
@@ -30,21 +30,21 @@ constexpr double kLossNoticedSeconds = 1.0;            // until then a lost brea
 constexpr double kAlongDeg = 10.0, kAcrossDeg = 30.0;  // clinical.md, case 6: views at least 30° apart
 
 template <EventKind kind>
-Moment event(const Signals& signals) {
+When event(const Signals& signals) {
   for (const cases::Event& one : *signals.events)
     if (one.kind == kind) return one.t_s;
   return std::nullopt;
 }
 
-Moment earlier(Moment a, Moment b) {
+When earlier(When a, When b) {
   return !a || (b && *b < *a) ? b : a;
 }
 
-Moment decided(const Signals& signals) {
+When decided(const Signals& signals) {
   return earlier(event<EventKind::proceed>(signals), event<EventKind::defer>(signals));
 }
 
-Moment anaesthetised_unaspirated(const Signals& signals) {
+When anaesthetised_unaspirated(const Signals& signals) {
   double aspirated_s = -1e300;
   for (const cases::Event& one : *signals.events) {
     if (one.kind == EventKind::aspirate) aspirated_s = one.t_s;
@@ -54,7 +54,7 @@ Moment anaesthetised_unaspirated(const Signals& signals) {
 }
 
 template <typename Is>
-Moment first_pose(const Signals& signals, const Is& is) {
+When first_pose(const Signals& signals, const Is& is) {
   for (std::size_t i = 0; i < signals.poses.size(); ++i)
     if (is(i)) return signals.poses[i].t_s;
   return std::nullopt;
@@ -62,7 +62,7 @@ Moment first_pose(const Signals& signals, const Is& is) {
 
 // Calls back with each live frame and the pose that held when it was made.
 template <typename Is>
-Moment first_frame(const Signals& signals, const Is& is) {
+When first_frame(const Signals& signals, const Is& is) {
   std::size_t pose = 0;
   for (const cases::FrameTruth& frame : signals.frames) {
     while (pose + 1 < signals.poses.size() && signals.poses[pose + 1].t_s <= frame.t_s) ++pose;
@@ -71,7 +71,7 @@ Moment first_frame(const Signals& signals, const Is& is) {
   return std::nullopt;
 }
 
-Moment probe_on_skin(const Signals& signals) {
+When probe_on_skin(const Signals& signals) {
   const cases::MeshIndex& skin = *signals.setting.skin;
   std::uint32_t hint = 0;
   double asked_s = -1e300;
@@ -84,16 +84,16 @@ Moment probe_on_skin(const Signals& signals) {
   });
 }
 
-Moment needle_at_skin(const Signals& signals) {
+When needle_at_skin(const Signals& signals) {
   return first_pose(signals, [&](std::size_t i) { return signals.passages[i].depth_mm >= -kAtSkinMm; });
 }
 
-Moment punctured(const Signals& signals) {
+When punctured(const Signals& signals) {
   return count_punctures(signals).first_s;
 }
 
 // Two turns of the tip along the shaft, in tissue, by more than kJiggleMm and no more than a jiggle.
-Moment jiggled(const Signals& signals) {
+When jiggled(const Signals& signals) {
   double turned_mm = 0.0, turned_s = -1e300, far_mm = 0.0, far_s = 0.0;
   int way = 0;  // which way it has been going since the last turn
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
@@ -124,7 +124,7 @@ Moment jiggled(const Signals& signals) {
   return std::nullopt;
 }
 
-Moment at_target(const Signals& signals) {
+When at_target(const Signals& signals) {
   const cases::Shape target = cases::shape_of(*signals.setting.target);
   const double near_mm = signals.setting.instrument.kind == cases::InstrumentKind::core ? kAtEdgeMm : 0.0;
   return first_pose(signals, [&](std::size_t i) {
@@ -133,13 +133,13 @@ Moment at_target(const Signals& signals) {
   });
 }
 
-Moment fired(const Signals& signals) {
-  return signals.endpoint ? Moment(signals.endpoint->t_s) : std::nullopt;
+When fired(const Signals& signals) {
+  return signals.endpoint ? When(signals.endpoint->t_s) : std::nullopt;
 }
 
 // How far the needle came deeper from kReactSeconds after an event of a mentor's on, for kTroubleSeconds.
 template <bool going_on>
-Moment in_trouble(const Signals& signals) {
+When in_trouble(const Signals& signals) {
   for (const cases::Event& one : *signals.events) {
     const cases::EventInfo* info = cases::find_event(one.kind);
     if (info == nullptr || info->source != cases::EventSource::mentor) continue;
@@ -154,7 +154,7 @@ Moment in_trouble(const Signals& signals) {
 
 // When the hand had pushed the tip on by over kPushMm on the last of its way, of what counts.
 template <typename Counts>
-Moment pushed_on(const Signals& signals, const Counts& counts) {
+When pushed_on(const Signals& signals, const Counts& counts) {
   const std::vector<double> pushed_mm = pushed_on_last_way_mm(signals);
   double sum_mm = 0.0;
   return first_pose(signals, [&](std::size_t i) {
@@ -162,49 +162,49 @@ Moment pushed_on(const Signals& signals, const Counts& counts) {
     return sum_mm > kPushMm;
   });
 }
-Moment last_way_begun(const Signals& signals) {
+When last_way_begun(const Signals& signals) {
   return pushed_on(signals, [](double) { return true; });
 }
-Moment pushed_in_breath(const Signals& signals) {
+When pushed_in_breath(const Signals& signals) {
   const std::vector<BreathHold> holds = breath_holds(signals);
   return pushed_on(signals, [&](double t_s) { return !held_at(holds, t_s, kLossNoticedSeconds); });
 }
-Moment fired_in_breath(const Signals& signals) {
+When fired_in_breath(const Signals& signals) {
   if (!signals.endpoint) return std::nullopt;
-  return held_at(breath_holds(signals), signals.endpoint->t_s) ? std::nullopt : Moment(signals.endpoint->t_s);
+  return held_at(breath_holds(signals), signals.endpoint->t_s) ? std::nullopt : When(signals.endpoint->t_s);
 }
 
-Moment target_seen(const Signals& signals) {
+When target_seen(const Signals& signals) {
   return first_frame(signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.target; });
 }
-Moment tip_seen(const Signals& signals) {
+When tip_seen(const Signals& signals) {
   return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
     return frame.needle_tip && signals.passages[pose].in_body;
   });
 }
-Moment both_seen(const Signals& signals) {
+When both_seen(const Signals& signals) {
   return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
     return frame.joint() && signals.passages[pose].in_body;
   });
 }
 
-Moment blind_run(const Signals& signals) {
+When blind_run(const Signals& signals) {
   return first_blind_run_s(signals, kBlindRunMm);
 }
 
-Moment beyond_plane(const Signals& signals) {
+When beyond_plane(const Signals& signals) {
   return first_beyond_plane_s(signals, kBlindRunMm);
 }
 
-Moment fired_unseen(const Signals& signals) {
+When fired_unseen(const Signals& signals) {
   if (!signals.endpoint) return std::nullopt;
   const cases::FrameTruth* last = nullptr;
   for (const cases::FrameTruth& frame : signals.frames)
     if (frame.t_s <= signals.endpoint->t_s) last = &frame;
-  return last != nullptr && last->live && last->needle_tip ? std::nullopt : Moment(signals.endpoint->t_s);
+  return last != nullptr && last->live && last->needle_tip ? std::nullopt : When(signals.endpoint->t_s);
 }
 
-Moment seen_in_breath_hold(const Signals& signals) {
+When seen_in_breath_hold(const Signals& signals) {
   return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t) {
     bool held = false;
     for (const cases::Event& one : *signals.events) {
@@ -223,22 +223,22 @@ double beam_angle_deg(const Signals& signals, const cases::BeamTruth& beam, std:
   return std::acos(cosine) * 180.0 / std::numbers::pi;
 }
 
-Moment target_under_beam(const Signals& signals) {
+When target_under_beam(const Signals& signals) {
   return first_frame(
       signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.beam.has_value() && frame.target; });
 }
-Moment looked_along_needle(const Signals& signals) {
+When looked_along_needle(const Signals& signals) {
   return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
     return frame.beam && frame.needle_tip && beam_angle_deg(signals, *frame.beam, pose) <= kAlongDeg;
   });
 }
-Moment looked_across_needle(const Signals& signals) {
+When looked_across_needle(const Signals& signals) {
   return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
     return frame.beam && frame.joint() && signals.passages[pose].in_body &&
            beam_angle_deg(signals, *frame.beam, pose) >= kAcrossDeg;
   });
 }
-Moment hand_in_beam(const Signals& signals) {
+When hand_in_beam(const Signals& signals) {
   return first_frame(
       signals, [](const cases::FrameTruth& frame, std::size_t) { return frame.beam && frame.beam->hand_in_beam; });
 }
@@ -246,7 +246,7 @@ Moment hand_in_beam(const Signals& signals) {
 constexpr std::uint32_t kSaid = kEvents, kSeen = kPictures;
 
 constexpr EvidenceInfo kEvidence[] = {
-    {Evidence::none, "never", 0, [](const Signals&) { return Moment(); }},
+    {Evidence::none, "never", 0, [](const Signals&) { return When(); }},
     {Evidence::signed_in, "the sign-in was said", kSaid, &event<EventKind::sign_in>},
     {Evidence::decided, "it was said to proceed or to defer", kSaid, &decided},
     {Evidence::deferred, "it was said to defer", kSaid, &event<EventKind::defer>},

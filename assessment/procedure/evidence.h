@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "assessment/metrics/needs.h"
+#include "assessment/signals/needs.h"
 
 namespace seldinger::assessment {
 

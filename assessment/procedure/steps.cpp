@@ -1,6 +1,6 @@
 #include "assessment/procedure/steps.h"
 
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 #include "sim/base/check.h"
 #include "sim/base/names.h"
 

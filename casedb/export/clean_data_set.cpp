@@ -4,7 +4,7 @@
 #include <span>
 
 #include "casedb/export/uid.h"
-#include "casedb/import/basic_profile.h"
+#include "casedb/import/privacy/basic_profile.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "casedb/credentials.h"
+#include "casedb/database/credentials.h"
 #include "casedb/export/dicom_tree.h"
 
 namespace seldinger::casedb {

@@ -6,7 +6,7 @@
 #include <span>
 #include <system_error>
 
-#include "casedb/disk.h"
+#include "casedb/database/disk.h"
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
 #include "sim/base/hex.h"

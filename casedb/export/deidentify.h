@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "casedb/credentials.h"
+#include "casedb/database/credentials.h"
 #include "sim/base/result.h"
 
 namespace seldinger::casedb {

@@ -7,8 +7,8 @@
 #include "casedb/export/clean_data_set.h"
 #include "casedb/export/deidentify.h"
 #include "casedb/export/dicom_tree.h"
-#include "casedb/import/byte_count.h"
-#include "casedb/import/dicom_file.h"
+#include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/files/byte_count.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sim/case/mesh.h"
+#include "sim/case/form/mesh.h"
 
 namespace seldinger::casedb {
 

@@ -1,10 +1,11 @@
 // Which fields of a NIfTI, NRRD or MetaImage header did not enter a case: all but the volume's shape and place.
+#include "casedb/import/dropped_fields.h"
+
 #include <algorithm>
 #include <array>
 
-#include "casedb/import/allow_list.h"
-#include "casedb/import/file_layout.h"
-#include "casedb/import/read_file.h"
+#include "casedb/import/dicom/allow_list.h"
+#include "casedb/import/files/file_layout.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -5,10 +5,11 @@
 #include <cstring>
 #include <new>
 
-#include "casedb/import/byte_count.h"
-#include "casedb/import/dicom_file.h"
-#include "casedb/import/read_dicom.h"
-#include "casedb/import/read_file.h"
+#include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/dicom/read_dicom.h"
+#include "casedb/import/dropped_fields.h"
+#include "casedb/import/files/byte_count.h"
+#include "casedb/import/files/read_file.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -33,6 +34,12 @@ bool is_metaimage_header(std::string_view start) {
          (text.starts_with("NDims") && text.find('=') != std::string_view::npos);
 }
 
+base::Result<Source> read_volume(const std::filesystem::path& file, FileFormat format) {
+  auto source = read_volume_file(file, format);
+  if (source) source->dropped = dropped_fields(file, format);
+  return source;
+}
+
 // What a file begins as decides; its name only says what a damaged one was meant to be.
 base::Result<Source> read_one_file(const std::filesystem::path& file, const std::optional<std::string>& series) {
   const auto bytes = read_bytes(file, 0, 4096);
@@ -43,11 +50,11 @@ base::Result<Source> read_one_file(const std::filesystem::path& file, const std:
   if (series && *series != "1")
     return base::Error{"no_series", "there is no such series: the file holds one volume"};
   const bool packed = start.size() >= 2 && start[0] == '\x1F' && start[1] == '\x8B';
-  if (packed && extension == ".nii.gz") return read_volume_file(file, FileFormat::nifti);
+  if (packed && extension == ".nii.gz") return read_volume(file, FileFormat::nifti);
   if (!packed && is_nifti_header(start.data(), start.size()) && extension == ".nii")
-    return read_volume_file(file, FileFormat::nifti);
-  if (start.starts_with("NRRD000")) return read_volume_file(file, FileFormat::nrrd);
-  if (is_metaimage_header(start)) return read_volume_file(file, FileFormat::metaimage);
+    return read_volume(file, FileFormat::nifti);
+  if (start.starts_with("NRRD000")) return read_volume(file, FileFormat::nrrd);
+  if (is_metaimage_header(start)) return read_volume(file, FileFormat::metaimage);
   if (!extension.empty()) return base::Error{"damaged", "the file does not begin as its name says"};
   return base::Error{"unknown_format", "the file is none of DICOM, NIfTI, NRRD and MetaImage"};
 }

@@ -8,21 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "casedb/privacy.h"
+#include "casedb/import/files/source.h"
 #include "sim/base/result.h"
-#include "sim/case/mesh.h"
+#include "sim/case/form/mesh.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
-
-struct Source {
-  volume::Volume volume;
-  std::vector<std::pair<std::string, std::string>> attributes;  // of the allow-list only
-  std::vector<base::Problem> warnings;                          // e.g. single_slice
-  std::vector<Dropped> dropped;                                 // what else the source told, counted
-  bool says_head = false;                                       // the source says it shows a head: a hint only
-  int slices_used = 0;
-};
 
 // `series`: a series instance UID or its number in the list that `several_series` shows (1-based). Padding (also
 // DICOM's Pixel Padding Value) and everything below −1024 HU become −1024. All problems are reported at once.

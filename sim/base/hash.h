@@ -1,5 +1,5 @@
 // Our own 64-bit hash for state, recordings and checksums: the same bits on every machine. Not cryptographic
-// (assets are named by SHA-256, casedb/credentials).
+// (assets are named by SHA-256, casedb/database/credentials).
 #pragma once
 
 #include <bit>

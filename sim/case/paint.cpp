@@ -10,7 +10,7 @@
 namespace seldinger::cases {
 namespace {
 
-constexpr double kFinestMm = 0.5;  // a voxel is asked at points about so far apart, at most 8 along an axis
+constexpr double kFinestPaintMm = 0.5;  // a voxel is asked at points about so far apart, at most 8 along an axis
 constexpr double kTouchMm = 1e-3;
 
 struct Box {
@@ -59,7 +59,7 @@ Painted paint(const Shape& shape, const Brush& brush, volume::Volume& volume) {
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   glm::ivec3 points;
   for (int axis = 0; axis < 3; ++axis)
-    points[axis] = std::clamp(static_cast<int>(std::ceil(volume.spacing_mm[axis] / kFinestMm)), 1, 8);
+    points[axis] = std::clamp(static_cast<int>(std::ceil(volume.spacing_mm[axis] / kFinestPaintMm)), 1, 8);
   const double reach_mm = 0.5 * (glm::length(volume.spacing_mm) + brush.edge_mm) + kTouchMm;
   const double ramp_mm = 0.5 * brush.edge_mm + kTouchMm;
   const auto share_inside = [&](int i, int j, int k) {

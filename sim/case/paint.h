@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/case/shape.h"
+#include "sim/case/form/shape.h"
 #include "sim/volume/classes.h"
 #include "sim/volume/volume.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "sim/case/mesh_index.h"
+#include "sim/case/form/mesh_index.h"
 
 namespace seldinger::cases {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/base/names.h"
-#include "sim/case/shape.h"
+#include "sim/case/form/shape.h"
 #include "sim/volume/classes.h"
 
 namespace seldinger::cases {

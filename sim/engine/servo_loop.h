@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "sim/case/servo_record.h"
+#include "sim/case/record/servo_record.h"
 
 namespace seldinger::engine {
 

@@ -13,7 +13,6 @@ namespace seldinger::engine {
 
 // Raised whenever the same Inputs may give another State: recordings of another version are shown, not verified.
 constexpr std::uint32_t kStepVersion = 2;
-inline constexpr double kTickSeconds = base::kTickS;
 
 // Advances one tick. Pure: the same arguments give the same State on every machine, in Debug and in -O2. No clock,
 // file, allocation, lock or global; only + − × ÷ √ and sim/base/exact_math.

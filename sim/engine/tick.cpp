@@ -37,7 +37,7 @@ void Scenario::add_to(cases::Inputs& inputs, double t_s, std::uint32_t& happened
 }
 
 Tick::Tick(const cases::Case& scene) : scene_(scene), tissue_(scene), patient_(scene) {
-  if (!scene.classes.empty()) hands_.emplace(scene, haptics::two_virtual_devices());
+  if (!scene.classes.empty()) hands_.emplace(scene, haptics::two_virtual_arms());
 }
 
 void Tick::bring_to_rest(const TickState& now, haptics::HandInput& hand) const noexcept {
@@ -101,12 +101,12 @@ cases::RecordedTick Tick::advance(const cases::Inputs& inputs, double dt_s, Tick
 
 cases::RecordedTick Tick::advance_hands(const cases::Inputs& hands, ToolsRead read, TickState& now) const noexcept {
   const auto through = [](bool is_read, const cases::ToolPose& pose, devices::VirtualDeviceState& arm) {
-    return is_read ? devices::follow(pose, arm) : devices::advance(pose, kTickSeconds, arm);
+    return is_read ? devices::follow(pose, arm) : devices::advance(pose, base::kTickS, arm);
   };
   cases::Inputs inputs = hands;
   inputs.needle = through(read.needle, hands.needle, now.arms.needle);
   inputs.probe = through(read.probe, hands.probe, now.arms.probe);
-  return advance(inputs, kTickSeconds, now);
+  return advance(inputs, base::kTickS, now);
 }
 
 }  // namespace seldinger::engine

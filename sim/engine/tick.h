@@ -10,7 +10,7 @@
 #include "sim/case/case.h"
 #include "sim/case/event.h"
 #include "sim/case/inputs.h"
-#include "sim/case/recorded_tick.h"
+#include "sim/case/record/recorded_tick.h"
 #include "sim/engine/moving_tissue.h"
 #include "sim/engine/patient.h"
 #include "sim/engine/tick_state.h"
@@ -60,7 +60,7 @@ class Tick {
   // One tick of what tools and buttons say, and what it leaves behind. Pure: the same arguments give the same bits
   // on every machine. Allocates nothing.
   cases::RecordedTick advance(const cases::Inputs& inputs, double dt_s, TickState& now) const noexcept;
-  // The same of kTickSeconds and of where hands want their tools to be.
+  // The same of base::kTickS and of where hands want their tools to be.
   cases::RecordedTick advance_hands(const cases::Inputs& hands, ToolsRead read, TickState& now) const noexcept;
 
   // From where a hand holds its tool to where that is in tissue at rest, by which forces are told.

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sim/base/result.h"
-#include "sim/case/recording.h"
+#include "sim/case/record/recording.h"
 #include "sim/case/state.h"
-#include "sim/devices/virtual_device.h"
+#include "sim/devices/virtual_arm.h"
 #include "sim/engine/patient.h"
 #include "sim/haptics/two_hands.h"
 #include "sim/tissue/displacement.h"

@@ -45,8 +45,8 @@ void take_up(Tool tool, int delay_ticks, HandState& state) noexcept {
 
 }  // namespace
 
-std::array<HandSettings, 2> two_virtual_devices() {
-  const HandSettings omni{*find_haptic_device("omni")};
+std::array<HandSettings, 2> two_virtual_arms() {
+  const HandSettings omni{*find_arm_model("omni")};
   return {omni, omni};
 }
 
@@ -62,7 +62,7 @@ TwoHands::Station TwoHands::station(const HandSettings& settings) const {
   Station made{{},
                ForceLimiter({settings.device.peak_n, settings.device.continuous_n, kTickS}),
                settings.carried_kg * kGravityMS2 * up_};
-  HapticDevice device = settings.device;
+  ArmModel device = settings.device;
   for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks) {
     const NeedleSettings needle = needle_settings(device);
     ProbeSettings probe;

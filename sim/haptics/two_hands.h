@@ -6,12 +6,12 @@
 #include <array>
 #include <vector>
 
+#include "sim/haptics/arm_model.h"
 #include "sim/haptics/force_limiter.h"
-#include "sim/haptics/haptic_device.h"
-#include "sim/haptics/held_needle.h"
-#include "sim/haptics/held_probe.h"
-#include "sim/haptics/surface_proxy.h"
-#include "sim/haptics/volume_proxy.h"
+#include "sim/haptics/needle/held_needle.h"
+#include "sim/haptics/probe/held_probe.h"
+#include "sim/haptics/proxy/surface_proxy.h"
+#include "sim/haptics/proxy/volume_proxy.h"
 
 namespace seldinger::haptics {
 
@@ -28,7 +28,7 @@ constexpr Tool tool_of(Handedness handedness, Side side) noexcept {
 }
 
 struct HandSettings {
-  HapticDevice device;
+  ArmModel device;
   double carried_kg = 0.0;  // of tool and stylus, that the device does not bear by itself (design: none)
 };
 
@@ -65,7 +65,7 @@ using HandStates = std::array<HandState, 2>;
 using HandForces = std::array<HandForce, 2>;
 
 // Two arms without hardware, as stiff as a Phantom Omni bears.
-std::array<HandSettings, 2> two_virtual_devices();
+std::array<HandSettings, 2> two_virtual_arms();
 
 class TwoHands {
  public:

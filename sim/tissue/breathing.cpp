@@ -11,7 +11,6 @@
 namespace seldinger::tissue {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kHoldTurnS = 0.5;  // from breathing to holding and back (design)
 constexpr double kCoughRiseS =
     0.06;  // a cough's throw is at its height after this, and is over after eight times it (design)
@@ -64,7 +63,7 @@ double advance(const BreathSettings& settings, double dt_s, const BreathAsks& as
       ++state.breath;
     }
   }
-  const double wave = base::exact_sin(kPi * state.phase);
+  const double wave = base::exact_sin(std::numbers::pi * state.phase);
   double level = off(settings, state.breath, 1);
   for (int i = 0; i < settings.sharpness; ++i) level *= wave * wave;
   level += eased(state.held) * (settings.hold_level - level);

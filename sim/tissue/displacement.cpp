@@ -15,8 +15,6 @@ namespace {
 using shaders::DisplacementSource;
 using shaders::vec4;
 
-constexpr double kPi = std::numbers::pi;
-
 // Of the head's radius: up to there Hertz' small strains keep a picture (haptics.md §4). Of the bone's depth: from
 // 0.72 on the layer would be folded (docs/decisions/0023).
 constexpr double kMostOfRadius = 0.6, kMostOfBone = 0.6;
@@ -29,7 +27,7 @@ constexpr double kMostThinness = 2.0;
 constexpr double kMostOfBall = 1.0, kMostOfShaft = 4.0, kMostOfLength = 0.8;
 constexpr double kShortest = 5.0;  // needle radii of shaft, from where on it drags at all (design)
 
-// Tissue's modulus around a needle: that of sim/haptics/needle_law.h.
+// Tissue's modulus around a needle: that of sim/haptics/needle/needle_law.h.
 constexpr double kNeedleShearNMm2 = 0.0045;
 
 // What moves nothing more than this is no source.
@@ -77,7 +75,7 @@ NeedleSources needle_sources(const NeedleDrag& drag) noexcept {
   }
   if (std::abs(drag.tip_mm) > kLeastMm) {
     // As large as force and way make it, but never so small that it would fold what lies before it.
-    const double by_force_mm = drag.tip_n / (6.0 * kPi * kNeedleShearNMm2 * std::abs(drag.tip_mm));
+    const double by_force_mm = drag.tip_n / (6.0 * std::numbers::pi * kNeedleShearNMm2 * std::abs(drag.tip_mm));
     const double ball_mm =
         std::max({drag.radius_mm, by_force_mm, (std::abs(drag.tip_mm) + std::abs(shaft_mm)) / kMostOfBall});
     made.has_tip = true;
@@ -144,7 +142,7 @@ PressedDisk pressed_disk(const SkinPress& press) noexcept {
 
 // Hertz: F = 16/3 G a δ, and there δ = π/2 · amount.
 double force_n(const PressedDisk& disk, double shear_n_mm2) noexcept {
-  return 8.0 / 3.0 * kPi * shear_n_mm2 * disk.radius_mm * disk.amount_mm;
+  return 8.0 / 3.0 * std::numbers::pi * shear_n_mm2 * disk.radius_mm * disk.amount_mm;
 }
 
 double pressure_n_mm2(const SkinPress& press, const glm::dvec3& rest_lps_mm, double shear_n_mm2) noexcept {

@@ -16,7 +16,7 @@ namespace seldinger::tissue {
 
 using shaders::Displacement;
 
-// A round head, a ball as touch feels it (sim/haptics/soft_contact.h), pressed into the skin.
+// A round head, a ball as touch feels it (sim/haptics/contact/soft_contact.h), pressed into the skin.
 struct SkinPress {
   glm::dvec3 at_lps_mm{0.0};          // on the skin at rest, under the head's deepest point
   glm::dvec3 inward{0.0, 0.0, -1.0};  // unit
@@ -25,7 +25,7 @@ struct SkinPress {
   double per_bone_mm = 0.0;           // 1 / depth of bone below the skin; 0: none
 };
 
-// What touch knows of a needle in tissue (sim/haptics/needle_law.h).
+// What touch knows of a needle in tissue (sim/haptics/needle/needle_law.h).
 struct NeedleDrag {
   glm::dvec3 entry_lps_mm{0.0};          // where its line meets the skin, at rest
   glm::dvec3 direction{0.0, 0.0, -1.0};  // unit, inwards

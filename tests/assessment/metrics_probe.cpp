@@ -2,8 +2,8 @@
 // (CMakeLists.txt); builds_test compares what the builds print.
 #include <cstdio>
 
-#include "assessment/metrics/registry.h"
 #include "assessment/procedure/steps.h"
+#include "assessment/registry.h"
 #include "tests/assessment/metrics/sample_attempts.h"
 
 using namespace seldinger::assessment;

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "tests/assessment/metrics/sample_attempts.h"
 
 namespace seldinger::assessment {

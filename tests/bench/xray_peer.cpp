@@ -19,7 +19,7 @@
 
 #include "app/measure/rigs/projector_phantom.h"
 #include "sim/base/failure.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::bench {
 namespace {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "casedb/bundle_file.h"
-#include "casedb/credentials.h"
-#include "casedb/tables.h"
+#include "casedb/database/credentials.h"
+#include "casedb/database/tables.h"
+#include "casedb/keeping/bundle_file.h"
 #include "sim/base/codec.h"
 #include "sim/volume/volume_bytes.h"
 #include "tests/casedb/library_samples.h"

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "assessment/grading/rule.h"
-#include "casedb/authoring.h"
-#include "casedb/uuid.h"
+#include "casedb/cases/authoring.h"
+#include "casedb/database/uuid.h"
+#include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {

@@ -9,9 +9,10 @@
 #include <map>
 #include <string>
 
-#include "casedb/library.h"
-#include "casedb/sqlite.h"
-#include "casedb/store.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/database/library.h"
+#include "casedb/database/sqlite.h"
 #include "sim/base/rng.h"
 #include "tests/fixtures/files.h"
 #include "tests/fixtures/folders.h"

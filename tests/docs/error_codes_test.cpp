@@ -1,6 +1,6 @@
 // Every code that the product's sources give to an error, a finding or a warning is in the table of
-// app/error_codes.cpp, and every code of the table is given somewhere.
-#include "app/error_codes.h"
+// app/cli/error_codes.cpp, and every code of the table is given somewhere.
+#include "app/cli/error_codes.h"
 #include "tests/fixtures/places.h"
 
 #include <gtest/gtest.h>
@@ -108,7 +108,7 @@ bool makes_a_code(std::string_view all_before) {
     return kLists.contains(take_name(before));
   }
   if (before.ends_with("problems.add(") || before.ends_with("refuse({")) return true;
-  // In casedb/import/dicom_volume.cpp and sim/haptics/depth_curve.cpp: lambdas that take a code.
+  // In casedb/import/dicom/dicom_volume.cpp and sim/haptics/fit/depth_curve.cpp: lambdas that take a code.
   if (before.ends_with("bad(") && all_before.find("bad = [&](const char* code,") != std::string_view::npos)
     return true;
   if (take_end(before, ",")) {
@@ -177,7 +177,7 @@ TEST(ErrorCodes, OfTheSourcesAreThoseOfTheTable) {
       EXPECT_TRUE(given.contains(one.code)) << one.code << " is in the table, and nothing gives it";
     }
   for (const auto& [code, file] : given)
-    EXPECT_TRUE(listed.contains(code)) << code << " (" << file << ") is not in app/error_codes.cpp";
+    EXPECT_TRUE(listed.contains(code)) << code << " (" << file << ") is not in app/cli/error_codes.cpp";
 }
 
 TEST(ErrorCodes, HaveAMeaningInASentenceAndAKind) {

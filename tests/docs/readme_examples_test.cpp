@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "tests/fixtures/places.h"
 #include "tests/fixtures/png_picture.h"
 #include "tests/fixtures/process.h"
-#include "tests/fixtures/places.h"
 
 namespace seldinger {
 namespace {

@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "app/bench_stages.h"
-#include "tests/fixtures/process.h"
 #include "tests/fixtures/places.h"
+#include "tests/fixtures/process.h"
 
 namespace seldinger {
 namespace {

@@ -4,9 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "casedb/sqlite.h"
-#include "casedb/store.h"
-#include "sim/case/recording.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/database/sqlite.h"
+#include "sim/case/record/recording.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {

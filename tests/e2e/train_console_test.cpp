@@ -8,7 +8,9 @@
 #include <numeric>
 #include <optional>
 
-#include "casedb/store.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/people/people.h"
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"

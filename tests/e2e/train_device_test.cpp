@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/device_simulation/led_arms.h"
-#include "sim/devices/device_hand.h"
+#include "sim/devices/arms/arm_mapping.h"
 #include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"
 

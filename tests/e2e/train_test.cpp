@@ -9,8 +9,9 @@
 #include <optional>
 #include <set>
 
-#include "casedb/store.h"
-#include "sim/case/mesh_index.h"
+#include "casedb/cases/cases.h"
+#include "casedb/people/people.h"
+#include "sim/case/form/mesh_index.h"
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/command_library.h"
 #include "tests/fixtures/trainee.h"

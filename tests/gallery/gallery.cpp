@@ -109,8 +109,8 @@ TEST_F(Gallery, Bench) {
   ASSERT_TRUE(trainee.reaches("bench", 20.0));
   ASSERT_TRUE(fixtures::until(
       [&] {
-        const Json bench = trainee.now().value("bench", Json::object());
-        return bench.contains("checking") && !bench["checking"].get<bool>() && !bench["holding"].empty();
+        const Json editor = trainee.now().value("bench", Json::object());
+        return editor.contains("checking") && !editor["checking"].get<bool>() && !editor["holding"].empty();
       },
       60.0));
   trainee.screen().press("e");

@@ -1,6 +1,7 @@
 // The block that MPR's shader reads has the offsets that C++ writes: the GLSL compiler's answer against offsetof.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -17,10 +18,14 @@ std::span<const base::EmbeddedFile> mpr_shaders();
 namespace seldinger::imaging {
 namespace {
 
-TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
+const base::EmbeddedFile& shader(std::string_view name) {
   const auto files = embedded::mpr_shaders();
-  ASSERT_EQ(files.size(), 3U);
-  const std::map<std::string, std::size_t> offsets = offsets_from_compiler(files[0]);
+  return *std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
+}
+
+TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
+  ASSERT_EQ(embedded::mpr_shaders().size(), 3U);
+  const std::map<std::string, std::size_t> offsets = offsets_from_compiler(shader("mpr_slice.comp"));
   using P = shaders::MprParameters;
   const std::map<std::string, std::size_t> ours{
       {"index_first", offsetof(P, index_first)},
@@ -50,22 +55,21 @@ TEST(MprParameters, HaveTheOffsetsOfTheShadersBlock) {
 }
 
 TEST(MprParameters, OfAPatientWhoMovesHaveThemToo) {
-  const auto files = embedded::mpr_shaders();
-  ASSERT_EQ(files.size(), 3U);
+  ASSERT_EQ(embedded::mpr_shaders().size(), 3U);
   using D = shaders::MprDisplaced;
   using P = shaders::MprParameters;
   const std::map<std::string, std::size_t> by_pixel{{"voxel_from_center", offsetof(D, voxel_from_center)},
                                                     {"center_lps_mm", offsetof(D, center_lps_mm)},
                                                     {"fixed_point_steps", offsetof(D, fixed_point_steps)},
                                                     {"newton_steps", offsetof(D, newton_steps)}};
-  EXPECT_EQ(offsets_from_compiler(files[1], "displaced"), by_pixel);
+  EXPECT_EQ(offsets_from_compiler(shader("mpr_displaced.comp"), "displaced"), by_pixel);
   const std::map<std::string, std::size_t> by_grid{{"voxel_from_center", offsetof(D, voxel_from_center)},
                                                    {"columns", offsetof(D, columns)},
                                                    {"rows", offsetof(D, rows)},
                                                    {"nodes_per_pixel", offsetof(D, nodes_per_pixel)}};
-  EXPECT_EQ(offsets_from_compiler(files[2], "displaced"), by_grid);
-  for (const std::size_t file : {1U, 2U}) {
-    const auto parameters = offsets_from_compiler(files[file]);
+  EXPECT_EQ(offsets_from_compiler(shader("mpr_displaced_grid.comp"), "displaced"), by_grid);
+  for (const char* file : {"mpr_displaced.comp", "mpr_displaced_grid.comp"}) {
+    const auto parameters = offsets_from_compiler(shader(file));
     ASSERT_EQ(parameters.count("lesion_hu"), 1U);
     EXPECT_EQ(parameters.at("lesion_hu"), offsetof(P, lesion_hu));
   }

@@ -6,7 +6,7 @@
 
 #include "casedb/import/import.h"
 #include "sim/base/rng.h"
-#include "sim/imaging/ultrasound/echogenicity.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/volume/classes.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/shared_data.h"

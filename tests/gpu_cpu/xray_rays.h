@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/base/rng.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

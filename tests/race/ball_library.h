@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/case_check.h"
-#include "casedb/store.h"
-#include "casedb/versions.h"
+#include "casedb/cases/cases.h"
+#include "casedb/cases/versions.h"
+#include "casedb/people/people.h"
+#include "session/case/case_check.h"
 #include "tests/fixtures/new_ball.h"
 
 namespace seldinger::fixtures {
@@ -30,8 +31,8 @@ inline std::vector<std::string> make_ball_library(const std::filesystem::path& f
     made.instrument.kind = cases::InstrumentKind::core;
     ids.push_back(casedb::add_case(library, made));
     EXPECT_TRUE(casedb::add_lesion(library, ids.back(), ball_target(kBallDepthMm)));
-    const auto published = 
-        casedb::publish_case(library, ids.back(), app::check_case(library, ids.back()).value(), "mona", true);
+    const auto published =
+        casedb::publish_case(library, ids.back(), session::check_case(library, ids.back()).value(), "mona", true);
     EXPECT_TRUE(published) << published.error().text;
   }
   return ids;

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "app/device_simulation/haply_simulation.h"
-#include "app/train/speaker.h"
-#include "app/train/trainer.h"
+#include "app/window/sound/speaker.h"
+#include "app/window/trainer/trainer.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/until.h"
 #include "tests/race/ball_library.h"
@@ -46,7 +46,7 @@ class PersonAttemptRace : public testing::Test {
     PersonAttempt& attempt = *trainer.attempt();
     HandsTold told;
     Seen seen;
-    ShownPicture shown;
+    session::ShownPicture shown;
     int frame = 0;
     EXPECT_TRUE(looks_until(trainer, [&] {
       ++frame;
@@ -69,7 +69,7 @@ class PersonAttemptRace : public testing::Test {
       told.sum.freezes = static_cast<std::uint32_t>(frame / 50);
       if (fires && seen.moment.state.t_s > 0.6 * attempt_s) told.sum.fire = true;
       told.between_s = 0.02;
-      told.told_s = clock_s();
+      told.told_s = session::clock_s();
       attempt.tell(told);
       return seen.moment.state.t_s >= attempt_s || attempt.phase() != Phase::running;
     }));
@@ -96,14 +96,14 @@ class PersonAttemptRace : public testing::Test {
     ASSERT_TRUE(looks_until(trainer, [&] { return trainer.screen() == TrainerScreen::debrief; }))
         << trainer.refusal();
     trainer.watch(trainer.debrief()->attempt.attempt_id);
-    WatchedAttempt& watched = *trainer.watched();
+    session::WatchedAttempt& watched = *trainer.watched();
     watched.set_speed(4.0);
-    ShownPicture shown;
+    session::ShownPicture shown;
     EXPECT_TRUE(until([&] {
-      if (watched.phase() == WatchedAttempt::Phase::preparing) return false;
+      if (watched.phase() == session::WatchedAttempt::Phase::preparing) return false;
       static_cast<void>(watched.moment());
       watched.monitor().take(shown);
-      return watched.phase() == WatchedAttempt::Phase::over;
+      return watched.phase() == session::WatchedAttempt::Phase::over;
     }));
     trainer.stop_watching();
     trainer.look();

@@ -24,8 +24,8 @@ esac
 examples() {
   example 'metric, in a table that is there' advance_in_breath 5 '\badvance_in_breath\b'
   example 'metric, in a table that is there' plane_angle_max 5 '\bplane_angle_max\b'
-  example 'command' 'case mesh' - '\brun_case_mesh\b|\bcase mesh\b'
-  example 'command' 'user disable' - '\brun_user_disable\b|\buser disable\b'
+  example 'command' 'case mesh' 3 '\bcase_mesh\b|\bcase mesh\b'
+  example 'command' 'user disable' 3 '\buser_disable\b|\buser disable\b'
   example 'route' '/cases/{case_id}/checks.json' - 'checks\.json|checks_json\b'
   example 'setting, with its migration' breath_irregularity 5 'breath[_-]irregularity'
   example 'setting, with its migration' breath_depth - 'breath[_-]depth'

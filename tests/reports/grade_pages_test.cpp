@@ -2,12 +2,12 @@
 // markup.
 #include <gmock/gmock.h>
 
-#include "reports/attempt_page.h"
-#include "reports/attempts_page.h"
-#include "reports/compare_page.h"
-#include "reports/curricula_page.h"
-#include "reports/grade_words.h"
-#include "sample_attempt.h"
+#include "reports/pages/attempt_page.h"
+#include "reports/pages/attempts_page.h"
+#include "reports/pages/compare_page.h"
+#include "reports/pages/curricula_page.h"
+#include "reports/words/grade_words.h"
+#include "tests/reports/sample_attempt.h"
 
 namespace seldinger::reports {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <limits>
 
-#include "assessment/metrics/registry.h"
-#include "reports/attempt_page.h"
-#include "reports/attempts_page.h"
-#include "reports/login_page.h"
-#include "reports/page.h"
-#include "sample_attempt.h"
+#include "assessment/registry.h"
+#include "reports/pages/attempt_page.h"
+#include "reports/pages/attempts_page.h"
+#include "reports/pages/login_page.h"
+#include "reports/pages/page.h"
+#include "tests/reports/sample_attempt.h"
 
 namespace seldinger::reports {
 namespace {

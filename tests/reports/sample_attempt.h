@@ -1,7 +1,7 @@
 // An attempt to show, for the tests of pages.
 #pragma once
 
-#include "reports/attempt_words.h"
+#include "reports/words/attempt_words.h"
 
 namespace seldinger::reports {
 

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "fake_site.h"
+#include "tests/web/fake_site.h"
 #include "web/routes.h"
 
 namespace seldinger::web {

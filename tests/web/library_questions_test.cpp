@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <thread>
 
-#include "casedb/authoring.h"
-#include "casedb/versions.h"
-#include "fake_site.h"
-#include "raw_client.h"
-#include "tests/fixtures/sound_check.h"
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/versions.h"
 #include "tests/fixtures/folders.h"
+#include "tests/fixtures/sound_check.h"
+#include "tests/web/fake_site.h"
+#include "tests/web/raw_client.h"
 
 namespace seldinger::web {
 namespace {

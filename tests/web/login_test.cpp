@@ -1,7 +1,8 @@
 // Logging in and out through the pages: tokens, origins, cookies, expiry, throttling, faults.
 #include <gmock/gmock.h>
 
-#include "fake_site.h"
+#include "casedb/people/people.h"
+#include "tests/web/fake_site.h"
 
 namespace seldinger::web {
 namespace {

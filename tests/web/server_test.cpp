@@ -7,9 +7,9 @@
 #include <cstring>
 #include <thread>
 
-#include "fake_site.h"
-#include "raw_client.h"
 #include "tests/fixtures/until.h"
+#include "tests/web/fake_site.h"
+#include "tests/web/raw_client.h"
 #include "web/request_guard.h"
 
 namespace seldinger::web {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fake_site.h"
+#include "tests/web/fake_site.h"
 
 namespace seldinger::web {
 namespace {

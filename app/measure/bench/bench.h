@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/arguments.h"
+#include "app/cli/arguments.h"
 #include "sim/base/result.h"
 #include "sim/volume/volume.h"
 

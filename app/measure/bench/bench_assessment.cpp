@@ -7,12 +7,12 @@
 #include <thread>
 
 #include "app/measure/bench/bench.h"
-#include "app/simulated_attempt.h"
-#include "assessment/metrics/registry.h"
 #include "assessment/operators/lesion_site.h"
 #include "assessment/recorder.h"
+#include "assessment/registry.h"
 #include "assessment/score.h"
-#include "casedb/import/surface.h"
+#include "casedb/import/skin/surface.h"
+#include "session/attempt/simulated_attempt.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
@@ -91,7 +91,7 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   BenchRow handed =
       row_of("recorder", "ticks handed over", std::to_string(sizeof(cases::RecordedTick)) + " bytes each");
   handed.n = quick ? 5 : 21;
-  assessment::Recorder recorder(engine::kStepVersion, engine::kTickSeconds,
+  assessment::Recorder recorder(engine::kStepVersion, base::kTickS,
                                 [](const cases::RecordingChunk&) { return base::Result<void>{}; });
   std::vector<double> times_ms;
   for (int i = 0; i < handed.n; ++i) {
@@ -105,14 +105,14 @@ void bench_recorder(const cases::Case& scene, const cases::Recording& once, bool
   handed.ms_median = times_ms[times_ms.size() / 2];
   handed.ms_max = times_ms.back();
   handed.size = std::to_string(kTicks) + " ticks of " + handed.size;
-  handed.error = bench_number(100.0 * handed.ms_median / (1000.0 * engine::kTickSeconds * kTicks));
+  handed.error = bench_number(100.0 * handed.ms_median / (1000.0 * base::kTickS * kTicks));
   handed.error_unit = "% of the ticks' time";
   handed.reference = recorder.fell_behind() ? "fell behind" : "goal 1";
   rows.push_back(handed);
 
   cases::Recording piece;
   piece.step_version = engine::kStepVersion;
-  piece.dt_s = engine::kTickSeconds;
+  piece.dt_s = base::kTickS;
   piece.events.emplace();
   for (int half = 0; half < 2; ++half)
     for (const cases::RecordedTick& tick : second) {
@@ -147,7 +147,7 @@ base::Result<void> bench_assessment(const app::Arguments&, bool quick, std::vect
     std::uint64_t seed = 0;
     double simulated_s = 0.0;
     time_into(row, quick ? 3 : 11, [&] {
-      const auto recording = app::run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
+      const auto recording = session::run_attempt(scene, site->plan, *assessment::named_profile("expert"), ++seed);
       if (assessment::score(scene, recording))
         simulated_s += static_cast<double>(recording.inputs.size()) * recording.dt_s;
     });
@@ -155,7 +155,7 @@ base::Result<void> bench_assessment(const app::Arguments&, bool quick, std::vect
     row.size = bench_number(60e3 / row.ms_median) + " attempts a minute";
     rows.push_back(row);
   }
-  const cases::Recording once = app::run_attempt(scene, site->plan, *assessment::named_profile("novice"), 1);
+  const cases::Recording once = session::run_attempt(scene, site->plan, *assessment::named_profile("novice"), 1);
   for (const double rate_hz : {100.0, 1000.0}) {
     const cases::Recording recording = ten_minutes(once, rate_hz);
     BenchRow row{"assessment",

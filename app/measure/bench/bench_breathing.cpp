@@ -7,7 +7,7 @@
 
 #include "app/measure/bench/bench.h"
 #include "casedb/import/import.h"
-#include "sim/imaging/xray/moved_volume.h"
+#include "sim/imaging/xray/projection/moved_volume.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::measure {
@@ -45,6 +45,7 @@ tissue::Displacement breathed_in(const volume::Volume& volume, double level) {
 }  // namespace
 
 base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, std::vector<BenchRow>& rows) {
+  // The patient.
   volume::Volume volume;
   if (arguments.has("--ct")) {
     auto source = casedb::read_source(arguments.text("--ct"));
@@ -53,11 +54,13 @@ base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, 
   } else {
     volume = volume::make_phantom().volume;
   }
+  // From the front and from the side.
   const int n = quick ? 5 : 15;
   const imaging::XrayCpu still(volume);
   for (const bool lateral : {false, true}) {
     const imaging::XrayGeometry geometry = fluoroscope(volume, lateral);
     const tissue::Displacement breath = breathed_in(volume, 1.0), other = breathed_in(volume, 0.98);
+    // The truth on some of the pixels: the lines through displaced tissue, walked finely.
     std::vector<double> reference_mm;
     double highest_mm = 0.0;
     for (int row = kCompareEvery / 2; row < geometry.height_px; row += kCompareEvery)
@@ -70,6 +73,7 @@ base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, 
                 .total_mm());
         highest_mm = std::max(highest_mm, reference_mm.back());
       }
+    // A row: the time, and where there are lengths, how far they are from the truth.
     const auto add = [&](const std::string& what, const imaging::PathLengths* lengths, const auto& work) {
       BenchRow row{"xray",
                    what,
@@ -86,6 +90,7 @@ base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, 
                    "every 0.25 mm at rest"};
       time_into(row, n, work);
       if (lengths != nullptr) {
+        // As shares of the longest line.
         std::vector<double> errors;
         std::size_t i = 0;
         double sum = 0.0;
@@ -104,6 +109,7 @@ base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, 
       }
       rows.push_back(row);
     };
+    // A patient who is held still, and one who moves, by the fineness of what is moved.
     const imaging::CpuOptions options{.threads = 1};
     imaging::PathLengths lengths;
     lengths = still.project(geometry, imaging::ProjectionMethod::exact, options);
@@ -113,6 +119,7 @@ base::Result<void> bench_breathing(const app::Arguments& arguments, bool quick, 
         const std::string grid =
             std::string(" ") + bench_number(voxel_mm) + " mm, nodes " + bench_number(node_mm) + " mm";
         imaging::MovedVolume moved(volume, {voxel_mm, node_mm});
+        // Every pulse sees another breath than the one before.
         bool in = false;
         add("moved, volume" + grid, nullptr, [&] {
           moved.move(in ? breath : other, geometry);

@@ -5,9 +5,9 @@
 
 #include "app/measure/bench/bench.h"
 #include "app/measure/rigs/thesis_needle.h"
-#include "reports/force_page.h"
+#include "reports/charts/force_page.h"
 #include "sim/base/tick.h"
-#include "sim/haptics/needle_law.h"
+#include "sim/haptics/needle/needle_law.h"
 #include "sim/volume/classes.h"
 
 namespace seldinger::measure {

@@ -8,8 +8,8 @@
 
 #include "app/measure/bench/bench.h"
 #include "casedb/import/import.h"
-#include "casedb/import/surface.h"
-#include "sim/case/mesh_index.h"
+#include "casedb/import/skin/surface.h"
+#include "sim/case/form/mesh_index.h"
 #include "sim/volume/phantom.h"
 
 namespace seldinger::measure {

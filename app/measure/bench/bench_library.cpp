@@ -6,15 +6,16 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/cli/version.h"
 #include "app/measure/bench/bench.h"
-#include "app/version.h"
 #include "assessment/metrics/metric.h"
-#include "casedb/backup.h"
-#include "casedb/bundle.h"
-#include "casedb/check.h"
-#include "casedb/sqlite.h"
-#include "casedb/store.h"
-#include "casedb/tables.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/tables.h"
+#include "casedb/keeping/backup.h"
+#include "casedb/keeping/bundle.h"
+#include "casedb/keeping/check.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::measure {

@@ -10,8 +10,8 @@
 #include "app/measure/bench/bench.h"
 #include "sim/base/failure.h"
 #include "sim/base/rng.h"
-#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
+#include "sim/imaging/ultrasound/view/motion.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
 

@@ -8,7 +8,7 @@
 
 #include "app/measure/bench/bench.h"
 #include "casedb/import/import.h"
-#include "casedb/import/surface.h"
+#include "casedb/import/skin/surface.h"
 #include "sim/base/failure.h"
 #include "sim/imaging/room/room_renderer.h"
 #include "sim/volume/phantom.h"
@@ -34,6 +34,7 @@ double mean_difference(const std::vector<std::uint8_t>& a, const std::vector<std
 }  // namespace
 
 base::Result<void> bench_room(const app::Arguments& arguments, bool quick, std::vector<BenchRow>& rows) {
+  // The patient, with a skin, as ultrasound shows it and as it gives way to a probe.
   cases::Case scene;
   if (arguments.has("--ct")) {
     auto source = casedb::read_source(arguments.text("--ct"));
@@ -49,7 +50,7 @@ base::Result<void> bench_room(const app::Arguments& arguments, bool quick, std::
   scene.picture.modality = cases::Modality::ultrasound;
   scene.picture.probe = "C5-2v";
   scene.yields = true;
-  const imaging::RoomScene room = imaging::make_room_scene(scene);
+  const imaging::RoomModel room = imaging::make_room_model(scene);
 
   // Probe and needle on the skin in the patient's middle, from the front.
   const glm::dvec3 above = room.frame.middle_lps_mm() + 1000.0 * room.frame.up;
@@ -70,6 +71,7 @@ base::Result<void> bench_room(const app::Arguments& arguments, bool quick, std::
     pressed[i] = tissue::displacement_of({{&press, 1}, {}, {}, {}});
   }
 
+  // GL, or no rows at all.
   std::unique_ptr<gpu::Context> context;
   try {
     context = std::make_unique<gpu::Context>();
@@ -78,20 +80,24 @@ base::Result<void> bench_room(const app::Arguments& arguments, bool quick, std::
     return {};
   }
   imaging::RoomRenderer renderer(*context, room);
+  // What is drawn, and of how many triangles.
   imaging::DrawList list;
   imaging::make_draw_list(room, scene, state, {}, list);
   std::size_t triangles = 0;
   for (const imaging::RoomItem& item : list.items) triangles += room.meshes[item.mesh].triangles.size();
+  // Every size, with one view and with two, against the best that this GL can draw.
   for (const glm::ivec2& size : {glm::ivec2(800, 600), glm::ivec2(800, 700), glm::ivec2(1280, 800)}) {
     imaging::RoomPicture asked;
     asked.width_px = size.x;
     asked.height_px = size.y;
     asked.camera = imaging::room_camera(room, scene, state, imaging::RoomView::operator_side);
     for (int views = 1; views <= 2; ++views) {
+      // The best picture, to compare with.
       asked.views = views;
       asked.quality = {8, 4096, 2048, true};
       renderer.draw(list, asked);
       const std::vector<std::uint8_t> best = renderer.read_rgba();
+      // Each quality, of a patient who lies still and of one whose skin is pressed anew for every picture.
       for (const Choice& choice : kChoices)
         for (const bool moves : {false, true}) {
           asked.quality = choice.quality;
@@ -101,6 +107,7 @@ base::Result<void> bench_room(const app::Arguments& arguments, bool quick, std::
             renderer.wait();
           };
           draw();  // warm: maps and, once, shaders are made
+          // The time, and of a still patient how far the picture is from the best one.
           BenchRow row{"room",
                        moves ? "skin pressed" : "skin still",
                        std::string(choice.name) + (views == 2 ? ", stereo" : "") + ", " +

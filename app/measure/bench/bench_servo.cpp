@@ -4,8 +4,8 @@
 #include <chrono>
 #include <limits>
 
+#include "app/hands/servo_trial.h"
 #include "app/measure/bench/bench.h"
-#include "app/servo_trial.h"
 #include "sim/engine/tick.h"
 
 namespace seldinger::measure {
@@ -20,7 +20,7 @@ double quantile_ms(const std::vector<double>& sorted_ms, double share) {
   return sorted_ms[static_cast<std::size_t>(share * static_cast<double>(sorted_ms.size() - 1))];
 }
 
-base::Result<void> bench_pair(const app::ServoScene& torso, const haptics::TwoHands& hands, const char* name,
+base::Result<void> bench_pair(const app::ServoCase& torso, const haptics::TwoHands& hands, const char* name,
                               std::array<haptics::Tool, 2> tools, bool quick, std::vector<BenchRow>& rows) {
   app::HandsAtWork work(torso.plan, haptics::Handedness::right, tools);
   std::vector<haptics::HandInputs> recording;
@@ -67,7 +67,7 @@ base::Result<void> bench_pair(const app::ServoScene& torso, const haptics::TwoHa
 }
 
 // All that a servo does in a tick of an attempt: step, displacement, both hands, hashes.
-void bench_room(const app::ServoScene& torso, const char* name, bool quick, std::vector<BenchRow>& rows) {
+void bench_room(const app::ServoCase& torso, const char* name, bool quick, std::vector<BenchRow>& rows) {
   app::HandsAtWork work(torso.plan, haptics::Handedness::right, {haptics::Tool::needle, haptics::Tool::probe});
   std::vector<cases::Inputs> recording;
   for (int tick = 0; tick < (quick ? kQuickTicks : kTicks); ++tick) {
@@ -105,7 +105,7 @@ base::Result<void> bench_servo(bool quick, std::vector<BenchRow>& rows) {
   auto torso = app::torso_under_hands(quick ? kQuickSkinDecimation : kSkinDecimation);
   if (!torso) return torso.error();
   if (!quick) app::refine(torso->scene, kSize);
-  const haptics::TwoHands hands(torso->scene, haptics::two_virtual_devices());
+  const haptics::TwoHands hands(torso->scene, haptics::two_virtual_arms());
   struct Pair {
     const char* name;
     std::array<haptics::Tool, 2> tools;

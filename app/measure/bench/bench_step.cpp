@@ -1,8 +1,8 @@
 // bench --stage step: a whole simulated attempt, and one tick of it.
-#include "app/simulated_attempt.h"
 #include "app/measure/bench/bench.h"
 #include "assessment/operators/lesion_site.h"
-#include "casedb/import/surface.h"
+#include "casedb/import/skin/surface.h"
+#include "session/attempt/simulated_attempt.h"
 #include "sim/engine/step.h"
 #include "sim/volume/phantom.h"
 
@@ -25,7 +25,7 @@ base::Result<void> bench_step(const app::Arguments&, bool quick, std::vector<Ben
                    0,         0,          0,
                    0,         "",         "",
                    ""};
-  time_into(attempt, quick ? 1 : 5, [&] { recording = app::run_attempt(scene, site->plan, profile, 1); });
+  time_into(attempt, quick ? 1 : 5, [&] { recording = session::run_attempt(scene, site->plan, profile, 1); });
   attempt.setting +=
       ", " + bench_number(static_cast<double>(recording.inputs.size()) * recording.dt_s) + " s of attempt";
   rows.push_back(attempt);

@@ -13,8 +13,8 @@
 #include "app/measure/ultrasound_goals/goal.h"
 #include "casedb/import/import.h"
 #include "sim/base/failure.h"
-#include "sim/imaging/ultrasound/echogenicity.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
 
@@ -103,9 +103,9 @@ double apart_percent(const std::vector<unsigned char>& a, const std::vector<unsi
   return 100.0 * static_cast<double>(apart) / static_cast<double>(std::max<std::size_t>(lit, 1));
 }
 
-class Stage {
+class UltrasoundStage {
  public:
-  Stage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 11), rows_(rows) {
+  UltrasoundStage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 11), rows_(rows) {
     try {
       context_.emplace();
     } catch (const base::Failure& failure) {
@@ -280,7 +280,7 @@ Patient patient_of(std::string name, const volume::Volume& volume, const volume:
 }  // namespace
 
 base::Result<void> bench_ultrasound(const app::Arguments& arguments, bool quick, std::vector<BenchRow>& rows) {
-  Stage stage(quick, rows);
+  UltrasoundStage stage(quick, rows);
   const volume::Phantom torso = volume::make_phantom();
   const Patient built_in = patient_of("torso", torso.volume, &torso.labels);
   for (const Probe& probe : {imaging::kC52v, imaging::kL115v}) stage.chart(built_in, probe, true);

@@ -8,10 +8,10 @@
 #include "app/measure/rigs/projector_phantom.h"
 #include "casedb/import/import.h"
 #include "sim/base/failure.h"
-#include "sim/imaging/xray/coarse.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/coarse.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::measure {
 namespace {
@@ -124,9 +124,9 @@ std::string threads_text(int threads) {
   return std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-class Stage {
+class XrayStage {
  public:
-  Stage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 15), rows_(rows) {
+  XrayStage(bool quick, std::vector<BenchRow>& rows) : quick_(quick), n_(quick ? 5 : 15), rows_(rows) {
     for (const Instructions one : {Instructions::avx512, Instructions::avx2, Instructions::scalar})
       if (one <= imaging::best_instructions()) instructions_.push_back(one);
     threads_ = {1};
@@ -294,7 +294,7 @@ class Stage {
 }  // namespace
 
 base::Result<void> bench_xray(const app::Arguments& arguments, bool quick, std::vector<BenchRow>& rows) {
-  Stage stage(quick, rows);
+  XrayStage stage(quick, rows);
   volume::Volume phantom;
   if (arguments.has("--volume")) {
     auto source = casedb::read_source(arguments.text("--volume"));

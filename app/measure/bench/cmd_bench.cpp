@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "app/bench_stages.h"
-#include "app/command.h"
-#include "app/file.h"
+#include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "app/measure/bench/cmd_bench.h"
 #include "app/measure/bench/stages.h"
-#include "app/measure/commands.h"
-#include "reports/frontier_page.h"
+#include "reports/charts/frontier_page.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::measure {

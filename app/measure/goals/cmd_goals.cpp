@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "app/command.h"
-#include "app/measure/commands.h"
+#include "app/cli/command.h"
+#include "app/hands/servo_trial.h"
+#include "app/measure/goals/cmd_goals.h"
 #include "app/measure/goals/goals_answer.h"
 #include "app/measure/rigs/motion_trials.h"
-#include "app/servo_trial.h"
 #include "sim/base/vectors.h"
 
 namespace seldinger::measure {

@@ -7,8 +7,8 @@
 
 #include "app/measure/rigs/surface_trials.h"
 #include "app/measure/rigs/volume_trials.h"
-#include "sim/haptics/haptic_device.h"
-#include "sim/haptics/insertion.h"
+#include "sim/haptics/arm_model.h"
+#include "sim/haptics/needle/insertion.h"
 
 namespace seldinger::measure {
 namespace {
@@ -153,7 +153,7 @@ std::vector<ForceReading> proxy_readings(int ticks) {
 
 std::vector<ForceReading> stability_readings(const StabilitySurvey& survey) {
   std::vector<ForceReading> readings;
-  for (const haptics::HapticDevice& device : haptics::haptic_devices()) {
+  for (const haptics::ArmModel& device : haptics::arm_models()) {
     double restless = 0.0, margin = std::numeric_limits<double>::infinity();
     bool seen = false;
     for (const RestRow& row : survey.rest) {

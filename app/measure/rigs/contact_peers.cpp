@@ -8,8 +8,6 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Boussinesq's solution at ν = 1/2 for a force `above` the skin, times 4 π G / F. All in contact radii.
 glm::dvec3 shifted(const glm::dvec3& at, const glm::dvec2& place, double above) {
   const glm::dvec3 from = at - glm::dvec3(place, -above);
@@ -30,7 +28,7 @@ glm::dvec3 middle_and_ring(const glm::dvec3& at, Shifted middle, Shifted each_of
 }
 
 // F / (4 π G a δ) = 16/3 / 4π.
-constexpr double kForce = 4.0 / (3.0 * kPi);
+constexpr double kForce = 4.0 / (3.0 * std::numbers::pi);
 
 }  // namespace
 

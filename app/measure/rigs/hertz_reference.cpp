@@ -10,8 +10,6 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Node {
   double at, weight;  // on [−1, 1]
 };
@@ -20,7 +18,7 @@ struct Node {
 std::vector<Node> gauss_nodes(int n) {
   std::vector<Node> nodes;
   for (int i = 0; i < n; ++i) {
-    double x = std::cos(kPi * (i + 0.75) / (n + 0.5)), slope = 1.0;
+    double x = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5)), slope = 1.0;
     for (int step = 0; step < 50; ++step) {
       double before = 1.0, here = x;
       for (int k = 2; k <= n; ++k) {
@@ -42,10 +40,10 @@ template <typename Function>
 double integral(const std::vector<Node>& nodes, double a, double b, Function&& function) {
   double sum = 0.0;
   for (const Node& node : nodes) {
-    const double angle = 0.5 * kPi * node.at;
+    const double angle = 0.5 * std::numbers::pi * node.at;
     sum += node.weight * std::cos(angle) * function(0.5 * (a + b) + 0.5 * (b - a) * std::sin(angle));
   }
-  return sum * 0.5 * kPi * 0.5 * (b - a);
+  return sum * 0.5 * std::numbers::pi * 0.5 * (b - a);
 }
 
 }  // namespace
@@ -62,7 +60,7 @@ AxisDisplacement hertz_reference(const BallContact& contact, double r_mm, double
   const double z = std::max(z_mm, 1e-7 * a);
   const auto gauss = gauss_nodes(nodes);
   const bool under = r_mm < a;
-  const double most_phi = under ? kPi : std::asin(std::min(1.0, a / r_mm));
+  const double most_phi = under ? std::numbers::pi : std::asin(std::min(1.0, a / r_mm));
   // Along φ (from the direction towards the axis) the chord reaches from low to high.
   const auto over_chord = [&](double phi, auto&& kernel) {
     const double middle = r_mm * std::cos(phi), across = r_mm * std::sin(phi);
@@ -85,7 +83,7 @@ AxisDisplacement hertz_reference(const BallContact& contact, double r_mm, double
     return [&, cosine = std::cos(phi)](double s, double d) { return cosine * s * z / (d * d * d); };
   });
   // In the middle of the skin the sum of 1/R is π² a / 2, and there the displacement is the depth.
-  const double scale = contact.depth_mm / (0.5 * kPi * kPi * a);
+  const double scale = contact.depth_mm / (0.5 * std::numbers::pi * std::numbers::pi * a);
   return {outwards * scale, inwards * scale};
 }
 

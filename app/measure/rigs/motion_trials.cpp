@@ -16,7 +16,6 @@ namespace seldinger::measure {
 namespace {
 
 using base::kTickS;
-constexpr double kPi = std::numbers::pi;
 constexpr double kInsertMmS = 20.0, kOutsideMm = 10.0, kRestS = 1.0;
 constexpr double kHandKg = 0.1, kHandNSMm = 0.005;  // of an arm that holds loosely (design)
 constexpr double kPressMm = 6.0, kLiftMm = 2.0, kSlideMm = 5.0, kPressPeriodS = 1.0;
@@ -25,13 +24,13 @@ constexpr int kSettlingCycles = 2;
 constexpr std::size_t kProbe = 0, kNeedle = 1;
 
 // Both hands at the scene, and the work that is done.
-class Bench {
+class Rig {
  public:
-  Bench(const cases::Case& scene, const TrialPlace& place)
+  Rig(const cases::Case& scene, const TrialPlace& place)
       : scene_(scene),
         tissue_(scene),
-        hands_(scene, {haptics::HandSettings{*haptics::find_haptic_device("omni")},
-                       haptics::HandSettings{*haptics::find_haptic_device("omni")}}) {
+        hands_(scene, {haptics::HandSettings{*haptics::find_arm_model("omni")},
+                       haptics::HandSettings{*haptics::find_arm_model("omni")}}) {
     inputs_[kProbe].tool = haptics::Tool::probe;
     inputs_[kProbe].pose = {place.probe_lps_mm - 40.0 * place.probe_axis, place.probe_axis,
                             base::perpendiculars(place.probe_axis).u};
@@ -84,16 +83,16 @@ class Bench {
   bool begun_ = false;
 };
 
-void insert(Bench& bench, const TrialPlace& place) {
+void insert(Rig& rig, const TrialPlace& place) {
   double depth_mm = -kOutsideMm;
   for (double t_s = 0.0; depth_mm < place.depth_mm || t_s < kRestS;) {
-    const glm::dvec3 before = bench.needle();
+    const glm::dvec3 before = rig.needle();
     if (depth_mm < place.depth_mm)
       depth_mm += kInsertMmS * kTickS;
     else
       t_s += kTickS;
-    bench.needle() = place.entry_lps_mm + depth_mm * place.direction;
-    bench.tick(bench.probe(), before);
+    rig.needle() = place.entry_lps_mm + depth_mm * place.direction;
+    rig.tick(rig.probe(), before);
   }
 }
 
@@ -109,77 +108,77 @@ struct SprungHand {
   }
 };
 
-// `move` does tick i of a cycle to the bench.
+// `move` does tick i of a cycle to the rig.
 template <typename Move>
-EnergyTrial run(Bench& bench, int cycles, int ticks, bool breath_puts_in, const Move& move) {
+EnergyTrial run(Rig& rig, int cycles, int ticks, bool breath_puts_in, const Move& move) {
   EnergyTrial trial;
   glm::dvec3 tip(0.0), force(0.0), entry(0.0), direction(0.0);
   for (int cycle = 0; cycle < cycles + kSettlingCycles; ++cycle) {
-    const double hands_mj = bench.hands_mj(), tissue_mj = bench.tissue_mj();
+    const double hands_mj = rig.hands_mj(), tissue_mj = rig.tissue_mj();
     for (int i = 0; i < ticks; ++i) {
       move(i);
       if (cycle >= kSettlingCycles)
-        trial.tissue_mj = std::max(trial.tissue_mj, std::abs(bench.tissue_mj() - tissue_mj));
+        trial.tissue_mj = std::max(trial.tissue_mj, std::abs(rig.tissue_mj() - tissue_mj));
     }
     if (cycle == kSettlingCycles) {
-      tip = bench.rest_tip();
-      force = bench.needle_n();
-      entry = bench.held().entry_lps_mm;
-      direction = bench.held().direction;
+      tip = rig.rest_tip();
+      force = rig.needle_n();
+      entry = rig.held().entry_lps_mm;
+      direction = rig.held().direction;
     }
     if (cycle < kSettlingCycles) continue;
-    const double put_in = breath_puts_in ? bench.tissue_mj() - tissue_mj : 0.0;
-    const double gain = bench.hands_mj() - hands_mj - put_in;
+    const double put_in = breath_puts_in ? rig.tissue_mj() - tissue_mj : 0.0;
+    const double gain = rig.hands_mj() - hands_mj - put_in;
     if (cycle == kSettlingCycles || !(gain <= trial.most_gain_mj)) trial.most_gain_mj = gain;
   }
-  trial.drift_mm = glm::distance(bench.rest_tip(), tip);
-  trial.drift_n = glm::distance(bench.needle_n(), force);
+  trial.drift_mm = glm::distance(rig.rest_tip(), tip);
+  trial.drift_n = glm::distance(rig.needle_n(), force);
   trial.line_mm =
-      glm::distance(bench.held().entry_lps_mm, entry) + 100.0 * glm::distance(bench.held().direction, direction);
+      glm::distance(rig.held().entry_lps_mm, entry) + 100.0 * glm::distance(rig.held().direction, direction);
   return trial;
 }
 
 }  // namespace
 
 EnergyTrial breathing_trial(const cases::Case& scene, const TrialPlace& place, double hand_n_mm, int cycles) {
-  Bench bench(scene, place);
-  insert(bench, place);
+  Rig rig(scene, place);
+  insert(rig, place);
   cases::BreathState breath;
-  SprungHand hand{bench.needle(), glm::dvec3(0.0), hand_n_mm};
+  SprungHand hand{rig.needle(), glm::dvec3(0.0), hand_n_mm};
   const int ticks = static_cast<int>(std::lround(scene.breathing->period_s / kTickS));
-  return run(bench, cycles, ticks, true, [&](int) {
-    bench.breathe(tissue::advance(*scene.breathing, kTickS, {}, breath));
-    const glm::dvec3 before = bench.needle();
-    hand.move(bench.needle(), bench.needle_n());
-    bench.tick(bench.probe(), before);
+  return run(rig, cycles, ticks, true, [&](int) {
+    rig.breathe(tissue::advance(*scene.breathing, kTickS, {}, breath));
+    const glm::dvec3 before = rig.needle();
+    hand.move(rig.needle(), rig.needle_n());
+    rig.tick(rig.probe(), before);
   });
 }
 
 EnergyTrial coupled_trial(const cases::Case& scene, const TrialPlace& place, double hand_n_mm, int cycles) {
-  Bench bench(scene, place);
-  insert(bench, place);
-  SprungHand hand{bench.needle(), glm::dvec3(0.0), hand_n_mm};
+  Rig rig(scene, place);
+  insert(rig, place);
+  SprungHand hand{rig.needle(), glm::dvec3(0.0), hand_n_mm};
   const int ticks = static_cast<int>(std::lround(kPressPeriodS / kTickS));
-  return run(bench, cycles, ticks, false, [&](int i) {
-    const glm::dvec3 probe = bench.probe(), needle = bench.needle();
-    const double down = 0.5 - 0.5 * base::exact_cos(2.0 * kPi * i / ticks);
-    bench.probe() = place.probe_lps_mm + (-kLiftMm + (kPressMm + kLiftMm) * down) * place.probe_axis;
-    hand.move(bench.needle(), bench.needle_n());
-    bench.tick(probe, needle);
+  return run(rig, cycles, ticks, false, [&](int i) {
+    const glm::dvec3 probe = rig.probe(), needle = rig.needle();
+    const double down = 0.5 - 0.5 * base::exact_cos(2.0 * std::numbers::pi * i / ticks);
+    rig.probe() = place.probe_lps_mm + (-kLiftMm + (kPressMm + kLiftMm) * down) * place.probe_axis;
+    hand.move(rig.needle(), rig.needle_n());
+    rig.tick(probe, needle);
   });
 }
 
 EnergyTrial indentation_trial(const cases::Case& scene, const TrialPlace& place, int cycles) {
-  Bench bench(scene, place);
+  Rig rig(scene, place);
   const glm::dvec3 along = base::perpendiculars(place.probe_axis).u;
   const int ticks = static_cast<int>(std::lround(kPressPeriodS / kTickS));
-  return run(bench, cycles, ticks, false, [&](int i) {
-    const glm::dvec3 probe = bench.probe();
-    const double angle = 2.0 * kPi * i / ticks;
-    bench.probe() = place.probe_lps_mm +
-                    (-kLiftMm + (kPressMm + kLiftMm) * (0.5 - 0.5 * base::exact_cos(angle))) * place.probe_axis +
-                    kSlideMm * base::exact_sin(angle) * along;
-    bench.tick(probe, bench.needle());
+  return run(rig, cycles, ticks, false, [&](int i) {
+    const glm::dvec3 probe = rig.probe();
+    const double angle = 2.0 * std::numbers::pi * i / ticks;
+    rig.probe() = place.probe_lps_mm +
+                  (-kLiftMm + (kPressMm + kLiftMm) * (0.5 - 0.5 * base::exact_cos(angle))) * place.probe_axis +
+                  kSlideMm * base::exact_sin(angle) * along;
+    rig.tick(probe, rig.needle());
   });
 }
 

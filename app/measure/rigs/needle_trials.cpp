@@ -11,7 +11,7 @@ haptics::NeedleLayer layer(double start_mm, TissueClass tissue) {
   return {start_mm, haptics::needle_tissue(tissue)};
 }
 
-Trial driven(const haptics::HapticDevice& device, const haptics::Hand& hand) {
+Trial driven(const haptics::ArmModel& device, const haptics::Hand& hand) {
   Trial trial{device, hand};
   trial.to_mm = 20.0;
   trial.push_n = 0.0;
@@ -39,8 +39,8 @@ const std::vector<NeedleSituation>& needle_situations() {
   return situations;
 }
 
-Settling settle_needle(const NeedleSituation& situation, const haptics::HapticDevice& device,
-                       const haptics::Hand& hand, double factor) {
+Settling settle_needle(const NeedleSituation& situation, const haptics::ArmModel& device, const haptics::Hand& hand,
+                       double factor) {
   haptics::NeedleSettings settings = haptics::needle_settings(device);
   settings.stiffness_n_mm *= factor;
   const haptics::NeedleLaw law(settings);
@@ -52,7 +52,7 @@ Settling settle_needle(const NeedleSituation& situation, const haptics::HapticDe
   return settle(trial, [&](double depth_mm) { return law.advance(situation.path, depth_mm, track).axial_n; });
 }
 
-Settling drive_needle(const haptics::HapticDevice& device, const haptics::Hand& hand) {
+Settling drive_needle(const haptics::ArmModel& device, const haptics::Hand& hand) {
   const haptics::NeedleLayer kidney = layer(0.0, TissueClass::kidney);
   const haptics::NeedleLaw law(haptics::needle_settings(device));
   haptics::NeedleTrack track;
@@ -61,7 +61,7 @@ Settling drive_needle(const haptics::HapticDevice& device, const haptics::Hand& 
   });
 }
 
-Settling drive_thesis(const haptics::HapticDevice& device, const haptics::Hand& hand, int m) {
+Settling drive_thesis(const haptics::ArmModel& device, const haptics::Hand& hand, int m) {
   ThesisNeedle law(haptics::needle_tissue(TissueClass::kidney).intercept_n, m);
   return settle(driven(device, hand), [&](double depth_mm) { return law.advance(depth_mm); });
 }

@@ -18,12 +18,12 @@ struct NeedleSituation {
 const std::vector<NeedleSituation>& needle_situations();
 
 // Our law, `factor` times as stiff as it is for the device.
-Settling settle_needle(const NeedleSituation& situation, const haptics::HapticDevice& device,
-                       const haptics::Hand& hand, double factor = 1.0);
+Settling settle_needle(const NeedleSituation& situation, const haptics::ArmModel& device, const haptics::Hand& hand,
+                       double factor = 1.0);
 
 // A hand drives the needle on in the kidney at the thesis' 500 mm/min. By our law; by the thesis' with the mean of
 // m ticks.
-Settling drive_needle(const haptics::HapticDevice& device, const haptics::Hand& hand);
-Settling drive_thesis(const haptics::HapticDevice& device, const haptics::Hand& hand, int m);
+Settling drive_needle(const haptics::ArmModel& device, const haptics::Hand& hand);
+Settling drive_thesis(const haptics::ArmModel& device, const haptics::Hand& hand, int m);
 
 }  // namespace seldinger::measure

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "sim/haptics/probe_law.h"
+#include "sim/haptics/probe/probe_law.h"
 
 namespace seldinger::measure {
 namespace {
@@ -22,8 +22,8 @@ std::span<const ProbeSituation> probe_situations() {
   return kSituations;
 }
 
-Settling settle_probe(const ProbeSituation& situation, const haptics::HapticDevice& device,
-                      const haptics::Hand& hand, double factor, double damping) {
+Settling settle_probe(const ProbeSituation& situation, const haptics::ArmModel& device, const haptics::Hand& hand,
+                      double factor, double damping) {
   haptics::ProbeSettings settings;
   settings.stiffness_n_mm = factor * haptics::stiffness_n_mm(device);
   settings.damping_n_s_mm *= damping;

@@ -16,7 +16,7 @@ struct ProbeSituation {
 std::span<const ProbeSituation> probe_situations();
 
 // Our law, `factor` times as stiff as it is for the device, with `damping` times its damping.
-Settling settle_probe(const ProbeSituation& situation, const haptics::HapticDevice& device,
-                      const haptics::Hand& hand, double factor = 1.0, double damping = 1.0);
+Settling settle_probe(const ProbeSituation& situation, const haptics::ArmModel& device, const haptics::Hand& hand,
+                      double factor = 1.0, double damping = 1.0);
 
 }  // namespace seldinger::measure

@@ -37,13 +37,13 @@ struct Line {
 };
 
 // One count of the encoder, but for rounding.
-double still_mm(const haptics::HapticDevice& device) {
+double still_mm(const haptics::ArmModel& device) {
   return device.encoder_mm > 0.0 ? device.encoder_mm * (1.0 + 1e-9) : kStillMm;
 }
 
 }  // namespace
 
-bool Settling::settled(const haptics::HapticDevice& device) const noexcept {
+bool Settling::settled(const haptics::ArmModel& device) const noexcept {
   return position_mm <= still_mm(device) && force_n <= kStillN;
 }
 
@@ -63,7 +63,7 @@ Settling settle(const Trial& trial, const ForceLaw& law) {
   ideal_to(trial.to_mm);
   ideal_to(trial.to_mm - trial.back_mm);
 
-  haptics::HandOnDevice bench(trial.device, trial.hand, at_mm, trial.speed_mm_s, force_n);
+  haptics::HandRig rig(trial.device, trial.hand, at_mm, trial.speed_mm_s, force_n);
   haptics::HandWill will{at_mm, trial.drive_mm_s, trial.push_n};
   Range position, force;
   Line line;
@@ -73,17 +73,17 @@ Settling settle(const Trial& trial, const ForceLaw& law) {
   const int watched = ticks - static_cast<int>(std::lround(trial.watched_s / haptics::kTickS));
   for (int tick = 0; tick < ticks && finite; ++tick) {
     const double before_n = force_n;
-    force_n = law(bench.encoder_mm());
-    finite = std::isfinite(force_n) && std::isfinite(bench.at_mm());
+    force_n = law(rig.encoder_mm());
+    finite = std::isfinite(force_n) && std::isfinite(rig.at_mm());
     result.most_step_n = std::max(result.most_step_n, std::abs(force_n - before_n));
-    bench.hold(force_n, will);
+    rig.hold(force_n, will);
     will.at_mm = at_mm + trial.drive_mm_s * haptics::kTickS * (tick + 1);
-    result.least_work_mj = std::min(result.least_work_mj, work_mj + bench.work_mj());
-    way_mm.push_back(bench.at_mm());
+    result.least_work_mj = std::min(result.least_work_mj, work_mj + rig.work_mj());
+    way_mm.push_back(rig.at_mm());
     if (tick < watched) continue;
-    position.add(bench.at_mm());
-    force.add(bench.motor_n());
-    line.add(tick * haptics::kTickS, bench.motor_n());
+    position.add(rig.at_mm());
+    force.add(rig.motor_n());
+    line.add(tick * haptics::kTickS, rig.motor_n());
   }
   for (std::size_t i = 0; i < way_mm.size(); ++i)
     if (std::abs(way_mm[i] - way_mm.back()) > still_mm(trial.device))

@@ -1,10 +1,10 @@
-// Does a law come to rest under a hand? One trial on the bench: the device is put somewhere by an ideal hand, then
-// left to a hand of the bench, and watched (haptics.md §3.4).
+// Does a law come to rest under a hand? One trial on the rig: the device is put somewhere by an ideal hand, then
+// left to a hand of the rig, and watched (haptics.md §3.4).
 #pragma once
 
 #include <functional>
 
-#include "sim/haptics/hand_on_device.h"
+#include "sim/haptics/hand_rig.h"
 
 namespace seldinger::measure {
 
@@ -12,7 +12,7 @@ namespace seldinger::measure {
 using ForceLaw = std::function<double(double)>;
 
 struct Trial {
-  haptics::HapticDevice device;
+  haptics::ArmModel device;
   haptics::Hand hand;
   double from_mm = -1.0, to_mm = 0.0;  // moved there at 20 mm/s by an ideal hand, from one to the other,
   double back_mm = 0.0;                // and back by so much
@@ -32,7 +32,7 @@ struct Settling {
 
   // At rest but for one count of the encoder, and of the force by no more than a tenth of a newton (haptics.md
   // §3.4).
-  bool settled(const haptics::HapticDevice& device) const noexcept;
+  bool settled(const haptics::ArmModel& device) const noexcept;
 };
 
 Settling settle(const Trial& trial, const ForceLaw& law);

@@ -11,7 +11,6 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDepthMm = 2.0;
 
 glm::dvec3 direction_of(base::Rng& rng) {
@@ -29,7 +28,7 @@ cases::Mesh bumpy_sphere(int around, int rings) {
   cases::Mesh mesh;
   for (int ring = 0; ring <= rings; ++ring)
     for (int i = 0; i < around; ++i) {
-      const double polar = kPi * ring / rings, turn = 2.0 * kPi * i / around;
+      const double polar = std::numbers::pi * ring / rings, turn = 2.0 * std::numbers::pi * i / around;
       const bool pole = ring == 0 || ring == rings;
       const double across = pole ? 0.0 : base::exact_sin(polar);
       const glm::dvec3 d(across * base::exact_cos(turn), across * base::exact_sin(turn), base::exact_cos(polar));

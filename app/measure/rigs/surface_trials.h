@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "sim/case/mesh.h"
-#include "sim/case/mesh_index.h"
-#include "sim/haptics/surface_proxy.h"
+#include "sim/case/form/mesh.h"
+#include "sim/case/form/mesh_index.h"
+#include "sim/haptics/proxy/surface_proxy.h"
 
 namespace seldinger::measure {
 

@@ -1,7 +1,7 @@
 // A trial of the volume proxy: what the tests assert and the bench times. Deterministic.
 #pragma once
 
-#include "sim/haptics/volume_proxy.h"
+#include "sim/haptics/proxy/volume_proxy.h"
 
 namespace seldinger::measure {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "sim/base/exact_math.h"
-#include "sim/haptics/hand_on_device.h"
+#include "sim/haptics/hand_rig.h"
 
 namespace seldinger::measure {
 

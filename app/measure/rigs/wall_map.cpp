@@ -2,7 +2,7 @@
 
 #include "app/measure/rigs/settling.h"
 #include "app/measure/rigs/wall.h"
-#include "sim/haptics/elastic_damper.h"
+#include "sim/haptics/contact/elastic_damper.h"
 
 namespace seldinger::measure {
 namespace {
@@ -11,7 +11,7 @@ constexpr double kStillN = 0.1;  // beside one count of the encoder through the 
 
 }  // namespace
 
-std::vector<WallCell> wall_map(const haptics::HapticDevice& device, const haptics::Hand& hand) {
+std::vector<WallCell> wall_map(const haptics::ArmModel& device, const haptics::Hand& hand) {
   std::vector<WallCell> map;
   for (int delay = 0; delay <= haptics::kMostDelayTicks; ++delay)
     for (const double damping : kMapDampingNSMm)

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim/haptics/haptic_device.h"
+#include "sim/haptics/arm_model.h"
 
 namespace seldinger::measure {
 
@@ -20,6 +20,6 @@ inline constexpr double kMapStiffnessNMm[] = {0.1, 0.15, 0.22, 0.33, 0.47, 0.68,
 inline constexpr double kMapDampingNSMm[] = {0.0, 0.0005, 0.001, 0.002, 0.003};
 
 // By delay (0 to kMostDelayTicks in the device's stead), then damping, then stiffness.
-std::vector<WallCell> wall_map(const haptics::HapticDevice& device, const haptics::Hand& hand);
+std::vector<WallCell> wall_map(const haptics::ArmModel& device, const haptics::Hand& hand);
 
 }  // namespace seldinger::measure

@@ -1,8 +1,8 @@
 // haptics stability: does what the hand feels come to rest?
 #include <cstdio>
 
-#include "app/command.h"
-#include "app/measure/commands.h"
+#include "app/cli/command.h"
+#include "app/measure/stability/cmd_stability.h"
 #include "app/measure/stability/stability_answer.h"
 
 namespace seldinger::measure {

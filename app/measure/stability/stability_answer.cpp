@@ -17,7 +17,7 @@ std::string formatted(const char* format, Values... values) {
 constexpr const char* kHead = R"(# Stability of what the hand feels
 
 Written by `seldinger haptics stability`, which measures it on a bench of hand and device without hardware: steps of 10 µs, a
-force each 1 ms, encoder, dry friction and delay (sim/haptics/hand_on_device.h). A sampled wall can be felt without a limit cycle
+force each 1 ms, encoder, dry friction and delay (sim/haptics/hand_rig.h). A sampled wall can be felt without a limit cycle
 when K ≤ (b + B) / (T/2 + td): K its stiffness, B its damping, b the device's own, T the tick, td the delay (Colgate and Schenkel
 1994; with delay Gil 2009, Hulin 2013). Every device takes its K from this bound divided by 1.4, for its own delay.
 
@@ -27,7 +27,7 @@ std::string devices_table() {
   std::string text =
       "## Devices\n\n| device | mass, kg | dry friction, N | encoder, µm | delay, ms | bound, N/mm | our K, N/mm | "
       "numbers from |\n|---|---|---|---|---|---|---|---|\n";
-  for (const haptics::HapticDevice& device : haptics::haptic_devices())
+  for (const haptics::ArmModel& device : haptics::arm_models())
     text += formatted("| %s | %.3f | %.2f | %.0f | %d | %.3f | %.3f | %s |\n", device.name, device.mass_kg,
                       device.coulomb_n, 1000.0 * device.encoder_mm, device.delay_ticks,
                       haptics::stiffness_bound_n_mm(device.damping_n_s_mm + haptics::kWallDampingNSMm,
@@ -36,17 +36,17 @@ std::string devices_table() {
   return text;
 }
 
-bool same_bench(const RestRow& a, const RestRow& b) {
+bool same_trial(const RestRow& a, const RestRow& b) {
   return a.device.name == b.device.name && a.device.coulomb_n == b.device.coulomb_n &&
          a.device.delay_ticks == b.device.delay_ticks;
 }
 
 // The longest of a device's situations under one hand.
-std::string longest(const std::vector<RestRow>& rows, const RestRow& bench, const haptics::Hand& hand) {
+std::string longest(const std::vector<RestRow>& rows, const RestRow& rig, const haptics::Hand& hand) {
   double rest_s = 0.0;
   bool holds = true;
   for (const RestRow& row : rows) {
-    if (!same_bench(row, bench) || row.hand.name != hand.name) continue;
+    if (!same_trial(row, rig) || row.hand.name != hand.name) continue;
     rest_s = std::max(rest_s, row.settling.rest_s);
     holds = holds && row.holds();
   }
@@ -57,7 +57,7 @@ std::string rest_table(const StabilitySurvey& survey) {
   std::string text =
       "\n## Needle and probe at rest\n\nThe tool is brought somewhere, then left to a hand that pushes on with 1 N "
       "(sideways 0.1 N), or to none: ";
-  for (std::size_t i = 0; i < survey.rest.size() && same_bench(survey.rest[i], survey.rest[0]) &&
+  for (std::size_t i = 0; i < survey.rest.size() && same_trial(survey.rest[i], survey.rest[0]) &&
                           survey.rest[i].hand.name == survey.rest[0].hand.name;
        ++i)
     text += std::string(i == 0 ? "" : "; ") + survey.rest[i].situation;
@@ -74,7 +74,7 @@ std::string rest_table(const StabilitySurvey& survey) {
   text += "\n" + line + "\n";
   const RestRow* last = nullptr;
   for (const RestRow& row : survey.rest) {
-    if (last != nullptr && same_bench(row, *last)) continue;
+    if (last != nullptr && same_trial(row, *last)) continue;
     last = &row;
     text += formatted("| %s | %.2f | %d |", row.device.name, row.device.coulomb_n, row.device.delay_ticks);
     for (const haptics::Hand& hand : haptics::hands())
@@ -105,7 +105,7 @@ std::string driven_table(const StabilitySurvey& survey) {
       "the "
       "motors' force from a straight line over 2 s, in N; the thesis' law F1 is tuned to its own plateau at this "
       "speed.\n\n| hand | ours |",
-      haptics::haptic_devices()[0].name);
+      haptics::arm_models()[0].name);
   std::string line = "|---|---|";
   for (const int m : kThesisMeans) {
     text += formatted(" thesis, m = %d |", m);

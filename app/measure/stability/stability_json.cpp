@@ -17,7 +17,7 @@ Json number(double value) {
 std::string json_of_stability(const StabilitySurvey& survey) {
   Json devices = Json::array(), rest = Json::array(), margins = Json::array(), driven = Json::array(),
        walls = Json::array();
-  for (const haptics::HapticDevice& device : haptics::haptic_devices())
+  for (const haptics::ArmModel& device : haptics::arm_models())
     devices.push_back({{"device", device.name},
                        {"delay_ms", device.delay_ticks},
                        {"stiffness_n_mm", haptics::stiffness_n_mm(device)},

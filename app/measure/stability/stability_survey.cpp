@@ -12,21 +12,21 @@ constexpr double kLeastWorkMj = -1.0;
 
 // What the laws are put into, needle's first.
 template <typename Look>
-void each_situation(const haptics::HapticDevice& device, const haptics::Hand& hand, double factor, Look look) {
+void each_situation(const haptics::ArmModel& device, const haptics::Hand& hand, double factor, Look look) {
   for (const NeedleSituation& situation : needle_situations())
     look(situation.name, settle_needle(situation, device, hand, factor));
   for (const ProbeSituation& situation : probe_situations())
     look(situation.name, settle_probe(situation, device, hand, factor));
 }
 
-void rest_of(const haptics::HapticDevice& device, std::vector<RestRow>& rows) {
+void rest_of(const haptics::ArmModel& device, std::vector<RestRow>& rows) {
   for (const haptics::Hand& hand : haptics::hands())
     each_situation(device, hand, 1.0, [&](const char* name, const Settling& settling) {
       rows.push_back({device, hand, name, settling});
     });
 }
 
-MarginRow margin_of(const haptics::HapticDevice& device) {
+MarginRow margin_of(const haptics::ArmModel& device) {
   MarginRow margin{device, 0.0, nullptr};
   for (const double factor : kMarginFactors) {
     each_situation(device, *haptics::find_hand("none"), factor, [&](const char* name, const Settling& settling) {
@@ -58,7 +58,7 @@ bool StabilitySurvey::holds() const noexcept {
 
 StabilitySurvey survey_stability() {
   StabilitySurvey survey;
-  for (haptics::HapticDevice device : haptics::haptic_devices()) {
+  for (haptics::ArmModel device : haptics::arm_models()) {
     rest_of(device, survey.rest);
     device.coulomb_n = kLeastCoulombN;
     for (device.delay_ticks = 0; device.delay_ticks <= haptics::kMostDelayTicks; ++device.delay_ticks) {
@@ -66,7 +66,7 @@ StabilitySurvey survey_stability() {
       survey.margins.push_back(margin_of(device));
     }
   }
-  haptics::HapticDevice first = haptics::haptic_devices()[0];
+  haptics::ArmModel first = haptics::arm_models()[0];
   for (const haptics::Hand& hand : haptics::hands()) {
     if (hand.stiffness_n_mm == 0.0) continue;
     DrivenRow row{hand, drive_needle(first, hand).unrest_n, {}};

@@ -1,4 +1,4 @@
-// Everything that the bench says about stability, as `seldinger haptics stability` answers it: our laws under every
+// Everything that the rig says about stability, as `seldinger haptics stability` answers it: our laws under every
 // hand, both laws driven by hands, and maps of the plain wall.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace seldinger::measure {
 inline constexpr double kLeastCoulombN = 0.02;
 
 struct RestRow {
-  haptics::HapticDevice device;
+  haptics::ArmModel device;
   haptics::Hand hand;
   const char* situation;
   Settling settling;
@@ -23,7 +23,7 @@ struct RestRow {
 
 // By how much our stiffness may be multiplied until needle or probe, let go, rests no more in some situation.
 struct MarginRow {
-  haptics::HapticDevice device;
+  haptics::ArmModel device;
   double rests_at;    // the largest of kMarginFactors up to which it rests in all; 0: not even as it is
   const char* fails;  // where it does not any more; nullptr: it rests at all factors
 };
@@ -37,7 +37,7 @@ struct DrivenRow {
 inline constexpr int kThesisMeans[] = {1, 10, 50};
 
 struct WallMap {
-  haptics::HapticDevice device;
+  haptics::ArmModel device;
   haptics::Hand hand;
   std::vector<WallCell> cells;
 };

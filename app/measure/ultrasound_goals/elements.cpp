@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/measure/ultrasound_goals/polar_levels.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::measure {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/measure/ultrasound_goals/tissue_block.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::measure {
 

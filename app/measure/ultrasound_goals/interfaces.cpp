@@ -7,9 +7,9 @@
 #include "app/measure/ultrasound_goals/goal.h"
 #include "app/measure/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::measure {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/imaging/ultrasound/scatterers.h"
+#include "sim/imaging/ultrasound/speckle/scatterers.h"
 
 namespace seldinger::measure {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::measure {
 

@@ -5,8 +5,8 @@
 
 #include "app/measure/ultrasound_goals/polar_levels.h"
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/imaging/ultrasound/fan.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::measure {
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::measure {
 

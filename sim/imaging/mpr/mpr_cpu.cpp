@@ -9,7 +9,7 @@
 #include "sim/base/rows.h"
 #include "sim/imaging/mpr/mpr.h"
 #include "sim/imaging/mpr/plane.h"
-#include "sim/imaging/mpr/segment_clip.h"
+#include "sim/imaging/segment_clip.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "sim/imaging/mpr/plane.h"
-#include "sim/imaging/mpr/segment_clip.h"
+#include "sim/imaging/segment_clip.h"
 
 namespace seldinger::imaging {
 namespace {

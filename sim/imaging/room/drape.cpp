@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "sim/imaging/room/room_scene.h"
+#include "sim/imaging/room/room_model.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -1,7 +1,7 @@
 // A cloth over what lies beyond the CT's end: nobody sees what nobody scanned.
 #pragma once
 
-#include "sim/case/mesh.h"
+#include "sim/case/form/mesh.h"
 #include "sim/imaging/room/room_mesh.h"
 
 namespace seldinger::imaging {

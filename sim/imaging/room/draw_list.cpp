@@ -59,7 +59,7 @@ glm::vec4 colour_of(cases::StructureRule rule) {
 
 class Maker {
  public:
-  Maker(const RoomScene& room, const cases::Case& scene, const cases::State& state, const RoomOptions& options,
+  Maker(const RoomModel& room, const cases::Case& scene, const cases::State& state, const RoomOptions& options,
         DrawList& list)
       : room_(room), scene_(scene), state_(state), options_(options), list_(list) {}
 
@@ -259,7 +259,7 @@ class Maker {
     return pose(probe.lateral, glm::cross(probe.axial, probe.lateral), probe.axial, probe.origin_lps_mm);
   }
 
-  const RoomScene& room_;
+  const RoomModel& room_;
   const cases::Case& scene_;
   const cases::State& state_;
   const RoomOptions& options_;
@@ -269,7 +269,7 @@ class Maker {
 
 }  // namespace
 
-void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
+void make_draw_list(const RoomModel& room, const cases::Case& scene, const cases::State& state,
                     const RoomOptions& options, DrawList& list) {
   list.items.clear();
   list.cut.reset();

@@ -11,7 +11,7 @@
 
 #include "sim/case/case.h"
 #include "sim/case/state.h"
-#include "sim/imaging/room/room_scene.h"
+#include "sim/imaging/room/room_model.h"
 
 namespace seldinger::imaging {
 
@@ -78,7 +78,7 @@ struct RoomOptions {
 };
 
 // Of a state: the tools where hands hold them. `list` is emptied first.
-void make_draw_list(const RoomScene& room, const cases::Case& scene, const cases::State& state,
+void make_draw_list(const RoomModel& room, const cases::Case& scene, const cases::State& state,
                     const RoomOptions& options, DrawList& list);
 
 }  // namespace seldinger::imaging

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "sim/imaging/room/drape.h"
-#include "sim/imaging/room/room_scene.h"
+#include "sim/imaging/room/room_model.h"
 
 namespace seldinger::imaging {
 namespace {
 
-constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr auto kNoClass = std::numeric_limits<std::uint32_t>::max();
 
 struct Clusters {
   cases::Mesh mesh;
@@ -135,14 +135,14 @@ PatientForms patient_forms(const cases::Case& scene, const RoomFrame& frame, std
     for (int i = 0; i < 3; ++i) normals[whole.cut[t] != 0 ? 1 : 0][shown.of[from[i]]] += glm::cross(b - a, c - a);
   }
   std::array<std::vector<std::uint32_t>, 2> here;
-  here.fill(std::vector<std::uint32_t>(n, kNone));
+  here.fill(std::vector<std::uint32_t>(n, kNoClass));
   for (std::size_t t = 0; t < shown.mesh.triangles.size(); ++t) {
     const std::size_t part = shown.mesh.cut[t] != 0 ? 1 : 0;
     RoomMesh& mesh = part == 0 ? forms.skin : forms.cut_ends;
     glm::uvec3 corners{0U};
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t v = shown.mesh.triangles[t][i];
-      if (here[part][v] == kNone) {
+      if (here[part][v] == kNoClass) {
         const glm::dvec3 place(shown.mesh.vertices_lps_mm[v]), sum = normals[part][v];
         const double length = glm::length(sum);
         const glm::dvec3 normal = length > 0.0 ? sum / length : frame.up;

@@ -55,7 +55,7 @@ int behind_probe(const RoomMesh& form, const cases::ProbeState& probe, const glm
 }
 
 // About the target to where the probe hides least of the needle, by no more than is needed.
-void look_past_probe(RoomCamera& camera, const RoomScene& room, const cases::ProbeState& probe,
+void look_past_probe(RoomCamera& camera, const RoomModel& room, const cases::ProbeState& probe,
                      std::span<const glm::dvec3> places) {
   const RoomCamera asked = camera;
   int least = behind_probe(room.meshes[room.probe], probe, camera.eye_lps_mm, places);
@@ -79,7 +79,7 @@ std::optional<RoomView> room_view_named(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const cases::State& state, RoomView view) {
+RoomCamera room_camera(const RoomModel& room, const cases::Case& scene, const cases::State& state, RoomView view) {
   const RoomFrame& f = room.frame;
   RoomCamera camera;
   camera.up = f.up;

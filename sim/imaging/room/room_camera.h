@@ -12,7 +12,7 @@
 
 #include "sim/case/case.h"
 #include "sim/case/state.h"
-#include "sim/imaging/room/room_scene.h"
+#include "sim/imaging/room/room_model.h"
 
 namespace seldinger::imaging {
 
@@ -31,7 +31,7 @@ struct RoomCamera {
 
 // A preset. `state` tells where needle and probe are; needle hub and way in are in view (stay_clear), and the probe
 // is not before them where another look from near by helps.
-RoomCamera room_camera(const RoomScene& room, const cases::Case& scene, const cases::State& state, RoomView view);
+RoomCamera room_camera(const RoomModel& room, const cases::Case& scene, const cases::State& state, RoomView view);
 
 // So that it does not stand in the way of its own sight: back from the target until the eye is outside the skin by
 // some centimetres and every place of `in_view` is in the picture (as far as the walls allow); up, above the floor.

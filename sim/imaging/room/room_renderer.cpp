@@ -73,7 +73,7 @@ LightFrame light_frame(const glm::dvec3& towards_light, const Ball& ball) {
 }  // namespace
 
 struct RoomRenderer::Parts {
-  Parts(gpu::Context& made_with, const RoomScene& scene)
+  Parts(gpu::Context& made_with, const RoomModel& scene)
       : context(made_with),
         plain(made_with, shader("room.vert"), shader("room_plain.frag")),
         depth(made_with, shader("room.vert"), shader("room_depth.frag")),
@@ -143,7 +143,7 @@ RoomQuality room_quality(const gpu::Context& context) noexcept {
   return context.software() ? kFastRoom : RoomQuality{};
 }
 
-RoomRenderer::RoomRenderer(gpu::Context& context, const RoomScene& scene)
+RoomRenderer::RoomRenderer(gpu::Context& context, const RoomModel& scene)
     : parts_(std::make_unique<Parts>(context, scene)) {}
 
 RoomRenderer::~RoomRenderer() = default;

@@ -8,7 +8,7 @@
 #include "sim/gpu/context.h"
 #include "sim/imaging/room/draw_list.h"
 #include "sim/imaging/room/room_camera.h"
-#include "sim/imaging/room/room_scene.h"
+#include "sim/imaging/room/room_model.h"
 #include "sim/tissue/displacement.h"
 
 namespace seldinger::imaging {
@@ -36,7 +36,7 @@ struct RoomPicture {
 class RoomRenderer {
  public:
   // Uploads the scene's meshes; does not keep `scene`. Throws base::Failure("gl").
-  RoomRenderer(gpu::Context& context, const RoomScene& scene);
+  RoomRenderer(gpu::Context& context, const RoomModel& scene);
   ~RoomRenderer();
 
   // The GL name of an RGBA8 texture in the context's share: the first row is the lowest, so ImGui shows it with uv

@@ -3,7 +3,7 @@
 
 #include "sim/case/case.h"
 #include "sim/imaging/room/room_mesh.h"
-#include "sim/imaging/ultrasound/probe.h"
+#include "sim/imaging/ultrasound/view/probe.h"
 
 namespace seldinger::imaging {
 

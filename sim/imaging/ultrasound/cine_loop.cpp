@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/imaging/xray/float_math.h"
+#include "sim/imaging/float_math.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

@@ -5,11 +5,11 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
-#include "sim/imaging/ultrasound/fan.h"
-#include "sim/imaging/ultrasound/phase.h"
-#include "sim/imaging/ultrasound/view.h"
-#include "sim/imaging/xray/float_math.h"
-#include "sim/imaging/xray/noise.h"
+#include "sim/imaging/float_math.h"
+#include "sim/imaging/noise.h"
+#include "sim/imaging/ultrasound/speckle/phase.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
 

@@ -6,7 +6,7 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
 namespace {

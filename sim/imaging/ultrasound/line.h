@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "shaders/shared/ultrasound_line.glsl.h"
-#include "sim/imaging/ultrasound/fan.h"
-#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/motion.h"
 
 namespace seldinger::imaging {
 

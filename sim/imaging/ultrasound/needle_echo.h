@@ -1,7 +1,7 @@
 // What a needle sends back to the probe: the law behind the picture and behind what is told of it.
 #pragma once
 
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

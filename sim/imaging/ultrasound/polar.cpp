@@ -6,21 +6,21 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/rows.h"
-#include "sim/imaging/ultrasound/lattice.h"
+#include "sim/imaging/float_math.h"
 #include "sim/imaging/ultrasound/line.h"
-#include "sim/imaging/ultrasound/motion.h"
-#include "sim/imaging/ultrasound/phase.h"
-#include "sim/imaging/ultrasound/pulse.h"
-#include "sim/imaging/ultrasound/scatterers.h"
+#include "sim/imaging/ultrasound/speckle/lattice.h"
+#include "sim/imaging/ultrasound/speckle/phase.h"
+#include "sim/imaging/ultrasound/speckle/pulse.h"
+#include "sim/imaging/ultrasound/speckle/scatterers.h"
 #include "sim/imaging/ultrasound/thesis.h"
-#include "sim/imaging/ultrasound/view.h"
-#include "sim/imaging/xray/float_math.h"
+#include "sim/imaging/ultrasound/view/motion.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
 namespace {
 
-// One thread's room for a block of beams.
-struct Room {
+// One thread's scratch for a block of beams.
+struct Scratch {
   std::vector<std::int32_t> sums;
   Line line;
   std::vector<float> through, re, im;
@@ -45,62 +45,62 @@ class PolarPainter {
     for (const PulseTap& tap : taps_) taps_reach_ = std::max(taps_reach_, std::abs(tap.shift));
   }
 
-  void paint(int first, int end, Room& room) const {
-    field_->add_beams(first, end, room.sums);
+  void paint(int first, int end, Scratch& scratch) const {
+    field_->add_beams(first, end, scratch.sums);
     for (int beam = first; beam < end; ++beam) {
-      walker_.walk(beam, beam_touches(view_, below_skin_mm_, beam), room.line);
+      walker_.walk(beam, beam_touches(view_, below_skin_mm_, beam), scratch.line);
       const std::size_t samples = static_cast<std::size_t>(view_.samples);
-      paint_line(room.sums.data() + static_cast<std::size_t>(beam - first) * samples *
-                                        static_cast<std::size_t>(field_->fine()) * 2,
-                 room, picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
+      paint_line(scratch.sums.data() + static_cast<std::size_t>(beam - first) * samples *
+                                           static_cast<std::size_t>(field_->fine()) * 2,
+                 scratch, picture_.envelope.data() + static_cast<std::size_t>(beam) * samples);
     }
   }
 
  private:
-  void paint_line(const std::int32_t* sums, Room& room, float* envelope) const {
+  void paint_line(const std::int32_t* sums, Scratch& scratch, float* envelope) const {
     const auto samples = static_cast<std::size_t>(view_.samples);
-    room.re.assign(samples, 0.0F);
-    room.im.assign(samples, 0.0F);
-    if (room.line.contact) add_speckle(sums, room);
-    for (const LineEcho& echo : room.line.echoes) add_echo(echo, room.re, room.im);
+    scratch.re.assign(samples, 0.0F);
+    scratch.im.assign(samples, 0.0F);
+    if (scratch.line.contact) add_speckle(sums, scratch);
+    for (const LineEcho& echo : scratch.line.echoes) add_echo(echo, scratch.re, scratch.im);
     for (std::size_t k = 0; k < samples; ++k)
-      envelope[k] = std::sqrt(room.re[k] * room.re[k] + room.im[k] * room.im[k]);
+      envelope[k] = std::sqrt(scratch.re[k] * scratch.re[k] + scratch.im[k] * scratch.im[k]);
   }
 
-  void add_speckle(const std::int32_t* sums, Room& room) const {
+  void add_speckle(const std::int32_t* sums, Scratch& scratch) const {
     const auto samples = static_cast<std::size_t>(view_.samples), fine = static_cast<std::size_t>(field_->fine());
-    room.through.resize(samples);
+    scratch.through.resize(samples);
     // 10^(−dB/20), and what the sums are counted in.
     for (std::size_t k = 0; k < samples; ++k)
-      room.through[k] = float_exp(-0.115129255F * room.line.loss_db[k]) * (1.0F / SpeckleField::kUnit);
+      scratch.through[k] = float_exp(-0.115129255F * scratch.line.loss_db[k]) * (1.0F / SpeckleField::kUnit);
     const std::size_t padded = samples + 2 * static_cast<std::size_t>(taps_reach_);
-    room.part_re.assign(fine * padded, 0.0F);
-    room.part_im.assign(fine * padded, 0.0F);
-    if (room.line.shift_mm.empty())
+    scratch.part_re.assign(fine * padded, 0.0F);
+    scratch.part_im.assign(fine * padded, 0.0F);
+    if (scratch.line.shift_mm.empty())
       for (std::size_t part = 0; part < fine; ++part) {
-        float* re = room.part_re.data() + part * padded + taps_reach_;
-        float* im = room.part_im.data() + part * padded + taps_reach_;
+        float* re = scratch.part_re.data() + part * padded + taps_reach_;
+        float* im = scratch.part_im.data() + part * padded + taps_reach_;
         for (std::size_t k = 0; k < samples; ++k) {
-          re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * room.through[k];
-          im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * room.through[k];
+          re[k] = static_cast<float>(sums[2 * (k * fine + part)]) * scratch.through[k];
+          im[k] = static_cast<float>(sums[2 * (k * fine + part) + 1]) * scratch.through[k];
         }
       }
     else
-      lay_shifted(sums, padded, room);
+      lay_shifted(sums, padded, scratch);
     for (const PulseTap& tap : taps_) {
       const std::ptrdiff_t from =
           static_cast<std::ptrdiff_t>(static_cast<std::size_t>(tap.part) * padded) + taps_reach_ + tap.shift;
-      const float* re = room.part_re.data() + from;
-      const float* im = room.part_im.data() + from;
-      float* sum_re = room.re.data();
-      float* sum_im = room.im.data();
+      const float* re = scratch.part_re.data() + from;
+      const float* im = scratch.part_im.data() + from;
+      float* sum_re = scratch.re.data();
+      float* sum_im = scratch.im.data();
       for (std::size_t k = 0; k < samples; ++k) sum_re[k] += tap.weight * re[k];
       for (std::size_t k = 0; k < samples; ++k) sum_im[k] += tap.weight * im[k];
     }
   }
 
   // Each fine sample where it shows, its phase with it.
-  void lay_shifted(const std::int32_t* sums, std::size_t padded, Room& room) const {
+  void lay_shifted(const std::int32_t* sums, std::size_t padded, Scratch& scratch) const {
     const auto fine = static_cast<std::size_t>(field_->fine());
     const auto count = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view_.samples) * fine);
     const float fine_per_mm = static_cast<float>(static_cast<double>(fine) / fan_.sample_mm);
@@ -108,9 +108,9 @@ class PolarPainter {
     const auto& turn = phases();
     std::size_t from = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(view_.samples); ++k) {
-      const float shift_mm = room.line.shift_mm[k], turns = shift_mm * turns_per_mm;
+      const float shift_mm = scratch.line.shift_mm[k], turns = shift_mm * turns_per_mm;
       const auto& phase = turn[static_cast<std::size_t>((turns - std::floor(turns)) * kPhases) % kPhases];
-      const float cosine = phase[0] * room.through[k], sine = phase[1] * room.through[k];
+      const float cosine = phase[0] * scratch.through[k], sine = phase[1] * scratch.through[k];
       const auto shift = static_cast<std::ptrdiff_t>(std::floor(shift_mm * fine_per_mm + 0.5F));
       for (std::size_t part = 0; part < fine; ++part, ++from) {
         const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(from) + shift;
@@ -118,8 +118,8 @@ class PolarPainter {
         const auto at = static_cast<std::size_t>(to);
         const std::size_t place = (at % fine) * padded + static_cast<std::size_t>(taps_reach_) + at / fine;
         const float re = static_cast<float>(sums[2 * from]), im = static_cast<float>(sums[2 * from + 1]);
-        room.part_re[place] += re * cosine - im * sine;
-        room.part_im[place] += re * sine + im * cosine;
+        scratch.part_re[place] += re * cosine - im * sine;
+        scratch.part_im[place] += re * sine + im * cosine;
       }
     }
   }
@@ -182,8 +182,8 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
   // are few; the arctangent's series wants them narrow.
   const int block = std::clamp(view.beams / 16, 1, 32), blocks = (view.beams + block - 1) / block;
   base::over_rows(
-      blocks, view.threads, [] { return Room{}; },
-      [&](int i, Room& room) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), room); });
+      blocks, view.threads, [] { return Scratch{}; },
+      [&](int i, Scratch& scratch) { painter.paint(i * block, std::min(view.beams, (i + 1) * block), scratch); });
 }
 
 float level_db_of(float amplitude) noexcept {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
+#include "sim/imaging/ultrasound/view/fan.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::imaging {

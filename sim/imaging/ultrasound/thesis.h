@@ -4,8 +4,8 @@
 // design.
 #pragma once
 
-#include "sim/imaging/ultrasound/motion.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/motion.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

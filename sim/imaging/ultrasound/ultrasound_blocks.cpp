@@ -8,10 +8,10 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/check.h"
-#include "sim/imaging/ultrasound/echogenicity.h"
-#include "sim/imaging/ultrasound/phase.h"
-#include "sim/imaging/ultrasound/pulse.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/speckle/phase.h"
+#include "sim/imaging/ultrasound/speckle/pulse.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
 namespace {

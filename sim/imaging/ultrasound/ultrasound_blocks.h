@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "shaders/shared/ultrasound_passes.glsl.h"
-#include "sim/imaging/ultrasound/lattice.h"
+#include "sim/imaging/noise.h"
 #include "sim/imaging/ultrasound/line.h"
-#include "sim/imaging/ultrasound/scatterers.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
-#include "sim/imaging/xray/noise.h"
+#include "sim/imaging/ultrasound/speckle/lattice.h"
+#include "sim/imaging/ultrasound/speckle/scatterers.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

@@ -11,11 +11,11 @@
 #include "sim/gpu/buffer.h"
 #include "sim/gpu/program.h"
 #include "sim/gpu/texture.h"
-#include "sim/imaging/ultrasound/motion.h"
-#include "sim/imaging/ultrasound/phase.h"
+#include "sim/imaging/noise.h"
+#include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/ultrasound_blocks.h"
-#include "sim/imaging/ultrasound/view.h"
-#include "sim/imaging/xray/noise.h"
+#include "sim/imaging/ultrasound/view/motion.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::embedded {
 std::span<const base::EmbeddedFile> ultrasound_shaders();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/gpu/context.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

@@ -7,11 +7,11 @@
 
 #include "shaders/shared/ultrasound.glsl.h"
 #include "sim/base/vectors.h"
-#include "sim/imaging/ultrasound/fan.h"
 #include "sim/imaging/ultrasound/line.h"
-#include "sim/imaging/ultrasound/motion.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
-#include "sim/imaging/ultrasound/view.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/motion.h"
+#include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <span>
 
-#include "sim/case/recording.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/case/record/recording.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 #include "sim/imaging/visible.h"
 
 namespace seldinger::imaging {

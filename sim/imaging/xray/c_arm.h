@@ -4,7 +4,7 @@
 #include "sim/case/c_arm.h"
 #include "sim/case/fluoroscope.h"
 #include "sim/case/patient_position.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/case/fluoroscope.h"
-#include "sim/imaging/xray/detector.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/beam/detector.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "sim/imaging/inserted.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

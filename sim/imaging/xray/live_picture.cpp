@@ -1,6 +1,6 @@
 #include "sim/imaging/xray/live_picture.h"
 
-#include "sim/imaging/xray/coarse.h"
+#include "sim/imaging/xray/projection/coarse.h"
 
 namespace seldinger::imaging {
 

@@ -8,7 +8,7 @@
 
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

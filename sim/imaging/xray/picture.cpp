@@ -10,8 +10,8 @@
 #include "sim/base/clones.h"
 #include "sim/base/exact_math.h"
 #include "sim/base/rows.h"
-#include "sim/imaging/xray/float_math.h"
-#include "sim/imaging/xray/noise.h"
+#include "sim/imaging/float_math.h"
+#include "sim/imaging/noise.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "sim/base/vectors.h"
-#include "sim/imaging/mpr/segment_clip.h"
+#include "sim/imaging/segment_clip.h"
 #include "sim/imaging/xray/instruments.h"
 
 namespace seldinger::imaging {

@@ -13,7 +13,7 @@
 #include "sim/imaging/inserted.h"
 #include "sim/imaging/visible.h"
 #include "sim/imaging/xray/exposure.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 
 namespace seldinger::imaging {
 

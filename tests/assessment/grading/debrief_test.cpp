@@ -7,8 +7,8 @@
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
-#include "assessment/metrics/registry.h"
-#include "graded_samples.h"
+#include "assessment/registry.h"
+#include "tests/assessment/grading/graded_samples.h"
 
 namespace seldinger::assessment {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "assessment/metrics/registry.h"
-#include "graded_samples.h"
+#include "assessment/registry.h"
+#include "tests/assessment/grading/graded_samples.h"
 
 namespace seldinger::assessment {
 namespace {

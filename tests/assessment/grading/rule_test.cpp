@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "assessment/grading/rule_json.h"
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 
 namespace seldinger::assessment {
 namespace {

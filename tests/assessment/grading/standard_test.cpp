@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "graded_samples.h"
+#include "tests/assessment/grading/graded_samples.h"
 
 namespace seldinger::assessment {
 namespace {

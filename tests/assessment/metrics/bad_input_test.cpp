@@ -7,7 +7,7 @@
 #include <map>
 
 #include "assessment/metrics/quality.h"
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "sim/base/rng.h"
 #include "tests/assessment/metrics/sample_attempts.h"
 

@@ -1,13 +1,13 @@
-// Tests of assessment/metrics/breath and assessment/breath_holds: closed forms and edge rules.
-#include "assessment/breath_holds.h"
+// Tests of assessment/metrics/breath and assessment/signals/breath_holds: closed forms and edge rules.
+#include "assessment/signals/breath_holds.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
-#include "assessment/metrics/registry.h"
-#include "assessment/signals.h"
+#include "assessment/registry.h"
+#include "assessment/signals/signals.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::assessment {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include "assessment/metrics/registry.h"
-#include "assessment/signals.h"
+#include "assessment/registry.h"
+#include "assessment/signals/signals.h"
 #include "sim/base/rng.h"
 #include "sim/engine/step.h"
 #include "tests/fixtures/meshes.h"
@@ -241,7 +241,7 @@ TEST(FluoroscopyMetrics, AgreeWithWhatTheMachineAddedUp) {
       inputs.fluoroscope.pulse_rate = static_cast<int>(rng.uniform() * 3);
       inputs.fluoroscope.collimator = {0.2 + 0.8 * rng.uniform(), 0.2 + 0.8 * rng.uniform()};
     }
-    engine::step(scene, inputs, engine::kTickSeconds, state);
+    engine::step(scene, inputs, base::kTickS, state);
     const cases::FluoroscopyState& machine = state.fluoroscopy;
     if (i % 10 == 0)
       recording.poses.push_back({state.t_s, state.needle.tip_lps_mm, {0, 0, 1}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
@@ -253,7 +253,7 @@ TEST(FluoroscopyMetrics, AgreeWithWhatTheMachineAddedUp) {
             machine.frame_s, machine.arm_moving, inputs.exposure.hand_in_beam});
   }
   inputs.fluoroscope.pedal = false;
-  engine::step(scene, inputs, engine::kTickSeconds, state);  // takes in the last report
+  engine::step(scene, inputs, base::kTickS, state);  // takes in the last report
   const cases::FluoroscopyState& machine = state.fluoroscopy;
   ASSERT_GT(machine.frames, 100U);
   ASSERT_GT(machine.views.count, 2);

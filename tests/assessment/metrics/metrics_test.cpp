@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "assessment/metrics/registry.h"
-#include "assessment/motion.h"
-#include "assessment/signals.h"
+#include "assessment/registry.h"
+#include "assessment/signals/motion.h"
+#include "assessment/signals/signals.h"
 #include "sim/base/rng.h"
 #include "tests/fixtures/meshes.h"
 

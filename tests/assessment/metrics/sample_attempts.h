@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "assessment/signals.h"
+#include "assessment/signals/signals.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::assessment {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::assessment {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "sim/devices/virtual_device.h"
+#include "sim/devices/virtual_arm.h"
 #include "sim/engine/step.h"
 #include "tests/fixtures/meshes.h"
 
@@ -45,20 +45,20 @@ struct Outcome {
 Outcome attempt(const cases::Case& scene, const std::string& who, std::uint64_t seed, bool target_clear = true) {
   const PuncturePlan plan = plan_of(scene);
   FluoroscopyOperator person(*named_profile(who), plan, scene.instrument, scene.fluoroscope, scene.position, seed);
-  devices::VirtualDevice arm;
+  devices::VirtualArm arm;
   cases::State state;
   cases::ExposureReport report;
   PictureFix fix;
   Outcome outcome;
   bool new_frame = false;
   while (!person.done() && state.t_s < 300.0) {
-    cases::Inputs inputs = person.act(state, new_frame ? &fix : nullptr, engine::kTickSeconds);
-    inputs.needle = arm.advance(inputs.needle, engine::kTickSeconds);
+    cases::Inputs inputs = person.act(state, new_frame ? &fix : nullptr, base::kTickS);
+    inputs.needle = arm.advance(inputs.needle, base::kTickS);
     inputs.exposure = report;
-    engine::step(scene, inputs, engine::kTickSeconds, state);
+    engine::step(scene, inputs, base::kTickS, state);
     outcome.hash = cases::state_hash(state, outcome.hash);
     const cases::FluoroscopyState& machine = state.fluoroscopy;
-    if (machine.beam_on && !machine.hand_away) outcome.pedal_without_hand_away_s += engine::kTickSeconds;
+    if (machine.beam_on && !machine.hand_away) outcome.pedal_without_hand_away_s += base::kTickS;
     new_frame = machine.frame_due;
     if (!new_frame) continue;
     const cases::BeamFrame frame = cases::beam_frame(scene.fluoroscope, machine.arm, scene.position);

@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "assessment/metrics/registry.h"
+#include "assessment/registry.h"
 #include "sim/case/c_arm.h"
 #include "tests/assessment/metrics/sample_attempts.h"
 

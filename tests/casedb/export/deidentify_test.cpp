@@ -13,8 +13,8 @@
 
 #include "casedb/export/clean_data_set.h"
 #include "casedb/export/dicom_tree.h"
-#include "casedb/import/basic_profile.h"
-#include "planted_dicom.h"
+#include "casedb/import/privacy/basic_profile.h"
+#include "tests/casedb/export/planted_dicom.h"
 #include "tests/fixtures/outcomes.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"

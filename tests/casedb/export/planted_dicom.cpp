@@ -1,4 +1,4 @@
-#include "planted_dicom.h"
+#include "tests/casedb/export/planted_dicom.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -8,8 +8,8 @@
 #include <fstream>
 #include <unordered_map>
 
-#include "casedb/import/basic_profile.h"
-#include "casedb/import/dicom_file.h"
+#include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/privacy/basic_profile.h"
 #include "tests/fixtures/places.h"
 
 namespace seldinger::casedb {

@@ -1,11 +1,11 @@
 // What is huge, or pretends to be, is refused in little time and memory.
 #include <sys/stat.h>
 
-#include "dicom_writer.h"
-#include "fuzz_import.h"
-#include "import_case.h"
-#include "packed_frame.h"
-#include "peak_memory.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/fuzz_import.h"
+#include "tests/casedb/import/import_case.h"
+#include "tests/casedb/import/packed_frame.h"
+#include "tests/casedb/import/peak_memory.h"
 #include "tests/fixtures/cpu_time.h"
 
 namespace seldinger::casedb {

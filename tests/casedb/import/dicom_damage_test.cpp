@@ -2,9 +2,9 @@
 // in dicom_geometry_test, frames are in dicom_enhanced_test, size and time in dicom_bounds_test.
 #include <cmath>
 
-#include "dicom_writer.h"
-#include "import_case.h"
-#include "packed_frame.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/import_case.h"
+#include "tests/casedb/import/packed_frame.h"
 #include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {

@@ -1,8 +1,8 @@
 // Enhanced (multi-frame) CT: each frame lies where its functional groups say, in whatever order and however packed.
 #include <random>
 
-#include "dicom_writer.h"
-#include "import_case.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "dicom_writer.h"
-#include "import_case.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/outcomes.h"
 #include "tests/fixtures/shared_data.h"
 

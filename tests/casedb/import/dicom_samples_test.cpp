@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "import_case.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {

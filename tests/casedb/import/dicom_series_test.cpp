@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "dicom_writer.h"
-#include "import_case.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/import_case.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -1,4 +1,4 @@
-#include "dicom_writer.h"
+#include "tests/casedb/import/dicom_writer.h"
 
 #include <zlib.h>
 
@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdio>
 
-#include "import_case.h"
+#include "tests/casedb/import/import_case.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -7,7 +7,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "import_case.h"
+#include "tests/casedb/import/import_case.h"
 
 namespace seldinger::casedb {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "import_case.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/outcomes.h"
 
 namespace seldinger::casedb {

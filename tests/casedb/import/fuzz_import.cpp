@@ -1,15 +1,15 @@
-#include "fuzz_import.h"
+#include "tests/casedb/import/fuzz_import.h"
 
 #include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <set>
 
-#include "dicom_writer.h"
-#include "import_case.h"
-#include "mutate.h"
-#include "packed_frame.h"
-#include "peak_memory.h"
+#include "tests/casedb/import/dicom_writer.h"
+#include "tests/casedb/import/import_case.h"
+#include "tests/casedb/import/mutate.h"
+#include "tests/casedb/import/packed_frame.h"
+#include "tests/casedb/import/peak_memory.h"
 #include "tests/fixtures/cpu_time.h"
 
 namespace seldinger::casedb {

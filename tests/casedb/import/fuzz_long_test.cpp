@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "fuzz_import.h"
-#include "import_case.h"
+#include "tests/casedb/import/fuzz_import.h"
+#include "tests/casedb/import/import_case.h"
 
 namespace seldinger::casedb {
 namespace {

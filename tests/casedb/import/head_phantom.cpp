@@ -1,4 +1,4 @@
-#include "head_phantom.h"
+#include "tests/casedb/import/head_phantom.h"
 
 #include <cmath>
 #include <glm/common.hpp>

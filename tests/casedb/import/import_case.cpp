@@ -1,4 +1,4 @@
-#include "import_case.h"
+#include "tests/casedb/import/import_case.h"
 
 #include <zlib.h>
 

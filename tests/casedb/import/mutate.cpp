@@ -1,4 +1,4 @@
-#include "mutate.h"
+#include "tests/casedb/import/mutate.h"
 
 #include <algorithm>
 #include <array>

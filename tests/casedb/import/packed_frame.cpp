@@ -1,4 +1,4 @@
-#include "packed_frame.h"
+#include "tests/casedb/import/packed_frame.h"
 
 #include <gdcmImage.h>
 #include <gdcmImageChangeTransferSyntax.h>

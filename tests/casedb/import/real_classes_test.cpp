@@ -2,8 +2,8 @@
 // slices names without doubt.
 #include <array>
 
-#include "import_case.h"
 #include "sim/volume/classes.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "casedb/import/surface.h"
-#include "import_case.h"
-#include "sim/case/mesh_index.h"
+#include "casedb/import/skin/surface.h"
+#include "sim/case/form/mesh_index.h"
 #include "sim/volume/body_mask.h"
+#include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 
 namespace seldinger::casedb {

@@ -1,8 +1,8 @@
 // A body to hold tools against, and a mouse that is moved evenly.
 #pragma once
 
-#include "sim/devices/hands.h"
-#include "sim/devices/mouse_hands.h"
+#include "sim/devices/hands/hands.h"
+#include "sim/devices/hands/mouse_hands.h"
 #include "tests/fixtures/meshes.h"
 
 namespace seldinger::devices {

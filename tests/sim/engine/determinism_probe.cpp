@@ -9,7 +9,7 @@
 #include "assessment/operators/fluoroscopy.h"
 #include "assessment/operators/scripted.h"
 #include "sim/base/hash.h"
-#include "sim/devices/virtual_device.h"
+#include "sim/devices/virtual_arm.h"
 #include "sim/engine/moving_tissue.h"
 #include "sim/engine/patient.h"
 #include "sim/engine/step.h"
@@ -23,7 +23,7 @@ namespace {
 // Prints the hashes and gives the last state.
 cases::State under_probe(const cases::Case& scene, const assessment::PuncturePlan& plan) {
   assessment::ScriptedOperator person(*assessment::named_profile("novice"), plan, scene.instrument, 42);
-  devices::VirtualDevice needle_arm, probe_arm;
+  devices::VirtualArm needle_arm, probe_arm;
   const engine::Patient patient(scene);
   engine::PatientState memory;
   const engine::MovingTissue tissue(scene);
@@ -49,7 +49,7 @@ cases::State under_probe(const cases::Case& scene, const assessment::PuncturePla
 cases::State under_xray(const cases::Case& scene, const assessment::PuncturePlan& plan) {
   assessment::FluoroscopyOperator person(*assessment::named_profile("novice"), plan, scene.instrument,
                                          scene.fluoroscope, scene.position, 42);
-  devices::VirtualDevice needle_arm;
+  devices::VirtualArm needle_arm;
   cases::State state;
   cases::ExposureReport report;
   assessment::PictureFix fix;
@@ -85,10 +85,10 @@ double under_hands(cases::Case& scene, const assessment::PuncturePlan& plan) {
                                 : r2 < 85.0 * 85.0 ? volume::TissueClass::soft_tissue
                                                    : volume::TissueClass::fat);
       }
-  const haptics::HandSettings omni{*haptics::find_haptic_device("omni"), 0.02};
+  const haptics::HandSettings omni{*haptics::find_arm_model("omni"), 0.02};
   const haptics::TwoHands hands(scene, {omni, omni});
   haptics::HandStates states{};
-  devices::VirtualDevice needle_arm, probe_arm;
+  devices::VirtualArm needle_arm, probe_arm;
   std::uint64_t hash = 0;
   double most_n = 0.0;
   for (int tick = 0; tick < 12'000; ++tick) {

@@ -29,9 +29,9 @@ struct Room {
   int pulses = 0;
   const cases::FluoroscopyState& machine() const { return state.fluoroscopy; }
   void run(double seconds) {
-    const int ticks = static_cast<int>(std::lround(seconds / kTickSeconds));
+    const int ticks = static_cast<int>(std::lround(seconds / base::kTickS));
     for (int i = 0; i < ticks; ++i) {
-      step(scene, inputs, kTickSeconds, state);
+      step(scene, inputs, base::kTickS, state);
       pulses += machine().frame_due ? 1 : 0;
     }
   }

@@ -257,7 +257,7 @@ TEST(Tick, KeepsTheChainedHashOfTheStep) {
   std::uint64_t hash = 0;
   for (int i = 0; i < 3000; ++i) {
     const cases::RecordedTick made = turn(tick, now);
-    step(scene, made.inputs, kTickSeconds, state);
+    step(scene, made.inputs, base::kTickS, state);
     hash = cases::state_hash(state, hash);
     ASSERT_EQ(made.hash, static_cast<std::uint32_t>(hash)) << i;
   }

@@ -53,7 +53,7 @@ inline const cases::Case& flat_body() {
 }
 
 inline std::array<HandSettings, 2> two_omnis() {
-  return {HandSettings{*find_haptic_device("omni")}, HandSettings{*find_haptic_device("omni")}};
+  return {HandSettings{*find_arm_model("omni")}, HandSettings{*find_arm_model("omni")}};
 }
 
 inline HandInput holding(Tool tool, const glm::dvec3& at_lps_mm, const glm::dvec3& axis = kDown) {

@@ -146,7 +146,7 @@ TEST(ForceLimiter, WhatIsNoNumberIsAFaultAndLeavesNoTrace) {
 
 // In the loop of hand and device it changes nothing about rest.
 TEST(ForceLimiter, TheNeedleRestsBehindIt) {
-  for (HapticDevice device : haptic_devices()) {
+  for (ArmModel device : arm_models()) {
     device.coulomb_n = 0.02;
     for (const Hand& hand : hands())
       for (const NeedleSituation& situation : needle_situations()) {

@@ -34,13 +34,13 @@ using measure::WallCell;
 
 using volume::TissueClass;
 
-std::string told(const HapticDevice& device, const Hand& hand, const NeedleSituation& situation) {
+std::string told(const ArmModel& device, const Hand& hand, const NeedleSituation& situation) {
   return std::string(device.name) + ", friction " + std::to_string(device.coulomb_n) + " N, delay " +
          std::to_string(device.delay_ticks) + " ms, hand " + hand.name + ": " + situation.name;
 }
 
 // The stiffest linear wall whose oscillation does not grow, found by trial: pushed on by 1 N, given 1 mm/s.
-double stiffest_wall_n_mm(const HapticDevice& device, double damping_n_s_mm) {
+double stiffest_wall_n_mm(const ArmModel& device, double damping_n_s_mm) {
   double low = 0.01, high = 20.0;
   for (int i = 0; i < 12; ++i) {
     const double stiffness = std::sqrt(low * high);
@@ -57,11 +57,11 @@ double stiffest_wall_n_mm(const HapticDevice& device, double damping_n_s_mm) {
 }
 
 // S2: the bench against theory, two independent ways to the same number.
-TEST(Stability, TheBenchFindsTheBoundOfTheory) {
+TEST(Stability, TheRigFindsTheBoundOfTheory) {
   for (const double mass_kg : {0.045, 0.25})
     for (const double damping : {0.0005, 0.001})
       for (int delay = 0; delay <= kMostDelayTicks; ++delay) {
-        const HapticDevice device{"linear", mass_kg, 5e-6, 0.0, 0.0, 100.0, 100.0, delay, ""};
+        const ArmModel device{"linear", mass_kg, 5e-6, 0.0, 0.0, 100.0, 100.0, delay, ""};
         const double bound = (device.damping_n_s_mm + damping) / (0.0005 + 0.001 * delay);
         EXPECT_NEAR(stiffest_wall_n_mm(device, damping) / bound, 1.0, 0.05)
             << mass_kg << " kg, " << damping << " N s/mm, delay " << delay;
@@ -70,7 +70,7 @@ TEST(Stability, TheBenchFindsTheBoundOfTheory) {
 
 // S1
 TEST(Stability, AWallGivesNoEnergyAndOneOfTheWrongSignDoes) {
-  HapticDevice device = *find_haptic_device("premium");
+  ArmModel device = *find_arm_model("premium");
   for (const Hand& hand : hands())
     for (const double sign : {1.0, -1.0}) {
       Wall wall(0.5, 0.001 * sign, 100.0);
@@ -87,7 +87,7 @@ TEST(Stability, AWallGivesNoEnergyAndOneOfTheWrongSignDoes) {
     }
 }
 
-void expect_rest(const HapticDevice& device) {
+void expect_rest(const ArmModel& device) {
   for (const Hand& hand : hands())
     for (const NeedleSituation& situation : needle_situations()) {
       const Settling settling = settle_needle(situation, device, hand);
@@ -99,7 +99,7 @@ void expect_rest(const HapticDevice& device) {
 }
 
 // S11: from skin to rib under the probe, and along the skin.
-void expect_probe_rests(const HapticDevice& device) {
+void expect_probe_rests(const ArmModel& device) {
   for (const Hand& hand : hands())
     for (const ProbeSituation& situation : probe_situations()) {
       const Settling settling = settle_probe(situation, device, hand);
@@ -112,7 +112,7 @@ void expect_probe_rests(const HapticDevice& device) {
 }
 
 TEST(Stability, TheProbeComesToRestUnderAnyHand) {
-  for (HapticDevice device : haptic_devices()) {
+  for (ArmModel device : arm_models()) {
     device.coulomb_n = 0.02;
     for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks) {
       expect_probe_rests(device);
@@ -130,7 +130,7 @@ TEST(Stability, TheProbeComesToRestUnderAnyHand) {
 
 // No limit cycle with any hand: every device as it is, and at every delay with next to no dry friction.
 TEST(Stability, TheNeedleComesToRestUnderAnyHand) {
-  for (HapticDevice device : haptic_devices()) {
+  for (ArmModel device : arm_models()) {
     expect_rest(device);
     device.coulomb_n = 0.02;
     for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks) expect_rest(device);
@@ -139,7 +139,7 @@ TEST(Stability, TheNeedleComesToRestUnderAnyHand) {
 
 // S2: the law as shipped keeps its margin, not only the formula.
 TEST(Stability, TheNeedleRestsAtItsMarginTimesTheStiffness) {
-  for (HapticDevice device : haptic_devices()) {
+  for (ArmModel device : arm_models()) {
     device.coulomb_n = 0.02;
     for (device.delay_ticks = 0; device.delay_ticks <= kMostDelayTicks; ++device.delay_ticks)
       for (const NeedleSituation& situation : needle_situations())
@@ -154,7 +154,7 @@ struct Mutant {
 
 // How many situations a changed law does not rest in, on the device with the least friction, under no hand.
 int restless(const Mutant& mutant) {
-  HapticDevice device = *find_haptic_device("premium");
+  ArmModel device = *find_arm_model("premium");
   device.coulomb_n = 0.02;
   int count = 0;
   for (const NeedleSituation& situation : needle_situations()) {
@@ -187,7 +187,7 @@ TEST(Stability, FaultsPutInOnPurposeAreSeen) {
 
 // S3 with a hand
 TEST(Stability, ASlowHandFeelsASmoothPlateau) {
-  for (const HapticDevice& device : haptic_devices()) {
+  for (const ArmModel& device : arm_models()) {
     const NeedleLayer kidney{0.0, needle_tissue(TissueClass::kidney)};
     const NeedleLaw law(needle_settings(device));
     NeedleTrack track;
@@ -207,7 +207,7 @@ TEST(Stability, ASlowHandFeelsASmoothPlateau) {
 }
 
 TEST(Stability, AtTheThesisSpeedOurForceIsQuietAndTheThesisLawIsNot) {
-  const HapticDevice& omni = *find_haptic_device("omni");
+  const ArmModel& omni = *find_arm_model("omni");
   for (const Hand& hand : hands()) {
     if (hand.stiffness_n_mm == 0.0) continue;
     EXPECT_LE(drive_needle(omni, hand).unrest_n, 0.05) << hand.name;
@@ -230,12 +230,12 @@ TEST(Stability, TheThesisLawDependsOnSpeedAndIsZeroAtRest) {
 // way, at most twice (an undamped swing), and meets nothing to open again.
 TEST(Stability, ARuptureKicksNoFurtherThanTheHandsSpring) {
   for (const char* name : {"fingertip", "light", "medium", "firm"})
-    for (const HapticDevice& device : haptic_devices()) {
+    for (const ArmModel& device : arm_models()) {
       const Hand& hand = *find_hand(name);
       const NeedleLayer kidney{0.0, needle_tissue(TissueClass::kidney)};
       const NeedleLaw law(needle_settings(device));
       NeedleTrack track;
-      HandOnDevice bench(device, hand, 0.0, 0.0);
+      HandRig bench(device, hand, 0.0, 0.0);
       double grip_mm = 0.0, opened_mm = -1.0, furthest_mm = 0.0;
       int ruptures = 0;
       for (int i = 0; i < 12000; ++i) {
@@ -257,7 +257,7 @@ TEST(Stability, ARuptureKicksNoFurtherThanTheHandsSpring) {
 }
 
 TEST(WallMap, ShowsTheRuleHoldAtOurDampingAndCyclesAboveIt) {
-  HapticDevice device = *find_haptic_device("omni");
+  ArmModel device = *find_arm_model("omni");
   device.coulomb_n = 0.02;
   const auto map = wall_map(device, *find_hand("none"));
   ASSERT_EQ(map.size(), 4 * std::size(kMapDampingNSMm) * std::size(kMapStiffnessNMm));

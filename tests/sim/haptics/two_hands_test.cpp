@@ -57,7 +57,7 @@ TEST(TwoHands, ANeedleInSpaceIsTheLawAlongItsLine) {
     const TissueAlongNeedle tissue(scene.volume, scene.classes, *cases::gauge(kTableGauge));
     NeedlePath path;
     tissue.look(entry, axis, 140.0, -5.0, {}, path);
-    const NeedleLaw law(needle_settings(*find_haptic_device("omni")));
+    const NeedleLaw law(needle_settings(*find_arm_model("omni")));
     NeedleTrack track;
     Right right(scene);
     int ruptures = 0;
@@ -119,7 +119,7 @@ TEST(TwoHands, TissueHoldsTheNeedleSideways) {
 TEST(TwoHands, AProbePressesAsItsLawSays) {
   const cases::Case& scene = flat_body();
   const ProbeSettings settings;
-  const SoftContact contact{settings.radius_mm, settings.shear_n_mm2, stiffness_n_mm(*find_haptic_device("omni"))};
+  const SoftContact contact{settings.radius_mm, settings.shear_n_mm2, stiffness_n_mm(*find_arm_model("omni"))};
   for (const double x_mm : {-20.0, 35.0}) {
     Right right(scene);
     right.move(holding(Tool::probe, {x_mm, 0.0, 5.0}), {x_mm, 0.0, -4.0}, 900);
@@ -148,7 +148,7 @@ TEST(TwoHands, AProbeThatSlidesOntoARibFeelsIt) {
 // The skin's own surface, and the bone's in the CT with nothing over it: springs from the device to where it is
 // held.
 TEST(TwoHands, AFingerPalpatesAndAPointerFindsBone) {
-  const double stiffness = stiffness_n_mm(*find_haptic_device("omni"));
+  const double stiffness = stiffness_n_mm(*find_arm_model("omni"));
   Right finger(flat_body());
   finger.move(holding(Tool::finger, {-20.0, 0.0, 5.0}), {-20.0, 0.0, -2.0}, 700);
   finger.rest(holding(Tool::finger, {-20.0, 0.0, -2.0}), 500);
@@ -262,10 +262,10 @@ TEST(TwoHands, AStallIsAFaultAndAHandThatWentElsewhereStartsAnew) {
 
 // K is the sum of all springs' slopes: the most that the force changes per mm, on any way in, is bound / 1.4.
 TEST(TwoHands, MoreDelayIsSofter) {
-  const HapticDevice omni = *find_haptic_device("omni");
+  const ArmModel omni = *find_arm_model("omni");
   double last_n_mm = std::numeric_limits<double>::infinity();
   for (int delay = 0; delay <= kMostDelayTicks; ++delay) {
-    HapticDevice delayed = omni;
+    ArmModel delayed = omni;
     delayed.delay_ticks = delay;
     const double most_n_mm = stiffness_n_mm(delayed);
     double steepest_n_mm = 0.0;

@@ -39,7 +39,7 @@ TEST(TwoHandsTrials, EveryToolComesToRestInSpaceToo) {
   for (const Situation& situation : kSituations)
     for (const Hand& hand : hands())
       for (int delay = 0; delay <= kMostDelayTicks; ++delay) {
-        HapticDevice device = *find_haptic_device("omni");
+        ArmModel device = *find_arm_model("omni");
         device.delay_ticks = delay;
         const TwoHands two(flat_body(), two_omnis());
         HandStates states{};

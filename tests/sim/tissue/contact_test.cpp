@@ -10,7 +10,7 @@
 #include "app/measure/rigs/contact_peers.h"
 #include "app/measure/rigs/hertz_reference.h"
 #include "sim/base/rng.h"
-#include "sim/haptics/soft_contact.h"
+#include "sim/haptics/contact/soft_contact.h"
 #include "sim/tissue/displacement.h"
 
 namespace seldinger::tissue {

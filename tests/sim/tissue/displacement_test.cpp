@@ -13,7 +13,7 @@
 
 #include "shaders/shared/displacement.glsl.h"
 #include "sim/base/rng.h"
-#include "sim/haptics/needle_law.h"
+#include "sim/haptics/needle/needle_law.h"
 #include "tests/fixtures/allocations.h"
 
 namespace seldinger::tissue {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "sim/imaging/room/scan_border.h"
-#include "sim/imaging/ultrasound/probe.h"
+#include "sim/imaging/ultrasound/view/probe.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/sim/imaging/room/room_fixture.h"
 
@@ -23,7 +23,7 @@ const RoomItem* find(const DrawList& list, RoomPart part) {
 DrawList list_of(const cases::Case& scene, const cases::State& state, const RoomOptions& options = {},
                  const RoomWish& wish = {}) {
   DrawList list;
-  make_draw_list(make_room_scene(scene, wish), scene, state, options, list);
+  make_draw_list(make_room_model(scene, wish), scene, state, options, list);
   return list;
 }
 
@@ -109,15 +109,15 @@ TEST(DrawList, LooksInsideForAMentorOnly) {
   ASSERT_NE(find(list, RoomPart::target), nullptr);
   EXPECT_FALSE(find(list, RoomPart::target)->over_all);
   // Not even made for anybody else.
-  EXPECT_TRUE(make_room_scene(scene).structures.empty());
-  EXPECT_EQ(make_room_scene(scene).bone, kNoMesh);
+  EXPECT_TRUE(make_room_model(scene).structures.empty());
+  EXPECT_EQ(make_room_model(scene).bone, kNoMesh);
 }
 
 TEST(DrawList, HoldsOnlyTheModalitysMachines) {
   const DrawList sound = list_of(ball_case(), ball_state());
   EXPECT_EQ(find(sound, RoomPart::tube), nullptr);
   const cases::Case scene = ball_case(cases::Modality::xray);
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   EXPECT_EQ(room.probe, kNoMesh);
   EXPECT_EQ(room.scan_plane, kNoMesh);
   RoomOptions options;
@@ -157,7 +157,7 @@ TEST(DrawList, PutsToolsWhereHandsHoldThem) {
   const DrawList thrown = list_of(scene, state);
   EXPECT_NEAR(glm::distance(placed(*find(thrown, RoomPart::needle_hub), {0, 0, -200.0}), handle), 0.0, 1e-9);
   // The shaft still reaches into it.
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   const RoomMesh& shaft = room.meshes[room.shaft];
   const auto low = std::min_element(shaft.vertices.begin(), shaft.vertices.end(),
                                     [](const auto& a, const auto& b) { return a.place_mm.z < b.place_mm.z; });
@@ -173,7 +173,7 @@ TEST(DrawList, MovesTheSkinOnlyWhereTissueMoves) {
 
 TEST(DrawList, AllocatesNothingOnceItHasGrown) {
   const cases::Case scene = ball_case();
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   const cases::State state = ball_state();
   RoomOptions options;
   options.help = 3;
@@ -184,12 +184,12 @@ TEST(DrawList, AllocatesNothingOnceItHasGrown) {
   EXPECT_EQ(fixtures::allocations(), before);
 }
 
-TEST(RoomScene, PutsTheTableUnderThePatientHoweverHeLies) {
+TEST(RoomModel, PutsTheTableUnderThePatientHoweverHeLies) {
   for (const auto position : {cases::PatientPosition::supine, cases::PatientPosition::prone,
                               cases::PatientPosition::lateral_left, cases::PatientPosition::lateral_right}) {
     cases::Case scene = ball_case();
     scene.position = position;
-    const RoomScene room = make_room_scene(scene);
+    const RoomModel room = make_room_model(scene);
     const glm::dvec3 up = cases::upwards(position);
     EXPECT_NEAR(room.frame.table_mm, -kBallMm, 0.5);
     EXPECT_NEAR(glm::dot(glm::cross(room.frame.across, room.frame.head), room.frame.up), 1.0, 1e-12);
@@ -200,7 +200,7 @@ TEST(RoomScene, PutsTheTableUnderThePatientHoweverHeLies) {
   }
 }
 
-TEST(RoomScene, LampAndOperatorAreOnTheSideOfTheWayIn) {
+TEST(RoomModel, LampAndOperatorAreOnTheSideOfTheWayIn) {
   cases::Case scene = ball_case();
   const RoomFrame frame = room_frame_of(scene);
   EXPECT_EQ(operator_side(frame, scene), -1.0);
@@ -208,15 +208,15 @@ TEST(RoomScene, LampAndOperatorAreOnTheSideOfTheWayIn) {
   EXPECT_EQ(operator_side(frame, scene), -1.0);  // the plan says otherwise
   scene.planned_entry_lps_mm.reset();
   EXPECT_EQ(operator_side(frame, scene), 1.0);
-  const glm::dvec3 light = make_room_scene(scene).key_light;
+  const glm::dvec3 light = make_room_model(scene).key_light;
   EXPECT_GT(glm::dot(light, frame.across), 0.1);
   EXPECT_GT(glm::dot(light, frame.up), 0.8);
   EXPECT_NEAR(glm::length(light), 1.0, 1e-12);
 }
 
-TEST(RoomScene, ShowsFewerTrianglesNearTheSkinTheyStandFor) {
+TEST(RoomModel, ShowsFewerTrianglesNearTheSkinTheyStandFor) {
   cases::Case scene = ball_case();
-  const RoomScene room = make_room_scene(scene, {2'000, false});
+  const RoomModel room = make_room_model(scene, {2'000, false});
   const RoomMesh& skin = room.meshes[room.skin];
   EXPECT_LE(skin.triangles.size(), 2'000U);
   EXPECT_GT(skin.triangles.size(), 500U);
@@ -239,7 +239,7 @@ cases::Case cut_ball() {
   return scene;
 }
 
-TEST(RoomScene, NobodyCoversAPhantom) {
+TEST(RoomModel, NobodyCoversAPhantom) {
   cases::Case scene = cut_ball();
   const DrawList patient = list_of(scene, ball_state());
   ASSERT_NE(find(patient, RoomPart::drape), nullptr);
@@ -250,9 +250,9 @@ TEST(RoomScene, NobodyCoversAPhantom) {
   EXPECT_NE(find(phantom, RoomPart::cut_end)->colour, find(patient, RoomPart::cut_end)->colour);
 }
 
-TEST(RoomScene, CoversWhereTheCtEndsAndOnlyThere) {
-  EXPECT_EQ(make_room_scene(ball_case()).drapes, kNoMesh);
-  const RoomScene room = make_room_scene(cut_ball());
+TEST(RoomModel, CoversWhereTheCtEndsAndOnlyThere) {
+  EXPECT_EQ(make_room_model(ball_case()).drapes, kNoMesh);
+  const RoomModel room = make_room_model(cut_ball());
   ASSERT_NE(room.drapes, kNoMesh);
   for (const auto& vertex : room.meshes[room.drapes].vertices) {
     EXPECT_GT(vertex.place_mm.z, 45.0F);

@@ -69,7 +69,7 @@ TEST(RoomCamera, PresetsSeeHubAndEntryFromOutsideHoweverThePatientLies) {
     state.needle.direction = glm::normalize(-up + 0.4 * glm::dvec3(0.0, 0.0, 1.0));
     state.probe.origin_lps_mm = *scene.planned_entry_lps_mm + 30.0 * glm::dvec3(0.0, 0.0, 1.0);
     state.probe.axial = -up;
-    const RoomScene room = make_room_scene(scene);
+    const RoomModel room = make_room_model(scene);
     for (std::size_t i = 0; i < kRoomViewNames.size(); ++i) {
       SCOPED_TRACE(std::string(kRoomViewNames[i]) + " " + std::to_string(static_cast<int>(position)));
       const RoomCamera camera = room_camera(room, scene, state, static_cast<RoomView>(i));
@@ -105,7 +105,7 @@ double past_probe_mm(const glm::dvec3& eye, const glm::dvec3& place, const cases
 
 TEST(RoomCamera, PresetsLookPastTheProbeAtTheNeedle) {
   cases::Case scene = ball_case();
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   const RoomFrame& f = room.frame;
   cases::State state = ball_state();
   state.needle.tip_lps_mm = *scene.planned_entry_lps_mm + 2.0 * f.up;
@@ -133,7 +133,7 @@ TEST(RoomCamera, PresetsLookPastTheProbeAtTheNeedle) {
 
 TEST(RoomCamera, StaysOutOfTheSkinAndAboveTheFloor) {
   const cases::Case scene = ball_case();
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomCamera camera;
   camera.target_lps_mm = {0.0, 0.0, 0.0};
   camera.eye_lps_mm = {0.0, -30.0, 20.0};  // inside the ball
@@ -146,7 +146,7 @@ TEST(RoomCamera, StaysOutOfTheSkinAndAboveTheFloor) {
 }
 
 TEST(RoomCamera, TurnsShiftsAndNearsAboutItsTarget) {
-  const RoomScene room = make_room_scene(ball_case());
+  const RoomModel room = make_room_model(ball_case());
   RoomCamera camera = room_camera(room, ball_case(), ball_state(), RoomView::operator_side);
   const RoomCamera before = camera;
   orbit(camera, room.frame, 40.0, 10.0);

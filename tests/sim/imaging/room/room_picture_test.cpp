@@ -26,7 +26,7 @@ class RoomPictures : public ::testing::Test {
   }
   static bool is_skin(const Rgb& c) { return 100 * c.r > 125 * c.b; }
 
-  std::vector<std::uint8_t> draw(RoomRenderer& renderer, const RoomScene& room) {
+  std::vector<std::uint8_t> draw(RoomRenderer& renderer, const RoomModel& room) {
     make_draw_list(room, scene, state, options, list);
     renderer.draw(list, asked);
     last = {renderer.read_rgba(), asked.width_px, asked.height_px};
@@ -47,7 +47,7 @@ class RoomPictures : public ::testing::Test {
 };
 
 TEST_F(RoomPictures, TheSkinIsWhereItsOutlineIsProjected) {
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = 320;
   asked.height_px = 240;
@@ -99,7 +99,7 @@ std::vector<glm::ivec2> changed(const std::vector<std::uint8_t>& a, const std::v
 // not. The needle is upright and is seen above its tip; its shadow falls towards the eye.
 TEST_F(RoomPictures, TheShadowMeetsTheTipWhereTheNeedleTouches) {
   scene.instrument.radius_mm = 0.83;
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = asked.height_px = 500;
   const RoomFrame& f = room.frame;
@@ -148,7 +148,7 @@ TEST_F(RoomPictures, ADetectorCastsItsShadowWhereverTheArmStands) {
   scene = ball_case(cases::Modality::xray);
   options.needle = false;
   state.fluoroscopy.in_use = true;
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = asked.height_px = 300;
   asked.quality = kFastRoom;
@@ -205,7 +205,7 @@ TEST_F(RoomPictures, ADetectorCastsItsShadowWhereverTheArmStands) {
 
 TEST_F(RoomPictures, APairIsApartAsTheTwoEyesSee) {
   scene.planned_entry_lps_mm = glm::dvec3(20.0, -kBallMm, 30.0);
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = 800;
   asked.height_px = 400;
@@ -243,7 +243,7 @@ TEST_F(RoomPictures, APairIsApartAsTheTwoEyesSee) {
 
 TEST_F(RoomPictures, SkinThatIsPressedIsDrawnWhereItIs) {
   scene.yields = true;
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = asked.height_px = 300;
   asked.quality = kFastRoom;
@@ -285,7 +285,7 @@ TEST_F(RoomPictures, SkinThatIsPressedIsDrawnWhereItIs) {
 }
 
 TEST_F(RoomPictures, AStillPatientCostsNoDisplacementAndNoNewShadowMap) {
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = asked.height_px = 64;
   asked.camera = room_camera(room, scene, state, RoomView::operator_side);
@@ -309,7 +309,7 @@ TEST_F(RoomPictures, AStillPatientCostsNoDisplacementAndNoNewShadowMap) {
 }
 
 TEST_F(RoomPictures, ShadowsOfWhatLiesStillMayBeALittleOldWhileTissueMoves) {
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   asked.width_px = asked.height_px = 64;
   asked.camera = room_camera(room, scene, state, RoomView::operator_side);
   scene.yields = true;
@@ -334,7 +334,7 @@ TEST_F(RoomPictures, EverySettingDrawsAllOfIt) {
   scene.structures.push_back({"organ", {}, cases::StructureRule::organ, cases::Sphere{{0, 0, 0}, 30.0}});
   for (const auto modality : {cases::Modality::ultrasound, cases::Modality::xray, cases::Modality::mpr}) {
     scene.picture.modality = modality;
-    const RoomScene room = make_room_scene(scene, {5'000, true});
+    const RoomModel room = make_room_model(scene, {5'000, true});
     RoomRenderer renderer(context, room);
     asked.width_px = 120;
     asked.height_px = 90;
@@ -355,7 +355,7 @@ TEST_F(RoomPictures, EverySettingDrawsAllOfIt) {
 }
 
 TEST_F(RoomPictures, AreTheSameTwice) {
-  const RoomScene room = make_room_scene(scene);
+  const RoomModel room = make_room_model(scene);
   RoomRenderer renderer(context, room);
   asked.width_px = 200;
   asked.height_px = 150;

@@ -1,7 +1,7 @@
 // What is set, frozen and measured at the console.
 #include "sim/imaging/ultrasound/console.h"
 
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

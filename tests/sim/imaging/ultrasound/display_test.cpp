@@ -1,5 +1,5 @@
 // Gain, sliders, logarithm and grey (goal 14).
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -1,7 +1,7 @@
 // Goal 16 on a hundred thousand scatterers.
 #include "app/measure/ultrasound_goals/elements.h"
 
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

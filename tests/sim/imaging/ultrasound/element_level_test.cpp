@@ -3,7 +3,7 @@
 
 #include "app/measure/ultrasound_goals/elements.h"
 #include "shaders/shared/ultrasound.glsl.h"
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

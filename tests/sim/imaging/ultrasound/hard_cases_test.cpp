@@ -1,5 +1,5 @@
 // Gas, bone, metal, a face off the skin, the edge of the CT (ultrasound.md §4c).
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -1,6 +1,6 @@
 // What sound loses and what interfaces send back, against closed forms (goals 2 to 5 and 10).
 #include "shaders/shared/ultrasound.glsl.h"
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

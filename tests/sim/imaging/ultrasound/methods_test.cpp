@@ -1,7 +1,7 @@
 // The methods that scatterers are compared with: lattice and thesis.
-#include "sim/imaging/ultrasound/lattice.h"
+#include "sim/imaging/ultrasound/speckle/lattice.h"
 #include "sim/imaging/ultrasound/thesis.h"
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

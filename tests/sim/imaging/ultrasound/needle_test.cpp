@@ -1,7 +1,7 @@
 // The needle in the picture (goals 11 to 13, hard cases of ultrasound.md §4c).
 #include "app/measure/ultrasound_goals/needle.h"
 #include "shaders/shared/ultrasound.glsl.h"
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "app/measure/ultrasound_goals/plane_scatterers.h"
 #include "shaders/shared/ultrasound.glsl.h"
-#include "sim/imaging/ultrasound/scatterers.h"
-#include "ultrasound_scene.h"
+#include "sim/imaging/ultrasound/speckle/scatterers.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

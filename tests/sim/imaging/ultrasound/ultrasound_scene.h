@@ -12,7 +12,7 @@
 #include "app/measure/ultrasound_goals/goal.h"
 #include "app/measure/ultrasound_goals/polar_levels.h"
 #include "sim/imaging/ultrasound/line.h"
-#include "sim/imaging/ultrasound/ultrasound.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
 
 namespace seldinger::imaging {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "shaders/shared/ultrasound.glsl.h"
-#include "ultrasound_scene.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {

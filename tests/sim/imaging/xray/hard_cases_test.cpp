@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 
-#include "sim/imaging/xray/coarse.h"
-#include "sim/imaging/xray/packet_volume.h"
+#include "sim/imaging/xray/projection/coarse.h"
+#include "sim/imaging/xray/projection/packet_volume.h"
 #include "tests/sim/imaging/xray/xray_scene.h"
 
 namespace seldinger::imaging {

@@ -2,7 +2,7 @@
 // picture.
 #include "sim/imaging/xray/live_picture.h"
 
-#include "sim/imaging/xray/coarse.h"
+#include "sim/imaging/xray/projection/coarse.h"
 #include "tests/sim/imaging/xray/xray_scene.h"
 
 namespace seldinger::imaging {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/base/rng.h"
-#include "sim/imaging/xray/projection.h"
+#include "sim/imaging/xray/projection/projection.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::imaging {

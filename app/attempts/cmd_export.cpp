@@ -1,0 +1,79 @@
+// export.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/attempts/export_json.h"
+#include "app/cli/command.h"
+#include "app/cli/key_file.h"
+#include "reports/export/raw_export.h"
+
+namespace seldinger::app {
+namespace {
+
+// "poses,events"; "none" for nothing.
+void choose(const std::string& text, reports::RawChoice& choice) {
+  choice.poses = choice.forces = choice.frames = choice.events = false;
+  if (text == "none") return;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(',', from), text.size());
+    const std::string word = text.substr(from, end - from);
+    bool* chosen = word == "poses"    ? &choice.poses
+                   : word == "forces" ? &choice.forces
+                   : word == "frames" ? &choice.frames
+                   : word == "events" ? &choice.events
+                                      : nullptr;
+    if (chosen == nullptr) throw UsageError("--raw takes none, or of poses, forces, frames and events");
+    *chosen = true;
+    from = end + 1;
+  }
+}
+
+int run_export(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library"), out = arguments.required("--out");
+  reports::RawChoice choice;
+  if (arguments.has("--raw")) choose(arguments.text("--raw"), choice);
+  if (arguments.has("--case")) choice.case_id = arguments.text("--case");
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  const std::string key_file = arguments.text("--key");
+  const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
+  auto key = key_from_file(key_file);
+  if (!key) return refuse(key.error());
+  const auto done = reports::export_raw(*library, out, choice, *key);
+  key->fill(std::byte{0});
+  if (!done) {
+    if (key_is_new) std::filesystem::remove(key_file);  // refused: nothing is changed
+    return refuse(done.error());
+  }
+  if (arguments.has("--json")) {
+    std::fputs(json_of_export(*done).c_str(), stdout);
+    return kDone;
+  }
+  std::printf("%zu attempts (%zu of simulated operators) of %zu people, %zu values, %zu files\n", done->attempts,
+              done->synthetic, done->people, done->metrics, done->files);
+  return kDone;
+}
+
+constexpr Option kExportOptions[] = {
+    kLibrary,
+    {"--out", "DIR", "the new folder"},
+    {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
+    {"--key", "FILE",
+     "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
+     "Keep it apart from what you pass on"},
+    kJson};
+
+}  // namespace
+
+Command export_command() {
+  return {
+      .name = "export",
+      .options = kExportOptions,
+      .summary =
+          "Writes attempts as CSV with a data dictionary into a new folder: no names, no dates (docs/export.md).",
+      .run = &run_export};
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,122 @@
+// recompute.
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "app/attempts/answers_json.h"
+#include "app/cli/command.h"
+#include "assessment/score.h"
+#include "session/case/case_build.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kSame = 1e-9;  // across builds (assessment.md §11.7)
+
+bool same_bits(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() &&
+         (!a || std::bit_cast<std::uint64_t>(*a) == std::bit_cast<std::uint64_t>(*b));
+}
+bool close(const std::optional<double>& a, const std::optional<double>& b) {
+  return a.has_value() == b.has_value() && (!a || std::abs(*a - *b) <= kSame * std::max(1.0, std::abs(*a)));
+}
+
+// Attempts at one lesion share what is costly of its case.
+class Scenes {
+ public:
+  explicit Scenes(casedb::Library& library) : library_(library) {}
+
+  base::Result<cases::Case*> of(const casedb::AttemptRow& attempt) {
+    if (lesion_id_ != attempt.lesion_id) {  // a lesion is one of its case
+      lesion_id_.clear();
+      auto built = session::build_case_of(library_, attempt, session::Needs::metrics);
+      if (!built) return built.error();
+      scene_ = std::move(*built);
+      lesion_id_ = attempt.lesion_id;
+    }
+    scene_.instrument = attempt.instrument;
+    scene_.picture = attempt.picture;
+    scene_.approach = attempt.approach;
+    return &scene_;
+  }
+
+ private:
+  casedb::Library& library_;
+  std::string lesion_id_;
+  cases::Case scene_;
+};
+
+base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow& attempt, Scenes& scenes,
+                             Recomputed& sum) {
+  const auto scene = scenes.of(attempt);
+  if (!scene) return scene.error();
+  const auto recording = casedb::load_recording(library, attempt.attempt_id);
+  if (!recording) return recording.error();
+  const auto scored = assessment::score(**scene, *recording);
+  if (!scored) return scored.error();
+  for (const assessment::MetricValue& now : scored->metrics)
+    for (const assessment::MetricValue& stored : attempt.metrics)
+      if (stored.id == now.id && stored.version == now.version) {
+        ++sum.values;
+        if (!same_bits(stored.value, now.value)) ++sum.not_bit_identical;
+        if (!close(stored.value, now.value))
+          sum.differences.push_back({attempt.attempt_id, now.id, now.version, stored.value, now.value});
+      }
+  const auto added = casedb::add_metrics(library, attempt.attempt_id, scored->metrics);
+  if (!added) return added.error();
+  sum.added += *added;
+  const auto steps_added = casedb::add_steps(library, attempt.attempt_id, scored->steps);
+  if (!steps_added) return steps_added.error();
+  sum.steps_added += *steps_added;
+  return {};
+}
+
+int run_recompute(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  std::vector<casedb::AttemptRow> attempts;
+  if (arguments.has("--attempt")) {
+    auto one = casedb::find_attempt(*library, arguments.text("--attempt"));
+    if (!one) return refuse(one.error());
+    attempts.push_back(std::move(*one));
+  } else {
+    attempts = casedb::list_attempts(*library);
+  }
+  std::stable_sort(attempts.begin(), attempts.end(),
+                   [](const auto& a, const auto& b) { return a.case_id < b.case_id; });
+  Recomputed sum;
+  Scenes scenes(*library);
+  for (const casedb::AttemptRow& attempt : attempts) {
+    ++sum.attempts;
+    if (const auto done = recompute(*library, attempt, scenes, sum); !done)
+      sum.not_scored.emplace_back(attempt.attempt_id, done.error());
+  }
+  if (arguments.has("--json")) {
+    std::fputs(json_of_recompute(sum).c_str(), stdout);
+  } else {
+    std::printf(
+        "%zu attempts, %zu stored values compared: %zu differ, %zu not bit for bit the same; %zu added, and %zu "
+        "steps\n",
+        sum.attempts, sum.values, sum.differences.size(), sum.not_bit_identical, sum.added, sum.steps_added);
+    for (const Recomputed::Difference& one : sum.differences)
+      std::printf("DIFFERENT: %s %s version %d\n", one.attempt_id.c_str(), one.metric_id.c_str(), one.version);
+    for (const auto& [attempt_id, error] : sum.not_scored)
+      std::printf("not scored: %s: %s\n", attempt_id.c_str(), error.code.c_str());
+  }
+  return sum.differences.empty() ? kDone : kCheckFailed;
+}
+
+constexpr Option kRecomputeOptions[] = {
+    kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+
+}  // namespace
+
+Command recompute_command() {
+  return {.name = "recompute",
+          .options = kRecomputeOptions,
+          .summary =
+              "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
+          .run = &run_recompute};
+}
+
+}  // namespace seldinger::app

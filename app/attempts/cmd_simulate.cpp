@@ -1,0 +1,178 @@
+// simulate.
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "app/attempts/answers_json.h"
+#include "app/attempts/grade_text.h"
+#include "app/attempts/metrics_text.h"
+#include "app/attempts/this_program.h"
+#include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "session/attempt/simulation.h"
+
+namespace seldinger::app {
+namespace {
+
+base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
+  if (const auto profile = assessment::named_profile(name)) return *profile;
+  if (!name.ends_with(".json"))
+    throw UsageError("--operator is novice, intermediate, expert, learner or a .json file");
+  const auto text = read_text(name, 1U << 20U);
+  if (!text) return text.error();
+  return assessment::profile_from_json(*text);
+}
+
+// "cough@12.5"
+cases::Event mentors_event(const std::string& text) {
+  const std::size_t at = text.find('@');
+  const auto kind = cases::event_from(text.substr(0, at));
+  const double t_s = at == text.npos ? -1.0 : parse_number(text.substr(at + 1)).value_or(-1.0);
+  if (!kind || cases::find_event(*kind)->source != cases::EventSource::mentor || !(t_s >= 0.0))
+    throw UsageError("--event is cough, bleeding or pressure_drop, @ and a time in seconds: cough@12.5");
+  return {t_s, *kind};
+}
+
+std::vector<cases::Event> scenario_of(const Arguments& arguments) {
+  std::vector<cases::Event> scenario;
+  if (arguments.has("--event"))
+    for (const std::string& text : arguments.all("--event")) scenario.push_back(mentors_event(text));
+  std::stable_sort(scenario.begin(), scenario.end(),
+                   [](const cases::Event& a, const cases::Event& b) { return a.t_s < b.t_s; });
+  return scenario;
+}
+
+session::SimulatedAttempt graded(casedb::Library& library, casedb::Grader& grader,
+                                 session::SimulatedAttempt attempt) {
+  if (const auto row = casedb::find_attempt(library, attempt.attempt_id)) attempt.grade = grader.look_at(*row);
+  return attempt;
+}
+
+void print(const session::SimulatedAttempt& attempt) {
+  std::printf("attempt %s  simulated %s  seed %llu\n", attempt.attempt_id.c_str(), attempt.operator_name.c_str(),
+              static_cast<unsigned long long>(attempt.seed));
+  if (attempt.grade) std::fputs(text_of_grade(*attempt.grade).c_str(), stdout);
+  print_metrics(attempt.metrics);
+  std::fflush(stdout);  // it is stored: whoever reads along may know
+}
+
+int resume(const Arguments& arguments) {
+  for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--jobs", "--instrument",
+                             "--modality", "--no-pictures"})
+    if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --resume");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  auto interrupted = session::InterruptedAttempt::take(*library, arguments.text("--resume"));
+  if (!interrupted) return refuse(interrupted.error());
+  const casedb::OpenAttempt& attempt = interrupted->attempt();
+  if (!attempt.synthetic())
+    return refuse({"not_simulated", "a person made this attempt: they can go on with it in `seldinger train`"});
+  auto profile = assessment::named_profile(attempt.operator_name);
+  if (arguments.has("--operator")) {
+    const auto given = profile_of(arguments.text("--operator"));
+    if (!given) return refuse(given.error());
+    profile = *given;
+  }
+  if (!profile) throw UsageError("the attempt's operator is unknown: --operator names the profile's file");
+  auto simulation = session::Simulation::prepare(*library, this_program(), attempt.case_id, attempt.lesion_id,
+                                                 attempt.instrument.kind, attempt.picture.modality);
+  if (!simulation) return refuse(simulation.error());
+  if (const auto set = simulation->set_scenario(scenario_of(arguments)); !set) return refuse(set.error());
+  casedb::Grader grader(*library);
+  auto made = simulation->resume(std::move(*interrupted), *profile);
+  if (!made) return refuse(made.error());
+  const session::SimulatedAttempt stored = graded(*library, grader, std::move(*made));
+  if (arguments.has("--json"))
+    std::fputs(json_of_simulation({stored}).c_str(), stdout);
+  else
+    print(stored);
+  return kDone;
+}
+
+int run_simulate(const Arguments& arguments) {
+  if (arguments.has("--resume")) return resume(arguments);
+  const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
+  const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
+  const auto count = arguments.whole("--count", 1, 1, 100'000);
+  std::optional<std::size_t> people;
+  if (arguments.has("--people")) people = static_cast<std::size_t>(arguments.whole("--people", 1, 1, 1'000));
+  const auto jobs = arguments.whole("--jobs", std::clamp(std::thread::hardware_concurrency(), 1U, 16U), 1, 256);
+  std::optional<cases::InstrumentKind> kind;
+  if (arguments.has("--instrument")) {
+    const std::string name = arguments.text("--instrument");
+    if (name != "access" && name != "core") throw UsageError("--instrument is access or core");
+    kind = name == "core" ? cases::InstrumentKind::core : cases::InstrumentKind::access;
+  }
+  std::optional<cases::Modality> modality;
+  if (arguments.has("--modality")) {
+    modality = casedb::modality_from(arguments.text("--modality"));
+    if (!modality) throw UsageError("--modality is " + casedb::modality_names());
+  }
+  std::vector<cases::Event> scenario = scenario_of(arguments);
+  const auto profile = profile_of(arguments.required("--operator"));
+  if (!profile) return refuse(profile.error());
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  auto simulation =
+      session::Simulation::prepare(*library, this_program(), case_id, arguments.text("--lesion"), kind, modality);
+  if (!simulation) return refuse(simulation.error());
+  if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
+  std::vector<session::SimulatedAttempt> attempts;
+  casedb::Grader grader(*library);  // against the experts as they were before this run
+  const auto stored = [&](session::SimulatedAttempt attempt) {
+    attempts.push_back(graded(*library, grader, std::move(attempt)));
+    if (!arguments.has("--json")) print(attempts.back());
+  };
+  const auto trials = session::simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
+  if (!arguments.has("--real-time")) {
+    const auto done =
+        simulation->attempts(trials, static_cast<std::size_t>(jobs), !arguments.has("--no-pictures"), stored);
+    if (!done) return refuse(done.error());
+  } else {
+    for (const session::SimulatedTrial& trial : trials) {
+      auto attempt = simulation->live_attempt(trial.profile, trial.seed, [](const std::string& id) {
+        std::fprintf(stderr, "attempt %s is recorded; should this program die, simulate --resume goes on with it\n",
+                     id.c_str());
+      });
+      if (!attempt) return refuse(attempt.error());
+      attempt->person = trial.person;
+      attempt->number = trial.number;
+      stored(std::move(*attempt));
+    }
+  }
+  if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);
+  return kDone;
+}
+
+constexpr Option kSimulateOptions[] = {
+    kLibrary,
+    {"--case", "ID", "the case"},
+    {"--lesion", "ID", "the target; default the case's first lesion"},
+    {"--operator", "novice|intermediate|expert|learner|FILE.json",
+     "who (docs/operators.md); a learner is better with each attempt"},
+    {"--seed", "N", "attempt i uses seed N + i"},
+    {"--count", "K", "how many attempts, of each person; default 1"},
+    {"--people", "P",
+     "of P different people with that profile: the same for the same seed; default the profile itself"},
+    {"--jobs", "N", "threads; default one for each core. The results are the same"},
+    {"--no-pictures", nullptr, "store no picture of the moment of firing"},
+    {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
+    {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},
+    {"--event", "KIND@SECONDS",
+     "a mentor's event at that time: cough, bleeding or pressure_drop; may be given many times", true},
+    {"--real-time", nullptr, "as a person would: 1 kHz by the clock, stored while it runs; not under xray"},
+    {"--resume", "ATTEMPT",
+     "go on with an interrupted attempt in real time: case, needle and seed are its own, and so is the operator, "
+     "unless --operator names the file it was made with; give its --event again"},
+    kJson};
+
+}  // namespace
+
+Command simulate_command() {
+  return {.name = "simulate",
+          .options = kSimulateOptions,
+          .summary = "Lets a simulated operator make attempts, recorded and scored.",
+          .run = &run_simulate};
+}
+
+}  // namespace seldinger::app

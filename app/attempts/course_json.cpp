@@ -1,0 +1,29 @@
+#include "app/attempts/course_json.h"
+
+namespace seldinger::app {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of_steps(const std::vector<assessment::StepResult>& steps) {
+  Json list = Json::array();
+  for (const assessment::StepResult& step : steps)
+    list.push_back({{"id", step.id},
+                    {"version", step.version},
+                    {"state", assessment::name_of(step.state)},
+                    {"t_s", step.t_s ? Json(*step.t_s) : Json(nullptr)},
+                    {"reason", step.reason}});
+  return list;
+}
+
+Json json_of_events(const std::optional<std::vector<cases::Event>>& events) {
+  if (!events) return nullptr;
+  Json list = Json::array();
+  for (const cases::Event& event : *events) {
+    const cases::EventInfo* info = cases::find_event(event.kind);
+    if (info != nullptr)
+      list.push_back({{"t_s", event.t_s}, {"kind", info->name}, {"source", cases::name_of(info->source)}});
+  }
+  return list;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,55 @@
+#include "app/cases/case_answers_json.h"
+
+#include "casedb/database/values_json.h"
+
+namespace seldinger::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using casedb::text;
+
+}  // namespace
+
+std::string json_of_structure(const std::string& structure_id) {
+  return text({{"structure_id", structure_id}});
+}
+
+std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled) {
+  Json list = Json::array();
+  for (const LabelCount& one : labels)
+    list.push_back({{"label", one.label}, {"name", one.name}, {"voxels", one.voxels}});
+  return text({{"labels", list}, {"resampled", resampled}});
+}
+
+std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check) {
+  Json list = Json::array();
+  for (const casedb::Check& one : check.checks)
+    list.push_back({{"check", one.name}, {"holds", one.holds}, {"text", one.text}});
+  return text(
+      {{"case_id", case_id}, {"holds", check.holds()}, {"checks", list}, {"rule_may_name", check.rule_may_name}});
+}
+
+std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs) {
+  Json held = Json::array(), sources = Json::array();
+  for (const session::CaseNeed& one : needs.held) held.push_back({{"what", one.what}, {"bytes", one.bytes}});
+  for (const session::MotionSource& one : needs.sources)
+    sources.push_back({{"kind", one.kind}, {"name", one.name}, {"bytes", one.bytes}});
+  return text({{"case_id", case_id},
+               {"held", held},
+               {"displacement",
+                {{"sources", sources},
+                 {"count", needs.sources.size()},
+                 {"most", session::kMostMotionSources},
+                 {"bytes", needs.displacement_bytes},
+                 {"there_ns", needs.there_ns},
+                 {"back_ns", needs.back_ns}}}});
+}
+
+std::string json_of_version(const casedb::CaseRow& row) {
+  return text({{"case_id", row.case_id},
+               {"family_id", row.family_id},
+               {"version", row.version},
+               {"state", casedb::name_of(row.state)}});
+}
+
+}  // namespace seldinger::app

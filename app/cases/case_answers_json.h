@@ -1,0 +1,25 @@
+// The JSON documents that the commands of a case's author answer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "casedb/cases/case_checks.h"
+#include "session/case/case_check.h"
+#include "session/case/case_needs.h"
+
+namespace seldinger::app {
+
+struct LabelCount {
+  int label = 0;
+  std::string name;
+  std::size_t voxels = 0;
+};
+
+std::string json_of_structure(const std::string& structure_id);
+std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
+std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check);
+std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs);
+std::string json_of_version(const casedb::CaseRow& row);
+
+}  // namespace seldinger::app

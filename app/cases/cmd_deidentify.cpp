@@ -1,0 +1,51 @@
+// deidentify.
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "app/cases/deidentify_json.h"
+#include "app/cli/command.h"
+#include "app/cli/key_file.h"
+#include "casedb/export/deidentify.h"
+
+namespace seldinger::app {
+namespace {
+int run_deidentify(const Arguments& arguments) {
+  auto key = key_from_file(arguments.text("--key"));
+  if (!key) return refuse(key.error());
+  if (::isatty(STDERR_FILENO) != 0) std::fputs("taking out what identifies …\n", stderr);
+  const auto done = casedb::deidentify(arguments.positional(0), arguments.positional(1), *key);
+  key->fill(std::byte{0});
+  if (!done) return refuse(done.error());
+  if (arguments.has("--json")) {
+    std::fputs(json_of_deidentified(*done).c_str(), stdout);
+    return kDone;
+  }
+  std::printf("%d file%s written\n", done->files, done->files == 1 ? "" : "s");
+  for (const auto& [what, count] : done->counts)
+    std::printf("%-10s %lld elements\n", what.c_str(), static_cast<long long>(count));
+  for (const auto& [code, count] : done->left_out) std::printf("left out: %s: %d files\n", code.c_str(), count);
+  std::puts("Pixels are as they were: look through them for text and faces before you pass them on.");
+  return kDone;
+}
+
+constexpr Option kDeidentifyOptions[] = {
+    {"--key", "FILE",
+     "keeps UIDs consistent with other runs; made when there is none. Whoever has it can tell them apart"},
+    kJson};
+
+}  // namespace
+
+Command deidentify_command() {
+  return {.name = "deidentify",
+          .positionals = "IN OUT",
+          .min_positionals = 2,
+          .max_positionals = 2,
+          .options = kDeidentifyOptions,
+          .summary =
+              "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, "
+              "into a new folder. Pixels stay as they are.",
+          .run = &run_deidentify};
+}
+
+}  // namespace seldinger::app

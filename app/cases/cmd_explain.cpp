@@ -1,0 +1,55 @@
+// case explain: what a case's scene holds, what moves its tissue, and what that costs.
+#include <cstdio>
+
+#include "app/cases/case_answers_json.h"
+#include "app/cli/command.h"
+#include "casedb/cases/authoring.h"
+#include "session/case/case_build.h"
+
+namespace seldinger::app {
+namespace {
+
+int run_case_explain(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const std::string case_id = arguments.positional(0);
+  const auto row = casedb::find_case(*library, case_id);
+  if (!row) return refuse(row.error());
+  std::optional<cases::LesionForm> target;
+  for (const casedb::LesionRow& lesion : casedb::list_lesions(*library, case_id))
+    if (!target) target = lesion.form;
+  cases::Picture picture;
+  picture.modality = row->modality;
+  const auto scene = session::build_case(*library, *row, target, picture, session::needs_of(row->modality));
+  if (!scene) return refuse(scene.error());
+  const session::CaseNeeds needs = session::needs_of_case(*scene);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_needs(case_id, needs).c_str(), stdout);
+    return kDone;
+  }
+  for (const session::CaseNeed& one : needs.held) std::printf("%-16s %12zu bytes\n", one.what.c_str(), one.bytes);
+  if (needs.displacement_bytes == 0) {
+    std::puts("moving tissue    none: no source, nothing is asked");
+    return kDone;
+  }
+  std::printf("moving tissue    %12zu bytes, %zu of at most %d sources\n", needs.displacement_bytes,
+              needs.sources.size(), session::kMostMotionSources);
+  for (const session::MotionSource& one : needs.sources)
+    std::printf("  %-14s %12zu bytes  %s\n", one.kind.c_str(), one.bytes, one.name.c_str());
+  std::printf("  a point, all at work: %.0f ns, back to rest %.0f ns\n", needs.there_ns, needs.back_ns);
+  return kDone;
+}
+
+}  // namespace
+
+Command case_explain_command() {
+  return {.name = "case explain",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Lists what a case's scene holds in memory, what can move its tissue, and what that costs.",
+          .run = &run_case_explain};
+}
+
+}  // namespace seldinger::app

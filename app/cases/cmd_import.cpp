@@ -1,0 +1,183 @@
+// import, sample.
+#include <cstdio>
+#include <glm/common.hpp>
+
+#include "app/attempts/answers_json.h"
+#include "app/cases/import_case.h"
+#include "app/cases/privacy_text.h"
+#include "app/cli/command.h"
+#include "casedb/cases/permissions.h"
+
+namespace seldinger::app {
+
+namespace {
+
+casedb::FaceChoice face_choice(const std::string& text) {
+  if (text == "refuse") return casedb::FaceChoice::refuse;
+  if (text == "crop") return casedb::FaceChoice::crop;
+  if (text == "deface") return casedb::FaceChoice::deface;
+  throw UsageError("--face is refuse, crop or deface");
+}
+
+int run_import(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library");
+  const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
+  if (!modality) throw UsageError("--modality is " + casedb::modality_names());
+  const auto position = casedb::position_from(arguments.text("--position", "supine"));
+  if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
+  std::optional<std::string> series;
+  if (arguments.has("--series")) series = arguments.text("--series");
+  const casedb::FaceChoice face = face_choice(arguments.text("--face", "refuse"));
+  if (arguments.has("--by") && !arguments.has("--no-burned-in-text"))
+    throw UsageError("--by goes with --no-burned-in-text");
+  std::optional<std::string> confirmed_by;
+  if (arguments.has("--by")) {
+    auto library = casedb::Library::open(folder);
+    if (!library) return refuse(library.error());
+    const auto by =
+        casedb::account_that_may(*library, arguments.text("--by"), casedb::Action::confirm_no_burned_in_text);
+    if (!by) return refuse(by.error());
+    confirmed_by = by->person_id;
+  }
+  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face,
+                              arguments.has("--denoise"));
+  if (!imported) return refuse(imported.error());
+  imported->no_burned_in_text = arguments.has("--no-burned-in-text");
+  imported->burned_in_checked_by = confirmed_by;
+  imported->modality = *modality;
+  imported->position = *position;
+  auto library = casedb::Library::open_or_create(folder);
+  if (!library) return refuse(library.error());
+  const std::string case_id = casedb::add_case(*library, *imported);
+  const auto row = casedb::find_case(*library, case_id);
+  if (!row) return refuse(row.error());
+  if (arguments.has("--json")) {
+    std::fputs(json_of_case(casedb::load_parts(*library, *row)).c_str(), stdout);
+    return kDone;
+  }
+  std::printf("case %s\n%s\n%d x %d x %d voxels, %.4g x %.4g x %.4g mm, HU %d to %d, %d slices\n",
+              row->case_id.c_str(), row->title.c_str(), row->size_voxels.x, row->size_voxels.y, row->size_voxels.z,
+              row->spacing_mm.x, row->spacing_mm.y, row->spacing_mm.z, row->hu_min, row->hu_max, row->slices_used);
+  for (const base::Problem& warning : row->warnings)
+    std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
+  std::fputs(privacy_text(*row).c_str(), stdout);
+  return kDone;
+}
+
+int run_sample(const Arguments& arguments) {
+  const std::string folder = arguments.required("--library");
+  arguments.required("--lps");
+  std::vector<PointSample> samples;
+  for (const std::string& text : arguments.all("--lps")) {
+    const auto point = parse_point(text);
+    if (!point) throw UsageError("--lps needs X,Y,Z in mm");
+    samples.push_back({*point, {}, {}, {}});
+  }
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  const auto row = casedb::find_case(*library, arguments.positional(0));
+  if (!row) return refuse(row.error());
+  const auto volume = casedb::load_volume(*library, *row);
+  if (!volume) return refuse(volume.error());
+  std::optional<volume::LabelMap> labels;  // the built-in case knows its tissues
+  if (!row->labels_sha256.empty()) {
+    auto loaded = casedb::load_labels(*library, *row);
+    if (!loaded) return refuse(loaded.error());
+    labels = std::move(*loaded);
+  }
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(*volume);
+  for (PointSample& sample : samples) {
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(sample.lps_mm, 1.0));
+    if (const auto hu = volume::sample_nearest(*volume, index)) sample.hu_nearest = *hu;
+    sample.hu_trilinear = volume::sample_trilinear(*volume, index);
+    if (labels && sample.hu_nearest) {
+      const glm::ivec3 nearest =
+          glm::clamp(glm::ivec3(glm::floor(index + 0.5)), glm::ivec3(0), volume->size_voxels - 1);
+      sample.label = labels->names[labels->label[volume->index(nearest.x, nearest.y, nearest.z)]];
+    }
+  }
+  if (arguments.has("--json")) {
+    std::fputs(json_of_samples(samples).c_str(), stdout);
+    return kDone;
+  }
+  for (const PointSample& sample : samples) {
+    std::printf("%.6g,%.6g,%.6g: ", sample.lps_mm.x, sample.lps_mm.y, sample.lps_mm.z);
+    if (sample.hu_nearest)
+      std::printf("nearest %.0f HU, trilinear %.2f HU%s%s\n", *sample.hu_nearest, *sample.hu_trilinear,
+                  sample.label ? ", " : "", sample.label ? sample.label->c_str() : "");
+    else
+      std::printf("outside the volume\n");
+  }
+  return kDone;
+}
+
+int run_case_confirm(const Arguments& arguments) {
+  if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by =
+      casedb::account_that_may(*library, arguments.required("--by"), casedb::Action::confirm_no_burned_in_text);
+  if (!by) return refuse(by.error());
+  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), by->person_id);
+  if (!kept) return refuse(kept.error());
+  std::puts("confirmed");
+  return kDone;
+}
+
+constexpr Option kImportOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "the case's title; never taken from the source"},
+    {"--series", "UID|N", "which series, when the folder holds several"},
+    {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
+    {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
+    {"--face", "refuse|crop|deface",
+     "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
+    {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"},
+    kJson};
+
+constexpr Option kConfirmOptions[] = {
+    kLibrary,
+    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
+    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"}};
+
+constexpr Option kSampleOptions[] = {
+    kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
+
+}  // namespace
+
+Command import_command() {
+  return {.name = "import",
+          .positionals = "SOURCE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kImportOptions,
+          .summary =
+              "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case.",
+          .run = &run_import};
+}
+
+Command sample_command() {
+  return {.name = "sample",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kSampleOptions,
+          .summary = "Prints the HU at points of a case.",
+          .run = &run_sample};
+}
+
+Command case_confirm_command() {
+  return {
+      .name = "case confirm",
+      .positionals = "CASE",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kConfirmOptions,
+      .summary =
+          "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
+      .run = &run_case_confirm};
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,119 @@
+#include "app/cases/import_case.h"
+
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <system_error>
+
+#include "casedb/export/dicom_series.h"
+#include "casedb/import/diffusion.h"
+#include "casedb/import/import.h"
+#include "casedb/import/skin/surface.h"
+#include "sim/base/failure.h"
+#include "sim/volume/phantom.h"
+
+namespace seldinger::app {
+namespace {
+
+void progress(const char* what) {
+  if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s …\n", what);
+}
+
+// A folder of this process that goes when it does.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "seldinger-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw base::Failure("disk", "no temporary folder can be made");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// By way of DICOM, so that what we made goes where a patient's CT goes.
+base::Result<casedb::NewCase> import_built_in(volume::Phantom phantom, const std::string& description,
+                                              const std::string& title, const std::string& origin) {
+  const TemporaryFolder folder;
+  const auto written = casedb::write_dicom_series(phantom.volume, {description}, folder.path());
+  if (!written) return written.error();
+  auto imported = import_case(folder.path(), {}, title, origin);
+  if (imported) imported->labels = std::move(phantom.labels);
+  if (imported) imported->no_burned_in_text = true;  // we made every voxel
+  return imported;
+}
+
+}  // namespace
+
+base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
+                                          const std::optional<std::string>& series, const std::string& title,
+                                          const std::string& origin, casedb::FaceChoice face, bool denoise) {
+  progress("reading the volume");
+  auto read = casedb::read_source(source, series);
+  if (!read) return read.error();
+  const auto face_state = casedb::settle_face(read->volume, face, read->says_head);
+  if (!face_state) return face_state.error();
+  if (denoise) {
+    progress("taking noise away");
+    read->warnings.push_back(casedb::denoise(read->volume));
+  }
+  progress("making the skin");
+  auto skin = casedb::skin_surface(read->volume);
+  if (!skin) return skin.error();
+  casedb::NewCase made;
+  const glm::ivec3 size = read->volume.size_voxels;
+  made.title = !title.empty() ? title
+                              : "CT, " + std::to_string(size.x) + " x " + std::to_string(size.y) + " x " +
+                                    std::to_string(size.z);
+  made.origin = origin;
+  made.volume = std::move(read->volume);
+  made.skin = std::move(*skin);
+  made.attributes = std::move(read->attributes);
+  made.warnings = std::move(read->warnings);
+  made.slices_used = read->slices_used;
+  made.face_state = *face_state;
+  made.dropped = std::move(read->dropped);
+  return made;
+}
+
+std::string phantom_origin(volume::Calyces calyces) {
+  const char* kind = calyces == volume::Calyces::dilated     ? ":dilated"
+                     : calyces == volume::Calyces::opacified ? ":opacified"
+                                                             : "";
+  return std::string("phantom:") + volume::kPhantomVersion + kind;
+}
+
+base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces) {
+  progress("making the built-in torso");
+  volume::PhantomOptions options;
+  options.calyces = calyces;
+  const std::string title = calyces == volume::Calyces::dilated     ? "Built-in torso, dilated calyces"
+                            : calyces == volume::Calyces::opacified ? "Built-in torso, opacified calyces"
+                                                                    : "Built-in torso";
+  return import_built_in(volume::make_phantom(options), "Seldinger built-in torso phantom", title,
+                         phantom_origin(calyces));
+}
+
+std::string gel_block_origin(volume::GelBlock block) {
+  const char* which = block == volume::GelBlock::find_the_plane ? ":find_the_plane"
+                      : block == volume::GelBlock::keep_the_tip ? ":keep_the_tip"
+                                                                : ":out_of_plane";
+  return std::string("phantom:gel_block:") + volume::kGelBlockVersion + which;
+}
+
+base::Result<casedb::NewCase> import_gel_block(volume::GelBlock block) {
+  progress("making a block of gel");
+  return import_built_in(volume::make_gel_block(block), "Seldinger built-in gel block", "Gel block",
+                         gel_block_origin(block));
+}
+
+}  // namespace seldinger::app

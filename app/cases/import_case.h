@@ -1,0 +1,32 @@
+// From a source to a case ready for the library: read, skin made, nothing stored yet.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "casedb/cases/cases.h"
+#include "casedb/import/privacy/face.h"
+#include "sim/base/result.h"
+#include "sim/volume/gel_block.h"
+#include "sim/volume/phantom.h"
+
+namespace seldinger::app {
+
+// An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
+base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
+                                          const std::optional<std::string>& series, const std::string& title,
+                                          const std::string& origin,
+                                          casedb::FaceChoice face = casedb::FaceChoice::refuse,
+                                          bool denoise = false);
+
+// The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
+base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);
+// What a case of it has as its origin: one for each version of the phantom and each kind of calyces.
+std::string phantom_origin(volume::Calyces calyces);
+
+// A block of gel, likewise.
+base::Result<casedb::NewCase> import_gel_block(volume::GelBlock block);
+std::string gel_block_origin(volume::GelBlock block);
+
+}  // namespace seldinger::app

@@ -1,0 +1,14 @@
+#include "app/cli/command.h"
+
+#include <cstdio>
+
+namespace seldinger::app {
+
+int refuse(const base::Error& error) {
+  std::fprintf(stderr, "error: %s: %s\n", error.code.c_str(), error.text.c_str());
+  for (const base::Problem& finding : error.findings)
+    std::fprintf(stderr, "finding: %s: %s\n", finding.code.c_str(), finding.text.c_str());
+  return kRefused;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,41 @@
+// What a command is, and the list of them: it drives the command line, `seldinger help` and docs/commands.md.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "app/cli/arguments.h"
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+// contracts.md, exit codes
+constexpr int kDone = 0, kCheckFailed = 1, kUsage = 2, kRefused = 3, kEnvironment = 4;
+
+struct Option {
+  const char* name;   // "--library"
+  const char* value;  // what follows, e.g. "DIR"; nullptr: a flag
+  const char* help;
+  bool repeatable = false;
+};
+
+struct Command {
+  const char* name;              // one or two words
+  const char* positionals = "";  // as shown, e.g. "CASE"
+  std::size_t min_positionals = 0, max_positionals = 0;
+  std::span<const Option> options{};
+  const char* summary;
+  int (*run)(const Arguments&);
+};
+
+// Options that many commands share.
+inline constexpr Option kLibrary{"--library", "DIR", "the library's folder"};
+inline constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
+inline constexpr Option kLibraryJson[] = {kLibrary, kJson};
+inline constexpr Option kJsonOnly[] = {kJson};
+inline constexpr Option kLibraryOnly[] = {kLibrary};
+
+// Prints `error: <code>: <text>` and the findings to standard error; returns kRefused.
+int refuse(const base::Error& error);
+
+}  // namespace seldinger::app

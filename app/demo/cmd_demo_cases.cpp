@@ -1,0 +1,269 @@
+// demo --cases and --drills: drills and graded cases from what is at hand, published, each passed once by a
+// simulated expert, and the curricula that lead through them.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "app/attempts/this_program.h"
+#include "app/cases/import_case.h"
+#include "app/cli/command.h"
+#include "app/demo/demo_cases.h"
+#include "app/demo/demo_library.h"
+#include "assessment/registry.h"
+#include "casedb/cases/versions.h"
+#include "casedb/grading/curriculum.h"
+#include "casedb/grading/grading.h"
+#include "session/attempt/simulation.h"
+#include "session/case/case_check.h"
+#include "sim/base/training_only.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr std::uint64_t kMostSeeds = 8;  // an expert of these profiles hits in half of his attempts or more
+constexpr const char* kAuthor = "mentor";
+constexpr const char* kReviewer = "reviewer";
+constexpr const char* kDirector = "director";
+
+void progress(const char* what, const char* title) {
+  if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s: %s …\n", title, what);
+}
+
+// Criteria are of the newest version of their metric.
+assessment::PassRule with_versions(assessment::PassRule rule) {
+  for (assessment::Criterion& one : rule.criteria)
+    if (const assessment::MetricInfo* info = assessment::find_metric(one.metric)) one.version = info->version;
+  return rule;
+}
+
+base::Result<void> add_parts(casedb::Library& library, const DemoCase& wanted, const std::string& case_id) {
+  const auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
+  const auto maps = casedb::load_label_maps(library, *row);
+  if (!maps) return maps.error();
+  for (DemoStructure structure : wanted.structures) {
+    structure.row.case_id = case_id;
+    for (const casedb::StoredLabels& map : *maps)
+      for (std::size_t label = 1; label < map.labels.names.size(); ++label)
+        if (!structure.label.empty() && map.labels.names[label] == structure.label) {
+          structure.row.labels_sha256 = map.sha256;
+          structure.row.label = static_cast<int>(label);
+        }
+    if (const auto added = casedb::add_structure(library, structure.row); !added) return added.error();
+  }
+  for (const cases::LesionForm& lesion : wanted.lesions)
+    if (const auto added = casedb::add_lesion(library, case_id, lesion); !added) return added.error();
+  return {};
+}
+
+// With the title: it is one case of many.
+base::Error titled(base::Error error, const std::string& title) {
+  error.findings.push_back({error.code, title});
+  return error;
+}
+
+// An attempt of a simulated expert that passes and hits, the replay to watch; one that is there counts. `hits`: the
+// metric that says so.
+base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, const char* hits,
+                        DemoCaseAnswer& answer) {
+  const auto is_pass = [&](const std::string& attempt_id) {
+    const auto attempt = casedb::find_attempt(library, attempt_id);
+    return attempt && casedb::grade_of(*attempt, row).verdict == assessment::Verdict::passed &&
+           std::any_of(attempt->metrics.begin(), attempt->metrics.end(), [&](const assessment::MetricValue& one) {
+             return one.id == hits && one.value && *one.value == 1.0;
+           });
+  };
+  for (const casedb::AttemptRow& attempt : casedb::list_attempts_on(library, answer.case_id))
+    if (attempt.operator_name == "expert" && is_pass(attempt.attempt_id)) {
+      answer.attempt_id = attempt.attempt_id;
+      answer.seed = attempt.seed;
+      return {};
+    }
+  auto simulation = session::Simulation::prepare(library, this_program(), answer.case_id, {});
+  if (!simulation) return titled(simulation.error(), answer.title);
+  for (std::uint64_t seed = 1; seed <= kMostSeeds; ++seed) {
+    const auto attempt = simulation->attempt(*assessment::named_profile("expert"), seed, std::nullopt);
+    if (!attempt) return attempt.error();
+    if (!is_pass(attempt->attempt_id)) continue;
+    answer.attempt_id = attempt->attempt_id;
+    answer.seed = seed;
+    return {};
+  }
+  return base::Error{"never_passed", "a simulated expert does not pass: " + answer.title};
+}
+
+base::Result<void> publish(casedb::Library& library, const std::string& case_id, const casedb::CaseCheck& check) {
+  if (const auto done = casedb::submit_case(library, case_id, kAuthor); !done) return done.error();
+  if (const auto done = casedb::judge_case(library, case_id, kReviewer, true); !done) return done.error();
+  return casedb::publish_case(library, case_id, check, kAuthor, false);
+}
+
+base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
+                                  const char* hits) {
+  DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0};
+  for (const casedb::CaseRow& row : casedb::list_cases(library))
+    if (row.title == wanted.title && row.origin == source.origin) answer.case_id = row.case_id;
+  if (answer.case_id.empty()) {
+    progress("stored", wanted.title.c_str());
+    casedb::NewCase made = source;
+    static_cast<casedb::CaseSetting&>(made) = wanted.setting;
+    made.rule = with_versions(wanted.setting.rule);
+    made.title = wanted.title;
+    made.no_burned_in_text = true;  // its CTs are known ones (source_of), looked through when the table was made
+    answer.case_id = casedb::add_case(library, made);
+    if (const auto added = add_parts(library, wanted, answer.case_id); !added) return added.error();
+  }
+  const auto row = casedb::find_case(library, answer.case_id);
+  if (!row) return row.error();
+  std::optional<casedb::CaseCheck> check;  // of a draft, which is published below
+  if (row->state == casedb::CaseState::draft) {
+    auto checked = session::check_case(library, answer.case_id);
+    if (!checked) return titled(checked.error(), answer.title);
+    // Before it is attempted: that would freeze what must be mended.
+    if (const auto ready = casedb::ready_to_publish(*checked); !ready) return titled(ready.error(), answer.title);
+    check = std::move(*checked);
+  }
+  progress("attempted", wanted.title.c_str());
+  if (!answer.defer)
+    if (const auto done = pass(library, *row, hits, answer); !done) return done.error();
+  if (check)
+    if (const auto done = publish(library, answer.case_id, *check); !done)
+      return titled(done.error(), answer.title);
+  const auto now = casedb::find_case(library, answer.case_id);
+  if (!now) return now.error();
+  answer.state = now->state;
+  return answer;
+}
+
+// The published one of that title that leads through these cases, each open when the one before it is passed; one
+// of other cases (a CT has come) makes room for it. Attempts belong to cases and count in either.
+base::Result<DemoCurriculum> lead_through(casedb::Library& library, const char* title,
+                                          const std::vector<DemoCaseAnswer>& made) {
+  std::vector<std::string> families;
+  for (const DemoCaseAnswer& one : made) {
+    const auto row = casedb::find_case(library, one.case_id);
+    if (!row) return row.error();
+    families.push_back(row->family_id);
+  }
+  for (const casedb::Curriculum& known : casedb::list_curricula(library)) {
+    if (known.title != title || known.state != casedb::CurriculumState::published) continue;
+    std::vector<std::string> its;
+    for (const casedb::CurriculumItem& item : known.items) its.push_back(item.family_id);
+    if (its == families) return DemoCurriculum{title, known.curriculum_id, its.size()};
+    if (const auto done = casedb::remove_curriculum(library, known.curriculum_id, kDirector); !done)
+      return done.error();
+  }
+  const auto curriculum_id = casedb::add_curriculum(library, title, kAuthor);
+  if (!curriculum_id) return curriculum_id.error();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    std::vector<assessment::Gate> gates;
+    if (i > 0) gates.push_back({i - 1, assessment::Proficiency::passed});
+    const auto added = casedb::add_curriculum_item(library, *curriculum_id, made[i].case_id, {}, gates, kAuthor);
+    if (!added) return added.error();
+  }
+  if (const auto done = casedb::publish_curriculum(library, *curriculum_id, kDirector); !done) return done.error();
+  return DemoCurriculum{title, *curriculum_id, made.size()};
+}
+
+using Sources = std::map<DemoSource, casedb::NewCase>;
+
+// Of those whose source is at hand, in their order.
+base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, const std::vector<DemoCase>& wanted,
+                                                   Sources& sources, const char* hits, std::vector<int>& not_made) {
+  std::vector<DemoCaseAnswer> made;
+  for (const DemoCase& one : wanted) {
+    if (!sources.contains(one.source))
+      if (auto read = built_in(one.source)) {
+        if (!*read) return read->error();
+        sources.emplace(one.source, std::move(**read));
+      }
+    const auto source = sources.find(one.source);
+    if (source == sources.end()) {
+      not_made.push_back(one.number);
+      continue;
+    }
+    auto answer = make(library, one, source->second, hits);
+    if (!answer) return answer.error();
+    made.push_back(std::move(*answer));
+  }
+  return made;
+}
+
+void print(const std::vector<DemoCaseAnswer>& made) {
+  for (const DemoCaseAnswer& one : made) {
+    std::printf("%s  %-10s %s\n", one.case_id.c_str(), casedb::name_of(one.state).c_str(), one.title.c_str());
+    if (one.defer)
+      std::puts("    the right decision is to defer");
+    else
+      std::printf("    passed in attempt %s of a simulated expert, seed %llu\n", one.attempt_id.c_str(),
+                  static_cast<unsigned long long>(one.seed));
+  }
+}
+
+void print(const DemoCasesAnswer& answer) {
+  std::printf("%s\n\n", base::kTrainingOnly);
+  print(answer.drills);
+  print(answer.cases);
+  if (!answer.not_made.empty()) {
+    std::printf("\nThese need a CT (--ct):");
+    for (const int number : answer.not_made) std::printf(" %d", number);
+    std::puts("");
+  }
+  std::puts("");
+  for (const DemoCurriculum& one : answer.curricula)
+    std::printf("%s  curriculum of %zu: %s\n", one.curriculum_id.c_str(), one.items, one.title.c_str());
+  std::printf("\nThe operators are simulated: they test the software and say nothing about validity.\n");
+  if (!answer.passwords.empty()) std::printf("\nAccounts, shown once:\n");
+  for (const auto& [name, password] : answer.passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
+}
+
+}  // namespace
+
+int run_demo_cases(const Arguments& arguments) {
+  const bool graded = arguments.has("--cases");
+  if (arguments.has("--calyces") || arguments.has("--modality"))
+    throw UsageError("--calyces and --modality are not of drills or graded cases");
+  if (!graded && arguments.has("--ct")) throw UsageError("--ct is not of the drills: they are built in");
+  Sources sources;
+  for (const std::string& path : arguments.all("--ct")) {
+    auto read = import_case(path, {}, {}, "import");
+    if (!read) return refuse(read.error());
+    const auto source = source_of(read->volume);
+    if (!source) return refuse({"no_case_fits", "no graded case is made of this CT"});
+    sources.insert_or_assign(*source, std::move(*read));
+  }
+  auto library = casedb::Library::open_or_create(
+      arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library());
+  if (!library) return refuse(library.error());
+  DemoCasesAnswer answer;
+  auto passwords = add_missing_accounts(
+      *library,
+      {{kAuthor, casedb::Role::mentor}, {kReviewer, casedb::Role::mentor}, {kDirector, casedb::Role::director}});
+  if (!passwords) return refuse(passwords.error());
+  answer.passwords = std::move(*passwords);
+  const auto add = [&](const std::vector<DemoCase>& wanted, const char* title, const char* hits,
+                       std::vector<DemoCaseAnswer>& made) -> base::Result<void> {
+    auto all = make_all(*library, wanted, sources, hits, answer.not_made);
+    if (!all) return all.error();
+    made = std::move(*all);
+    auto curriculum = lead_through(*library, title, made);
+    if (!curriculum) return curriculum.error();
+    answer.curricula.push_back(std::move(*curriculum));
+    return {};
+  };
+  // What a beginner watches first shows no second try.
+  if (const auto done = add(drills(), "First hour", "first_pass_success", answer.drills); !done)
+    return refuse(done.error());
+  if (graded)
+    if (const auto done = add(demo_cases(), "Graded cases", "hit", answer.cases); !done)
+      return refuse(done.error());
+  if (arguments.has("--json"))
+    std::fputs(json_of_demo_cases(answer).c_str(), stdout);
+  else
+    print(answer);
+  return kDone;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,43 @@
+#include <nlohmann/json.hpp>
+
+#include "app/demo/demo_cases.h"
+
+namespace seldinger::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const DemoCaseAnswer& one, const Json& number) {
+  Json attempt = nullptr;
+  if (!one.attempt_id.empty())
+    attempt = {{"attempt_id", one.attempt_id}, {"operator", "expert"}, {"synthetic", true}, {"seed", one.seed}};
+  return {{"number", number},
+          {"title", one.title},
+          {"case_id", one.case_id},
+          {"state", casedb::name_of(one.state)},
+          {"decision", one.defer ? "defer" : "proceed"},
+          {"hit", attempt}};
+}
+
+}  // namespace
+
+std::string json_of_demo_cases(const DemoCasesAnswer& answer) {
+  Json drills = Json::array(), cases = Json::array(), curricula = Json::array(), accounts = Json::array();
+  for (const DemoCaseAnswer& one : answer.drills)
+    drills.push_back(json_of(one, std::string("D").append(std::to_string(one.number))));
+  for (const DemoCaseAnswer& one : answer.cases) cases.push_back(json_of(one, one.number));
+  for (const DemoCurriculum& one : answer.curricula)
+    curricula.push_back({{"title", one.title}, {"curriculum_id", one.curriculum_id}, {"items", one.items}});
+  for (const auto& [name, password] : answer.passwords)
+    accounts.push_back({{"name", name}, {"password", password}});
+  return Json{{"drills", drills},
+              {"cases", cases},
+              {"not_made", answer.not_made},
+              {"curricula", curricula},
+              {"accounts", accounts}}
+             .dump(2) +
+         "\n";
+}
+
+}  // namespace seldinger::app

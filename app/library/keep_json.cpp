@@ -1,0 +1,47 @@
+#include "app/library/keep_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace seldinger::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json problems_json(const std::vector<base::Problem>& problems) {
+  Json list = Json::array();
+  for (const base::Problem& problem : problems) list.push_back({{"code", problem.code}, {"text", problem.text}});
+  return list;
+}
+
+}  // namespace
+
+std::string json_of_copied(const casedb::Copied& copied) {
+  return Json({{"files", copied.files}, {"bytes", copied.bytes}}).dump(2) + "\n";
+}
+
+std::string json_of_check(const casedb::CheckReport& report) {
+  return Json({{"holds", report.holds()},
+               {"cases", report.cases},
+               {"attempts", report.attempts},
+               {"assets", report.assets},
+               {"findings", problems_json(report.findings)},
+               {"repaired", problems_json(report.repaired)}})
+             .dump(2) +
+         "\n";
+}
+
+std::string json_of_bundle(const casedb::Bundle& bundle) {
+  return Json({{"schema", bundle.schema},
+               {"program_version", bundle.program_version},
+               {"cases", bundle.case_ids},
+               {"assets", bundle.assets},
+               {"bytes", bundle.bytes}})
+             .dump(2) +
+         "\n";
+}
+
+std::string json_of_unbundled(const casedb::Unbundled& cases) {
+  return Json({{"stored", cases.stored}, {"present", cases.present}}).dump(2) + "\n";
+}
+
+}  // namespace seldinger::app

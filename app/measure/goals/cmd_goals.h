@@ -1,0 +1,12 @@
+// `goals ultrasound` and `goals haptics`: what runs it. Options and help are the product's row
+// (app/cmd_measure.cpp).
+#pragma once
+
+#include "app/cli/arguments.h"
+
+namespace seldinger::measure {
+
+int run_goals_ultrasound(const app::Arguments& arguments);
+int run_goals_haptics(const app::Arguments& arguments);
+
+}  // namespace seldinger::measure

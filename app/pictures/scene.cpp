@@ -1,0 +1,59 @@
+#include "app/pictures/scene.h"
+
+#include <algorithm>
+
+#include "app/cli/file.h"
+#include "casedb/cases/cases.h"
+#include "casedb/import/import.h"
+#include "sim/volume/phantom.h"
+
+namespace seldinger::app {
+
+base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes) {
+  const auto text = read_text(path, 64U << 20U);
+  if (!text) return text.error();
+  std::vector<std::string> unused;
+  auto scene = scene_from_json(*text, path.parent_path(), unused);
+  std::sort(unused.begin(), unused.end());
+  unused.erase(std::unique(unused.begin(), unused.end()), unused.end());
+  for (const std::string& where : unused) notes.push_back(where + " holds fields that are not used");
+  return scene;
+}
+
+base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
+  if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume))
+    return volume::rasterize(*analytic);
+  if (std::holds_alternative<BuiltInTorso>(scene.volume)) return volume::make_phantom().volume;
+  if (const auto* file = std::get_if<VolumeFile>(&scene.volume)) {
+    auto source = casedb::read_source(file->path);
+    if (!source) return source.error();
+    return std::move(source->volume);
+  }
+  if (library.empty()) return base::Error{"no_library", "the scene names a case, but no --library is given"};
+  auto opened = casedb::Library::open(library);
+  if (!opened) return opened.error();
+  const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
+  if (!row) return row.error();
+  return casedb::load_volume(*opened, *row);
+}
+
+base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
+                                                          const std::string& library) {
+  if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume)) {
+    volume::LabelMap labels;
+    volume::rasterize(*analytic, labels);
+    return volume::tissue_classes(volume, &labels);
+  }
+  if (std::holds_alternative<BuiltInTorso>(scene.volume)) {
+    const volume::LabelMap labels = volume::make_phantom().labels;
+    return volume::tissue_classes(volume, &labels);
+  }
+  if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);
+  auto opened = casedb::Library::open(library);
+  if (!opened) return opened.error();
+  const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
+  if (!row) return row.error();
+  return casedb::load_classes(*opened, *row);
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,85 @@
+// A scene file (contracts.md, "Scenes and pictures"): a volume, what is inserted, and a view.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/pictures/room_view.h"
+#include "sim/base/result.h"
+#include "sim/case/case.h"
+#include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
+#include "sim/imaging/xray/beam/attenuation.h"
+#include "sim/imaging/xray/projection/projection.h"
+#include "sim/volume/analytic.h"
+#include "sim/volume/classes.h"
+
+namespace seldinger::app {
+
+struct VolumeFile {
+  std::filesystem::path path;  // absolute, or relative to the working folder
+};
+struct VolumeOfCase {
+  std::string case_id;
+};
+struct BuiltInTorso {};  // sim/volume/phantom: as the demo's case has it
+
+enum class XrayOutput { line_integral, intensity, display };
+struct XrayView {
+  imaging::XrayGeometry geometry;
+  double energy_kev = imaging::kHuEnergyKev;
+  imaging::ProjectionMethod method = imaging::ProjectionMethod::exact;
+  XrayOutput output = XrayOutput::line_integral;
+  int supersampling = 1;  // rays a pixel in each direction
+};
+enum class UltrasoundOutput { display, envelope_db, polar_db };
+struct UltrasoundSceneView {
+  imaging::UltrasoundView view;
+  imaging::UltrasoundKnobs knobs;
+  imaging::DisplaySize size;
+  UltrasoundOutput output = UltrasoundOutput::display;
+};
+using View = std::variant<imaging::MprView, XrayView, UltrasoundSceneView>;
+
+// What moves the patient of a scene, now.
+struct SceneMotion {
+  double breath_level = 0.0;  // 0 breathed out, 1 breathed in
+  std::optional<glm::dvec3>
+      breath_mm{};        // at 1, where it is most: to the right, to the front, downwards; as cases have it
+  double press_mm = 0.0;  // how deep the probe's head stands in the skin at rest, along its axis; ultrasound only
+  double drag_mm = 0.0;   // how far the needle's shaft takes tissue along; < 0 on the way out
+};
+
+struct Scene {
+  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume, BuiltInTorso> volume;
+  imaging::Inserted inserted;
+  cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
+  cases::Approach approach = cases::Approach::in_plane;
+  // What a score holds the needle's way against; pictures do not draw them.
+  std::optional<glm::dvec3> planned_entry_lps_mm;
+  std::vector<cases::Structure> structures;
+  std::optional<SceneMotion> motion;  // nothing: the patient lies still
+  std::optional<View> view;
+  std::optional<RoomSceneView> room;  // in its place: no picture of the volume, but of what stands around
+};
+
+// All problems at once (`bad_scene`). Relative
+// paths are those of `folder`. Fields that are not used are named in `unused`.
+base::Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& folder,
+                                    std::vector<std::string>& unused);
+
+// Reads the file; `notes` gets a line for each object with fields that are not used, to be shown when all went
+// well. Refused as scene_from_json, `not_found`, `too_large`.
+base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<std::string>& notes);
+
+// What each voxel of the scene's volume is: by the labels of a case or of analytic shapes, elsewhere by HU.
+base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, const volume::Volume& volume,
+                                                          const std::string& library);
+
+// The scene's volume. A case needs `library`. Refused as import refuses; `no_library`.
+base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library);
+
+}  // namespace seldinger::app

@@ -1,0 +1,202 @@
+#include "app/replay/replay_output.h"
+
+#include <chrono>
+#include <cstdio>
+#include <future>
+
+#include "app/cli/file.h"
+#include "app/replay/body_planes.h"
+#include "app/replay/png.h"
+#include "app/replay/replay_frame.h"
+#include "app/replay/video_file.h"
+#include "assessment/moments.h"
+#include "assessment/score.h"
+#include "casedb/database/disk.h"
+#include "reports/sheets/replay_sheet.h"
+#include "session/case/case_build.h"
+#include "session/monitor/guidance_screen.h"
+#include "sim/engine/step.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string label_of(const casedb::AttemptRow& attempt) {
+  return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "a person";
+}
+
+std::vector<std::byte> png_of(const session::GreyPicture& picture) {
+  return picture.width_px > 0 ? png_from_grey(picture.grey, picture.width_px, picture.height_px)
+                              : std::vector<std::byte>{};
+}
+
+// What a replay is made of, beside the screen.
+struct Scene {
+  cases::Case scene;
+  assessment::Signals signals;
+  reports::Course course;
+  std::vector<BodyPlane> planes;
+};
+
+std::vector<reports::SheetSegment> rows_of(const std::vector<PlaneSegment>& segments) {
+  std::vector<reports::SheetSegment> rows;
+  for (const PlaneSegment& segment : segments) rows.push_back({segment.from_mm, segment.to_mm});
+  return rows;
+}
+
+reports::SheetPlane row_of(const Scene& s, const BodyPlane& plane) {
+  reports::SheetPlane row;
+  row.name = plane.name;
+  row.left = plane.left;
+  row.right = plane.right;
+  row.upper = plane.upper;
+  row.lower = plane.lower;
+  row.side_mm = plane.side_mm;
+  row.png = png_of(plane.ct);
+  row.skin = rows_of(plane.skin);
+  for (const PlaneOutline& outline : plane.structures)
+    row.structures.push_back({outline.name, std::string(cases::name_of(outline.rule)), rows_of(outline.segments)});
+  for (const cases::PoseSample& pose : s.signals.poses) row.way.push_back(plane.at(pose.tip_at_rest_lps_mm()));
+  if (s.signals.setting.target) {
+    row.target_mm = plane.at(s.signals.setting.target->center_lps_mm);
+    row.target_radius_mm = s.signals.setting.target->radius_mm;
+  }
+  if (s.scene.planned_entry_lps_mm) row.planned_entry_mm = plane.at(*s.scene.planned_entry_lps_mm);
+  const cases::PoseSample& last = s.signals.poses.back();
+  row.tip_mm = plane.at(last.tip_at_rest_lps_mm());
+  row.hub_mm = plane.at(last.tip_at_rest_lps_mm() - last.needle_direction * s.scene.instrument.length_mm);
+  return row;
+}
+
+// Walks through the recording; `before` and `after` each tick's picture, if any, came onto the screen.
+template <typename Before, typename After>
+session::Replay walk(const Scene& s, const cases::Recording& recording, session::GuidanceScreen& screen,
+                     const Before& before, const After& after) {
+  return session::replay(s.scene, recording,
+                         [&](const cases::State& state, const tissue::Displacement& displacement) {
+                           before(state);
+                           screen.tick(state, displacement);
+                           after(state);
+                         });
+}
+
+std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const cases::Recording& recording,
+                        session::GuidanceScreen& screen, const std::string& note, const fs::path& out,
+                        session::Replay& replayed) {
+  reports::ReplaySheet sheet;
+  sheet.attempt = {attempt, label_of(attempt)};
+  sheet.note = note;
+  sheet.course = s.course;
+  for (const BodyPlane& plane : s.planes) sheet.planes.push_back(row_of(s, plane));
+  const std::vector<assessment::Moment> moments = assessment::telling_moments(s.signals);
+  std::vector<session::GreyPicture> pictures;
+  const auto take = [&](const assessment::Moment& moment) {
+    reports::SheetMoment shown;
+    shown.t_s = moment.t_s;
+    shown.words = assessment::words_for(moment.kind, attempt.picture.modality);
+    shown.live = screen.live();
+    pictures.push_back(screen.picture());
+    for (const cases::FrameTruth& frame : s.signals.frames) {
+      if (frame.t_s > moment.t_s) break;
+      shown.tip_seen = frame.needle_tip;
+      shown.target_seen = frame.target;
+    }
+    sheet.moments.push_back(std::move(shown));
+  };
+  // What was seen when the trigger fell is the picture before, without a core needle's throw.
+  std::size_t next = 0;
+  const auto due = [&](const cases::State& state) {
+    return next < moments.size() && moments[next].t_s <= state.t_s;
+  };
+  replayed = walk(
+      s, recording, screen,
+      [&](const cases::State& state) {
+        for (; due(state) && moments[next].kind == assessment::MomentKind::fire; ++next) take(moments[next]);
+      },
+      [&](const cases::State& state) {
+        for (; due(state); ++next) take(moments[next]);
+      });
+  for (; next < moments.size(); ++next) take(moments[next]);
+  session::cut_black_edges(pictures);
+  for (std::size_t i = 0; i < pictures.size(); ++i) sheet.moments[i].png = png_of(pictures[i]);
+  if (replayed.same || !note.empty()) write_file(out, reports::replay_sheet(sheet));
+  return sheet.moments.size();
+}
+
+// Calls `add` with each frame.
+template <typename Add>
+std::size_t draw_frames(const Scene& s, const cases::Recording& recording, session::GuidanceScreen& screen,
+                        const std::string& title, double rate_hz, session::Replay& replayed, const Add& add) {
+  const ReplayFrame frame(s.signals, s.planes, s.course, title);
+  std::size_t drawn = 0;
+  const double last_s = static_cast<double>(recording.inputs.size()) * recording.dt_s;
+  replayed = walk(
+      s, recording, screen, [](const cases::State&) {},
+      [&](const cases::State& state) {
+        if (state.t_s + 1e-9 < static_cast<double>(drawn) / rate_hz) return;
+        ++drawn;
+        add(frame.draw(state, screen.picture(), screen.live()));
+        if (drawn % 50 == 0) std::fprintf(stderr, "%.1f of %.1f s\n", state.t_s, last_s);
+      });
+  return drawn;
+}
+
+}  // namespace
+
+base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb::AttemptRow& attempt,
+                                         const cases::Recording& recording, const fs::path& out, double rate_hz) {
+  const auto began = std::chrono::steady_clock::now();
+  const bool sheet = out.extension() == ".html", film = out.extension() == ".mp4";
+  const bool there = casedb::without_paths([&] { return fs::exists(fs::symlink_status(out)); });
+  if (!sheet && !film && there) return base::Error{"exists", "there is already something of that name"};
+  session::Needs needs = session::needs_of(attempt.picture.modality);
+  if (!recording.forces.empty() && needs == session::Needs::metrics) needs = session::Needs::touch;
+  auto built = session::build_case_of(library, attempt, needs);
+  if (!built) return built.error();
+  Scene s{std::move(*built), {}, {}, {}};
+  auto signals = assessment::signals_of(s.scene, recording);
+  if (!signals) return signals.error();
+  s.signals = std::move(*signals);
+  s.course = reports::course_of(s.signals, recording);
+  s.planes = body_planes(s.scene, s.signals);
+  session::GuidanceScreen screen(s.scene, recording.hashes.empty() ? 0 : recording.hashes.back());
+  const bool comparable = recording.step_version == engine::kStepVersion;
+  const std::string note =
+      comparable ? "" : "Recorded by another step version: drawn as this one steps it, not verified.";
+  const std::string title = reports::picture_text(attempt.picture) + (comparable ? "" : " - not verified");
+
+  ReplayWritten written;
+  if (sheet) {
+    written.pictures = write_sheet(s, attempt, recording, screen, note, out, written.replay);
+  } else if (film) {
+    VideoFile video(out, ReplayFrame::kWidthPx, ReplayFrame::kHeightPx, rate_hz);
+    written.pictures = draw_frames(s, recording, screen, title, rate_hz, written.replay,
+                                   [&](const Canvas& canvas) { video.add(canvas.rgb()); });
+    if (written.replay.same || !comparable) video.keep();
+  } else {
+    casedb::NewFolder folder(out);
+    std::size_t number = 0;
+    std::future<void> writing;  // packing one takes as long as drawing the next
+    const auto wait = [&] {
+      if (writing.valid()) writing.get();
+    };
+    written.pictures = draw_frames(s, recording, screen, title, rate_hz, written.replay, [&](Canvas canvas) {
+      char name[32];
+      std::snprintf(name, sizeof name, "frame_%06zu.png", ++number);
+      wait();
+      writing = std::async(std::launch::async, [file = folder.unfinished() / name, drawn = std::move(canvas)] {
+        casedb::NewFile whole(file);
+        whole.write(png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px()));
+        whole.keep_unsynced();
+      });
+    });
+    wait();
+    if ((written.replay.same || !comparable) && !folder.keep())
+      return base::Error{"exists", "there is already something of that name"};
+  }
+  written.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return written;
+}
+
+}  // namespace seldinger::app

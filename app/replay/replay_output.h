@@ -1,0 +1,27 @@
+// A replay to look at: frames in a folder, a film, or a sheet.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "casedb/attempts/attempts.h"
+#include "session/attempt/replayed_attempt.h"
+
+namespace seldinger::app {
+
+constexpr double kDefaultReplayHz = 10.0, kMostReplayHz = 60.0;
+
+struct ReplayWritten {
+  session::Replay replay;  // where it differs nothing was written
+  std::size_t pictures = 0;
+  double seconds = 0.0;  // that it took
+};
+
+// By what `out` ends in: .html a sheet, .mp4 a film, else a new folder of frame_000001.png …, `rate_hz` a second of
+// the attempt. Whole or not at all. What another step version recorded is drawn as this one steps it, and says so.
+// Refused: `exists` (a folder), and as build_case_of and make_signals. Throws base::Failure ("disk", "ffmpeg").
+base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb::AttemptRow& attempt,
+                                         const cases::Recording& recording, const std::filesystem::path& out,
+                                         double rate_hz);
+
+}  // namespace seldinger::app

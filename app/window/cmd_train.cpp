@@ -1,0 +1,116 @@
+// train: the trainer's window.
+#include <csignal>
+
+#include "app/cli/command.h"
+#include "app/demo/demo_library.h"
+#include "app/window/desk.h"
+
+namespace seldinger::app {
+namespace {
+
+volatile std::sig_atomic_t told_to_end = 0;
+void on_signal(int) {
+  told_to_end = 1;
+}
+
+// With a mouse: none. Throws UsageError.
+base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
+  const std::string device = arguments.text("--device", "mouse");
+  if (device != "mouse" && device != "haply" && device != "virtual")
+    throw UsageError("--device is mouse, haply or virtual");
+  for (const char* option : {"--device-host", "--device-port"})
+    if (device != "haply" && arguments.has(option))
+      throw UsageError(std::string(option) + " is for --device haply");
+  if (device == "mouse") {
+    if (arguments.has("--station")) throw UsageError("--station is for --device haply or virtual");
+    return std::optional<Arms>();
+  }
+  Arms arms;
+  if (device == "virtual") {
+    auto led = LedArms::start();
+    if (!led) return led.error();
+    arms.led = std::move(*led);
+    arms.place = arms.led->place();
+  } else {
+    arms.place.host = arguments.text("--device-host", arms.place.host);
+    arms.place.port = static_cast<int>(arguments.whole("--device-port", arms.place.port, 1, 65535));
+    arms.station_file = usual_station_file();
+  }
+  // A file that is not there yet is made when something is kept.
+  if (arguments.has("--station")) arms.station_file = arguments.text("--station");
+  if (!arms.station_file.empty() && std::filesystem::exists(arms.station_file)) {
+    auto known = read_station(arms.station_file);
+    if (!known) return known.error();
+    arms.station = std::move(*known);
+  }
+  return std::optional<Arms>(std::move(arms));
+}
+
+int run_train(const Arguments& arguments) {
+  const std::string folder = arguments.has("--library") ? arguments.text("--library") : demo_library().string();
+  auto library = casedb::Library::open(folder);
+  if (!library) return refuse(library.error());
+  auto arms = arms_of(arguments);
+  if (!arms) return refuse(arms.error());
+  Trainer trainer(std::move(*library), std::move(*arms));
+  if (arguments.has("--case"))
+    if (const auto refused = trainer.open_at_log_in(arguments.text("--case"))) return refuse(*refused);
+  Window::Settings settings;
+  settings.title = "Seldinger";
+  settings.width = static_cast<int>(arguments.whole("--width", 1280, kLeastWidth, 16384));
+  settings.height = static_cast<int>(arguments.whole("--height", 800, kLeastHeight, 16384));
+  settings.whole_screen = arguments.has("--whole-screen");
+  const std::string backend = arguments.text("--backend", "auto");
+  if (backend != "gpu" && backend != "cpu" && backend != "auto") throw UsageError("--backend is gpu, cpu or auto");
+  Window window(settings);
+  if (backend == "gpu" || (backend == "auto" && !window.context().software()))
+    trainer.set_pictures_by(session::PicturesBy::gpu);
+  Trace trace(arguments.text("--trace"));
+  DeskOptions options;
+  options.left_handed = arguments.has("--left-handed");
+  options.sound.muted = arguments.has("--mute");
+  options.sound.volume = 0.01 * static_cast<double>(arguments.whole("--volume", 70, 0, 100));
+  Desk desk(window, trainer, options, arguments.text("--pictures", "."), trace);
+  std::signal(SIGTERM, on_signal);  // what runs is stored, as when the window is closed
+  std::signal(SIGINT, on_signal);
+  while (window.open() && told_to_end == 0) desk.frame();
+  trainer.log_out();
+  return kDone;
+}
+
+constexpr Option kTrainOptions[] = {
+    {"--library", "DIR", "the library; else the demo's"},
+    {"--case", "ID", "whoever logs in finds this case's briefing open"},
+    {"--device", "mouse|haply|virtual",
+     "what holds the tools: mouse, keys, gamepad and 3-D mouse; or two arms of a Haply Inverse service, and these "
+     "for what an arm does not hold; or two simulated arms that these lead, to try arms without any; default "
+     "mouse"},
+    {"--device-host", "ADDRESS", "where the Haply Inverse service is; default 127.0.0.1"},
+    {"--device-port", "N", "its port; default 10001"},
+    {"--station", "FILE.json",
+     "whose arms are left and right, where they stand, and how they are set, as the device page (F10) keeps it; "
+     "default with haply ~/.config/seldinger/station.json"},
+    {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
+    {"--backend", "gpu|cpu|auto",
+     "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
+    {"--width", "PIXELS", "of the window, at least 960; 1280 unless given"},
+    {"--height", "PIXELS", "of the window, at least 640; 800 unless given"},
+    {"--whole-screen", nullptr, "without a frame"},
+    {"--mute", nullptr, "without sound, until M is pressed"},
+    {"--volume", "PERCENT", "of the sound; 70 unless given"},
+    {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
+    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
+};
+
+}  // namespace
+
+Command train_command() {
+  return {.name = "train",
+          .options = kTrainOptions,
+          .summary =
+              "The trainer's window: log in, choose a case, puncture under guidance with mouse and keys or two "
+              "arms, and be told how it went.",
+          .run = &run_train};
+}
+
+}  // namespace seldinger::app

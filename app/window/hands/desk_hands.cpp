@@ -1,0 +1,154 @@
+#include "app/window/hands/desk_hands.h"
+
+#include <algorithm>
+
+#include "sim/base/check.h"
+#include "sim/haptics/arm_model.h"
+
+namespace seldinger::app {
+namespace {
+
+using haptics::Side;
+using haptics::Tool;
+
+bool leads(const devices::HandIntent& intent) noexcept {
+  const glm::dvec3 none(0.0);
+  return intent.slide_lps_mm != none || intent.turn_lps_rad != none || intent.turn_own_rad != none ||
+         intent.advance_mm != 0.0 || intent.guides > 0 || intent.resets > 0;
+}
+
+// How long it has been so, as far as it was not otherwise since.
+void count(bool so, double elapsed_s, double& lasted_s) noexcept {
+  constexpr double kMostS = 1.5 * kSaidLostS;
+  lasted_s = std::clamp(lasted_s + (so ? elapsed_s : -kForgivenTimes * elapsed_s), 0.0, kMostS);
+}
+
+std::array<haptics::HandSettings, 2> two_arms() {
+  const haptics::ArmModel* device = haptics::find_arm_model("inverse3");
+  CHECK(device != nullptr);
+  haptics::HandSettings settings;
+  settings.device = *device;
+  return {settings, settings};
+}
+
+}  // namespace
+
+DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
+                     const devices::HandsSettings& settings, haptics::Handedness handedness, const Arms* arms)
+    : scene_(scene), mouse_(scene.skin_index, start, settings), braced_(scene) {
+  if (arms == nullptr) return;
+  arms_.used = true;
+  arms_.tools = {tool_of(handedness, Side::left), tool_of(handedness, Side::right)};
+  if (!scene.classes.empty()) forces_.emplace(scene, two_arms());
+  led_ = arms->led;
+  mouse_.say(last_);
+  const std::array<devices::ArmMapping, 2> stand = arm_mappings(arms->station, scene);
+  for (std::size_t side = 0; led_ && side < 2; ++side) {
+    const auto known = arms->station.find(kSideNames[side]);
+    led_arm_[side] = LedArms::arm_of(known == arms->station.end() ? "" : known->second.ids.arm, side);
+    const devices::ArmReading there = stand[side].reading_of(pose_in(last_, side));
+    led_->put(led_arm_[side], {there.position_mm, there.orientation, false});
+  }
+  desk_ = std::make_unique<DeskArms>(arms->station, scene, handedness, arms->place);
+}
+
+void DeskHands::take_over(const cases::Inputs& left, const cases::State& state) noexcept {
+  devices::HandsStart at{left.needle, left.probe};
+  if (!desk_) {
+    braced_.see(state);
+    at = {braced_.put_back(left.needle, state.needle.inserted_mm), braced_.put_back(left.probe, 0.0)};
+  }
+  mouse_.take_over(at);
+  last_ = left;
+  for (std::size_t side = 0; desk_ && side < 2; ++side)
+    desk_->leave_at(static_cast<Side>(side), pose_in(last_, side));
+}
+
+void DeskHands::lead(const cases::Inputs& wanted) noexcept {
+  for (std::size_t side = 0; led_ && side < 2; ++side) {
+    const cases::ToolPose& pose = arms_.tools[side] == Tool::needle ? wanted.needle : wanted.probe;
+    led_->lead(led_arm_[side], desk_->stylus_for(static_cast<Side>(side), pose));
+  }
+}
+
+engine::ToolsRead DeskHands::read() const noexcept {
+  return {!mouse_leads(Tool::needle), !mouse_leads(Tool::probe)};
+}
+
+double DeskHands::press_mm(const cases::State& state) const noexcept {
+  if (mouse_leads(Tool::probe)) return mouse_.press_mm();
+  if (scene_.skin_index.empty()) return 0.0;
+  const glm::dvec3 from = state.probe.origin_lps_mm - kLookMm * state.probe.axial;
+  const auto hit = scene_.skin_index.first_hit(from, state.probe.axial, 2.0 * kLookMm);
+  return hit ? kLookMm - hit->distance_mm : -kLookMm;
+}
+
+cases::ToolPose& DeskHands::pose_in(cases::Inputs& inputs, std::size_t side) const noexcept {
+  return arms_.tools[side] == Tool::needle ? inputs.needle : inputs.probe;
+}
+
+bool DeskHands::mouse_leads(Tool tool) const noexcept {
+  for (std::size_t side = 0; side < 2; ++side)
+    if (arms_.tools[side] == tool && arm_led_[side]) return false;
+  return true;
+}
+
+void DeskHands::advance(const devices::HandIntent& intent, const cases::State& state,
+                        const devices::AxialForces& forces, double elapsed_s, cases::Inputs& inputs) noexcept {
+  const Tool mouses = mouse_.held() == devices::HeldTool::needle ? Tool::needle : Tool::probe;
+  for (std::size_t side = 0; desk_ && side < 2; ++side) {
+    const bool moved = arms_.tools[side] == mouses || intent.resets > 0;
+    if (!arm_led_[side] || !arms_.lost[side] || !moved || !leads(intent)) continue;
+    mouse_.take_over({last_.needle, last_.probe});
+    arm_led_[side] = false;
+  }
+  // An arm that the mouse leads pushes back by itself.
+  devices::AxialForces resisting = forces;
+  if (led_ && !mouse_leads(Tool::needle)) resisting.needle_n = 0.0;
+  if (led_ && !mouse_leads(Tool::probe)) resisting.probe_n = 0.0;
+  mouse_.advance(intent, resisting, elapsed_s);
+  mouse_.say(inputs);
+  lead(inputs);
+  if (!desk_) {  // an arm's hand goes with the patient by itself
+    braced_.see(state);
+    inputs.needle = braced_.carried(inputs.needle, mouse_.inserted_mm());
+    inputs.probe = braced_.carried(inputs.probe, 0.0);
+  } else {
+    cases::Inputs arms;
+    desk_->read(state.needle.inserted_mm <= 0.0, forces.probe_n <= 0.0, elapsed_s, arms, held_);
+    inputs.fire = inputs.fire || arms.fire;
+    inputs.freeze = inputs.freeze != arms.freeze;  // either lets go what the other froze
+    for (std::size_t side = 0; side < 2; ++side) {
+      const bool heard = desk_->healthy(static_cast<Side>(side));
+      count(!heard, elapsed_s, silent_s_[side]);
+      arms_.lost[side] = silent_s_[side] >= kSaidLostS;
+      const bool answers = heard && !arms_.lost[side];
+      held_[side].healthy = answers;
+      count(answers && held_[side].delay_ticks > haptics::kMostDelayTicks, elapsed_s, late_s_[side]);
+      arms_.late[side] = late_s_[side] >= kSaidLostS;
+      if (heard && !answers) desk_->let_go(static_cast<Side>(side));
+      if (answers) {
+        arm_led_[side] = true;
+        pose_in(inputs, side) = pose_in(arms, side);
+      } else {
+        if (arm_led_[side]) pose_in(inputs, side) = pose_in(last_, side);
+        desk_->leave_at(static_cast<Side>(side), pose_in(inputs, side));
+      }
+    }
+  }
+  last_ = inputs;
+}
+
+void DeskHands::feel(const engine::Tick& tick, const engine::TickState& now, double elapsed_s) noexcept {
+  if (!desk_) return;
+  if (!forces_) return desk_->send({}, elapsed_s);
+  haptics::HandInputs felt = held_;
+  for (haptics::HandInput& hand : felt) tick.bring_to_rest(now, hand);
+  desk_->send(forces_->advance(felt, elapsed_s, felt_), elapsed_s);
+}
+
+void DeskHands::let_go() noexcept {
+  if (desk_) desk_->let_go();
+}
+
+}  // namespace seldinger::app

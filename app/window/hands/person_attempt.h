@@ -1,0 +1,135 @@
+// An attempt of the person at this workstation, from the case that was chosen to the attempt that is stored, beside
+// the window's thread: one thread prepares, runs and stores; the servo's and the monitor's are within it. Whatever
+// happens to the window, what was recorded is stored.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/window/hands/desk_hands.h"
+#include "session/attempt/live_attempt.h"
+#include "session/case/program.h"
+#include "session/case/task.h"
+#include "session/monitor/monitor.h"
+#include "sim/devices/hands/even_intent.h"
+#include "sim/devices/hands/hands.h"
+
+namespace seldinger::app {
+
+// What the window tells the servo, once a frame.
+struct HandsTold {
+  devices::HandIntent sum;  // running, since the attempt began
+  cases::FluoroscopeInputs fluoroscope;
+  cases::ConsoleSetting console;
+  double between_s = 0.0;  // since it was told before
+  double told_s = 0.0;     // when, by clock_s
+};
+
+// What the servo tells the window: the newest tick, and how the hands hold their tools.
+struct Seen {
+  engine::Moment moment;
+  devices::HeldTool held = devices::HeldTool::needle;
+  bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
+  double inserted_mm = 0.0, press_mm = 0.0;  // press: of the probe's face below the skin
+  bool by_mouse = true;                      // the held tool is where mouse and keys led it last, not an arm
+  double hand_to_force_s = 0.0;              // from a telling to the tick that took it in
+  ArmsHeld arms{};
+};
+
+class PersonAttempt {
+ public:
+  struct Wanted {
+    std::filesystem::path library;
+    session::Program program;
+    std::string case_id;
+    std::optional<cases::Modality> modality;  // else the case's own
+    std::string person_id;
+    std::shared_ptr<const session::Task> task{};  // as prepared for an attempt before; else it is prepared
+    std::optional<Arms> arms{};
+    session::PicturesBy by = session::PicturesBy::cpu;
+    session::LiveAttempt::Keep keep = session::LiveAttempt::Keep::stored;
+  };
+  enum class Phase { preparing, ready, running, storing, stored, refused };
+
+  // Begins to prepare at once.
+  explicit PersonAttempt(Wanted wanted);
+  // What runs is stopped and stored, as `end`.
+  ~PersonAttempt();
+  PersonAttempt(const PersonAttempt&) = delete;
+  PersonAttempt& operator=(const PersonAttempt&) = delete;
+
+  Phase phase() const noexcept { return phase_.load(std::memory_order_acquire); }
+  double prepared() const noexcept { return prepared_; }  // 0 to 1
+  std::shared_ptr<const session::Task> task() const;      // from `ready` on (CHECKed)
+  const base::Error& error() const;                       // `refused` only (CHECKed)
+  const session::StoredAttempt& stored() const;           // `stored` only (CHECKed), or over where it is not kept
+
+  // By the window's thread, before `begin`: the arms are others, or stand elsewhere.
+  void use(const std::optional<Arms>& arms) { wanted_.arms = arms; }
+  // By the window's thread. From `ready` to `running`, with hands where the plan's entry is before them.
+  void begin(bool left_handed);
+  // The same, from `ready` over `preparing` to `running`: goes on with an attempt at this task that was
+  // interrupted, with hands where they were. `refused` where that cannot be.
+  void resume(std::string attempt_id, bool left_handed);
+  void tell(const HandsTold& told) noexcept { told_.put(told); }
+  // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
+  bool say(cases::EventKind kind) noexcept;
+  // No time goes by, and hands are still.
+  void pause(bool paused) noexcept { paused_ = paused; }
+  bool paused() const noexcept { return paused_; }
+  // Stops it once all that was said is in; then it is stored.
+  void end() noexcept {
+    ending_ = true;
+    paused_ = false;
+  }
+
+  // The newest since the last call.
+  std::optional<Seen> seen() noexcept { return seen_.take(); }
+  std::optional<ArmsSeen> arms_seen() noexcept { return arms_seen_.take(); }  // where there are arms
+  session::Monitor& monitor();                                                // from `running` on (CHECKed)
+
+ private:
+  void run();
+  void take_up_tools(bool left_handed);
+  base::Result<session::LiveAttempt> live(casedb::Library& library);
+  cases::Inputs hands(const cases::State& state);
+  void watch(engine::Moment moment);
+  void feel(const engine::Tick& tick, const engine::TickState& now);
+
+  Wanted wanted_;
+  std::atomic<Phase> phase_{Phase::preparing};
+  std::atomic<double> prepared_{0.0};
+  std::shared_ptr<const session::Task> task_;
+  std::optional<base::Error> error_;
+  std::optional<session::StoredAttempt> stored_;
+  std::unique_ptr<session::Monitor> monitor_;
+  base::Snapshot<HandsTold> told_;
+  base::Snapshot<Seen> seen_;
+  base::Snapshot<ArmsSeen> arms_seen_;
+  std::optional<DeskHands> hands_;  // the servo's, from here …
+  devices::EvenIntent even_;
+  devices::AxialForces forces_;
+  double told_s_ = 0.0, hand_to_force_s_ = 0.0;
+  cases::FluoroscopeInputs fluoroscope_;
+  cases::ConsoleSetting console_;
+  static constexpr std::uint64_t kMostSaid = 32;
+  std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo
+  alignas(64) std::atomic<std::uint64_t> said_count_{0};
+  alignas(64) std::atomic<std::uint64_t> heard_count_{0};
+  std::atomic<bool> ending_{false}, paused_{false};
+  std::mutex mutex_;
+  std::condition_variable begun_;
+  bool begin_ = false, gone_ = false;
+  std::optional<std::string> resumed_;  // the attempt that is gone on with
+  bool left_handed_ = false;
+  std::thread thread_;  // last: it uses the rest
+};
+
+}  // namespace seldinger::app

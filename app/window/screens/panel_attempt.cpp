@@ -1,0 +1,441 @@
+#include "app/window/screens/panel_attempt.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/window/hands/frame_plan.h"
+#include "app/window/screens/panel_device_traces.h"
+#include "app/window/screens/panels.h"
+#include "reports/words/attempt_words.h"
+
+namespace seldinger::app {
+namespace {
+
+using cases::EventKind;
+
+// What can be said, in the order in which it is: a button each, and a key.
+struct Saying {
+  int key;
+  const char* label;
+  EventKind kind;
+};
+constexpr std::array<Saying, 7> kSayings = {{
+    {kF1, "F1  Probe checked", EventKind::probe_checked},
+    {kF1 + 1, "F2  Entry and depth noted", EventKind::note_plan},
+    {kF1 + 2, "F3  Aspirate", EventKind::aspirate},
+    {kF1 + 3, "F4  Anaesthetic", EventKind::anaesthetic},
+    {kF1 + 5, "F6  Nick the skin", EventKind::nick},
+    {kF1 + 6, "F7  Hold your breath", EventKind::breath_hold_request},
+    {kF1 + 7, "F8  Breathe again", EventKind::breathe_again},
+}};
+
+bool asked_for(const Saying& saying, const cases::Case& scene) {
+  if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
+  if (saying.kind == EventKind::note_plan) return true;
+  if (scene.subject == cases::Subject::phantom) return false;
+  if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
+  return true;
+}
+
+// The meters' full scale (design): a needle that is stopped by capsule or skin, a probe that is pressed hard.
+constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
+
+// What came at once, a notch or what a slow frame kept, is given out as by a window of 60 frames a second.
+constexpr double kLeastBetweenS = 1.0 / 60.0;
+constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
+constexpr double kLookAgainS = 0.0005;
+constexpr double kLagOver = 0.9;  // of a lag that is shown, what was before counts so much
+
+void meter(const char* label, double force_n, double most_n) {
+  char words[48];
+  std::snprintf(words, sizeof words, "%s %.1f N", label, std::max(0.0, force_n));
+  const float share = static_cast<float>(std::clamp(force_n / most_n, 0.0, 1.0));
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImVec4(0.30F + 0.6F * share, 0.75F - 0.4F * share, 0.40F, 1.0F));
+  ImGui::ProgressBar(share, {-1.0F, 0.0F}, words);
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void AttemptPanel::begin(Trainer& trainer) {
+  if (trainer.begin(options_.left_handed)) set_up(trainer);
+}
+
+void AttemptPanel::resume(Trainer& trainer) {
+  resuming_ = trainer.resume(options_.left_handed) || resuming_;
+}
+
+void AttemptPanel::look(Trainer& trainer) {
+  if (!resuming_ || trainer.resuming()) return;
+  resuming_ = false;
+  if (trainer.screen() == TrainerScreen::attempt) set_up(trainer);
+}
+
+void AttemptPanel::set_up(Trainer& trainer) {
+  const cases::Case& scene = trainer.attempt()->task()->scene;
+  room_.begin(scene, options_.left_handed);
+  monitor_.begin(scene);
+  seen_ = {};
+  arms_ = {};
+  by_led_arms_ = trainer.arms() && trainer.arms()->led;
+  told_ = {};
+  told_.fluoroscope.pulse_rate = 1;
+  told_s_ = drawn_s_ = session::clock_s();
+  room_lag_s_ = picture_lag_s_ = 0.0;
+  method_ = trainer.attempt()->monitor().method();
+  frames_s_ = room_told_s_ = 0.0;
+  pictures_ = pictures_told_ = 0;
+  decided_ = scene.subject == cases::Subject::phantom;  // nobody is asked
+  fired_ = leaving_ = false;
+  said_.clear();
+}
+
+void AttemptPanel::say(PersonAttempt& attempt, EventKind kind, const char* words) {
+  if (attempt.say(kind)) said_ = words;
+}
+
+void AttemptPanel::finish(PersonAttempt& attempt) {
+  if (attempt.task()->scene.subject == cases::Subject::patient) attempt.say(EventKind::sign_out);
+  attempt.end();
+}
+
+void AttemptPanel::keep_picture() {
+  const session::GreyPicture& shown = monitor_.shown().picture;
+  if (shown.width_px > 0) at_fire_.show(shown.width_px, shown.height_px, shown.grey);
+}
+
+void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const cases::Case& scene = attempt.task()->scene;
+  if (!decided_ && keys.pressed('Y')) {
+    decided_ = true;
+    say(attempt, EventKind::proceed, "Proceed");
+  } else if (!decided_ && keys.pressed('N')) {
+    decided_ = true;
+    say(attempt, EventKind::defer, "Defer");
+    finish(attempt);
+  }
+  if (decided_)
+    for (const Saying& saying : kSayings)
+      if (asked_for(saying, scene) && keys.pressed(saying.key)) say(attempt, saying.kind, saying.label + 4);
+  if (keys.pressed(kF9)) finish(attempt);
+  if (keys.pressed(kEscape)) {
+    leaving_ = !leaving_;
+    attempt.pause(leaving_);
+  }
+  for (int view = 0; view < static_cast<int>(imaging::kRoomViewNames.size()); ++view)
+    if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
+  if (keys.pressed(kF1 + 9)) arms_live_ = !arms_live_;
+  if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
+}
+
+void AttemptPanel::draw_top(Trainer& trainer) {
+  const cases::State& state = seen_.moment.state;
+  heading(trainer.chosen().title.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", kTrainingOnly);
+  char words[64];
+  std::snprintf(words, sizeof words, "%d:%02d   %s", static_cast<int>(state.t_s) / 60,
+                static_cast<int>(state.t_s) % 60, trainer.account().login_name.c_str());
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(words).x);
+  ImGui::TextUnformatted(words);
+}
+
+// What the patient does, over the room, as long as one would hear it.
+void AttemptPanel::draw_reaction() {
+  constexpr double kShownS = 2.5;
+  const engine::Moment& moment = seen_.moment;
+  if (moment.reaction == EventKind::none || moment.state.t_s > moment.reaction_t_s + kShownS) return;
+  const cases::EventInfo* info = cases::find_event(moment.reaction);
+  if (info == nullptr) return;
+  const std::string words = std::string("Patient: ") + info->words;
+  const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words.c_str());
+  const ImVec2 at{corner.x + 0.5F * (ImGui::GetWindowSize().x - size.x), corner.y + 14.0F};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({at.x - 12.0F, at.y - 6.0F}, {at.x + size.x + 12.0F, at.y + size.y + 6.0F},
+                      IM_COL32(120, 40, 30, 220), 6.0F);
+  draw->AddText(at, IM_COL32(255, 240, 230, 255), words.c_str());
+}
+
+void AttemptPanel::draw_steps(Trainer& trainer) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const cases::Case& scene = attempt.task()->scene;
+  if (!decided_) {
+    ImGui::TextWrapped("You have signed in. Proceed with this puncture, or defer it?");
+    if (ImGui::Button("Proceed (Y)")) {
+      decided_ = true;
+      say(attempt, EventKind::proceed, "Proceed");
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Defer (N)")) {
+      decided_ = true;
+      say(attempt, EventKind::defer, "Defer");
+      finish(attempt);
+    }
+    return;
+  }
+  const float room = ImGui::GetContentRegionAvail().x;
+  float used = 0.0F;
+  for (const Saying& saying : kSayings) {
+    if (!asked_for(saying, scene)) continue;
+    const float wide = ImGui::CalcTextSize(saying.label).x + 24.0F;
+    if (used > 0.0F && used + wide < room) ImGui::SameLine();
+    if (used + wide >= room) used = 0.0F;
+    used += wide;
+    if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
+  }
+  const bool patient = scene.subject == cases::Subject::patient;
+  if (patient && trainer.may(casedb::Action::cause_event))
+    for (const cases::EventInfo& event : cases::event_kinds()) {
+      if (event.source != cases::EventSource::mentor) continue;
+      if (ImGui::Button(event.words)) say(attempt, event.kind, event.words);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
+      ImGui::SameLine();
+    }
+  if (ImGui::Button(patient ? "F9  Sign out and finish" : "F9  Finish")) finish(attempt);
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
+}
+
+void AttemptPanel::tell(TraceLine& line) {
+  line.pictures_s =
+      static_cast<double>(pictures_ - pictures_told_);  // of so long; a rate by whoever knows how long
+  pictures_told_ = pictures_;
+  line.method = method_;
+  line.hand_to_force_ms = 1e3 * hand_to_force_s_;
+  line.hand_to_room_ms = 1e3 * hand_to_room_s_;
+  line.hand_to_picture_ms = 1e3 * hand_to_picture_s_;
+  hand_to_force_s_ = hand_to_room_s_ = hand_to_picture_s_ = 0.0;
+  line.held = seen_.held == devices::HeldTool::needle ? "needle" : "probe";
+  line.inserted_mm = seen_.inserted_mm;
+  line.press_mm = seen_.press_mm;
+  line.attempt_s = seen_.moment.state.t_s;
+  line.fired = seen_.moment.state.fire.fired;
+  line.console = monitor_.shown().console;
+  line.gain_db = monitor_.knobs().screen.gain_db;
+  line.needle_lps_mm = seen_.moment.state.needle.tip_lps_mm;
+  line.probe_lps_mm = seen_.moment.state.probe.origin_lps_mm;
+  if (seen_.arms.used)
+    for (std::size_t side = 0; side < 2; ++side)
+      line.arms.emplace_back(seen_.arms.lost[side] ? "lost" : seen_.arms.late[side] ? "late" : "ok");
+}
+
+void AttemptPanel::shown() noexcept {
+  const double now_s = session::clock_s();
+  const auto lately = [](double& lag_s, double newest_s) {
+    lag_s = lag_s > 0.0 ? kLagOver * lag_s + (1.0 - kLagOver) * newest_s : newest_s;
+  };
+  hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
+  if (seen_.moment.told_s > room_told_s_) {
+    room_told_s_ = seen_.moment.told_s;
+    lately(room_lag_s_, now_s - room_told_s_);
+    hand_to_room_s_ = std::max(hand_to_room_s_, now_s - room_told_s_);
+  }
+  const session::ShownPicture& shown = monitor_.shown();
+  if (shown.number == 0 || shown.number == pictures_) return;
+  pictures_ = shown.number;
+  if (!shown.live || shown.told_s <= 0.0) return;
+  lately(picture_lag_s_, now_s - shown.told_s);
+  hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
+}
+
+void AttemptPanel::draw_arms() {
+  const ImVec4 warning{1.0F, 0.62F, 0.35F, 1.0F};
+  const ArmsHeld& arms = seen_.arms;
+  const auto tool = [&](std::size_t side) {
+    return arms.tools[side] == haptics::Tool::needle ? "needle" : "probe";
+  };
+  if (arms.lost[0] && arms.lost[1])
+    ImGui::TextColored(warning, "both arms lost: their tools stay, mouse and keys move them (Tab)");
+  else if (arms.lost[0] || arms.lost[1])
+    ImGui::TextColored(warning, "%s arm lost: the %s stays, mouse and keys move it (Tab)",
+                       arms.lost[0] ? "left" : "right", tool(arms.lost[0] ? 0 : 1));
+  else if (arms.late[0] || arms.late[1])
+    ImGui::TextColored(warning, "%s too late to push back: no force there",
+                       arms.late[0] && arms.late[1] ? "both arms answer"
+                       : arms.late[0]               ? "the left arm answers"
+                                                    : "the right arm answers");
+  else
+    ImGui::TextDisabled("left arm: %s · right arm: %s · F10: live", tool(0), tool(1));
+}
+
+void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
+  if (const auto newest = attempt.arms_seen()) arms_ = *newest;
+  if (!arms_live_ || !seen_.arms.used) return;
+  // Over the lower part of the room, where the table is.
+  constexpr float kWidth = 560.0F, kHeight = 200.0F, kStepsPx = 168.0F;
+  ImGui::SetNextWindowPos({14.0F, ImGui::GetMainViewport()->WorkSize.y - kStepsPx - kHeight}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSize({kWidth, kHeight}, ImGuiCond_Appearing);
+  if (ImGui::Begin("The arms, live (F10)", &arms_live_,
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoCollapse |
+                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+                       ImGuiWindowFlags_NoFocusOnAppearing))
+    draw_arm_traces(arms_, ImGui::GetContentRegionAvail().y);
+  ImGui::End();
+}
+
+void AttemptPanel::draw_hands(const session::Task& task) {
+  if (seen_.arms.used) draw_arms();
+  const engine::Moment& moment = seen_.moment;
+  const bool needle = seen_.held == devices::HeldTool::needle;
+  // An arm's tool is in the hand at the arm.
+  if (seen_.by_mouse || by_led_arms_) {
+    ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
+    ImGui::SameLine();
+  }
+  if (seen_.inserted)
+    ImGui::Text("· %.0f mm of the needle are in", seen_.inserted_mm);
+  else if (moment.state.fire.fired)
+    ImGui::TextUnformatted("· fired");
+  else
+    ImGui::TextUnformatted("· the needle is outside");
+  if (moment.force) {
+    meter("needle", moment.force->needle_axial_n, kMostNeedleN);
+    if (task.scene.picture.modality != cases::Modality::xray) meter("probe", moment.force->probe_n, kMostProbeN);
+  }
+  quiet(task.scene.instrument.kind == cases::InstrumentKind::core
+            ? "drag: move · right drag: turn · wheel: push · Shift: fine · Space: fire · F: freeze · Alt: camera"
+            : "drag: move · right drag: turn · wheel: push · Shift: fine · Space: I am there · F: freeze · Alt: "
+              "camera");
+}
+
+void AttemptPanel::see(PersonAttempt& attempt) {
+  if (const auto seen = attempt.seen()) {
+    speaker_.play(sounds_of(seen_, *seen, attempt.task()->scene.instrument.kind));
+    seen_ = *seen;
+  }
+}
+
+// What was told is in one of the next ticks: worth more than drawing a moment that does not know of it.
+void AttemptPanel::see_told(PersonAttempt& attempt) {
+  const double until_s = session::clock_s() + kMostTicksS;
+  for (see(attempt); seen_.moment.told_s < told_.told_s && session::clock_s() < until_s; see(attempt))
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+void AttemptPanel::read_hands(PersonAttempt& attempt, const Keys& keys, const Pointer& pointer, double wheel,
+                              const OtherHands& other) {
+  const double now_s = session::clock_s(), elapsed_s = now_s - told_s_;
+  devices::HandIntent sum = told_.sum;
+  room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum);
+  told_s_ = now_s;
+  if (attempt.phase() != PersonAttempt::Phase::running || attempt.paused()) return;
+  told_.sum = sum;
+  told_.between_s = std::max(elapsed_s, kLeastBetweenS);
+  told_.told_s = now_s;
+  attempt.tell(told_);
+}
+
+void AttemptPanel::go_on(Trainer& trainer, const Keys& keys, const Pointer& pointer, double wheel,
+                         const OtherHands& other) {
+  if (trainer.attempt() != nullptr) read_hands(*trainer.attempt(), keys, pointer, wheel, other);
+}
+
+bool AttemptPanel::finished(Trainer& trainer, double began_s, double most_s) {
+  if (!room_.finished(most_s)) return false;
+  PersonAttempt* attempt = trainer.attempt();
+  if (attempt == nullptr || attempt->phase() != PersonAttempt::Phase::running || attempt->monitor().fresh())
+    return true;
+  const double now_s = session::clock_s(),
+               until_s = wait_for_picture_until_s(attempt->monitor().expected_s(), began_s);
+  if (now_s >= until_s) return true;
+  std::this_thread::sleep_for(std::chrono::duration<double>(std::min({kLookAgainS, most_s, until_s - now_s})));
+  return false;
+}
+
+void AttemptPanel::take_late(Trainer& trainer) {
+  PersonAttempt* attempt = trainer.attempt();
+  if (attempt != nullptr && attempt->phase() == PersonAttempt::Phase::running)
+    monitor_.take_late(attempt->monitor());
+}
+
+void AttemptPanel::draw_rates() {
+  char words[96];
+  std::snprintf(words, sizeof words, "%.0f /s   behind the hand: room %.0f ms, picture %.0f ms", frames_s_,
+                1e3 * room_lag_s_, 1e3 * picture_lag_s_);
+  const ImVec2 window = ImGui::GetWindowPos(), corner{window.x + 8.0F, window.y + 6.0F};
+  const ImVec2 size = ImGui::CalcTextSize(words);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({corner.x - 4.0F, corner.y - 2.0F}, {corner.x + size.x + 4.0F, corner.y + size.y + 2.0F},
+                      IM_COL32(236, 240, 243, 190), 3.0F);  // the room may be dark there
+  draw->AddText(corner, IM_COL32(40, 50, 60, 255), words);
+}
+
+void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other) {
+  PersonAttempt& attempt = *trainer.attempt();
+  const std::shared_ptr<const session::Task> kept = attempt.task();
+  const session::Task& task = *kept;
+  see(attempt);
+  if (seen_.moment.state.fire.fired && !fired_) {
+    fired_ = true;
+    keep_picture();
+  }
+  const double now_s = session::clock_s(), elapsed_s = std::min(0.1, now_s - drawn_s_);
+  if (now_s > drawn_s_) frames_s_ = 0.9 * frames_s_ + 0.1 / (now_s - drawn_s_);
+  drawn_s_ = now_s;
+  const bool running = attempt.phase() == PersonAttempt::Phase::running;
+
+  begin_screen("attempt");
+  draw_top(trainer);
+  const ImVec2 all = ImGui::GetContentRegionAvail();
+  const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
+  begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
+  room_.place(task.scene, seen_, keys, elapsed_s);
+  read_hands(attempt, keys, pointer, ImGui::GetIO().MouseWheel, other);
+  if (running && !attempt.paused()) see_told(attempt);
+  attempt.monitor().want();
+  method_ = attempt.monitor().method();
+  room_.draw(task.scene, seen_, trainer.help());
+  draw_reaction();
+  draw_rates();
+  ImGui::EndChild();
+  ImGui::SameLine();
+  begin_picture("guidance", 0.0F, all.y - below - 8.0F);
+  monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, keys, &told_);
+  ImGui::EndChild();
+  ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  if (running)
+    draw_steps(trainer);
+  else
+    ImGui::TextUnformatted("The attempt is being stored and graded …");
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("hands", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_hands(task);
+  ImGui::EndChild();
+  end_screen();
+  draw_arms_live(attempt);
+
+  if (!running) {
+    if (!fired_) keep_picture();
+    return;
+  }
+  read_keys(trainer, keys);
+  attempt.tell(told_);  // what the guidance's console asks for
+  if (keys.pressed(kF5)) {
+    trainer.again();
+    return;
+  }
+  if (!leaving_) return;
+  ImGui::OpenPopup("Paused");
+  if (!ImGui::BeginPopupModal("Paused", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::TextUnformatted("No time goes by, and the hands are still.");
+  if (ImGui::Button("Go on (Esc)", {-1.0F, 0.0F})) {
+    leaving_ = false;
+    attempt.pause(false);
+    ImGui::CloseCurrentPopup();
+  }
+  const bool again = ImGui::Button("Begin again (F5)", {-1.0F, 0.0F});
+  const bool stop = ImGui::Button("Stop; what was done is kept", {-1.0F, 0.0F});
+  if (again || stop) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  if (stop) attempt.end();
+  if (again) trainer.again();
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,164 @@
+#include <imgui.h>
+
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+#include "assessment/grading/debrief.h"
+#include "assessment/registry.h"
+#include "reports/words/attempt_words.h"
+#include "reports/words/metric_words.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr std::array<const char*, 5> kSignIn = {"Identity", "Consent", "Imaging seen", "Allergies",
+                                                "INR and platelets"};
+
+// A line of a list, wrapped.
+void line(const std::string& words) {
+  ImGui::Bullet();
+  ImGui::TextWrapped("%s", words.c_str());
+}
+
+void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
+  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not told"));
+}
+
+void fact(const char* what, const std::string& value) {
+  line(std::string(what) + ": " + value);
+}
+
+// What the hands do, for who has not done it before.
+void draw_hands(const casedb::CaseRow& row) {
+  struct Line {
+    const char *key, *words;
+  };
+  constexpr Line kLines[] = {
+      {"Tab", "takes the other tool: needle or probe"},
+      {"left drag", "moves it; the probe follows the skin"},
+      {"right drag", "turns the needle; tilts and rocks the probe"},
+      {"middle drag", "rotates the probe"},
+      {"wheel", "pushes the needle on and draws it back; presses the probe on"},
+      {"Shift", "makes everything ten times finer"},
+      {"G", "puts the needle into the probe's guide"},
+      {"Space", "fires; an access needle is declared to be there"},
+      {"1 – 7", "views of the room; with Alt the mouse turns the view"},
+      {"Esc, F5", "pause; begin again"},
+  };
+  constexpr Line kBeam = {"P", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"};
+  heading("Your hands");
+  const auto line = [](const Line& one) {
+    ImGui::TextColored({0.86F, 0.80F, 0.58F, 1.0F}, "%s", one.key);
+    ImGui::SameLine(7.0F * ImGui::GetFontSize());
+    ImGui::TextWrapped("%s", one.words);
+  };
+  const bool xray = row.modality == cases::Modality::xray;
+  for (const Line& one : kLines) line(one);
+  if (xray) line(kBeam);
+}
+
+std::string unit_of(const std::string& metric_id) {
+  const assessment::MetricInfo* info = assessment::find_metric(metric_id);
+  return info != nullptr ? info->unit : "";
+}
+
+}  // namespace
+
+bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
+  heading("Sign-in");
+  laboratory("INR", row.clinic.inr, "", 1);
+  laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
+  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
+  ImGui::Spacing();
+  bool all = true;
+  for (std::size_t i = 0; i < kSignIn.size(); ++i) {
+    ImGui::Checkbox(kSignIn[i], &checked_[i]);
+    all = all && checked_[i];
+  }
+  if (noted_button("All checked")) checked_.fill(true);
+  ImGui::Spacing();
+  quiet(
+      "SIR 2019, punctures of high risk: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l. Whether to go on "
+      "is "
+      "decided in the room: proceed or defer.");
+  ImGui::Spacing();
+  draw_hands(row);
+  return all;
+}
+
+bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
+  const casedb::CaseRow& row = trainer.chosen();
+  if (case_id_ != row.case_id) {
+    case_id_ = row.case_id;
+    checked_.fill(false);
+  }
+  begin_screen("briefing");
+  heading(row.title.c_str());
+  quiet(kTrainingOnly);
+  ImGui::Spacing();
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
+  const float high = ImGui::GetContentRegionAvail().y - 60.0F;
+  ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  heading("The task");
+  if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
+  fact("Guidance", modality_words(row.modality));
+  if (row.modality != cases::Modality::xray) fact("Approach", reports::approach_text(row.approach));
+  fact("Needle", reports::instrument_text(row.instrument) + ", " + reports::instrument_size_text(row.instrument));
+  const bool phantom = row.subject == cases::Subject::phantom;
+  if (phantom)
+    fact("On the table", "a block of gel, no patient: no sign-in, no anaesthetic, no held breath");
+  else
+    fact("Patient", reports::position_text(row.position));
+  if (row.motion.breathing()) fact("Breathing", "the organ moves with every breath");
+  if (row.time_limit_s) fact("Time limit", reports::number_text(*row.time_limit_s, 0) + " s");
+  ImGui::Spacing();
+  heading("To pass");
+  if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
+  for (const assessment::Criterion& criterion : row.rule.criteria)
+    line(reports::metric_label(criterion.metric) + ": " +
+         assessment::limit_text(criterion, unit_of(criterion.metric)) + (criterion.critical ? " (critical)" : ""));
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const bool all = phantom || draw_sign_in(row);
+  if (phantom) draw_hands(row);
+  ImGui::EndChild();
+  const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  if (trainer.resuming()) {
+    ImGui::TextUnformatted("Going through what was recorded …");
+    end_screen();
+    return false;
+  }
+  if (noted_button("Back")) {
+    trainer.back();
+    end_screen();
+    return false;
+  }
+  if (!trainer.expert_attempt().empty()) {
+    ImGui::SameLine();
+    if (ImGui::Button("Watch an expert (E)") || keys.pressed('E')) {
+      trainer.watch(trainer.expert_attempt());
+      end_screen();
+      return false;
+    }
+  }
+  if (trainer.interrupted()) {
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!ready);
+    if (noted_button("Go on with the interrupted attempt (R)") || (ready && keys.pressed('R'))) resume_ = true;
+    ImGui::EndDisabled();
+    ImGui::SameLine();
+    quiet("A new one closes it as it is.");
+  }
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!ready || !all);
+  const bool begin = noted_button("Enter the room (Enter)") || (ready && all && keys.pressed(kEnter));
+  ImGui::EndDisabled();
+  if (!ready) {
+    ImGui::SameLine();
+    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {220.0F, 0.0F}, "preparing the case …");
+  }
+  end_screen();
+  return begin;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,139 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+
+namespace seldinger::app {
+namespace {
+
+std::string state_words(const Choice& choice) {
+  if (!choice.open) return choice.attempts_left.value_or(1) > 0 ? "not open yet" : "no attempt left";
+  std::string words = choice.due ? "next" : "";
+  if (choice.reached) {
+    std::string reached(assessment::name_of(*choice.reached));  // "not_started"
+    std::replace(reached.begin(), reached.end(), '_', ' ');
+    words += (words.empty() ? "" : " · ") + reached;
+  }
+  if (choice.attempts_left) words += " · " + std::to_string(*choice.attempts_left) + " left";
+  return words;
+}
+
+void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
+  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  const float em_px = ImGui::GetFontSize(), open_px = 7.6F * em_px, edit_px = 3.6F * em_px;  // of their words
+  const bool edits = trainer.may(casedb::Action::make_case_version);
+  if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
+  ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
+  ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.3F);
+  ImGui::TableSetupColumn("Difficulty", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("Passed", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, edits ? open_px + 8.0F + edit_px : open_px);
+  ImGui::TableHeadersRow();
+  std::string chosen, versioned;
+  for (const Choice& choice : trainer.choices()) {
+    if (choice.curriculum != curriculum) continue;
+    ImGui::PushID(choice.case_id.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(choice.title.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(modality_words(choice.modality).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(base::name_of(casedb::kDifficultyNames, choice.difficulty).data());
+    ImGui::TableNextColumn();
+    if (choice.attempts > 0)
+      ImGui::Text("%d of %d", choice.passes, choice.attempts);
+    else
+      ImGui::TextDisabled("–");
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(state_words(choice).c_str());
+    ImGui::TableNextColumn();
+    ImGui::BeginDisabled(!choice.open);
+    const bool next = trainer.next() == &choice;
+    const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
+    note_item("Practise");
+    if (open || (next && keys.pressed(kEnter))) chosen = choice.case_id;
+    ImGui::EndDisabled();
+    if (edits) {
+      ImGui::SameLine();
+      if (noted_button("Edit", edit_px)) versioned = choice.case_id;
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+  if (!chosen.empty()) trainer.choose(chosen);
+  if (!versioned.empty()) trainer.new_version(versioned);
+}
+
+void draw_drafts(Trainer& trainer) {
+  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  ImGui::Spacing();
+  heading("On the bench");
+  if (!ImGui::BeginTable("drafts", 4, kTable)) return;
+  ImGui::TableSetupColumn("Draft", ImGuiTableColumnFlags_WidthStretch, 5.3F);
+  ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 3.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  ImGui::TableHeadersRow();
+  std::string opened;
+  for (const Draft& draft : trainer.drafts()) {
+    ImGui::PushID(draft.case_id.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(draft.title.c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(modality_words(draft.modality).c_str());
+    ImGui::TableNextColumn();
+    ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
+    ImGui::TableNextColumn();
+    if (noted_button("Bench", -1.0F)) opened = draft.case_id;
+    ImGui::PopID();
+  }
+  ImGui::EndTable();
+  if (!opened.empty()) trainer.open_editor(opened);
+}
+
+}  // namespace
+
+void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
+  begin_screen("choose");
+  heading(("Good to see you, " + trainer.account().login_name).c_str());
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
+  const bool devices = noted_button("Hands (F10)");
+  ImGui::SameLine();
+  const bool out = noted_button("Log out");
+  quiet(kTrainingOnly);
+  if (!trainer.refusal().empty()) {
+    ImGui::Spacing();
+    ImGui::TextWrapped("That did not work: %s", trainer.refusal().c_str());
+  }
+  ImGui::Spacing();
+  if (trainer.choices().empty())
+    ImGui::TextWrapped(
+        "There is no case to practise yet. A mentor publishes them; `seldinger demo --cases` makes the graded "
+        "cases "
+        "that the program brings along.");
+  std::string curriculum;
+  bool first = true;
+  const auto choices = trainer.choices();  // a button may change them
+  for (const Choice& choice : choices) {
+    if (!first && choice.curriculum == curriculum) continue;
+    first = false;
+    curriculum = choice.curriculum;
+    ImGui::Spacing();
+    heading(curriculum.empty() ? "Free practice" : curriculum.c_str());
+    draw_choices(trainer, keys, curriculum);
+  }
+  if (!trainer.drafts().empty()) draw_drafts(trainer);
+  if (out) trainer.log_out();
+  if (devices && !out) trainer.show_devices();
+  end_screen();
+}
+
+}  // namespace seldinger::app

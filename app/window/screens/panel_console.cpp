@@ -1,0 +1,334 @@
+// The consoles of the three machines below the picture: knobs, and the keys that do the same.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/window/screens/panel_monitor.h"
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+#include "session/guidance/ultrasound_sight.h"
+#include "sim/imaging/ultrasound/view/view.h"
+
+namespace seldinger::app {
+namespace {
+
+struct TurningKey {
+  int key;
+  ConsoleTurn turn;
+};
+constexpr std::array<TurningKey, 13> kUltrasoundKeys = {{{kUp, ConsoleTurn::depth_less},
+                                                         {kDown, ConsoleTurn::depth_more},
+                                                         {'[', ConsoleTurn::focus_less},
+                                                         {']', ConsoleTurn::focus_more},
+                                                         {',', ConsoleTurn::frequency_less},
+                                                         {'.', ConsoleTurn::frequency_more},
+                                                         {'9', ConsoleTurn::gain_less},
+                                                         {'0', ConsoleTurn::gain_more},
+                                                         {';', ConsoleTurn::range_less},
+                                                         {'\'', ConsoleTurn::range_more},
+                                                         {'B', ConsoleTurn::next_map},
+                                                         {'X', ConsoleTurn::flip},
+                                                         {'C', ConsoleTurn::next_preset}}};
+constexpr std::array<TurningKey, 3> kSliceKeys = {
+    {{kUp, ConsoleTurn::slice_back}, {kDown, ConsoleTurn::slice_on}, {'C', ConsoleTurn::next_window}}};
+
+// A press of a key at the fluoroscope (design).
+constexpr double kBladeStep = 0.05, kKvStep = 5.0, kMaStep = 1.25;  // the current: times
+constexpr double kDoseOverS = 0.5;                                  // of beam, over which its rate is told
+
+// A knob that turns by dragging; Ctrl and a click types a number.
+bool knob(const char* label, double& value, double low, double high, const char* format, float width) {
+  auto shown = static_cast<float>(value);
+  ImGui::SetNextItemWidth(width);
+  const bool turned = ImGui::SliderFloat(label, &shown, static_cast<float>(low), static_cast<float>(high), format,
+                                         ImGuiSliderFlags_AlwaysClamp);
+  note_item("knob");
+  if (turned) value = shown;
+  return turned;
+}
+
+void tip(const char* words) {
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", words);
+}
+
+}  // namespace
+
+float MonitorPanel::console_height(const cases::FluoroscopeInputs& asked) const {
+  const float row = ImGui::GetFrameHeightWithSpacing(), line = ImGui::GetTextLineHeightWithSpacing();
+  switch (kind_.modality) {
+    case cases::Modality::ultrasound:
+      return 4.0F * row + 4.0F;
+    case cases::Modality::mpr:
+      return row + 4.0F;
+    case cases::Modality::xray:
+      return (asked.automatic_exposure ? 2.0F : 3.0F) * row + 2.0F * line + 4.0F;
+  }
+  return 0.0F;
+}
+
+void MonitorPanel::tell(session::Monitor& monitor) const {
+  if (kind_.modality == cases::Modality::ultrasound)
+    monitor.set_console([knobs = knobs_](imaging::Console& console) { knobs.apply(console); });
+  if (kind_.modality == cases::Modality::mpr) monitor.set_window(session::kHuWindows[knobs_.window]);
+}
+
+void MonitorPanel::read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys) {
+  if (keys.pressed('T')) keep();
+  if (kind_.modality == cases::Modality::xray) return;
+  if (keys.pressed('R')) {
+    measuring_ = !measuring_;
+    if (measuring_) calipers_.clear();
+  }
+  bool turned = false;
+  const auto read = [&](const auto& table) {
+    for (const TurningKey& one : table)
+      if (keys.pressed(one.key)) {
+        knobs_.turn(one.turn, frozen || watched);
+        turned = true;
+      }
+  };
+  if (kind_.modality == cases::Modality::ultrasound)
+    read(kUltrasoundKeys);
+  else
+    read(kSliceKeys);
+  if (turned) tell(monitor);
+  if (!frozen || watched || kind_.modality != cases::Modality::ultrasound) return;
+  const int back = (keys.pressed(kLeft) ? 1 : 0) - (keys.pressed(kRight) ? 1 : 0);
+  if (back != 0)
+    monitor.set_console([back](imaging::Console& console) { console.scroll(console.scrolled() + back); });
+}
+
+void MonitorPanel::roll(session::Monitor& monitor, int notches, bool frozen, bool watched) {
+  if (watched) return;
+  if (kind_.modality == cases::Modality::mpr && !frozen) knobs_.set_slice_mm(knobs_.asked().slice_mm - notches);
+  if (kind_.modality == cases::Modality::ultrasound && frozen)
+    monitor.set_console([notches](imaging::Console& console) { console.scroll(console.scrolled() + notches); });
+}
+
+void MonitorPanel::draw_calipers_and_keep(bool calipers) {
+  if (calipers) {
+    if (ImGui::Button(measuring_ ? "Done (R)" : "Calipers (R)")) {
+      measuring_ = !measuring_;
+      if (measuring_) calipers_.clear();
+    }
+    tip("click both ends, drag to mend: two of them, and the ellipse they span");
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Save (T)")) keep();
+  tip("keeps this picture as PNG, with its scale and no patient data");
+}
+
+bool MonitorPanel::draw_beam_knobs(float wide) {
+  const imaging::UltrasoundView view = knobs_.view();
+  bool turned = false;
+  ImGui::SetNextItemWidth(0.20F * wide);
+  const std::vector<imaging::ConsolePreset>& presets = knobs_.presets();
+  if (ImGui::BeginCombo("##preset", knobs_.preset() < 0
+                                        ? "own"
+                                        : presets[static_cast<std::size_t>(knobs_.preset())].name.data())) {
+    for (int i = 0; i < static_cast<int>(presets.size()); ++i)
+      if (ImGui::Selectable(presets[static_cast<std::size_t>(i)].name.data(), i == knobs_.preset())) {
+        knobs_.choose(i);
+        turned = true;
+      }
+    ImGui::EndCombo();
+  }
+  tip("preset (C)");
+  ImGui::SameLine();
+  double depth_mm = view.depth_mm, focus_mm = view.focus_mm, frequency_mhz = imaging::working_mhz(view);
+  if (knob("##depth", depth_mm, std::min(view.probe.least_depth_mm, view.depth_mm),
+           std::max(view.probe.most_depth_mm, view.depth_mm), "depth %.0f mm", 0.26F * wide))
+    knobs_.set_depth_mm(std::round(depth_mm));
+  tip("depth (↑ ↓): what lies deeper is not seen, a deeper picture is a slower one");
+  ImGui::SameLine();
+  if (knob("##focus", focus_mm, 0.0, view.depth_mm, focus_mm > 0.0 ? "focus %.0f mm" : "focus: all", 0.26F * wide))
+    knobs_.set_focus_mm(std::round(focus_mm));
+  tip("focus ([ ]): where the beam is narrow; at the left end at every depth");
+  ImGui::SameLine();
+  if (knob("##frequency", frequency_mhz, view.probe.least_mhz, view.probe.most_mhz, "%.1f MHz", 0.20F * wide))
+    knobs_.set_frequency_mhz(0.1 * std::round(10.0 * frequency_mhz));
+  tip("frequency (, .): high resolves, low goes deep");
+  return turned;
+}
+
+bool MonitorPanel::draw_screen_knobs(float wide) {
+  bool turned = false;
+  imaging::UltrasoundKnobs& screen = knobs_.screen;
+  turned =
+      knob("##gain", screen.gain_db, -imaging::kMostGainDb, imaging::kMostGainDb, "gain %.0f dB", 0.30F * wide) ||
+      turned;
+  tip("gain (9 0)");
+  ImGui::SameLine();
+  turned = knob("##range", screen.dynamic_range_db, imaging::kLeastRangeDb, imaging::kMostRangeDb, "range %.0f dB",
+                0.30F * wide) ||
+           turned;
+  tip("dynamic range (; ')");
+  ImGui::SameLine();
+  static constexpr const char* kMaps[] = {"linear", "lifted", "contrast"};
+  int map = static_cast<int>(screen.grey_map);
+  ImGui::SetNextItemWidth(0.20F * wide);
+  if (ImGui::Combo("##map", &map, kMaps, 3)) {
+    screen.grey_map = static_cast<imaging::GreyMap>(map);
+    turned = true;
+  }
+  tip("grey map (B)");
+  ImGui::SameLine();
+  turned = ImGui::Checkbox("flip", &screen.flip) || turned;
+  tip("left for right (X)");
+  // Time gain compensation, one slider for each layer of depth.
+  for (std::size_t i = 0; i < screen.tgc_db.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));
+    turned = knob("##tgc", screen.tgc_db[i], -imaging::kMostTgcDb, imaging::kMostTgcDb, "%.0f",
+                  wide / static_cast<float>(screen.tgc_db.size()) - 9.0F) ||
+             turned;
+    ImGui::PopID();
+    tip("time gain, from the skin to the depth");
+  }
+  return turned;
+}
+
+void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns) {
+  const float wide = ImGui::GetContentRegionAvail().x;
+  ImGui::BeginDisabled(frozen || !turns);
+  bool turned = draw_beam_knobs(wide);
+  ImGui::EndDisabled();
+
+  turned = draw_screen_knobs(wide) || turned;
+  if (turned) tell(monitor);
+
+  // Cine, as long as the picture is frozen.
+  ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
+  int back = -shown_.cine_back;
+  ImGui::SetNextItemWidth(0.32F * wide);
+  if (ImGui::SliderInt("##cine", &back, -std::max(1, shown_.cine_pictures - 1), 0, "cine %d"))
+    monitor.set_console([back](imaging::Console& console) { console.scroll(-back); });
+  ImGui::EndDisabled();
+  tip("frozen (F), back through the last pictures (← →)");
+  ImGui::SameLine();
+  draw_calipers_and_keep(true);
+  ImGui::SameLine();
+  quiet(kind_.probe.c_str());
+}
+
+void MonitorPanel::draw_slices(session::Monitor& monitor, bool frozen, bool turns) {
+  const float wide = ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemWidth(0.26F * wide);
+  if (ImGui::BeginCombo("##window", session::kHuWindows[knobs_.window].name)) {
+    for (std::size_t i = 0; i < session::kHuWindows.size(); ++i) {
+      char words[64];
+      std::snprintf(words, sizeof words, "%s  %.0f / %.0f", session::kHuWindows[i].name,
+                    session::kHuWindows[i].center_hu, session::kHuWindows[i].width_hu);
+      if (ImGui::Selectable(words, i == knobs_.window)) {
+        knobs_.window = i;
+        tell(monitor);
+      }
+    }
+    ImGui::EndCombo();
+  }
+  tip("which HU are shown, level and width (C)");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(frozen || !turns);
+  double slice_mm = knobs_.asked().slice_mm;
+  if (knob("##slice", slice_mm, -session::kMostSliceMm, session::kMostSliceMm, "%+.0f mm beside the probe",
+           0.36F * wide))
+    knobs_.set_slice_mm(std::round(slice_mm));
+  ImGui::EndDisabled();
+  tip("scrolls through the slices beside the probe's (↑ ↓)");
+  ImGui::SameLine();
+  draw_calipers_and_keep(true);
+}
+
+void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked) {
+  const cases::FluoroscopyState& machine = state.fluoroscopy;
+  // Held keys drive the C-arm, with shift the table.
+  const auto axis = [&](int more, int less) {
+    return (keys.held(more) ? 1.0 : 0.0) - (keys.held(less) ? 1.0 : 0.0);
+  };
+  asked.lao_speed = keys.shift ? 0.0 : axis(kRight, kLeft);
+  asked.cranial_speed = keys.shift ? 0.0 : axis(kUp, kDown);
+  asked.table_speed = keys.shift ? glm::dvec3(axis(kRight, kLeft), 0.0, axis(kUp, kDown)) : glm::dvec3(0.0);
+  asked.sid_speed = axis('V', 'B');
+  // Pressed keys step the collimator, field and rate.
+  const auto pressed = [&](int more, int less) {
+    return (keys.pressed(more) ? 1 : 0) - (keys.pressed(less) ? 1 : 0);
+  };
+  const double blades = kBladeStep * pressed(']', '[');
+  for (double* open : {&asked.collimator.open_u, &asked.collimator.open_v})
+    *open = std::clamp(*open + blades, cases::kCollimatorMin, 1.0);
+  asked.magnification = std::clamp(asked.magnification + pressed('0', '9'), 0, 2);
+  asked.pulse_rate = std::clamp(asked.pulse_rate + pressed('.', ','), 0, 2);
+  bool automatic = asked.automatic_exposure != keys.pressed('X');
+  if (keys.pressed('H')) asked.hand_away = !asked.hand_away;
+
+  // Pedal, hand and automatic exposure.
+  ImGui::Button("Pedal (P)");
+  asked.pedal = ImGui::IsItemActive() || keys.held('P');
+  tip("held, it makes pulses; let go, the last image stays");
+  ImGui::SameLine();
+  ImGui::Checkbox("hand away (H)", &asked.hand_away);
+  tip("lets go of the needle and takes the hand out of the beam");
+  ImGui::SameLine();
+  ImGui::Checkbox("automatic", &automatic);
+  tip("automatic exposure (X); without it kV and mA are yours");
+  ImGui::SameLine();
+  draw_calipers_and_keep(false);
+  if (!automatic && asked.automatic_exposure) {  // from where the machine had it
+    asked.kv = machine.technique.kv;
+    asked.ma = machine.technique.ma;
+  }
+  asked.automatic_exposure = automatic;
+  const float wide = ImGui::GetContentRegionAvail().x;
+  // Pulse rate, field and collimator.
+  static constexpr const char* kRates[] = {"3 /s", "7.5 /s", "15 /s"};
+  ImGui::SetNextItemWidth(0.20F * wide);
+  ImGui::Combo("##rate", &asked.pulse_rate, kRates, 3);
+  tip("pulses a second (, .): each costs dose");
+  ImGui::SameLine();
+  std::array<char[16], 3> fields;
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    std::snprintf(fields[i], sizeof fields[i], "%.0f cm", 0.1 * machine_.field_side_mm[i]);
+  const char* const names[] = {fields[0], fields[1], fields[2]};
+  ImGui::SetNextItemWidth(0.20F * wide);
+  ImGui::Combo("##field", &asked.magnification, names, 3);
+  tip("field (9 0): a smaller one is magnified, at more dose to the skin");
+  ImGui::SameLine();
+  knob("##across", asked.collimator.open_u, cases::kCollimatorMin, 1.0, "across %.2f", 0.25F * wide);
+  tip("collimator ([ ] both): what is shut off gets no dose, and blurs nothing");
+  ImGui::SameLine();
+  knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.25F * wide);
+  // Technique, by hand.
+  if (!asked.automatic_exposure) {
+    asked.kv = std::clamp(asked.kv + kKvStep * pressed('\'', ';'), machine_.kv_min, machine_.kv_max);
+    asked.ma = std::clamp(asked.ma * std::pow(kMaStep, pressed('C', 'Z')), machine_.ma_min, machine_.ma_max);
+    knob("##kv", asked.kv, machine_.kv_min, machine_.kv_max, "%.0f kV", 0.48F * wide);
+    tip("tube's voltage (; ')");
+    ImGui::SameLine();
+    knob("##ma", asked.ma, machine_.ma_min, machine_.ma_max, "%.0f mA", 0.48F * wide);
+    tip("tube's current (Z C)");
+  }
+  draw_exposure(machine);
+}
+
+void MonitorPanel::draw_exposure(const cases::FluoroscopyState& machine) {
+  // Dose rate, averaged over kDoseOverS of beam time; begun again when an attempt is watched from its start.
+  if (machine.fluoroscopy_time_s < dose_from_s_) dose_from_s_ = dose_from_mgy_ = 0.0;
+  if (machine.fluoroscopy_time_s >= dose_from_s_ + kDoseOverS) {
+    dose_mgy_min_ = 60.0 * (machine.air_kerma_mgy - dose_from_mgy_) / (machine.fluoroscopy_time_s - dose_from_s_);
+    dose_from_s_ = machine.fluoroscopy_time_s;
+    dose_from_mgy_ = machine.air_kerma_mgy;
+  }
+  // What the machine shows: angles, technique, beam time and dose.
+  ImGui::Text("%s %.0f°  %s %.0f°  SID %.0f cm   %.0f kV %.0f mA", machine.arm.lao_deg < 0.0 ? "RAO" : "LAO",
+              std::abs(machine.arm.lao_deg), machine.arm.cranial_deg < 0.0 ? "CAUD" : "CRAN",
+              std::abs(machine.arm.cranial_deg), 0.1 * machine.arm.sid_mm, machine.last_technique.kv,
+              machine.last_technique.ma);
+  const int whole_s = static_cast<int>(machine.fluoroscopy_time_s);
+  ImGui::Text("beam %d:%04.1f   %.2f mGy (%.1f mGy/min)   %.0f mGy·cm²", whole_s / 60,
+              machine.fluoroscopy_time_s - 60.0 * (whole_s / 60), machine.air_kerma_mgy,
+              machine.beam_on ? dose_mgy_min_ : 0.0, machine.dap_mgy_cm2);
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,279 @@
+#include "app/window/screens/panel_editor.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+
+namespace seldinger::app {
+namespace {
+
+struct ToolButton {
+  EditorTool tool;
+  int key;
+  const char* label;
+};
+constexpr std::array<ToolButton, 5> kTools = {{{EditorTool::look, 'V', "Look (V)"},
+                                               {EditorTool::lesion, 'L', "Lesion (L)"},
+                                               {EditorTool::structure, 'T', "Structure (T)"},
+                                               {EditorTool::entry, 'E', "Entry (E)"},
+                                               {EditorTool::rule, 'R', "Case and rule (R)"}}};
+
+constexpr int kHome = 268, kDelete = 261;  // as GLFW numbers them
+constexpr float kRightPx = 400.0F;
+
+constexpr const char* kHelp =
+    "In a plane: click or drag – by the tool in hand · wheel – slice by slice · Ctrl and wheel – nearer · right "
+    "drag – "
+    "move the plane · middle drag – window\n"
+    "In the room: drag – turn · right drag – move · wheel – nearer · click – there, with Entry in hand the planned "
+    "entry\n"
+    "Lesion: click – its middle; drag its middle or its rim. Structure: the same; a tube takes a point with each "
+    "click "
+    "and is done with Enter\n"
+    "Keys: V L T E R – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
+    "remove what is chosen · Enter, Esc – finish, drop a tube\n"
+    "Each change is stored at once, and the checks run again.";
+
+}  // namespace
+
+void EditorPanel::read_keys(Trainer& trainer, const Keys& keys) {
+  CaseEditor& editor = *trainer.editor();
+  if (keys.pressed('Z')) editor.undo();  // with Ctrl or without: a slow frame may not have seen it go down
+  if (keys.control) return;
+  for (const ToolButton& one : kTools)
+    if (keys.pressed(one.key)) editor.tool = one.tool;
+  if (keys.pressed('W')) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < session::kHuWindows.size(); ++i)
+      if (session::kHuWindows[i].center_hu == editor.view.window.center_hu)
+        next = (i + 1) % session::kHuWindows.size();
+    editor.view.window = session::kHuWindows[next];
+  }
+  if (keys.pressed(kHome) && editor.scene()) editor.view.fit(editor.scene()->scene.volume, planes_.size_px());
+  if (keys.pressed('C')) room_.toggle_glass();
+  if (keys.pressed('H')) help_ = !help_;
+  if (keys.pressed(kEnter)) editor.finish_drawing();
+  if (keys.pressed(kEscape)) editor.drop_drawing();
+  if (keys.pressed(kDelete)) {
+    if (editor.tool == EditorTool::lesion) editor.remove_lesion(editor.lesion);
+    if (editor.tool == EditorTool::structure) editor.remove_structure(editor.structure);
+    if (editor.tool == EditorTool::entry && editor.row().planned_entry_lps_mm) editor.set_entry(std::nullopt);
+  }
+  if (editor.scene() && planes_.under_mouse()) {
+    const volume::Volume& volume = editor.scene()->scene.volume;
+    if (keys.pressed(kPageUp)) editor.view.scroll(volume, *planes_.under_mouse(), 1);
+    if (keys.pressed(kPageDown)) editor.view.scroll(volume, *planes_.under_mouse(), -1);
+  }
+}
+
+void EditorPanel::draw_top(Trainer& trainer) {
+  CaseEditor& editor = *trainer.editor();
+  const casedb::CaseRow& row = editor.row();
+  heading(row.title.c_str());
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s, version %d   ·   %s", casedb::name_of(row.state).c_str(), row.version, kTrainingOnly);
+  for (const ToolButton& one : kTools) {
+    const bool in_hand = editor.tool == one.tool;
+    if (in_hand) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.24F, 0.56F, 0.42F, 1.0F));
+    if (noted_button(one.label)) editor.tool = one.tool;
+    if (in_hand) ImGui::PopStyleColor();
+    ImGui::SameLine();
+  }
+  ImGui::BeginDisabled(!editor.can_undo() || !editor.locked().empty());
+  if (noted_button("Undo (Z)")) editor.undo();
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered() && editor.can_undo()) ImGui::SetTooltip("%s", editor.undo_words().c_str());
+  ImGui::SameLine();
+  const session::HuWindow& stands = editor.view.window;
+  char window[64];
+  std::snprintf(window, sizeof window, "%s %.0f / %.0f", stands.name, stands.center_hu, stands.width_hu);
+  ImGui::SetNextItemWidth(180.0F);
+  if (ImGui::BeginCombo("##window", window)) {
+    for (const session::HuWindow& one : session::kHuWindows)
+      if (ImGui::Selectable(one.name, one.center_hu == stands.center_hu)) editor.view.window = one;
+    ImGui::EndCombo();
+  }
+  ImGui::SameLine();
+  if (noted_button("Help (H)")) help_ = !help_;
+  ImGui::SameLine();
+  if (!editor.refusal().empty())
+    ImGui::TextColored({1.0F, 0.55F, 0.40F, 1.0F}, "Not done: %s", editor.refusal().c_str());
+  else if (!trainer.refusal().empty())
+    ImGui::TextColored({1.0F, 0.55F, 0.40F, 1.0F}, "Not done: %s", trainer.refusal().c_str());
+  else
+    ImGui::TextDisabled("%s", editor.said().empty() ? "" : (editor.said() + " – stored").c_str());
+}
+
+void EditorPanel::draw_checks(CaseEditor& editor) {
+  const auto scene = editor.scene();
+  heading(editor.checking() ? "Checks … running" : "Checks");
+  if (!scene) return;
+  const ImVec4 bad{1.0F, 0.45F, 0.35F, 1.0F}, good{0.45F, 0.85F, 0.55F, 1.0F}, note{0.95F, 0.80F, 0.40F, 1.0F};
+  int id = 0;
+  const auto line = [&](const ImVec4& colour, const char* mark, const std::string& name, const std::string& text,
+                        const std::optional<glm::dvec3>& place) {
+    ImGui::PushID(id++);
+    const ImVec2 from = ImGui::GetCursorPos();
+    ImGui::TextColored(colour, "%s %s", mark, name.c_str());
+    ImGui::SameLine();
+    ImGui::TextWrapped("%s", text.c_str());
+    if (place) {
+      const ImVec2 to = ImGui::GetCursorPos();
+      ImGui::SetCursorPos(from);
+      if (ImGui::InvisibleButton("there", {ImGui::GetContentRegionAvail().x, std::max(4.0F, to.y - from.y - 4.0F)}))
+        editor.view.go_to(scene->scene.volume, *place);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("click: the cursor goes there");
+      ImGui::SetCursorPos(to);
+    }
+    ImGui::PopID();
+  };
+  for (const bool holds : {false, true}) {
+    for (const casedb::Check& one : scene->check.checks)
+      if (one.holds == holds) line(holds ? good : bad, holds ? "✓" : "✗", one.name, one.text, one.place_lps_mm);
+    if (holds) break;
+    // What publishing does not ask, and a mentor wants to know.
+    if (scene->way) {
+      for (const session::WayPart& part : scene->way->parts) {
+        char text[96];
+        std::snprintf(text, sizeof text, "%.1f mm of it, from %.1f mm below the entry", part.length_mm,
+                      part.from_mm);
+        if (part.forbidden) line(note, "!", "planned line through " + part.what, text, part.place_lps_mm);
+      }
+      for (const std::string& one : scene->way->not_crossed)
+        line(note, "!", "planned line misses " + one, "which must be crossed", scene->way->target_lps_mm);
+      if (scene->way->too_long)
+        line(note, "!", "planned line", "is longer than the needle", scene->way->entry_lps_mm);
+    }
+    if (editor.row().origin == "import" && !editor.row().burned_in_checked)
+      line(note, "!", "burned_in_unchecked", "nobody has confirmed that the pictures hold no text", std::nullopt);
+  }
+}
+
+void EditorPanel::draw_actions(Trainer& trainer) {
+  CaseEditor& editor = *trainer.editor();
+  const casedb::CaseRow& row = editor.row();
+  const bool draft = row.state == casedb::CaseState::draft, review = row.state == casedb::CaseState::review;
+  if (!editor.locked().empty() && draft) quiet(editor.locked().c_str());
+  if (draft && row.origin == "import" && !row.burned_in_checked &&
+      noted_button("I looked: no slice holds text", -1.0F))
+    editor.confirm_no_burned_in_text();
+  if (draft || review) {
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::InputTextWithHint("##note", "a note for the decision, if any", note_.data(), note_.size());
+  }
+  const bool holds = editor.scene() && editor.scene()->check.holds() && !editor.checking();
+  const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
+  ImGui::BeginDisabled(!draft || editor.lesions().empty());
+  if (noted_button("Try it", half)) {
+    trainer.try_draft();
+    ImGui::EndDisabled();
+    return;
+  }
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("an attempt that is graded and not kept: the draft stays a draft");
+  ImGui::SameLine();
+  if (draft) {
+    ImGui::BeginDisabled(!holds);
+    if (noted_button("Submit for review", half)) editor.submit(note_.data());
+    if (noted_button("Publish to my cohort", half)) editor.publish(true, note_.data());
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+      ImGui::SetTooltip("what no second person has seen is for your own cohort; every check must hold");
+  } else if (review) {
+    if (noted_button("Return to draft", half)) editor.judge(false, note_.data());
+    const bool approved = casedb::review_of(editor.decisions()).has_value();
+    if (!approved) {
+      if (noted_button("Approve", half)) editor.judge(true, note_.data());
+    } else {
+      ImGui::BeginDisabled(!holds);
+      if (noted_button("Publish", half)) editor.publish(false, note_.data());
+      ImGui::EndDisabled();
+    }
+  } else {
+    ImGui::Dummy({half, 0.0F});
+  }
+  if (draft || review) ImGui::SameLine();
+  if (!review && (!draft || !editor.locked().empty()) && noted_button("New version", half)) {
+    const std::string case_id = row.case_id;
+    trainer.new_version(case_id);
+    return;
+  }
+  if (noted_button("Cases", half)) trainer.leave_editor();
+}
+
+void EditorPanel::draw_help() {
+  if (!help_) return;
+  ImGui::SetNextWindowPos({60.0F, 120.0F}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({760.0F, 0.0F});
+  ImGui::Begin("The bench", &help_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::TextWrapped("%s", kHelp);
+  ImGui::End();
+}
+
+void EditorPanel::tell(const CaseEditor& editor, TraceLine& line) {
+  EditorTrace told;
+  told.state = casedb::name_of(editor.row().state);
+  told.checking = editor.checking();
+  told.lesions = editor.lesions().size();
+  told.structures = editor.structures().size();
+  told.entry = editor.row().planned_entry_lps_mm.has_value();
+  told.cursor_lps_mm = editor.view.cursor_lps_mm();
+  told.mm_per_pixel = editor.view.mm_per_pixel();
+  told.refusal = editor.refusal();
+  if (const auto scene = editor.scene())
+    for (const casedb::Check& one : scene->check.checks)
+      (one.holds ? told.holding : told.failing).push_back(one.name);
+  line.editor = std::move(told);
+}
+
+void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
+  CaseEditor& editor = *trainer.editor();
+  if (case_id_ != editor.row().case_id) {
+    case_id_ = editor.row().case_id;
+    planes_.begin();
+    room_.begin();
+    note_.fill('\0');
+    title_of_.clear();
+    name_of_.clear();
+    texts_.clear();
+    setting_in_hand_ = form_in_hand_ = structure_in_hand_ = false;
+  }
+  begin_screen("bench");
+  draw_top(trainer);
+  const ImVec2 all = ImGui::GetContentRegionAvail();
+  const float wide = std::floor(0.5F * (all.x - kRightPx - 12.0F)), high = std::floor(0.5F * (all.y - 6.0F));
+  ImGui::BeginChild("planes", {2.0F * wide + 4.0F, all.y}, false,
+                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4.0F, 4.0F});
+  planes_.draw(0, editor, keys, wide, high);
+  ImGui::SameLine();
+  planes_.draw(2, editor, keys, wide, high);
+  planes_.draw(1, editor, keys, wide, high);
+  ImGui::SameLine();
+  room_.draw(editor, keys, wide, high);
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginGroup();
+  constexpr float kActionsPx = 150.0F;
+  ImGui::BeginChild("tool", {0.0F, 0.5F * (all.y - kActionsPx)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_tool(editor);
+  ImGui::EndChild();
+  ImGui::BeginChild("checks", {0.0F, 0.5F * (all.y - kActionsPx) - 12.0F}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_checks(editor);
+  ImGui::EndChild();
+  ImGui::BeginChild("actions", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_actions(trainer);
+  ImGui::EndChild();
+  ImGui::EndGroup();
+  end_screen();
+  if (trainer.screen() != TrainerScreen::editor) return;
+  draw_help();
+  read_keys(trainer, keys);
+}
+
+}  // namespace seldinger::app

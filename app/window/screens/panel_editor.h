@@ -1,0 +1,132 @@
+// The case editor: three planes of the CT and the room, what the tool in hand can set, what the case's checks
+// found, and the way from draft to published.
+#pragma once
+
+#include <array>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/editor/case_editor.h"
+#include "app/window/editor/plane_painter.h"
+#include "app/window/surface/trace.h"
+#include "app/window/surface/window.h"
+#include "app/window/trainer/trainer.h"
+#include "sim/gpu/screen_picture.h"
+#include "sim/imaging/room/room_renderer.h"
+
+struct ImVec2;
+
+namespace seldinger::casedb {
+struct SettingRow;
+}
+
+namespace seldinger::app {
+
+// The planes, with what is drawn over them and the mouse in them.
+class EditorPlanes {
+ public:
+  explicit EditorPlanes(gpu::Context& context);
+
+  void begin();  // another case
+  void draw(std::size_t plane, CaseEditor& editor, const Keys& keys, float width, float height);
+  std::optional<std::size_t> under_mouse() const noexcept { return under_mouse_; }
+  glm::dvec2 size_px() const noexcept { return size_px_; }
+
+ private:
+  void ask(std::size_t plane, const CaseEditor& editor);
+  void draw_picture(std::size_t plane, const CaseEditor& editor, const ImVec2& corner);
+  void draw_case(std::size_t plane, const CaseEditor& editor, const ImVec2& corner);
+  void draw_words(std::size_t plane, const CaseEditor& editor, const ImVec2& corner);
+  void take_mouse(std::size_t plane, CaseEditor& editor, const Keys& keys, const ImVec2& corner);
+
+  struct Shown {
+    std::unique_ptr<gpu::ScreenPicture> picture;
+    std::optional<PaintedPlane> painted;
+    std::vector<double> asked;  // what the newest wish was made of
+  };
+  std::array<Shown, PlanePainter::kPlanes> shown_;
+  std::optional<std::size_t> under_mouse_, pressed_;
+  glm::dvec2 pressed_px_{0.0}, size_px_{1.0};
+  bool dragged_ = false, fitted_ = false;
+  PlanePainter painter_;
+};
+
+// The patient in the room: looked through or cut away, with all that is placed; a click on the skin sets the entry.
+class EditorRoom {
+ public:
+  explicit EditorRoom(gpu::Context& context) : context_(context) {}
+
+  void begin();
+  void draw(CaseEditor& editor, const Keys& keys, float width, float height);
+  void toggle_glass() noexcept { glass_ = !glass_; }
+
+ private:
+  struct Room {
+    Room(gpu::Context& context, imaging::RoomModel made) : scene(std::move(made)), renderer(context, scene) {}
+    imaging::RoomModel scene;
+    imaging::RoomRenderer renderer;
+    imaging::DrawList list;
+    std::vector<double> looked;  // from where, and at what, `picture` was drawn
+    unsigned int picture = 0;
+  };
+  void prepare(const CaseEditor& editor);
+  void take_mouse(CaseEditor& editor, float width, float height);
+
+  gpu::Context& context_;
+  std::unique_ptr<Room> room_;
+  std::optional<imaging::RoomCamera> camera_;
+  std::string made_of_;  // what the room was made of, or is being
+  std::future<imaging::RoomModel> making_;
+  bool glass_ = true, dragged_ = false;
+};
+
+class EditorPanel {
+ public:
+  explicit EditorPanel(gpu::Context& context) : planes_(context), room_(context) {}
+
+  void draw(Trainer& trainer, const Keys& keys);
+  void end() noexcept { case_id_.clear(); }
+  static void tell(const CaseEditor& editor, TraceLine& line);
+
+ private:
+  void read_keys(Trainer& trainer, const Keys& keys);
+  void draw_top(Trainer& trainer);
+  void draw_actions(Trainer& trainer);
+  void draw_tool(CaseEditor& editor);
+  void draw_lesion(CaseEditor& editor);
+  void draw_structure(CaseEditor& editor);
+  void choose_structure(CaseEditor& editor);
+  bool draw_structure_meaning();  // name, rule, tissue; true: changed
+  bool draw_drawn_structure();    // size and HU; true: changed
+  void draw_entry(CaseEditor& editor);
+  void draw_rule_and_setting(CaseEditor& editor);
+  bool draw_rule(const CaseEditor& editor);          // true: changed
+  bool draw_setting(CaseEditor& editor);             // true: changed
+  bool draw_setting(const casedb::SettingRow& row);  // true: changed
+  void draw_checks(CaseEditor& editor);
+  void draw_help();
+
+  EditorPlanes planes_;
+  EditorRoom room_;
+  std::string case_id_;
+  bool help_ = false;
+  std::array<char, 256> note_{}, name_{}, title_{};
+  std::string name_of_, title_of_;  // what these fields were filled from
+  struct TextInHand {
+    std::array<char, 256> typed{};
+    std::string filled_from;
+  };
+  std::map<std::string, TextInHand> texts_;  // of settings, by column
+  casedb::CaseSetting setting_;              // while a field of it is in hand
+  bool setting_in_hand_ = false;
+  cases::LesionForm form_;
+  bool form_in_hand_ = false;
+  casedb::StructureRow structure_;
+  bool structure_in_hand_ = false;
+};
+
+}  // namespace seldinger::app

@@ -1,0 +1,51 @@
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+
+namespace seldinger::app {
+
+void LogInPanel::draw(Trainer& trainer) {
+  begin_screen("log in");
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float width = std::clamp(0.33F * room.x, std::min(360.0F, room.x), 620.0F);
+  ImGui::SetCursorPos({0.5F * (room.x - width), 0.28F * room.y});
+  ImGui::BeginChild("account", {width, 20.0F * ImGui::GetFontSize()}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::Spacing();
+  heading("Seldinger");
+  quiet("Image-guided needle puncture, practised where nobody is hurt.");
+  ImGui::Spacing();
+  ImGui::TextUnformatted("Name");
+  ImGui::SetNextItemWidth(-1.0F);
+  if (!begun_) ImGui::SetKeyboardFocusHere();
+  begun_ = true;
+  const bool entered_name =
+      ImGui::InputText("##name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+  note_item("Name");
+  ImGui::TextUnformatted("Password");
+  ImGui::SetNextItemWidth(-1.0F);
+  if (entered_name) ImGui::SetKeyboardFocusHere();
+  const bool entered = ImGui::InputText("##password", password_.data(), password_.size(),
+                                        ImGuiInputTextFlags_Password | ImGuiInputTextFlags_EnterReturnsTrue);
+  note_item("Password");
+  ImGui::Spacing();
+  if (noted_button("Log in", -1.0F) || entered) {
+    trainer.log_in(name_.data(), password_.data());
+    password_.fill('\0');
+    begun_ = false;
+    if (trainer.screen() != TrainerScreen::log_in) name_.fill('\0');
+  }
+  if (!trainer.refusal().empty()) {
+    ImGui::TextWrapped("%s", trainer.refusal().c_str());
+    note_item("refused");
+  }
+  ImGui::Spacing();
+  quiet(kTrainingOnly);
+  ImGui::EndChild();
+  end_screen();
+}
+
+}  // namespace seldinger::app

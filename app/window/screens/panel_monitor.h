@@ -1,0 +1,73 @@
+// The screen that guides, with its console: what the monitor drew, its knobs and keys, calipers and the cine loop.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/replay/canvas.h"
+#include "app/window/hands/calipers.h"
+#include "app/window/hands/console_knobs.h"
+#include "app/window/hands/person_attempt.h"
+#include "app/window/surface/window.h"
+#include "session/monitor/monitor.h"
+#include "sim/gpu/screen_picture.h"
+
+namespace seldinger::app {
+
+class MonitorPanel {
+ public:
+  explicit MonitorPanel(gpu::Context& context) : picture_(context, gpu::ScreenPicture::Pixels::grey) {}
+
+  // A new attempt, with a console of its own: knobs stand where that begins, calipers and picture are gone.
+  void begin(const cases::Case& scene);
+
+  // In what room there is. What the console asks of the attempt goes into `told`; null: an attempt that is watched,
+  // whose knobs stand as they did and turn nothing but the screen.
+  void draw(session::Monitor& monitor, const cases::State& state, bool frozen, const Keys& keys, HandsTold* told);
+
+  // Between saying and showing a frame: a picture that has come since is in it, too.
+  void take_late(session::Monitor& monitor);
+
+  const session::ShownPicture& shown() const noexcept { return shown_; }
+  const gpu::ScreenPicture& picture() const noexcept { return picture_; }
+  const ConsoleKnobs& knobs() const noexcept { return knobs_; }
+
+  // The guidance's picture, once, where somebody asked to keep it.
+  std::optional<Canvas> take_kept();
+  // Shown at the picture for a moment.
+  void say(std::string note);
+
+ private:
+  void read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys);
+  void draw_picture(const session::Monitor& monitor, const cases::State& state, float width, float height);
+  void draw_marks(float left, float top, float zoom, float ruler_x);
+  void measure(float left, float top, float zoom);
+  void draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns);
+  bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
+  bool draw_screen_knobs(float wide);  // gain, range, grey map, flip, time gain; true: turned
+  void draw_slices(session::Monitor& monitor, bool frozen, bool turns);
+  void draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked);
+  void draw_exposure(const cases::FluoroscopyState& machine);
+  void draw_calipers_and_keep(bool calipers);
+  void roll(session::Monitor& monitor, int notches, bool frozen, bool watched);  // the wheel over the picture
+  void tell(session::Monitor& monitor) const;                                    // what acts on the screen
+  void keep();
+  float console_height(const cases::FluoroscopeInputs& asked) const;
+
+  gpu::ScreenPicture picture_;
+  session::ShownPicture shown_;
+  cases::Picture kind_;
+  cases::Fluoroscope machine_;
+  cases::FluoroscopyState machine_state_;
+  ConsoleKnobs knobs_;
+  Calipers calipers_;
+  bool measuring_ = false, frozen_ = false;
+  int notches_ = 0;  // of the wheel, over the picture, in this frame
+  double dose_from_s_ = 0.0, dose_from_mgy_ = 0.0, dose_mgy_min_ = 0.0;  // lately
+  std::optional<Canvas> kept_;
+  std::string note_;
+  double note_until_s_ = 0.0;
+};
+
+}  // namespace seldinger::app

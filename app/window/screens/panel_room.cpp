@@ -1,0 +1,190 @@
+#include "app/window/screens/panel_room.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+
+namespace seldinger::app {
+namespace {
+
+using devices::HandAction;
+
+// Which key does what. The window's other keys are in panel_attempt.
+constexpr std::array<std::pair<int, HandAction>, 19> kHandKeys = {{
+    {kTab, HandAction::swap},        {'G', HandAction::guide},      {kBackspace, HandAction::reset},
+    {kSpace, HandAction::fire},      {'F', HandAction::freeze},     {'D', HandAction::slide_right},
+    {'A', HandAction::slide_left},   {'W', HandAction::slide_up},   {'S', HandAction::slide_down},
+    {'E', HandAction::slide_away},   {'Q', HandAction::slide_near}, {kPageDown, HandAction::advance},
+    {kPageUp, HandAction::withdraw}, {'I', HandAction::tilt_more},  {'K', HandAction::tilt_less},
+    {'L', HandAction::rock_more},    {'J', HandAction::rock_less},  {'O', HandAction::rotate_more},
+    {'U', HandAction::rotate_less},
+}};
+
+devices::HeldActions held_actions(const Keys& keys) {
+  devices::HeldActions actions;
+  const auto set = [&](HandAction action) { actions.set(static_cast<std::size_t>(action)); };
+  for (const auto& [key, action] : kHandKeys)
+    if (keys.held(key)) set(action);
+  if (keys.shift) set(HandAction::fine);
+  if (keys.control) set(HandAction::keep_tilt);
+  return actions;
+}
+
+cases::ToolPose pose_of_held(const Seen& seen) {
+  const cases::State& state = seen.moment.state;
+  if (seen.held == devices::HeldTool::needle) return {state.needle.tip_lps_mm, state.needle.direction, {}};
+  return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+}
+
+constexpr float kViewDegreesPerPixel = 0.3F;
+// Of its width and height a room is drawn so large in software, where it costs by the pixel, and then stretched.
+constexpr float kViewSoftwareShare = 0.8F;
+
+}  // namespace
+
+void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
+  end();
+  left_handed_ = left_handed;
+  has_inside_ = false;
+  inside_ = RoomInside::whole;
+  room_ = std::make_unique<Room>(context_, imaging::make_room_model(scene), left_handed);
+  view_ = imaging::RoomView::operator_side;
+  begun_ = false;
+}
+
+void RoomPanel::look_inside(std::shared_ptr<const cases::Case> scene) {
+  constexpr std::array kNext = {RoomInside::cut_away, RoomInside::looked_through, RoomInside::whole};
+  inside_ = kNext[static_cast<std::size_t>(inside_)];
+  if (has_inside_ || making_.valid()) return;
+  making_ = std::async(std::launch::async, [scene = std::move(scene)] {
+    imaging::RoomWish wish;
+    wish.mentor = true;
+    return imaging::make_room_model(*scene, wish);
+  });
+}
+
+void RoomPanel::take_made() {
+  if (!making_.valid() || making_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  auto made = std::make_unique<Room>(context_, making_.get(), left_handed_);
+  made->camera = room_->camera;
+  room_ = std::move(made);
+  has_inside_ = true;
+}
+
+devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& tool, float height_px) const {
+  const imaging::RoomCamera& camera = room.camera;
+  devices::HandView view;
+  view.away = glm::normalize(camera.target_lps_mm - camera.eye_lps_mm);
+  view.right = glm::normalize(glm::cross(view.away, camera.up));
+  view.up = glm::cross(view.right, view.away);
+  const double far_mm = std::max(50.0, glm::dot(tool.position_lps_mm - camera.eye_lps_mm, view.away));
+  const double half = std::tan(0.5 * camera.height_deg * std::numbers::pi / 180.0);
+  view.mm_per_pixel = 2.0 * far_mm * half / std::max(1.0F, height_px);
+  return view;
+}
+
+// A view that is asked for comes in a moment. With Alt held the left button turns it, the others shift it, and the
+// wheel brings it nearer.
+void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
+                            double elapsed_s) {
+  constexpr double kViewS = 0.6;
+  if (view_ && (begun_ || state.tick > 0)) {  // before a tick nobody knows where the tools are
+    room.from = room.camera;
+    room.to = imaging::room_camera(room.scene, scene, state, *view_);
+    room.on_way = begun_ ? 0.0 : 1.0;
+    if (!begun_) room.camera = room.to;
+    begun_ = true;
+    view_.reset();
+  }
+  if (room.on_way < 1.0) {
+    room.on_way = std::min(1.0, room.on_way + elapsed_s / kViewS);
+    room.camera = imaging::between(room.from, room.to, room.on_way);
+  }
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!keys.alt || (!ImGui::IsItemHovered() && !ImGui::IsItemActive())) return;
+  const ImVec2 size = ImGui::GetItemRectSize();
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
+    imaging::orbit(room.camera, room.scene.frame, -kViewDegreesPerPixel * io.MouseDelta.x,
+                   kViewDegreesPerPixel * io.MouseDelta.y);
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
+    imaging::pan(room.camera, -io.MouseDelta.x / size.y, io.MouseDelta.y / size.y);
+  if (io.MouseWheel != 0.0F) imaging::zoom(room.camera, std::pow(0.9, io.MouseWheel));
+  imaging::stay_clear(room.camera, room.scene.frame, scene.skin_index, {}, size.x / std::max(1.0F, size.y));
+}
+
+void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& keys, double elapsed_s) {
+  const ImVec2 size = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
+  corner_px_ = {corner.x, corner.y};
+  size_px_ = {size.x, size.y};
+  ImGui::InvisibleButton(
+      "room", size,
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  if (room_) note_item("room");  // once it is made
+  over_ = ImGui::IsItemHovered();
+  dragging_ = ImGui::IsItemActive();
+  if (room_) move_camera(*room_, scene, seen.moment.state, keys, elapsed_s);
+}
+
+void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
+                      const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
+  const Pointer before = std::exchange(pointer_, pointer);
+  if (!room_ || !begun_) return;
+  devices::MouseEvents events;
+  events.elapsed_s = elapsed_s;
+  events.actions = held_actions(keys);
+  if (!keys.alt) {
+    if (dragging_) {
+      events.right_px = pointer.x_px - before.x_px;
+      events.down_px = pointer.y_px - before.y_px;
+      events.primary = pointer.down[0];
+      events.secondary = pointer.down[1];
+      events.middle = pointer.down[2];
+    }
+    if (under_pointer()) events.wheel_notches = wheel;
+  }
+  const cases::ToolPose held = pose_of_held(seen);
+  const devices::HandView view = hand_view(*room_, held, size_px_[1]);
+  devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
+  if (other.gamepad) devices::join(room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s), intent);
+  if (other.space_mouse) devices::join(room_->space_mouse.intent(*other.space_mouse, view, elapsed_s), intent);
+  devices::add(intent, sum);
+}
+
+void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
+  if (!room_ || !begun_) return;
+  take_made();
+  imaging::RoomPicture picture;
+  const float share = context_.software() ? kViewSoftwareShare : 1.0F;
+  picture.width_px = std::max(16, static_cast<int>(share * size_px_[0]));
+  picture.height_px = std::max(16, static_cast<int>(share * size_px_[1]));
+  picture.views = stereo_ ? 2 : 1;
+  picture.camera = room_->camera;
+  picture.quality = imaging::room_quality(context_);
+  imaging::RoomOptions options;
+  options.help = help;
+  options.mentor = has_inside_ && inside_ != RoomInside::whole;
+  options.glass = inside_ == RoomInside::looked_through;
+  imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
+  const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
+  drawn_.emplace(context_);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name)), {corner_px_[0], corner_px_[1]},
+                 {corner_px_[0] + size_px_[0], corner_px_[1] + size_px_[1]}, {0.0F, 1.0F}, {1.0F, 0.0F});
+}
+
+bool RoomPanel::finished(double most_s) {
+  if (drawn_ && drawn_->passed(most_s)) drawn_.reset();
+  return !drawn_;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,112 @@
+#include "app/window/screens/panel_watch.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/window/screens/panels.h"
+#include "reports/words/attempt_words.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr int kHelp = 3;  // who watches sees where it goes
+constexpr std::array<double, 3> kSpeeds = {1.0, 2.0, 4.0};
+constexpr double kLeapS = 5.0;
+
+// What was said or happened last, for a few seconds.
+std::string said_at(const cases::Recording& recording, double t_s) {
+  constexpr double kShownS = 3.0;
+  std::string said;
+  for (const cases::Event& event : recording.events.value_or(std::vector<cases::Event>{}))
+    if (event.t_s <= t_s && t_s < event.t_s + kShownS)
+      if (const cases::EventInfo* info = cases::find_event(event.kind)) said = info->words;
+  return said;
+}
+
+}  // namespace
+
+void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
+  session::WatchedAttempt& watched = *trainer.watched();
+  const double t_s = seen_.moment.state.t_s, all_s = std::max(0.1, watched.duration_s());
+  char words[64];
+  std::snprintf(words, sizeof words, "%%.0f of %.0f s", all_s);
+  auto at_s = static_cast<float>(std::min(t_s, all_s));
+  ImGui::SetNextItemWidth(-1.0F);
+  if (ImGui::SliderFloat("##time", &at_s, 0.0F, static_cast<float>(all_s), words)) watched.go_to(at_s);
+  const bool over = watched.phase() == session::WatchedAttempt::Phase::over, standing = watched.speed() <= 0.0;
+  if (ImGui::Button(over       ? "From the beginning (Space)"
+                    : standing ? "Go on (Space)"
+                               : "Stop (Space)") ||
+      keys.pressed(kSpace)) {
+    if (over) watched.go_to(0.0);
+    watched.set_speed(over || standing ? 1.0 : 0.0);
+  }
+  for (const double speed : kSpeeds) {
+    ImGui::SameLine();
+    std::snprintf(words, sizeof words, "%.0f ×", speed);
+    if (ImGui::Button(words)) watched.set_speed(speed);
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Back 5 s (Left)") || keys.pressed(kLeft)) watched.go_to(t_s - kLeapS);
+  ImGui::SameLine();
+  if (ImGui::Button("On 5 s (Right)") || keys.pressed(kRight)) watched.go_to(t_s + kLeapS);
+  // Whoever may not has to find the way by the pictures.
+  if (trainer.may(casedb::Action::look_inside)) {
+    constexpr std::array kInside = {"Cut away (I)", "Look through (I)", "Whole (I)"};
+    ImGui::SameLine();
+    if (ImGui::Button(kInside[static_cast<std::size_t>(room_.inside())]) || keys.pressed('I'))
+      room_.look_inside(watched.kept_scene());
+  }
+  const std::string said = said_at(watched.recording(), t_s);
+  ImGui::TextDisabled("%s", said.empty() ? " " : said.c_str());
+}
+
+void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
+  begin_screen("watch");
+  session::WatchedAttempt& watched = *trainer.watched();
+  if (watched.phase() == session::WatchedAttempt::Phase::preparing) {
+    heading("The attempt is being prepared …");
+    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {220.0F, 0.0F}, "");
+  } else {
+    const casedb::AttemptRow& attempt = watched.attempt();
+    if (shown_ != attempt.attempt_id) {
+      room_.begin(watched.scene(), false);
+      monitor_.begin(watched.scene());
+      seen_ = {};
+      shown_ = attempt.attempt_id;
+    }
+    if (const auto moment = watched.moment()) {
+      Seen now = seen_;
+      now.moment = *moment;
+      speaker_.play(sounds_of(seen_, now, watched.scene().instrument.kind));
+      seen_.moment = *moment;
+    }
+    watched.monitor().want();
+    seen_.frozen = seen_.moment.state.probe.frozen;
+    heading((attempt.case_title + " – " +
+             (attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again"))
+                .c_str());
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", kTrainingOnly);
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
+    begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
+    const double now_s = session::clock_s();
+    room_.place(watched.scene(), seen_, keys, std::min(0.1, now_s - drawn_s_));
+    room_.draw(watched.scene(), seen_, kHelp);
+    drawn_s_ = now_s;
+    ImGui::EndChild();
+    ImGui::SameLine();
+    begin_picture("guidance", 0.0F, all.y - below - 8.0F);
+    monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, keys, nullptr);
+    ImGui::EndChild();
+    draw_course(trainer, keys);
+  }
+  if (ImGui::Button("Back (Esc)") || keys.pressed(kEscape)) trainer.stop_watching();
+  end_screen();
+}
+
+}  // namespace seldinger::app

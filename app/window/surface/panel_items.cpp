@@ -1,0 +1,57 @@
+#include "app/window/surface/panel_items.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+
+namespace seldinger::app {
+namespace {
+
+// As Dear ImGui's own state: of the one window, in its thread.
+struct Noted {
+  bool wanted = false;
+  std::vector<ShownItem> items;
+};
+
+Noted& noted() {
+  static Noted all;
+  return all;
+}
+
+}  // namespace
+
+void note_items(bool wanted) {
+  noted().wanted = wanted;
+}
+
+void forget_items() {
+  noted().items.clear();
+}
+
+void note_item(const char* name) {
+  if (!noted().wanted) return;
+  if (!ImGui::IsItemVisible() || (ImGui::GetItemFlags() & ImGuiItemFlags_Disabled) != 0) return;
+  std::string own(name);
+  own.resize(std::min(own.size(), own.find("##")));
+  std::vector<ShownItem>& items = noted().items;
+  const auto same = std::count_if(items.begin(), items.end(), [&](const ShownItem& item) {
+    return item.name == own || (item.name.starts_with(own) && item.name.compare(own.size(), 1, "#") == 0);
+  });
+  if (same > 0) own.append("#").append(std::to_string(same + 1));
+  const ImVec2 from = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  const ImVec2 window = ImGui::GetMainViewport()->Pos;
+  items.push_back({own, from.x - window.x, from.y - window.y, size.x, size.y});
+}
+
+const std::vector<ShownItem>& noted_items() {
+  return noted().items;
+}
+
+bool noted_button(const char* label, float width) {
+  const bool pressed = ImGui::Button(label, {width, 0.0F});
+  note_item(label);
+  return pressed;
+}
+
+}  // namespace seldinger::app

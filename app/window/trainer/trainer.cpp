@@ -1,0 +1,339 @@
+#include "app/window/trainer/trainer.h"
+
+#include <algorithm>
+
+#include "app/attempts/this_program.h"
+#include "casedb/cases/changeable_case.h"
+#include "casedb/grading/expert_replay.h"
+#include "sim/base/failure.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr int kMostHelp = 2;
+
+}  // namespace
+
+Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
+    : library_(std::move(library)), arms_(std::move(arms)) {
+  // A person is asked first, when they come to the case.
+  session::close_interrupted_attempts(library_, [this](const casedb::OpenAttempt& attempt) {
+    return !attempt.synthetic() && attempt.person_id && session::is_interrupted(library_, attempt);
+  });
+}
+
+void Trainer::log_in(const std::string& name, const std::string& password) {
+  const auto account = casedb::log_in(library_, name, password);
+  if (!account) {
+    refusal_ = "Name or password is not right.";
+    return;
+  }
+  refusal_.clear();
+  account_ = *account;
+  list_choices();
+  screen_ = TrainerScreen::choose;
+  if (!first_case_.empty()) open_first();
+}
+
+// A case to practise is chosen, a mentor's draft is opened in the case editor; else the list stays, with the
+// reason.
+void Trainer::open_first() {
+  if (const Choice* choice = find_choice(first_case_)) {
+    if (choice->open) return choose(first_case_);
+    refusal_ =
+        "“" + choice->title + "” is not open for " + account_.login_name + ": " +
+        (choice->attempts_left.value_or(1) > 0 ? "what comes before it is not passed yet." : "no attempt is left.");
+    return;
+  }
+  open_editor(first_case_);
+  if (screen_ != TrainerScreen::editor)
+    refusal_ = "The case of this workstation is not one for " + account_.login_name + " to practise.";
+}
+
+std::optional<base::Error> Trainer::open_at_log_in(const std::string& case_id) {
+  const auto row = casedb::find_case(library_, case_id);
+  if (!row) return row.error();
+  first_case_ = case_id;
+  return std::nullopt;
+}
+
+void Trainer::show_devices() {
+  if (screen_ == TrainerScreen::attempt || screen_ == TrainerScreen::watch || screen_ == TrainerScreen::devices ||
+      restarting_ || resuming_)
+    return;
+  devices_from_ = screen_;
+  refusal_.clear();
+  screen_ = TrainerScreen::devices;
+  if (arms_) device_page_ = std::make_unique<DevicePage>(*arms_);
+}
+
+void Trainer::leave_devices() {
+  if (screen_ != TrainerScreen::devices) return;
+  device_page_.reset();  // the arms are an attempt's again
+  if (attempt_ &&
+      (attempt_->phase() == PersonAttempt::Phase::preparing || attempt_->phase() == PersonAttempt::Phase::ready))
+    attempt_->use(arms_);
+  refusal_.clear();
+  screen_ = devices_from_;
+}
+
+bool Trainer::change_station(const std::function<void(Station&)>& change) {
+  if (!arms_) return false;
+  refusal_.clear();
+  if (arms_->station_file.empty()) {
+    change(arms_->station);
+    return true;
+  }
+  try {
+    auto changed = app::change_station(arms_->station_file, change);
+    if (!changed)
+      refusal_ = changed.error().text;
+    else
+      arms_->station = std::move(*changed);
+  } catch (const base::Failure& failure) {
+    refusal_ = failure.what();
+  }
+  return refusal_.empty();
+}
+
+bool Trainer::keep_calibration(std::size_t side, const devices::Calibration& calibration) {
+  if (!device_page_) return false;
+  const auto ids = device_page_->status().ids;
+  return change_station([&](Station& station) {
+    station[kSideNames.at(side)].calibration = calibration;
+    // Which arm it was that was calibrated; and once one is named, the other must be.
+    for (std::size_t one = 0; one < 2; ++one)
+      if (!ids[one].arm.empty()) station[kSideNames[one]].ids = ids[one];
+  });
+}
+
+void Trainer::exchange_arms() {
+  if (!device_page_) return;
+  const auto ids = device_page_->status().ids;
+  const bool kept = change_station([&](Station& station) {
+    for (std::size_t side = 0; side < 2; ++side) station[kSideNames[side]].ids = ids[side];
+    std::swap(station["left"], station["right"]);
+  });
+  if (!kept) return;
+  device_page_.reset();
+  device_page_ = std::make_unique<DevicePage>(*arms_);
+}
+
+void Trainer::log_out() {
+  device_page_.reset();
+  watched_.reset();
+  attempt_.reset();
+  debrief_.reset();
+  editor_.reset();
+  interrupted_.reset();
+  trying_ = resuming_ = false;
+  choices_ = {};
+  account_ = {};
+  refusal_.clear();
+  screen_ = TrainerScreen::log_in;
+}
+
+void Trainer::list_choices() {
+  choices_ = casedb::choices_of(library_, account_.person_id, account_.role);
+  library_.shrink();  // a workstation is on for days
+}
+
+const Choice* Trainer::next() const noexcept {
+  return casedb::next_of(choices_);
+}
+
+void Trainer::open_editor(const std::string& case_id) {
+  const bool known =
+      std::any_of(drafts().begin(), drafts().end(), [&](const Draft& one) { return one.case_id == case_id; });
+  if (!known) return;
+  refusal_.clear();
+  editor_.reset();  // before the next: a case is large
+  editor_ = std::make_unique<CaseEditor>(library_, case_id, account_.login_name);
+  screen_ = TrainerScreen::editor;
+}
+
+void Trainer::new_version(const std::string& case_id) {
+  if (!may(casedb::Action::make_case_version)) return;
+  const auto made = casedb::new_version(library_, case_id, account_.login_name);
+  if (!made) {
+    refusal_ = made.error().text;
+    return;
+  }
+  list_choices();
+  open_editor(*made);
+}
+
+void Trainer::leave_editor() {
+  if (screen_ != TrainerScreen::editor) return;
+  editor_.reset();
+  list_choices();
+  screen_ = TrainerScreen::choose;
+}
+
+void Trainer::try_draft() {
+  if (screen_ != TrainerScreen::editor) return;
+  chosen_ = editor_->row();
+  expert_.clear();
+  restarting_ = false;
+  trying_ = true;
+  prepare(nullptr);
+}
+
+const Choice* Trainer::find_choice(const std::string& case_id) const noexcept {
+  const auto choice =
+      std::find_if(choices().begin(), choices().end(), [&](const Choice& one) { return one.case_id == case_id; });
+  return choice == choices().end() ? nullptr : &*choice;
+}
+
+bool Trainer::once_more() const noexcept {
+  if (trying_) return true;
+  const Choice* choice = find_choice(chosen_.case_id);
+  return choice != nullptr && choice->open;
+}
+
+void Trainer::choose(const std::string& case_id) {
+  const Choice* choice = find_choice(case_id);
+  if (choice == nullptr || !choice->open) return;
+  const auto row = casedb::find_case(library_, case_id);
+  if (!row) {
+    refusal_ = row.error().text;
+    return;
+  }
+  chosen_ = *row;
+  expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
+  restarting_ = trying_ = false;
+  prepare(nullptr);
+}
+
+void Trainer::prepare(std::shared_ptr<const session::Task> task) {
+  refusal_.clear();
+  const Choice* choice = find_choice(chosen_.case_id);
+  const int passes = choice != nullptr && !trying_ ? choice->passes : 0;
+  help_ = chosen_.difficulty == casedb::Difficulty::easy ? std::max(0, kMostHelp - passes) : 0;
+  debrief_.reset();
+  resuming_ = false;
+  attempt_.reset();  // before the next: a case is large
+  interrupted_.reset();
+  if (!trying_) interrupted_ = session::find_interrupted(library_, account_.person_id, chosen_.case_id);
+  attempt_ = std::make_unique<PersonAttempt>(PersonAttempt::Wanted{
+      library_.folder(), this_program(), chosen_.case_id, std::nullopt, account_.person_id, std::move(task), arms_,
+      by_, trying_ ? session::LiveAttempt::Keep::not_kept : session::LiveAttempt::Keep::stored});
+  screen_ = TrainerScreen::briefing;
+}
+
+void Trainer::back() {
+  if (resuming_) return;  // it is to run in a moment
+  if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
+  attempt_.reset();
+  debrief_.reset();
+  if (trying_) {
+    trying_ = false;
+    screen_ = TrainerScreen::editor;
+    return;
+  }
+  list_choices();
+  screen_ = TrainerScreen::choose;
+}
+
+void Trainer::again() {
+  if (chosen_.case_id.empty() || screen_ == TrainerScreen::log_in || screen_ == TrainerScreen::choose ||
+      screen_ == TrainerScreen::editor)
+    return;
+  if (screen_ == TrainerScreen::debrief && !once_more()) return;
+  const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
+  restarting_ = true;
+  prepare(prepared ? attempt_->task() : nullptr);
+}
+
+bool Trainer::begin(bool left_handed) {
+  if (screen_ != TrainerScreen::briefing || !attempt_ || attempt_->phase() != PersonAttempt::Phase::ready)
+    return false;
+  restarting_ = false;
+  if (interrupted_ && !trying_) session::close_interrupted_attempt(library_, *interrupted_);
+  interrupted_.reset();
+  attempt_->begin(left_handed);
+  if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
+  screen_ = TrainerScreen::attempt;
+  return true;
+}
+
+bool Trainer::resume(bool left_handed) {
+  if (screen_ != TrainerScreen::briefing || !interrupted_ || trying_ || !attempt_ ||
+      attempt_->phase() != PersonAttempt::Phase::ready)
+    return false;
+  restarting_ = false;
+  resuming_ = true;
+  attempt_->resume(interrupted_->attempt_id, left_handed);
+  interrupted_.reset();
+  return true;
+}
+
+void Trainer::watch(const std::string& attempt_id) {
+  if (resuming_) return;
+  if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
+  refusal_.clear();
+  watched_from_ = screen_;
+  watched_ = std::make_unique<session::WatchedAttempt>(library_.folder(), attempt_id, by_);
+  screen_ = TrainerScreen::watch;
+}
+
+void Trainer::stop_watching() {
+  if (screen_ == TrainerScreen::watch) screen_ = watched_from_;
+}
+
+// Graded as a stored one would be.
+Debrief Trainer::debrief_of_try() {
+  const session::StoredAttempt& made = attempt_->stored();
+  const std::shared_ptr<const session::Task> task = attempt_->task();
+  casedb::AttemptRow row;
+  static_cast<casedb::AttemptHead&>(row) =
+      session::head_of(*task, this_program(), std::string(casedb::kPersonOperator), 0, account_.person_id);
+  row.case_title = task->row.title;
+  row.lesion = task->lesion.lesion;
+  row.end = made.end;
+  row.metrics = made.metrics;
+  return {row, casedb::Grader(library_).look_at(row), made.steps};
+}
+
+void Trainer::look() {
+  if (watched_ && screen_ != TrainerScreen::watch) watched_.reset();
+  if (watched_ && watched_->phase() == session::WatchedAttempt::Phase::refused) {
+    refusal_ = watched_->error().text;
+    stop_watching();
+  }
+  if (editor_ && screen_ == TrainerScreen::editor) editor_->look();
+  if (!attempt_) return;
+  const PersonAttempt::Phase phase = attempt_->phase();
+  if (resuming_ && phase != PersonAttempt::Phase::preparing) {
+    resuming_ = false;
+    if (phase != PersonAttempt::Phase::refused) screen_ = TrainerScreen::attempt;
+  }
+  if (phase == PersonAttempt::Phase::refused) {
+    refusal_ = attempt_->error().text;
+    attempt_.reset();
+    if (trying_) {
+      trying_ = false;
+      screen_ = TrainerScreen::editor;
+      return;
+    }
+    list_choices();
+    (screen_ == TrainerScreen::devices ? devices_from_ : screen_) = TrainerScreen::choose;
+  } else if (phase == PersonAttempt::Phase::stored && !debrief_ && screen_ == TrainerScreen::attempt) {
+    if (trying_) {
+      debrief_ = debrief_of_try();
+      screen_ = TrainerScreen::debrief;
+      return;
+    }
+    const std::string id = attempt_->stored().attempt_id;
+    const auto row = casedb::find_attempt(library_, id);
+    if (!row) {
+      refusal_ = row.error().text;
+      return;
+    }
+    debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id)};
+    list_choices();  // what it opened
+    screen_ = TrainerScreen::debrief;
+  }
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,150 @@
+// What happens at a workstation, from logging in to the debrief, without a window: which screen is up, what can be
+// chosen, and what an attempt came to. The window draws it and tells it what was pressed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/editor/case_editor.h"
+#include "app/window/hands/device_page.h"
+#include "app/window/hands/person_attempt.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/cases/permissions.h"
+#include "casedb/grading/choices.h"
+#include "casedb/grading/grading.h"
+#include "casedb/people/people.h"
+#include "session/attempt/watched_attempt.h"
+
+namespace seldinger::app {
+
+enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, editor, devices };
+
+using casedb::Choice;
+using casedb::Draft;
+
+// What an attempt came to.
+struct Debrief {
+  casedb::AttemptRow attempt;  // without an id: it was tried and is not kept
+  casedb::AttemptGrade grade;
+  std::vector<assessment::StepResult> steps;
+};
+
+class Trainer {
+ public:
+  // Without arms, mouse and keys and what is like them are the hands.
+  explicit Trainer(casedb::Library library, std::optional<Arms> arms = std::nullopt);
+
+  // Of what comes from now on.
+  void set_pictures_by(session::PicturesBy by) noexcept { by_ = by; }
+
+  TrainerScreen screen() const noexcept { return screen_; }
+  // Whoever logs in finds this case's briefing open at once (a mentor a draft in the case editor), or is told why
+  // not. Refused: `no_case`.
+  std::optional<base::Error> open_at_log_in(const std::string& case_id);
+  // The last thing that was refused, in words for the screen; empty: nothing was.
+  const std::string& refusal() const noexcept { return refusal_; }
+
+  // Accounts as the dashboard's. A refusal does not say which of the two was wrong.
+  void log_in(const std::string& name, const std::string& password);
+  void log_out();  // what runs is stopped and stored
+  const casedb::Account& account() const noexcept { return account_; }
+
+  const std::vector<Choice>& choices() const noexcept { return choices_.cases; }
+  // Whether whoever is logged in may do it (casedb/cases/permissions.h).
+  bool may(casedb::Action action) const noexcept { return casedb::may(account_.role, action); }
+  void choose(const std::string& case_id);  // of the choices; else nothing happens
+  // What comes next, by what was reached when the choices were listed: the first that is due. Null: nothing is.
+  const Choice* next() const noexcept;
+  const casedb::CaseRow& chosen() const noexcept { return chosen_; }
+  // An attempt at it that an expert passed, to watch before one's own; empty: there is none.
+  const std::string& expert_attempt() const noexcept { return expert_; }
+  // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
+  // and less with each pass; where the target lies is never told.
+  int help() const noexcept { return help_; }
+  void back();  // from briefing or debrief to the choice, or to the case editor whose draft was tried
+
+  // --- the case editor; empty, and nothing happens, for everybody else ---
+  const std::vector<Draft>& drafts() const noexcept { return choices_.drafts; }
+  void open_editor(const std::string& case_id);  // of the drafts
+  // A draft like a case that was published or that attempts were made on, the next version, in the case editor.
+  void new_version(const std::string& case_id);
+  CaseEditor* editor() noexcept { return editor_.get(); }
+  void leave_editor();  // to the choice
+  // An attempt at what is in the case editor: of no trainee, graded and forgotten.
+  void try_draft();
+  bool trying() const noexcept { return trying_; }
+
+  // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet. An attempt
+  // at the case that was interrupted is closed: it will not be gone on with.
+  bool begin(bool left_handed);
+  // The account's attempt at the chosen case that a program left behind when it died; nothing: there is none.
+  const std::optional<casedb::OpenAttempt>& interrupted() const noexcept { return interrupted_; }
+  // Goes on with it instead, from briefing over its replay (`resuming`) to attempt. False: not yet, or there is
+  // none.
+  bool resume(bool left_handed);
+  bool resuming() const noexcept { return resuming_; }
+  // The same case once more, to begin as soon as it is ready; a running attempt is stopped and stored.
+  void again();
+  bool restarting() const noexcept { return restarting_; }
+  // How far the chosen case is prepared, 0 to 1.
+  double prepared() const noexcept { return attempt_ ? attempt_->prepared() : 0.0; }
+  // Whether the chosen case may be begun once more: attempts can be used up. From the debrief on.
+  bool once_more() const noexcept;
+  // Nothing before a case was chosen, and none after a refusal.
+  PersonAttempt* attempt() noexcept { return attempt_.get(); }
+
+  // A stored attempt is watched, from briefing or debrief, and back to there. The trainee's own, or an expert's.
+  void watch(const std::string& attempt_id);
+  void stop_watching();
+  session::WatchedAttempt* watched() noexcept { return watched_.get(); }
+
+  // The hands at this desk, from any screen but an attempt, a replay and one that is to begin again; and back
+  // there.
+  void show_devices();
+  void leave_devices();
+  const std::optional<Arms>& arms() const noexcept { return arms_; }
+  DevicePage* device_page() noexcept { return device_page_.get(); }  // of the arms, while they are shown
+  // What is known of the station becomes so, in its file too; false: refused, and nothing is changed.
+  bool change_station(const std::function<void(Station&)>& change);
+  // A side's arm is calibrated so, and is that arm from now on.
+  bool keep_calibration(std::size_t side, const devices::Calibration& calibration);
+  void exchange_arms();  // what is the left hand's becomes the right one's
+
+  // Looks whether threads have got on; once a frame.
+  void look();
+  const Debrief* debrief() const noexcept { return debrief_ ? &*debrief_ : nullptr; }
+
+ private:
+  void list_choices();
+  void open_first();
+  const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
+  void prepare(std::shared_ptr<const session::Task> task);
+  Debrief debrief_of_try();
+
+  casedb::Library library_;
+  std::optional<Arms> arms_;
+  session::PicturesBy by_ = session::PicturesBy::cpu;
+  TrainerScreen screen_ = TrainerScreen::log_in;
+  std::string refusal_;
+  casedb::Account account_;
+  casedb::Choices choices_;
+  casedb::CaseRow chosen_;
+  std::string expert_;
+  std::unique_ptr<PersonAttempt> attempt_;
+  std::optional<Debrief> debrief_;
+  std::unique_ptr<session::WatchedAttempt> watched_;
+  TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
+  std::unique_ptr<CaseEditor> editor_;
+  std::unique_ptr<DevicePage> device_page_;
+  std::string first_case_;  // to be opened at log-in
+  std::optional<casedb::OpenAttempt> interrupted_;
+  bool restarting_ = false, trying_ = false, resuming_ = false;
+  int help_ = 0;
+};
+
+}  // namespace seldinger::app

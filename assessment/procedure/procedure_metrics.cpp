@@ -1,0 +1,58 @@
+// Metrics of the procedure around the puncture: what was decided, which steps were done, and what hurt.
+#include "assessment/metrics/tables.h"
+#include "assessment/procedure/steps.h"
+#include "assessment/signals/signals.h"
+
+namespace seldinger::assessment {
+namespace {
+
+Measured decision_right(const Signals& signals) {
+  const bool deferred = first_s(Evidence::deferred, signals).has_value();
+  const bool punctured = count_punctures(signals).punctures > 0;
+  if (!deferred && !punctured && !first_s(Evidence::decided, signals)) return Measured::none("nothing_decided");
+  const bool right = *signals.setting.defer_is_right ? deferred && !punctured : !deferred;
+  return Measured::of(right ? 1.0 : 0.0);
+}
+
+Measured steps_done(const Signals& signals) {
+  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
+  if (counts.asked() == 0) return Measured::none("no_step_asked_for");
+  return Measured::of(static_cast<double>(counts.done) / counts.asked());
+}
+
+Measured steps_violated(const Signals& signals) {
+  return Measured::of(count_steps(walk_steps(signals), unmet_needs(signals)).violated);
+}
+
+Measured pain_reactions(const Signals& signals) {
+  int count = 0;
+  for (const cases::Event& event : *signals.events)
+    count += event.kind == cases::EventKind::pain_skin || event.kind == cases::EventKind::pain_bone ? 1 : 0;
+  return Measured::of(count);
+}
+
+constexpr const char* kStepSources = "thesis, appendix A; clinical.md: steps around the puncture";
+
+constexpr MetricInfo kProcedureMetrics[] = {
+    {"decision_right", 1, "bool", "Right decision", Group::procedure, Direction::higher_is_better,
+     kEvents | kDecision | kSkin,
+     "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
+     "nothing_decided (neither said nor punctured).",
+     "clinical.md, case 8; SIR 2019 thresholds", &decision_right},
+    {"steps_done", 2, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
+     "Share done of the graded steps (steps.md) that were asked for. Null: no_step_asked_for.", kStepSources,
+     &steps_done},
+    {"steps_violated", 2, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
+     "Graded steps (steps.md) that were violated.", kStepSources, &steps_violated},
+    {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
+     kPatient | kEvents | kSkin, "How often the patient felt pain: skin punctured where it was not numb, bone met.",
+     kStepSources, &pain_reactions},
+};
+
+}  // namespace
+
+std::span<const MetricInfo> procedure_metrics() {
+  return kProcedureMetrics;
+}
+
+}  // namespace seldinger::assessment

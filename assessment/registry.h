@@ -1,0 +1,27 @@
+// Every metric there is. A metric is one row in a table of this folder and the function beside it (tables.h).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assessment/metrics/metric.h"
+#include "assessment/signals/signals.h"
+
+namespace seldinger::assessment {
+
+std::span<const MetricInfo> registry();
+
+// The entry of an id; nullptr when unknown.
+const MetricInfo* find_metric(const std::string& id);
+
+// All metrics of an attempt, in the registry's order. A value that is not finite becomes null (`not_finite`).
+std::vector<MetricValue> measure_all(const Signals& signals);
+
+// Whether a stored value could be one, practising in this manner. An id that is not known any more is shown.
+bool applies(const MetricValue& metric, const Manner& manner);
+
+// docs/metrics.md, from the registry.
+std::string metrics_markdown();
+
+}  // namespace seldinger::assessment

@@ -1,0 +1,27 @@
+// Attempts as rows: what the tables of stored and of open ones have in common.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "casedb/attempts/attempts.h"
+#include "casedb/database/sqlite.h"
+
+namespace seldinger::casedb {
+
+Statement& bind_head(Statement& insert, const std::string& attempt_id, const AttemptHead& head);
+AttemptHead read_head(const Statement& from);
+// Within the transaction that inserts it: `no_case`, `no_lesion`, `no_person`.
+base::Result<void> check_head(Sqlite& database, const AttemptHead& head);
+
+Statement& bind_chunk(Statement& insert, const std::string& attempt_id, const cases::RecordingChunk& chunk);
+// `rows` asks for one attempt's chunks in order.
+std::vector<cases::RecordingChunk> read_chunks(Statement rows, const std::string& attempt_id);
+
+void insert_servo_record(Sqlite& database, const std::string& attempt_id, const cases::ServoRecord& record);
+
+MetricValue read_metric(const Statement& from);
+
+AttemptEnd end_from(const std::string& name);  // CHECKs that there is one of that name
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,201 @@
+// Who may do what: one table, which commands, the workstation's window and the dashboard ask. Deny by default. A
+// library knows neither cohorts nor studies, so a mentor and a researcher see everybody's attempts.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "casedb/cases/case_state.h"
+#include "casedb/cases/cases.h"
+#include "casedb/people/people.h"
+#include "sim/base/result.h"
+
+namespace seldinger::casedb {
+
+enum class Action {
+  // Attempts.
+  see_attempt,
+  see_operator_name,  // the log-in name of the person who made it; without it, a pseudonym
+  practise_case,      // a draft only once attempts have frozen it (casedb/grading/choices.h)
+  look_inside,        // into the patient, while an attempt is watched
+  cause_event,        // let something happen to the patient during an attempt
+  // Cases.
+  see_case,      // what it holds, also what is right: more than to practise it
+  work_on_case,  // on the workstation's bench
+  confirm_no_burned_in_text,
+  submit_case,
+  approve_case,  // "own": one's own submission
+  return_case,
+  publish_reviewed_case,
+  publish_unreviewed_case,
+  retire_case,  // "own": published by oneself
+  make_case_version,
+  // Curricula.
+  see_curriculum,
+  see_own_progress,  // in a curriculum; how far others are, nobody sees
+  make_curriculum,
+  release_curriculum,  // publishes it
+  remove_draft_curriculum,
+  retire_curriculum,
+};
+
+// A set of roles.
+class Roles {
+ public:
+  constexpr Roles(std::initializer_list<Role> roles) {
+    for (const Role role : roles) bits_ |= bit_of(role);
+  }
+  constexpr bool has(Role role) const noexcept { return (bits_ & bit_of(role)) != 0; }
+  constexpr Roles operator|(Roles other) const noexcept {
+    other.bits_ |= bits_;
+    return other;
+  }
+  constexpr bool operator==(const Roles&) const noexcept = default;
+
+ private:
+  static constexpr unsigned bit_of(Role role) noexcept { return 1U << static_cast<unsigned>(role); }
+  unsigned bits_ = 0;
+};
+inline constexpr Role kAllRoles[] = {Role::trainee, Role::mentor, Role::researcher, Role::director, Role::admin};
+inline constexpr Roles kEveryRole = {Role::trainee, Role::mentor, Role::researcher, Role::director, Role::admin};
+
+// What something is done to: the state it is in, where the action depends on it, and whether it is one's own. A
+// case's state never stands for a curriculum's.
+struct Subject {
+  constexpr Subject() = default;
+  constexpr Subject(CaseState its) : state_bit(1U << static_cast<unsigned>(its)) {}           // NOLINT
+  constexpr Subject(CurriculumState its) : state_bit(0x10U << static_cast<unsigned>(its)) {}  // NOLINT
+  static constexpr Subject whose(bool own) {
+    Subject subject;
+    subject.own = own;
+    return subject;
+  }
+  unsigned state_bit = 0x100;  // of no state
+  bool own = false;
+};
+
+// A set of states.
+class States {
+ public:
+  constexpr States() : bits_(Subject().state_bit) {}  // the action does not depend on one
+  constexpr States(std::initializer_list<Subject> states) {
+    for (const Subject& one : states) bits_ |= one.state_bit;
+  }
+  constexpr bool has(const Subject& subject) const noexcept { return (bits_ & subject.state_bit) != 0; }
+
+ private:
+  unsigned bits_ = 0;
+};
+
+enum class Whose { anybodys, own, anothers };
+
+// Roles that may do something to what is in one of the states, and whose it must be.
+struct Grant {
+  Roles who{};
+  States states{};
+  Whose whose = Whose::anybodys;
+  constexpr bool covers(Role role, const Subject& subject) const noexcept {
+    return who.has(role) && states.has(subject) &&
+           (whose == Whose::anybodys || (whose == Whose::own) == subject.own);
+  }
+};
+
+struct Permission {
+  Action action;
+  std::string_view name;
+  std::string_view rule;  // in words, as a refusal gives them
+  Grant grants[3] = {};   // any of them is enough
+};
+
+// One row for each action, in their order.
+inline constexpr Permission kPermissions[] = {
+    {Action::see_attempt,
+     "see_attempt",
+     "a mentor or a researcher sees every attempt, a trainee their own",
+     {{{Role::mentor, Role::researcher}}, {{Role::trainee}, {}, Whose::own}}},
+    {Action::see_operator_name,
+     "see_operator_name",
+     "a researcher reads pseudonyms",
+     {{{Role::trainee, Role::mentor, Role::director, Role::admin}}}},
+    {Action::practise_case,
+     "practise_case",
+     "everybody practises what is published, a mentor also a frozen draft",
+     {{kEveryRole, {CaseState::published}}, {{Role::mentor}, {CaseState::draft}}}},
+    {Action::look_inside, "look_inside", "the others have to find the way by the pictures", {{{Role::mentor}}}},
+    {Action::cause_event, "cause_event", "a mentor lets things happen to the patient", {{{Role::mentor}}}},
+
+    {Action::see_case,
+     "see_case",
+     "a mentor sees every case, a director no draft, a researcher or an admin what is or was published",
+     {{{Role::mentor}, {CaseState::draft, CaseState::review, CaseState::published, CaseState::retired}},
+      {{Role::director}, {CaseState::review, CaseState::published, CaseState::retired}},
+      {{Role::researcher, Role::admin}, {CaseState::published, CaseState::retired}}}},
+    {Action::work_on_case,
+     "work_on_case",
+     "a mentor works on a case until it is published",
+     {{{Role::mentor}, {CaseState::draft, CaseState::review}}}},
+    {Action::confirm_no_burned_in_text,
+     "confirm_no_burned_in_text",
+     "a mentor, director or admin confirms that no text is burned in",
+     {{{Role::mentor, Role::director, Role::admin}}}},
+    {Action::submit_case, "submit_case", "a mentor submits a case to review", {{{Role::mentor}}}},
+    {Action::approve_case,
+     "approve_case",
+     "a mentor or a director approves a case, as a second person: not the one who submitted it",
+     {{{Role::mentor, Role::director}, {}, Whose::anothers}}},
+    {Action::return_case,
+     "return_case",
+     "a mentor or a director returns a case to draft",
+     {{{Role::mentor, Role::director}}}},
+    {Action::publish_reviewed_case,
+     "publish_reviewed_case",
+     "a mentor or a director publishes what was reviewed",
+     {{{Role::mentor, Role::director}}}},
+    {Action::publish_unreviewed_case,
+     "publish_unreviewed_case",
+     "only a mentor publishes what no second person has approved, to their own cohort",
+     {{{Role::mentor}}}},
+    {Action::retire_case,
+     "retire_case",
+     "an admin, or who published it, retires a case",
+     {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
+    {Action::make_case_version, "make_case_version", "a mentor makes a new version", {{{Role::mentor}}}},
+
+    {Action::see_curriculum,
+     "see_curriculum",
+     "a mentor or a director sees every curriculum, a researcher no draft, a trainee what is published",
+     {{{Role::mentor, Role::director},
+       {CurriculumState::draft, CurriculumState::published, CurriculumState::retired}},
+      {{Role::researcher}, {CurriculumState::published, CurriculumState::retired}},
+      {{Role::trainee}, {CurriculumState::published}}}},
+    {Action::see_own_progress, "see_own_progress", "a trainee sees how far they are", {{{Role::trainee}}}},
+    {Action::make_curriculum, "make_curriculum", "a mentor makes a curriculum", {{{Role::mentor}}}},
+    {Action::release_curriculum, "publish_curriculum", "a director publishes a curriculum", {{{Role::director}}}},
+    {Action::remove_draft_curriculum, "remove_draft_curriculum", "a mentor takes a draft away", {{{Role::mentor}}}},
+    {Action::retire_curriculum, "retire_curriculum", "a director retires a curriculum", {{{Role::director}}}},
+};
+
+constexpr bool may(Role role, Action action, const Subject& subject = {}) noexcept {
+  for (const Grant& grant : kPermissions[static_cast<std::size_t>(action)].grants)
+    if (grant.covers(role, subject)) return true;
+  return false;
+}
+
+// Who may do it to something, whatever its state and whosever it is.
+constexpr Roles roles_that_may(Action action) noexcept {
+  Roles roles{};
+  for (const Grant& grant : kPermissions[static_cast<std::size_t>(action)].grants) roles = roles | grant.who;
+  return roles;
+}
+
+// `not_allowed`, with the rule in words.
+base::Result<void> allow(Role role, Action action, const Subject& subject = {});
+
+// The account of that log-in name: `no_user`, also of one that is closed.
+base::Result<Account> open_account(Library& library, const std::string& login_name);
+// The same, if it may: and `not_allowed`.
+base::Result<Account> account_that_may(Library& library, const std::string& login_name, Action action,
+                                       const Subject& subject = {});
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,267 @@
+// Every setting of a case, one row each: its column in the database, its option of `case setting`, its key in JSON,
+// its words on the case's page and in the editor, and what is sound. Store, JSON, command, page and editor loop
+// over these rows; a new setting is a field of CaseSetting, a row here and a migration.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "casedb/cases/setting_field.h"
+
+namespace seldinger::casedb {
+
+struct SettingOption {
+  const char* name = nullptr;   // nullptr: none
+  const char* value = nullptr;  // what follows, as the help shows it
+  const char* help = nullptr;
+  bool repeatable = false;
+};
+
+// Where a setting stands among others that are shown; those without a place come last, as the table has them.
+constexpr int kLastPlace = 1000;
+struct PageFact {
+  const char* words = nullptr;  // nullptr: not shown by itself
+  int place = kLastPlace;
+  int digits = 0;  // after the point
+};
+struct EditorField {
+  const char* words = nullptr;  // nullptr: not to be set there
+  int place = kLastPlace;
+  int digits = 0;
+  double step = 0.0;                          // numbers: of the buttons beside the field; 0: none
+  double usual = 0.0;                         // numbers that may be missing: what is there at first
+  std::span<const std::string_view> names{};  // choices: in place of the stored names
+};
+
+struct SettingRow {
+  const char* column;  // of training_case; nullptr: composed
+  SettingField field;
+  const char* json = nullptr;  // key, or group/key; nullptr: left out
+  SettingOption option{};
+  const char* unsound = nullptr;  // the finding when the value is out of bounds
+  PageFact page{};
+  EditorField editor{};
+  bool of_core_needles = false;  // in JSON only for these
+  bool of_attempts = false;      // each attempt keeps its own copy
+};
+
+inline constexpr auto kModalityWords = base::names<cases::Modality>({{cases::Modality::mpr, "CT slices"},
+                                                                     {cases::Modality::xray, "Fluoroscopy"},
+                                                                     {cases::Modality::ultrasound, "Ultrasound"}});
+
+static_assert([] {  // the editor takes a name by the place of its words
+  for (std::size_t i = 0; i < kModalityWords.size(); ++i)
+    if (kModalityWords[i].value != cases::kModalityNames[i].value) return false;
+  return kModalityWords.size() == cases::kModalityNames.size();
+}());
+
+namespace setting_table {
+
+using cases::Instrument;
+
+// The main modality is not listed again among the further ones.
+inline bool set_modality(CaseSetting& to, std::string_view name) {
+  const auto modality = base::from_name(cases::kModalityNames, name);
+  if (!modality) return false;
+  to.modality = *modality;
+  std::erase(to.further_modalities, *modality);
+  return true;
+}
+consteval ChoiceField modality() {
+  ChoiceField field = choice<cases::kModalityNames, &CaseSetting::modality>();
+  field.set = &set_modality;
+  return field;
+}
+
+inline constexpr const char* kFurtherColumns[] = {"further_modalities"};
+inline constexpr const char* kEntryColumns[] = {"planned_entry_x_lps_mm", "planned_entry_y_lps_mm",
+                                                "planned_entry_z_lps_mm"};
+inline constexpr const char* kRuleColumns[] = {"pass_rule"};
+
+inline constexpr const char* kRadius = "the needle's radius is from 0.1 to 5 mm, its lumen no wider";
+inline constexpr const char* kThrow = "throw and notch are up to 60 mm, the dead tip up to 30";
+inline constexpr const char* kWords = "allergy and indication are one line of at most 200 bytes";
+inline constexpr const char* kBreath =
+    "a breath is up to twice as deep as a quiet one, 1 to 20 s long, and up to 0.4 irregular";
+
+}  // namespace setting_table
+
+// In the order of the options; JSON keeps it.
+inline constexpr auto kSettingRows = [] {
+  using namespace setting_table;
+  constexpr auto needle = &CaseSetting::instrument;
+  constexpr auto clinic = &CaseSetting::clinic;
+  constexpr auto motion = &CaseSetting::motion;
+  return std::to_array<SettingRow>({
+      {.column = "modality",
+       .field = modality(),
+       .json = "modality",
+       .option = {"--modality", base::kAlternatives<cases::kModalityNames>, "what it is practised with"},
+       .editor = {.words = "guidance", .place = 2, .names = base::kNamesOf<kModalityWords>}},
+      {.column = nullptr,
+       .field = ComposedField{Composed::further_modalities, kFurtherColumns},
+       .json = "further_modalities",
+       .option = {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else",
+                  true}},
+      {.column = "subject",
+       .field = choice<cases::kSubjectNames, &CaseSetting::subject>(),
+       .json = "subject",
+       .option = {"--subject", base::kAlternatives<cases::kSubjectNames>,
+                  "phantom: a block to practise on; nothing is asked around a patient"}},
+      {.column = "patient_position",
+       .field = choice<cases::kPatientPositionNames, &CaseSetting::position>(),
+       .json = "patient_position",
+       .option = {"--position", base::kAlternatives<cases::kPatientPositionNames>, "how the patient lies"},
+       .editor = {.words = "patient", .place = 4}},
+      {.column = "approach",
+       .field = choice<cases::kApproachNames, &CaseSetting::approach>(),
+       .json = "approach",
+       .option = {"--approach", base::kAlternatives<cases::kApproachNames>, "of needle to picture"},
+       .editor = {.words = "approach", .place = 3},
+       .of_attempts = true},
+      {.column = "instrument_kind",
+       .field = choice<cases::kInstrumentKindNames, needle, &Instrument::kind>(),
+       .json = "instrument/kind",
+       .option = {"--instrument", base::kAlternatives<cases::kInstrumentKindNames>,
+                  "access: the tip decides; core: the fired notch"},
+       .editor = {.words = "needle", .place = 5},
+       .of_attempts = true},
+      {.column = nullptr,
+       .field = ComposedField{Composed::gauge, {}},
+       .json = "instrument/outer_diameter_mm",
+       .option = {"--gauge", "G", "16 to 25"},
+       .editor = {.words = "gauge", .place = 6}},
+      {.column = "instrument_length_mm",
+       .field = number<needle, &Instrument::length_mm>(10.0, 500.0),
+       .json = "instrument/length_mm",
+       .option = {"--length-mm", "L", "the needle's"},
+       .unsound = "the needle's length is from 10 to 500 mm",
+       .editor = {.words = "length mm", .place = 7, .step = 10.0},
+       .of_attempts = true},
+      {.column = "instrument_radius_mm",
+       .field = number<needle, &Instrument::radius_mm>(0.1, 5.0),
+       .unsound = kRadius,
+       .of_attempts = true},
+      {.column = "instrument_inner_radius_mm",
+       .field = number<needle, &Instrument::inner_radius_mm>(0.0, 5.0),
+       .unsound = kRadius,
+       .of_attempts = true},
+      {.column = "instrument_hu",
+       .field = number<needle, &Instrument::hu>(-1024.0, 32767.0),
+       .unsound = "the needle's HU are from -1024 to 32767",
+       .of_attempts = true},
+      {.column = "instrument_throw_mm",
+       .field = number<needle, &Instrument::throw_mm>(0.0, 60.0),
+       .json = "instrument/throw_mm",
+       .option = {"--throw-mm", "T", "core: the way the tip goes when fired"},
+       .unsound = kThrow,
+       .of_core_needles = true,
+       .of_attempts = true},
+      {.column = "instrument_notch_mm",
+       .field = number<needle, &Instrument::notch_mm>(0.0, 60.0),
+       .json = "instrument/notch_mm",
+       .option = {"--notch-mm", "N", "core: length of the sample notch"},
+       .unsound = kThrow,
+       .of_core_needles = true,
+       .of_attempts = true},
+      {.column = "instrument_dead_tip_mm",
+       .field = number<needle, &Instrument::dead_tip_mm>(0.0, 30.0),
+       .json = "instrument/dead_tip_mm",
+       .option = {"--dead-tip-mm", "D", "core: from the notch's end to the tip"},
+       .unsound = kThrow,
+       .of_core_needles = true,
+       .of_attempts = true},
+      {.column = "inr",
+       .field = maybe_number<clinic, &Clinic::inr>(0.5, 20.0),
+       .json = "clinic/inr",
+       .option = {"--inr", "X", "what the laboratory found"},
+       .unsound = "INR is from 0.5 to 20",
+       .page = {.words = "INR", .place = 3, .digits = 1},
+       .editor = {.words = "INR", .place = 9, .digits = 1, .usual = 1.0}},
+      {.column = "platelets_per_nl",
+       .field = maybe_number<clinic, &Clinic::platelets_per_nl>(0.0, 3000.0),
+       .json = "clinic/platelets_per_nl",
+       .option = {"--platelets", "X", "per nl (10⁹/l)"},
+       .unsound = "platelets are from 0 to 3000 per nl",
+       .page = {.words = "Platelets per nl", .place = 4},
+       .editor = {.words = "platelets 10⁹/l", .place = 10, .usual = 200.0}},
+      {.column = "allergy",
+       .field = one_line<clinic, &Clinic::allergy>(),
+       .json = "clinic/allergy",
+       .option = {"--allergy", "TEXT", "told at the sign-in"},
+       .unsound = kWords,
+       .page = {.words = "Allergy", .place = 5}},
+      {.column = "indication",
+       .field = one_line<clinic, &Clinic::indication>(),
+       .json = "clinic/indication",
+       .option = {"--indication", "TEXT", "why"},
+       .unsound = kWords,
+       .page = {.words = "Indication", .place = 2},
+       .editor = {.words = "why", .place = 1}},
+      {.column = "decision",
+       .field = yes_or_no<clinic, &Clinic::defer>("proceed", "defer", false),
+       .json = "clinic/decision",
+       .option = {"--decision", "proceed|defer", "what is right"},
+       .page = {.words = "Right decision", .place = 6},
+       .editor = {.words = "the right decision is to defer", .place = 12}},
+      {.column = "breath_depth",
+       .field = number<motion, &Motion::breath_depth>(0.0, 2.0),
+       .json = "motion/breath_depth",
+       .option = {"--breath-depth", "SHARE", "of a quiet breath, 16 mm of liver; default 0: none is shown"},
+       .unsound = kBreath},
+      {.column = "breath_period_s",
+       .field = number<motion, &Motion::breath_period_s>(1.0, 20.0),
+       .json = "motion/breath_period_s",
+       .option = {"--breath-period-s", "S", "from breath to breath; default 4"},
+       .unsound = kBreath},
+      {.column = "breath_irregularity",
+       .field = number<motion, &Motion::breath_irregularity>(0.0, 0.4),
+       .json = "motion/breath_irregularity",
+       .option = {"--breath-irregularity", "SHARE", "standard deviation of its period and depth; default 0.1"},
+       .unsound = kBreath},
+      {.column = "tissue_yields",
+       .field = yes_or_no<motion, &Motion::yields>("still", "yields", true),
+       .json = "motion/tissue",
+       .option = {"--tissue", "still|yields", "to probe and needle; default still"},
+       .editor = {.words = "tissue yields", .place = 13}},
+      {.column = nullptr,
+       .field = ComposedField{Composed::planned_entry, kEntryColumns},
+       .json = "planned_entry_mm",
+       .option = {"--entry-mm", "X,Y,Z", "the planned entry"}},
+      {.column = "difficulty",
+       .field = choice<kDifficultyNames, &CaseSetting::difficulty>(),
+       .json = "difficulty",
+       .option = {"--difficulty", base::kAlternatives<kDifficultyNames>, "how hard it is"},
+       .page = {.words = "Difficulty", .place = 1},
+       .editor = {.words = "difficulty", .place = 8}},
+      {.column = "time_limit_s",
+       .field = maybe_number<&CaseSetting::time_limit_s>(1.0, 86400.0),
+       .json = "time_limit_s",
+       .option = {"--time-limit-s", "S", "an attempt ends then"},
+       .unsound = "a time limit is from 1 s to a day",
+       .page = {.words = "Time limit, s", .place = 7},
+       .editor = {.words = "time limit s", .place = 11, .usual = 300.0}},
+      {.column = "attempt_limit",
+       .field = maybe_whole<&CaseSetting::attempt_limit>(1, 1000),
+       .json = "attempt_limit",
+       .option = {"--attempt-limit", "N", "so many a trainee"},
+       .unsound = "an attempt limit is from 1 to 1000",
+       .page = {.words = "Attempts", .place = 8}},
+      {.column = nullptr, .field = ComposedField{Composed::pass_rule, kRuleColumns}, .json = "rule"},
+  });
+}();
+
+// Those that `shown` gives words, a member of SettingRow with words and a place, in the order of their places.
+template <typename Shown>
+std::vector<const SettingRow*> shown_rows(Shown SettingRow::*shown) {
+  std::vector<const SettingRow*> rows;
+  for (const SettingRow& row : kSettingRows)
+    if ((row.*shown).words != nullptr) rows.push_back(&row);
+  std::stable_sort(rows.begin(), rows.end(), [shown](const SettingRow* a, const SettingRow* b) {
+    return (a->*shown).place < (b->*shown).place;
+  });
+  return rows;
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,390 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <unordered_map>
+
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/cases.h"
+#include "casedb/cases/changeable_case.h"
+#include "casedb/cases/setting_columns.h"
+#include "casedb/database/new_assets.h"
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+#include "sim/volume/volume_bytes.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr const char* kAxes[] = {"x", "y", "z"};
+
+std::string matrix_column(int row, int column) {
+  return "lps_from_voxel_" + std::to_string(row) + std::to_string(column);
+}
+
+void insert_case(Sqlite& database, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
+                 const std::string& volume_sha256, const std::string& skin_sha256,
+                 const std::optional<std::string>& labels_sha256, const std::string& classes_sha256) {
+  const volume::Volume& volume = new_case.volume;
+  const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
+  Statement insert = question(database, "add_case");
+  insert.bind("case_id", case_id).bind("title", new_case.title).bind("state", name_of(CaseState::draft));
+  insert.bind("origin", new_case.origin).bind("created_us", created_us).bind("slices_used", new_case.slices_used);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = kAxes[axis];
+    insert.bind("size_" + name + "_voxels", volume.size_voxels[axis]);
+    insert.bind("spacing_" + name + "_mm", volume.spacing_mm[axis]);
+    for (int column = 0; column < 4; ++column)
+      insert.bind(matrix_column(axis, column), volume.lps_from_voxel[column][axis]);
+  }
+  insert.bind("hu_min", int{*lowest}).bind("hu_max", int{*highest});
+  insert.bind("volume_sha256", volume_sha256).bind("skin_sha256", skin_sha256);
+  insert.bind("face_state", name_of(new_case.face_state));
+  insert.bind("burned_in_checked_us", new_case.no_burned_in_text ? std::optional(created_us) : std::nullopt);
+  insert.bind("burned_in_checked_by", new_case.burned_in_checked_by);
+  insert.bind_null("family_id").bind("version", 1);
+  insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
+  write_setting(database, case_id, new_case);
+
+  Statement attribute = question(database, "add_case_attribute");
+  for (std::size_t i = 0; i < new_case.attributes.size(); ++i)
+    attribute.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("name", new_case.attributes[i].first)
+        .bind("value", new_case.attributes[i].second)
+        .run();
+  Statement warning = question(database, "add_case_warning");
+  for (std::size_t i = 0; i < new_case.warnings.size(); ++i)
+    warning.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("code", new_case.warnings[i].code)
+        .bind("text", new_case.warnings[i].text)
+        .run();
+  Statement dropped = question(database, "add_case_dropped");
+  for (std::size_t i = 0; i < new_case.dropped.size(); ++i)
+    dropped.bind("case_id", case_id)
+        .bind("position", static_cast<std::int64_t>(i))
+        .bind("tag", new_case.dropped[i].tag)
+        .bind("keyword", new_case.dropped[i].keyword)
+        .bind("reason", new_case.dropped[i].reason)
+        .bind("count", new_case.dropped[i].count)
+        .run();
+}
+
+// Put together once: a list of thousands of cases asks for them again and again.
+struct GridColumns {
+  std::string size[3], spacing[3], matrix[3][4];
+  GridColumns() {
+    for (int axis = 0; axis < 3; ++axis) {
+      size[axis] = std::string("size_") + kAxes[axis] + "_voxels";
+      spacing[axis] = std::string("spacing_") + kAxes[axis] + "_mm";
+      for (int column = 0; column < 4; ++column) matrix[axis][column] = matrix_column(axis, column);
+    }
+  }
+};
+
+CaseRow read_case(const Statement& from) {
+  CaseRow row;
+  row.case_id = from.text("case_id");
+  row.title = from.text("title");
+  row.state = *case_state_from(from.view("state"));  // the schema takes no others
+  row.origin = from.text("origin");
+  row.created_us = from.integer("created_us");
+  static const GridColumns names;
+  for (int axis = 0; axis < 3; ++axis) {
+    row.size_voxels[axis] = from.small_integer(names.size[axis]);
+    row.spacing_mm[axis] = from.real(names.spacing[axis]);
+    for (int column = 0; column < 4; ++column)
+      row.lps_from_voxel[column][axis] = from.real(names.matrix[axis][column]);
+  }
+  row.hu_min = from.small_integer("hu_min");
+  row.hu_max = from.small_integer("hu_max");
+  row.slices_used = from.small_integer("slices_used");
+  row.volume_sha256 = from.text("volume_sha256");
+  row.skin_sha256 = from.text("skin_sha256");
+  row.labels_sha256 = from.text("labels_sha256");
+  row.classes_sha256 = from.text("classes_sha256");
+  read_setting(from, row);
+  row.family_id = from.is_null("family_id") ? row.case_id : from.text("family_id");
+  row.version = from.small_integer("version");
+  row.own_cohort_only = from.text("audience") == "own_cohort";
+  row.face_state = *face_state_from(from.text("face_state"));  // the schema takes no others
+  if (!from.is_null("burned_in_checked_us")) {
+    row.burned_in_checked = BurnedInCheck{from.integer("burned_in_checked_us"), {}};
+    if (!from.is_null("burned_in_checked_by")) row.burned_in_checked->person_id = from.text("burned_in_checked_by");
+  }
+  return row;
+}
+
+// Every case, or the one; without what lies in tables of its own.
+std::vector<CaseRow> read_heads(Sqlite& database, const std::optional<std::string>& case_id) {
+  std::vector<CaseRow> rows;
+  Statement cases = question(database, "cases");
+  for (cases.bind("case_id", case_id); cases.step();) rows.push_back(read_case(cases));
+  return rows;
+}
+
+std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
+  std::vector<CaseRow> rows = read_heads(database, case_id);
+  std::unordered_map<std::string, std::size_t> place;
+  for (std::size_t at = 0; at < rows.size(); ++at) place.emplace(rows[at].case_id, at);
+  // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
+  CaseRow* row = nullptr;
+  const auto belongs = [&](const Statement& from) {
+    const std::string_view id = from.view("case_id");
+    if (row != nullptr && row->case_id == id) return true;
+    const auto at = place.find(std::string(id));
+    row = at == place.end() ? nullptr : &rows[at->second];
+    return row != nullptr;
+  };
+  Statement attributes = question(database, "case_attributes");
+  for (attributes.bind("case_id", case_id); attributes.step();)
+    if (belongs(attributes)) row->attributes.emplace_back(attributes.text("name"), attributes.text("value"));
+  Statement warnings = question(database, "case_warnings");
+  for (warnings.bind("case_id", case_id); warnings.step();)
+    if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
+  Statement dropped = question(database, "case_dropped");
+  for (dropped.bind("case_id", case_id); dropped.step();)
+    if (belongs(dropped))
+      row->dropped.push_back(
+          {dropped.text("tag"), dropped.text("keyword"), dropped.text("reason"), dropped.integer("count")});
+  return rows;
+}
+
+bool sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
+  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
+  // A target larger than the volume is a mistake in the unit.
+  const double diagonal_mm = glm::length(glm::dvec3(row.size_voxels) * row.spacing_mm);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(form.radii_mm[axis] > 0.0 && form.radii_mm[axis] <= diagonal_mm)) return false;
+    if (!std::isfinite(form.center_lps_mm[axis])) return false;
+  }
+  // What a voxel can hold; what is added may also take away.
+  if (!(form.hu >= (form.adds ? -4000.0 : -1024.0) && form.hu <= 32767.0)) return false;
+  if (!(form.roughness >= 0.0 && form.roughness <= cases::kMostRoughness)) return false;
+  if (!(form.edge_mm >= 0.0 && form.edge_mm <= 2.0 * std::min({form.radii_mm.x, form.radii_mm.y, form.radii_mm.z})))
+    return false;
+  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(form.center_lps_mm, 1.0)));
+}
+
+// The ball of its volume; an irregular one's is known with its shape.
+double radius_of(const cases::LesionForm& form) {
+  if (form.kind != cases::LesionKind::ellipsoid) return form.radii_mm.x;
+  return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
+}
+
+base::Result<void> check_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
+  const auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != CaseState::draft) return kNotADraft;
+  if (!sound_lesion(*row, form))
+    return base::Error{"bad_lesion",
+                       "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "
+                       "from -1024 to 32767, roughness from 0 to 0.3 and an edge no wider than the lesion"};
+  return {};
+}
+
+void insert_lesion(Sqlite& database, const LesionRow& lesion) {
+  const cases::LesionForm& form = lesion.form;
+  const bool ellipsoid = form.kind == cases::LesionKind::ellipsoid;
+  question(database, "add_lesion")
+      .bind("lesion_id", lesion.lesion_id)
+      .bind("case_id", lesion.case_id)
+      .bind("center_x_lps_mm", form.center_lps_mm.x)
+      .bind("center_y_lps_mm", form.center_lps_mm.y)
+      .bind("center_z_lps_mm", form.center_lps_mm.z)
+      .bind("radius_mm", radius_of(form))
+      .bind("hu", form.hu)
+      .bind("kind", base::name_of(cases::kLesionKindNames, form.kind))
+      .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
+      .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
+      .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
+      .bind("roughness", form.roughness)
+      .bind("seed", std::bit_cast<std::int64_t>(form.seed))
+      .bind("adds", form.adds ? 1 : 0)
+      .bind("edge_mm", form.edge_mm)
+      .bind("created_us", lesion.created_us)
+      .run();
+}
+
+}  // namespace
+
+std::string name_of(cases::Modality modality) {
+  return std::string(base::name_of(cases::kModalityNames, modality));
+}
+
+std::optional<cases::Modality> modality_from(const std::string& name) {
+  return base::from_name(cases::kModalityNames, name);
+}
+
+std::string modality_names() {
+  return base::listed(base::kNamesOf<cases::kModalityNames>);
+}
+
+std::string name_of(cases::PatientPosition position) {
+  return std::string(base::name_of(cases::kPatientPositionNames, position));
+}
+
+std::optional<cases::PatientPosition> position_from(const std::string& name) {
+  return base::from_name(cases::kPatientPositionNames, name);
+}
+
+std::string add_case(Library& library, const NewCase& new_case) {
+  const volume::Volume& volume = new_case.volume;
+  const std::size_t voxels = static_cast<std::size_t>(volume.size_voxels.x) *
+                             static_cast<std::size_t>(volume.size_voxels.y) *
+                             static_cast<std::size_t>(volume.size_voxels.z);
+  CHECK(voxels > 0 && volume.hu.size() == voxels);
+  CHECK(!new_case.labels || new_case.labels->label.size() == voxels);
+
+  NewAssets assets(library);
+  const std::string volume_sha256 = assets.add(volume::bytes_from_volume(volume));
+  const std::string skin_sha256 = assets.add(cases::bytes_from_mesh(new_case.skin));
+  std::optional<std::string> labels_sha256;
+  if (new_case.labels) labels_sha256 = assets.add(volume::bytes_from_labels(*new_case.labels));
+  const std::string classes_sha256 = assets.add(
+      volume::bytes_from_classes(volume::tissue_classes(volume, new_case.labels ? &*new_case.labels : nullptr)));
+
+  Transaction transaction(library.database());
+  assets.make_sure();
+  const std::int64_t created_us = now_us();
+  const std::string case_id = new_uuid();
+  insert_case(library.database(), new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256,
+              classes_sha256);
+  transaction.commit();
+  assets.keep();
+  return case_id;
+}
+
+std::vector<CaseRow> list_case_heads(Library& library) {
+  return read_heads(library.database(), std::nullopt);
+}
+
+std::vector<CaseRow> list_cases(Library& library) {
+  return read_cases(library.database(), std::nullopt);
+}
+
+base::Result<CaseRow> find_case(Library& library, const std::string& case_id) {
+  std::vector<CaseRow> rows = read_cases(library.database(), case_id);
+  if (rows.empty()) return base::Error{"no_case", "there is no such case in the library"};
+  return std::move(rows.front());
+}
+
+base::Result<volume::Volume> load_volume(Library& library, const CaseRow& row) {
+  const auto bytes = library.load_asset(row.volume_sha256);
+  if (!bytes) return bytes.error();
+  return volume::volume_from_bytes(*bytes);
+}
+
+base::Result<cases::Mesh> load_skin(Library& library, const CaseRow& row) {
+  const auto bytes = library.load_asset(row.skin_sha256);
+  if (!bytes) return bytes.error();
+  return cases::mesh_from_bytes(*bytes);
+}
+
+base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row) {
+  if (row.labels_sha256.empty()) return base::Error{"no_labels", "the case has no labels"};
+  const auto bytes = library.load_asset(row.labels_sha256);
+  if (!bytes) return bytes.error();
+  return volume::labels_from_bytes(*bytes);
+}
+
+base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row) {
+  if (!row.classes_sha256.empty()) {
+    const auto bytes = library.load_asset(row.classes_sha256);
+    if (!bytes) return bytes.error();
+    const glm::dvec3 size(row.size_voxels);
+    return volume::classes_from_bytes(*bytes, static_cast<std::size_t>(size.x * size.y * size.z));
+  }
+  const auto volume = load_volume(library, row);
+  if (!volume) return volume.error();
+  if (row.labels_sha256.empty()) return volume::tissue_classes(*volume);
+  const auto labels = load_labels(library, row);
+  if (!labels) return labels.error();
+  if (labels->label.size() != volume->hu.size())
+    return base::Error{"damaged", "the stored labels are not the volume's"};
+  return volume::tissue_classes(*volume, &*labels);
+}
+
+base::Result<void> confirm_no_burned_in_text(Library& library, const std::string& case_id,
+                                             const std::optional<std::string>& person_id) {
+  Transaction transaction(library.database());
+  if (const auto row = find_case(library, case_id); !row) return row.error();
+  if (person_id) {
+    Statement person = question(library.database(), "person_exists");
+    CHECK(person.bind("person_id", *person_id).step());
+    if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+  }
+  question(library.database(), "confirm_no_burned_in_text")
+      .bind("case_id", case_id)
+      .bind("checked_us", now_us())
+      .bind("person_id", person_id)
+      .run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::Lesion& lesion) {
+  cases::LesionForm form;
+  form.center_lps_mm = lesion.center_lps_mm;
+  form.radii_mm = glm::dvec3(lesion.radius_mm);
+  form.hu = lesion.hu;
+  return add_lesion(library, case_id, form);
+}
+
+base::Result<std::string> add_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
+  Transaction transaction(library.database());
+  if (const auto fit = check_lesion(library, case_id, form); !fit) return fit.error();
+  LesionRow lesion;
+  lesion.lesion_id = new_uuid();
+  lesion.case_id = case_id;
+  lesion.form = form;
+  lesion.created_us = now_us();
+  insert_lesion(library.database(), lesion);
+  transaction.commit();
+  return lesion.lesion_id;
+}
+
+base::Result<void> put_lesion(Library& library, const LesionRow& lesion) {
+  Transaction transaction(library.database());
+  if (const auto fit = check_lesion(library, lesion.case_id, lesion.form); !fit) return fit.error();
+  if (const auto row = changeable_case(library, lesion.case_id); !row) return row.error();
+  question(library.database(), "remove_lesion")
+      .bind("case_id", lesion.case_id)
+      .bind("lesion_id", lesion.lesion_id)
+      .run();
+  insert_lesion(library.database(), lesion);
+  transaction.commit();
+  return {};
+}
+
+std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id) {
+  std::vector<LesionRow> rows;
+  Statement lesions = question(library.database(), "lesions_of_case");
+  for (lesions.bind("case_id", case_id); lesions.step();) {
+    LesionRow& row = rows.emplace_back();
+    row.lesion_id = lesions.text("lesion_id");
+    row.case_id = lesions.text("case_id");
+    row.lesion.center_lps_mm = {lesions.real("center_x_lps_mm"), lesions.real("center_y_lps_mm"),
+                                lesions.real("center_z_lps_mm")};
+    row.lesion.radius_mm = lesions.real("radius_mm");
+    row.lesion.hu = lesions.real("hu");
+    row.created_us = lesions.integer("created_us");
+    cases::LesionForm& form = row.form;
+    form.kind = *base::from_name(cases::kLesionKindNames, lesions.view("kind"));  // the schema takes no others
+    form.center_lps_mm = row.lesion.center_lps_mm;
+    form.radii_mm = glm::dvec3(row.lesion.radius_mm);
+    if (form.kind == cases::LesionKind::ellipsoid)
+      form.radii_mm = {lesions.real("radius_x_mm"), lesions.real("radius_y_mm"), lesions.real("radius_z_mm")};
+    form.hu = row.lesion.hu;
+    form.roughness = lesions.real("roughness");
+    form.seed = std::bit_cast<std::uint64_t>(lesions.integer("seed"));
+    form.adds = lesions.integer("adds") != 0;
+    form.edge_mm = lesions.real("edge_mm");
+  }
+  return rows;
+}
+
+}  // namespace seldinger::casedb

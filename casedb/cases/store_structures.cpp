@@ -1,0 +1,319 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/mat4x4.hpp>
+
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/changeable_case.h"
+#include "casedb/cases/setting_columns.h"
+#include "casedb/cases/structure_json.h"
+#include "casedb/database/new_assets.h"
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+#include "sim/base/names.h"
+#include "sim/volume/volume_bytes.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr auto kKinds = base::names<StructureKind>(
+    {{StructureKind::tissue_class, "class"}, {StructureKind::label, "label"}, {StructureKind::drawn, "drawn"}});
+constexpr std::size_t kMostName = 100;  // bytes
+
+bool sound_name(const std::string& name) {
+  if (name.empty() || name.size() > kMostName || name.front() == ' ' || name.back() == ' ') return false;
+  return std::none_of(name.begin(), name.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+base::Error bad(const char* text) {
+  return {"bad_structure", text};
+}
+
+// Whether its box and the volume's overlap.
+bool touches(const cases::Shape& shape, const CaseRow& row) {
+  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(grid);
+  const cases::Bounds bounds = cases::bounds_of(shape);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 share(corner & 1, (corner >> 1) & 1, corner >> 2);
+    const glm::dvec3 p = bounds.low_lps_mm + share * (bounds.high_lps_mm - bounds.low_lps_mm);
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
+    low = glm::min(low, index);
+    high = glm::max(high, index);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(high[axis] >= -0.5 && low[axis] <= row.size_voxels[axis] - 0.5)) return false;
+  return true;
+}
+
+base::Result<void> check_place(Library& library, const CaseRow& row, const StructureRow& structure) {
+  switch (structure.kind) {
+    case StructureKind::drawn:
+      if (const auto fit = check_drawn(structure.drawn); !fit) return fit.error();
+      if (structure.hu && !(*structure.hu >= volume::kAirHu && *structure.hu <= 32767.0))
+        return bad("HU are from -1024 to 32767");
+      if (!touches(structure.drawn, row)) return bad("the structure lies beside the volume");
+      return {};
+    case StructureKind::tissue_class: {
+      const auto classes = load_classes(library, row);
+      if (!classes) return classes.error();
+      if (std::find(classes->begin(), classes->end(), structure.tissue) == classes->end())
+        return bad("no voxel of the case is of this class");
+      return {};
+    }
+    case StructureKind::label: {
+      const auto maps = load_label_maps(library, row);
+      if (!maps) return maps.error();
+      for (const StoredLabels& map : *maps) {
+        if (map.sha256 != structure.labels_sha256) continue;
+        const auto& voxels = map.labels.label;
+        if (structure.label >= 1 && structure.label <= 255 &&
+            std::find(voxels.begin(), voxels.end(), static_cast<std::uint8_t>(structure.label)) != voxels.end())
+          return {};
+      }
+      return bad("no voxel of the case's label maps has this label");
+    }
+  }
+  CHECK(false);
+}
+
+// Nothing when a text in it is not one that the store writes.
+std::optional<StructureRow> read_structure(const Statement& from) {
+  StructureRow row;
+  row.structure_id = from.text("structure_id");
+  row.case_id = from.text("case_id");
+  row.position = from.small_integer("position");
+  row.name = from.text("title");
+  const auto rule = cases::structure_rule_from(from.text("rule"));
+  const auto tissue = volume::tissue_of_name(from.text("tissue"));
+  if (!rule || !tissue) return std::nullopt;
+  row.rule = *rule;
+  row.tissue = *tissue;
+  const auto kind = base::from_name(kKinds, from.text("kind"));
+  if (!kind) return std::nullopt;
+  row.kind = *kind;
+  if (row.kind == StructureKind::drawn) {
+    auto shape = shape_from_json(from.text("geometry"));
+    if (!shape) return std::nullopt;
+    row.drawn = std::move(*shape);
+    if (!from.is_null("hu")) row.hu = from.real("hu");
+  }
+  if (row.kind == StructureKind::label) {
+    row.labels_sha256 = from.text("labels_sha256");
+    row.label = from.small_integer("label");
+  }
+  return row;
+}
+
+// Reading classes and labels takes a moment: not to be asked under the write lock.
+base::Result<void> check_structure(Library& library, const StructureRow& structure) {
+  if (!sound_name(structure.name)) return bad("a name has 1 to 100 bytes on one line");
+  const auto row = find_case(library, structure.case_id);
+  if (!row) return row.error();
+  return check_place(library, *row, structure);
+}
+
+const base::Error kNameTaken{"name_taken", "the case has a structure of that name"};
+bool has_name(const std::vector<StructureRow>& structures, const std::string& name) {
+  return std::any_of(structures.begin(), structures.end(),
+                     [&](const StructureRow& one) { return one.name == name; });
+}
+
+void insert_structure(Library& library, const StructureRow& structure, const std::string& structure_id,
+                      int position) {
+  const bool drawn = structure.kind == StructureKind::drawn, label = structure.kind == StructureKind::label;
+  question(library.database(), "add_structure")
+      .bind("structure_id", structure_id)
+      .bind("case_id", structure.case_id)
+      .bind("position", position)
+      .bind("title", structure.name)
+      .bind("rule", cases::name_of(structure.rule))
+      .bind("tissue", volume::about(structure.tissue).name)
+      .bind("kind", name_of(structure.kind))
+      .bind("geometry", drawn ? std::optional(json_of_shape(structure.drawn)) : std::nullopt)
+      .bind("hu", drawn ? structure.hu : std::nullopt)
+      .bind("labels_sha256", label ? std::optional(structure.labels_sha256) : std::nullopt)
+      .bind("label", label ? std::optional(structure.label) : std::nullopt)
+      .bind("created_us", now_us())
+      .run();
+}
+
+}  // namespace
+
+base::Result<CaseRow> changeable_case(Library& library, const std::string& case_id) {
+  auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != CaseState::draft) return kNotADraft;
+  Statement attempts = question(library.database(), "attempts_of_case");
+  CHECK(attempts.bind("case_id", case_id).step());
+  if (attempts.integer("attempts") > 0)
+    return base::Error{"has_attempts",
+                       "attempts were made on this draft; `seldinger case version` makes the next one"};
+  return row;
+}
+
+std::string name_of(StructureKind kind) {
+  return std::string(base::name_of(kKinds, kind));
+}
+
+base::Result<std::string> add_structure(Library& library, const StructureRow& structure) {
+  if (const auto fit = check_structure(library, structure); !fit) return fit.error();
+  Transaction transaction(library.database());
+  if (const auto row = changeable_case(library, structure.case_id); !row) return row.error();
+  const auto others = list_structures(library, structure.case_id);
+  if (has_name(others, structure.name)) return kNameTaken;
+  std::string structure_id = new_uuid();
+  insert_structure(library, structure, structure_id, others.empty() ? 0 : others.back().position + 1);
+  transaction.commit();
+  return structure_id;
+}
+
+base::Result<void> put_structure(Library& library, const StructureRow& structure) {
+  if (const auto fit = check_structure(library, structure); !fit) return fit.error();
+  Transaction transaction(library.database());
+  if (const auto row = changeable_case(library, structure.case_id); !row) return row.error();
+  auto others = list_structures(library, structure.case_id);
+  for (const StructureRow& other : others)
+    if (other.structure_id == structure.structure_id)
+      question(library.database(), "remove_structure")
+          .bind("case_id", structure.case_id)
+          .bind("title", other.name)
+          .run();
+  std::erase_if(others, [&](const StructureRow& one) { return one.structure_id == structure.structure_id; });
+  if (has_name(others, structure.name)) return kNameTaken;
+  const bool taken = std::any_of(others.begin(), others.end(),
+                                 [&](const StructureRow& one) { return one.position == structure.position; });
+  insert_structure(library, structure, structure.structure_id,
+                   taken ? others.back().position + 1 : structure.position);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> remove_structure(Library& library, const std::string& case_id, const std::string& name) {
+  Transaction transaction(library.database());
+  const auto row = changeable_case(library, case_id);
+  if (!row) return row.error();
+  const auto all = list_structures(library, case_id);
+  if (std::none_of(all.begin(), all.end(), [&](const StructureRow& one) { return one.name == name; }))
+    return base::Error{"no_structure", "the case has no structure of that name"};
+  question(library.database(), "remove_structure").bind("case_id", case_id).bind("title", name).run();
+  transaction.commit();
+  return {};
+}
+
+std::vector<StructureRow> list_structures(Library& library, const std::string& case_id) {
+  std::vector<StructureRow> rows;
+  Statement from = question(library.database(), "structures_of_case");
+  for (from.bind("case_id", case_id); from.step();) {
+    auto row = read_structure(from);
+    if (!row) throw base::Failure("database", "a stored structure cannot be read");
+    rows.push_back(std::move(*row));
+  }
+  return rows;
+}
+
+bool authored_rows_are_sound(Sqlite& database, const std::string& case_id) {
+  Statement structures = question(database, "structures_of_case");
+  for (structures.bind("case_id", case_id); structures.step();)
+    if (!read_structure(structures)) return false;
+  Statement cases = question(database, "cases");
+  for (cases.bind("case_id", case_id); cases.step();) {
+    CaseSetting setting;
+    try {
+      read_setting(cases, setting);
+    } catch (const base::Failure&) {  // its rule
+      return false;
+    }
+    if (!check_setting(setting)) return false;
+  }
+  return true;
+}
+
+base::Result<std::string> add_label_map(Library& library, const std::string& case_id,
+                                        const volume::LabelMap& labels) {
+  const base::Error unsound{"bad_labels", "the label map is not one of this case's volume"};
+  {
+    const auto row = find_case(library, case_id);
+    if (!row) return row.error();
+    const glm::dvec3 size(row->size_voxels);
+    if (labels.names.empty() || labels.names.size() > 256 ||
+        static_cast<double>(labels.label.size()) != size.x * size.y * size.z)
+      return unsound;
+    for (std::size_t i = 1; i < labels.names.size(); ++i)
+      if (!sound_name(labels.names[i])) return unsound;
+    for (const std::uint8_t label : labels.label)
+      if (label >= labels.names.size()) return unsound;
+  }
+  NewAssets assets(library);
+  std::string sha256 = assets.add(volume::bytes_from_labels(labels));
+  Transaction transaction(library.database());
+  const auto row = changeable_case(library, case_id);
+  if (!row) return row.error();
+  Statement there = question(library.database(), "label_maps_of_case");
+  bool known = row->labels_sha256 == sha256;
+  for (there.bind("case_id", case_id); there.step();) known = known || there.text("labels_sha256") == sha256;
+  if (known) return sha256;
+  assets.make_sure();
+  question(library.database(), "add_label_map")
+      .bind("case_id", case_id)
+      .bind("labels_sha256", sha256)
+      .bind("created_us", now_us())
+      .run();
+  transaction.commit();
+  assets.keep();
+  return sha256;
+}
+
+base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row) {
+  std::vector<std::string> names;
+  if (!row.labels_sha256.empty()) names.push_back(row.labels_sha256);
+  Statement added = question(library.database(), "label_maps_of_case");
+  for (added.bind("case_id", row.case_id); added.step();) names.push_back(added.text("labels_sha256"));
+  std::vector<StoredLabels> maps;
+  for (const std::string& sha256 : names) {
+    const auto bytes = library.load_asset(sha256);
+    if (!bytes) return bytes.error();
+    auto labels = volume::labels_from_bytes(*bytes);
+    if (!labels) return labels.error();
+    maps.push_back({sha256, std::move(*labels)});
+  }
+  return maps;
+}
+
+base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting) {
+  if (const auto fit = check_setting(setting); !fit) return fit.error();
+  Transaction transaction(library.database());
+  const auto row = changeable_case(library, case_id);
+  if (!row) return row.error();
+  write_setting(library.database(), case_id, setting);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> set_title(Library& library, const std::string& case_id, const std::string& title) {
+  if (!sound_name(title)) return base::Error{"bad_title", "a title has 1 to 100 bytes on one line"};
+  Transaction transaction(library.database());
+  const auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != CaseState::draft) return kNotADraft;
+  question(library.database(), "set_title").bind("case_id", case_id).bind("title", title).run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> remove_lesion(Library& library, const std::string& case_id, const std::string& lesion_id) {
+  Transaction transaction(library.database());
+  const auto row = changeable_case(library, case_id);
+  if (!row) return row.error();
+  const auto all = list_lesions(library, case_id);
+  if (std::none_of(all.begin(), all.end(), [&](const LesionRow& one) { return one.lesion_id == lesion_id; }))
+    return base::Error{"no_lesion", "there is no such lesion in the case"};
+  question(library.database(), "remove_lesion").bind("case_id", case_id).bind("lesion_id", lesion_id).run();
+  transaction.commit();
+  return {};
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,244 @@
+#include "casedb/cases/versions.h"
+
+#include <algorithm>
+
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/permissions.h"
+#include "casedb/cases/setting_columns.h"
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/tables.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr const char* kDecisions[] = {"made",     "submitted", "returned",
+                                      "approved", "published", "retired"};  // in the order of DecisionKind
+constexpr std::size_t kMostNote = 1000;
+
+base::Error bad_state(const char* text) {
+  return {"bad_state", text};
+}
+
+base::Result<void> check_note(const std::string& note) {
+  const bool sound = note.size() <= kMostNote && std::none_of(note.begin(), note.end(), [](char c) {
+                       return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+                     });
+  if (!sound) return base::Error{"bad_note", "a note is one line of at most 1000 bytes"};
+  return {};
+}
+
+// What somebody wants with a case: both known, nothing written yet.
+struct Wish {
+  CaseRow row;
+  Account by;
+  std::vector<Decision> decisions;
+};
+base::Result<Wish> wish(Library& library, const std::string& case_id, const std::string& by,
+                        const std::string& note) {
+  if (const auto fit = check_note(note); !fit) return fit.error();
+  auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  auto account = open_account(library, by);
+  if (!account) return account.error();
+  return Wish{std::move(*row), std::move(*account), list_decisions(library, case_id)};
+}
+
+void decide(Library& library, const Wish& wish, DecisionKind kind, const std::string& note) {
+  question(library.database(), "add_decision")
+      .bind("case_id", wish.row.case_id)
+      .bind("decision", name_of(kind))
+      .bind("person_id", wish.by.person_id)
+      .bind("note", note)
+      .bind("decided_us", now_us())
+      .run();
+}
+
+void set_state(Library& library, const Wish& wish, CaseState state, bool own_cohort) {
+  question(library.database(), "set_state")
+      .bind("case_id", wish.row.case_id)
+      .bind("state", name_of(state))
+      .bind("audience", own_cohort ? "own_cohort" : "everyone")
+      .run();
+}
+
+// The last decision of this kind; nothing when there is none, or when it was returned since.
+const Decision* last_of(const std::vector<Decision>& decisions, DecisionKind kind) {
+  const Decision* found = nullptr;
+  for (const Decision& one : decisions) {
+    if (one.kind == kind) found = &one;
+    if (one.kind == DecisionKind::returned) found = nullptr;
+  }
+  return found;
+}
+
+// A case that comes from a patient is published only when a person has looked for burned-in text.
+base::Result<void> check_burned_in(const CaseRow& row) {
+  if (row.origin != "import" || row.burned_in_checked) return {};
+  return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
+}
+
+// The row of a case and of what belongs to it alone, as they are; columns of later migrations come along.
+void copy_case(Sqlite& database, const std::string& from_case_id, const std::string& case_id) {
+  constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
+      {"case_id", ":case_id"},
+      {"state", "'draft'"},
+      {"audience", "'everyone'"},
+      {"created_us", ":created_us"},
+      {"family_id", "coalesce(family_id, case_id)"},
+      {"version",
+       "(SELECT max(one.version) + 1 FROM training_case AS one WHERE coalesce(one.family_id, one.case_id) = "
+       "coalesce(training_case.family_id, training_case.case_id))"}};
+  for (const TravellingTable& table : travelling_tables()) {
+    if (table.name == "lesion" || table.name == "structure") continue;  // these have ids of their own
+    const bool is_case = table.name == "training_case";
+    std::string columns, values;
+    for (const std::string& column : columns_of(database, table.name)) {
+      const auto own =
+          std::find_if(std::begin(kOwn), std::end(kOwn), [&](const auto& one) { return one.first == column; });
+      const bool replaced = own != std::end(kOwn) && (is_case || column == "case_id");
+      if (!columns.empty()) {
+        columns += ", ";
+        values += ", ";
+      }
+      columns += column;
+      values += replaced ? own->second : std::string_view(column);
+    }
+    if (columns.empty()) continue;
+    Statement copy =
+        database.prepare("INSERT INTO " + std::string(table.name) + " (" + columns + ") SELECT " + values +
+                         " FROM " + std::string(table.name) + " WHERE case_id = :from_case_id");
+    copy.bind("case_id", case_id).bind("from_case_id", from_case_id);
+    if (is_case) copy.bind("created_us", now_us());
+    copy.run();
+  }
+}
+
+}  // namespace
+
+std::string name_of(DecisionKind kind) {
+  return kDecisions[static_cast<std::size_t>(kind)];
+}
+
+std::vector<Decision> list_decisions(Library& library, const std::string& case_id) {
+  std::vector<Decision> decisions;
+  Statement from = question(library.database(), "decisions_of_case");
+  for (from.bind("case_id", case_id); from.step();) {
+    Decision& one = decisions.emplace_back();
+    for (std::size_t kind = 0; kind < std::size(kDecisions); ++kind)
+      if (from.text("decision") == kDecisions[kind]) one.kind = static_cast<DecisionKind>(kind);
+    one.person_id = from.text("person_id");
+    one.pseudonym = from.text("pseudonym");
+    one.note = from.text("note");
+    one.decided_us = from.integer("decided_us");
+  }
+  return decisions;
+}
+
+std::optional<Decision> review_of(const std::vector<Decision>& decisions) {
+  const Decision* approved = last_of(decisions, DecisionKind::approved);
+  return approved == nullptr ? std::nullopt : std::optional(*approved);
+}
+
+base::Result<void> submit_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note) {
+  Transaction transaction(library.database());
+  const auto wanted = wish(library, case_id, by, note);
+  if (!wanted) return wanted.error();
+  if (const auto allowed = allow(wanted->by.role, Action::submit_case); !allowed) return allowed.error();
+  if (wanted->row.state != CaseState::draft) return bad_state("only a draft is submitted to review");
+  decide(library, *wanted, DecisionKind::submitted, note);
+  set_state(library, *wanted, CaseState::review, false);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> judge_case(Library& library, const std::string& case_id, const std::string& by, bool approve,
+                              const std::string& note) {
+  Transaction transaction(library.database());
+  const auto wanted = wish(library, case_id, by, note);
+  if (!wanted) return wanted.error();
+  const Action action = approve ? Action::approve_case : Action::return_case;
+  if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
+  if (wanted->row.state != CaseState::review) return bad_state("the case is not in review");
+  // Whoever submitted it may take it back, but not approve it.
+  const Decision* submitted = last_of(wanted->decisions, DecisionKind::submitted);
+  const bool own = submitted == nullptr || submitted->person_id == wanted->by.person_id;
+  if (const auto allowed = allow(wanted->by.role, action, Subject::whose(own)); !allowed) return allowed.error();
+  decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
+  if (!approve) set_state(library, *wanted, CaseState::draft, false);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note) {
+  if (const auto ready = ready_to_publish(check); !ready) return ready.error();
+  Transaction transaction(library.database());
+  const auto wanted = wish(library, case_id, by, note);
+  if (!wanted) return wanted.error();
+  if (wanted->row.state != CaseState::draft && wanted->row.state != CaseState::review)
+    return bad_state("only a draft or a case in review is published");
+  const bool reviewed = wanted->row.state == CaseState::review && review_of(wanted->decisions).has_value();
+  const Action action = reviewed ? Action::publish_reviewed_case : Action::publish_unreviewed_case;
+  if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
+  if (!reviewed && !own_cohort)
+    return base::Error{
+        "not_allowed",
+        "no second person has approved the case; a mentor may publish it so to their own cohort only"};
+  if (const auto fit = check_burned_in(wanted->row); !fit) return fit.error();
+  if (check.content_mark != content_mark(library, case_id))
+    return base::Error{"checks_failed", "the case has changed since it was checked: check it again"};
+  decide(library, *wanted, DecisionKind::published, note);
+  set_state(library, *wanted, CaseState::published, !reviewed);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note) {
+  Transaction transaction(library.database());
+  const auto wanted = wish(library, case_id, by, note);
+  if (!wanted) return wanted.error();
+  const Decision* published = last_of(wanted->decisions, DecisionKind::published);
+  const bool own = published != nullptr && published->person_id == wanted->by.person_id;
+  if (const auto allowed = allow(wanted->by.role, Action::retire_case, Subject::whose(own)); !allowed)
+    return allowed.error();
+  if (wanted->row.state != CaseState::published) return bad_state("only a published case is retired");
+  decide(library, *wanted, DecisionKind::retired, note);
+  set_state(library, *wanted, CaseState::retired, wanted->row.own_cohort_only);
+  transaction.commit();
+  return {};
+}
+
+base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by) {
+  Transaction transaction(library.database());
+  auto wanted = wish(library, case_id, by, {});
+  if (!wanted) return wanted.error();
+  if (const auto allowed = allow(wanted->by.role, Action::make_case_version); !allowed) return allowed.error();
+  Sqlite& database = library.database();
+  const auto lesions = list_lesions(library, case_id);
+  const auto structures = list_structures(library, case_id);
+  const std::string made = new_uuid();
+  copy_case(database, case_id, made);
+  for (const LesionRow& lesion : lesions)
+    question(database, "copy_lesion")
+        .bind("case_id", made)
+        .bind("lesion_id", new_uuid())
+        .bind("from_lesion_id", lesion.lesion_id)
+        .run();
+  for (const StructureRow& structure : structures)
+    question(database, "copy_structure")
+        .bind("case_id", made)
+        .bind("structure_id", new_uuid())
+        .bind("from_structure_id", structure.structure_id)
+        .run();
+  wanted->row.case_id = made;
+  decide(library, *wanted, DecisionKind::made, {});
+  transaction.commit();
+  return made;
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,48 @@
+// From draft to review by a second person, to published, to retired; who may do it (assessment.md §10), and new
+// versions. What is published stays as it is: the database refuses to change it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casedb/cases/case_checks.h"
+
+namespace seldinger::casedb {
+
+enum class DecisionKind { made, submitted, returned, approved, published, retired };
+
+struct Decision {
+  DecisionKind kind = DecisionKind::made;
+  std::string person_id, pseudonym, note;
+  std::int64_t decided_us = 0;
+};
+std::string name_of(DecisionKind kind);
+
+std::vector<Decision> list_decisions(Library& library, const std::string& case_id);  // oldest first
+
+// The second person who approved what was submitted last; nothing when none has.
+std::optional<Decision> review_of(const std::vector<Decision>& decisions);
+
+// All of these: `no_case`, `no_user` (disabled too), `not_allowed` (role, or a second person is needed),
+// `bad_state`, `bad_note`. A mentor submits a draft to review.
+base::Result<void> submit_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note = {});
+// Another mentor or a director than who submitted it approves, or returns it to draft.
+base::Result<void> judge_case(Library& library, const std::string& case_id, const std::string& by, bool approve,
+                              const std::string& note = {});
+// A mentor or director publishes what was approved. With `own_cohort` a mentor publishes what nobody has reviewed,
+// to his own cohort only, marked so. A case that comes from a patient needs the confirmation that no picture holds
+// burned-in text (`burned_in_unchecked`). `check` is of the case as it is stored now, and holds (`checks_failed`):
+// one of another case, or from before a change, is refused, however it came out.
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note = {});
+// An admin, or who published it.
+base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note = {});
+
+// A draft like the case, with lesions, structures and label maps of the same files, the next version of its family.
+// By a mentor. Answers its id.
+base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by);
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,136 @@
+#include "casedb/database/migrate.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "casedb/database/disk.h"
+#include "sim/base/check.h"
+
+namespace seldinger::embedded {
+std::span<const base::EmbeddedFile> migrations();
+std::span<const base::EmbeddedFile> identity_migrations();
+}  // namespace seldinger::embedded
+
+namespace seldinger::casedb {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Below this size every page is looked at when a library is opened (some milliseconds); damage in larger files is
+// met when it is read, or by `seldinger check`.
+constexpr std::uintmax_t kQuickCheckBytes = 16U << 20;
+
+void check_step_names(const Schema& schema) {
+  for (std::size_t i = 0; i < schema.steps.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    const std::string prefix = std::string(4 - number.size(), '0') + number + "_";
+    CHECK(schema.steps[i].name.substr(0, 5) == prefix);
+  }
+}
+
+void walk(Sqlite& database, const Schema& schema, int step) {
+  Transaction transaction(database);
+  if (database.integer("PRAGMA user_version") >= step) return;  // another process was faster
+  if (step == 1) database.run("PRAGMA application_id = " + std::to_string(schema.application_id));
+  database.run(std::string(schema.steps[static_cast<std::size_t>(step) - 1].content));
+  database.run("PRAGMA user_version = " + std::to_string(step));
+  transaction.commit();
+}
+
+}  // namespace
+
+Schema library_schema() {
+  return {0x534c4447, embedded::migrations()};  // "SLDG"
+}
+
+Schema identities_schema() {
+  return {0x534c4449, embedded::identity_migrations()};  // "SLDI"
+}
+
+int newest_version(const Schema& schema) {
+  return static_cast<int>(schema.steps.size());
+}
+
+base::Result<int> schema_version(Sqlite& database, const Schema& schema) {
+  check_step_names(schema);
+  const base::Error damaged{"damaged", "the library's database is damaged; restore a backup"};
+  try {
+    const auto application = database.integer("PRAGMA application_id");
+    const auto version = database.integer("PRAGMA user_version");
+    const auto objects = database.integer("SELECT count(*) FROM sqlite_schema");
+    if (application == 0 && version == 0 && objects == 0) return 0;
+    if (application != schema.application_id)
+      return base::Error{"not_a_library", "the database there was made by another program"};
+    if (version > newest_version(schema))
+      return base::Error{"newer_schema", "the library was written by a newer version of this program (schema " +
+                                             std::to_string(version) + ", known up to " +
+                                             std::to_string(newest_version(schema)) + ")"};
+    if (version < 1 || objects == 0) return damaged;
+    std::error_code ignored;
+    if (fs::file_size(database.file(), ignored) <= kQuickCheckBytes &&
+        database.text("PRAGMA quick_check(1)") != "ok")
+      return damaged;
+    return static_cast<int>(version);
+  } catch (const DatabaseFailure& failure) {
+    if (failure.kind() == DatabaseFailure::Kind::not_a_database)
+      return base::Error{"not_a_library", "the file there is no database"};
+    if (failure.kind() == DatabaseFailure::Kind::damaged) return damaged;
+    throw;
+  }
+}
+
+base::Result<void> migrate(Sqlite& database, const Schema& schema) {
+  const auto version = schema_version(database, schema);
+  if (!version) return version.error();
+  if (database.text("PRAGMA journal_mode = WAL") != "wal")
+    throw DatabaseFailure(DatabaseFailure::Kind::other, "the database cannot be set to write-ahead logging");
+  if (*version > 0 && *version < newest_version(schema)) {
+    const std::string name = database.file().string() + ".v" + std::to_string(*version) + "-backup";
+    std::string free_name = name;
+    for (int i = 2; fs::exists(free_name); ++i) free_name = name + "-" + std::to_string(i);
+    copy_database(database, free_name);
+  }
+  build(database, schema, newest_version(schema));
+  return {};
+}
+
+void build(Sqlite& database, const Schema& schema, int version) {
+  for (auto step = static_cast<int>(database.integer("PRAGMA user_version")) + 1; step <= version; ++step)
+    walk(database, schema, step);
+}
+
+void copy_database(Sqlite& database, const fs::path& file) {
+  const fs::path temporary = file.string() + ".tmp-" + std::to_string(::getpid());
+  // A copy of names must be as private as they are.
+  struct stat about {};
+  ::unlink(temporary.c_str());
+  const bool known = ::stat(database.file().c_str(), &about) == 0;
+  const int descriptor =
+      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, known ? about.st_mode & 0777U : 0600U);
+  if (descriptor < 0) throw base::Failure("disk", "the copy of the database cannot be written");
+  ::close(descriptor);
+  try {
+    {
+      Sqlite copy(temporary);
+      copy.run("PRAGMA synchronous = OFF");  // it is synced as a whole
+      database.copy_to(copy);
+      // The copy also says of itself that it has a write-ahead log; it is to be one file.
+      if (copy.text("PRAGMA journal_mode = DELETE") != "delete")
+        throw DatabaseFailure(DatabaseFailure::Kind::other, "the copy of the database cannot be finished");
+    }
+    sync_file(temporary);
+    // link, unlike rename, does not replace what is there.
+    if (::link(temporary.c_str(), file.c_str()) != 0)
+      throw base::Failure("disk", "the copy of the database cannot be named");
+    ::unlink(temporary.c_str());
+    sync_folder(file.parent_path());
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+}
+
+}  // namespace seldinger::casedb

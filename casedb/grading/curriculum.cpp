@@ -1,0 +1,238 @@
+#include "casedb/grading/curriculum.h"
+
+#include <algorithm>
+
+#include "casedb/cases/permissions.h"
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/utf8.h"
+#include "casedb/database/uuid.h"
+#include "casedb/grading/grading.h"
+#include "sim/base/check.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr std::size_t kMostTitle = 200;
+constexpr int kMostAttempts = 1000;
+
+bool is_title(const std::string& title) {
+  return !title.empty() && title.size() <= kMostTitle && is_text(title) &&
+         std::none_of(title.begin(), title.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+Curriculum read_curriculum(Sqlite& database, const Statement& from) {
+  Curriculum made;
+  made.curriculum_id = from.text("curriculum_id");
+  made.title = from.text("title");
+  made.state = *curriculum_state_from(from.view("state"));  // the schema takes no others
+  made.made_us = from.integer("made_us");
+  Statement items = question(database, "curriculum_items");
+  for (items.bind("curriculum_id", made.curriculum_id); items.step();) {
+    CurriculumItem& item = made.items.emplace_back();
+    item.family_id = items.text("family_id");
+    if (!items.is_null("attempt_limit")) item.attempt_limit = items.small_integer("attempt_limit");
+  }
+  Statement gates = question(database, "curriculum_gates");
+  for (gates.bind("curriculum_id", made.curriculum_id); gates.step();)
+    made.items.at(static_cast<std::size_t>(gates.integer("position") - 1))
+        .gates.push_back({static_cast<std::size_t>(gates.integer("after_position") - 1),
+                          *assessment::proficiency_from(gates.text("reached"))});  // the schema takes no others
+  return made;
+}
+
+void set_state(Sqlite& database, const std::string& curriculum_id, CurriculumState state,
+               const std::string& person_id) {
+  question(database, "set_curriculum_state")
+      .bind("curriculum_id", curriculum_id)
+      .bind("state", name_of(state))
+      .bind("published_by", person_id)
+      .bind("published_us", now_us())
+      .run();
+}
+
+base::Error not_a_draft() {
+  return {"not_a_draft", "a published curriculum is not changed: make another"};
+}
+
+struct Version {
+  std::string case_id, title;
+  CaseState state = CaseState::draft;
+  int version = 0;
+};
+std::vector<Version> versions_of(Library& library, const std::string& family_id) {
+  std::vector<Version> versions;
+  Statement rows = question(library.database(), "versions_of_family");
+  for (rows.bind("family_id", family_id); rows.step();)
+    versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
+                        rows.small_integer("version")});
+  return versions;
+}
+
+std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
+                              const std::optional<std::string>& person_id) {
+  std::vector<AttemptRow> attempts;
+  if (person_id) attempts = list_attempts_of(library, *person_id);
+  std::reverse(attempts.begin(), attempts.end());  // oldest first
+  Grader grader(library);
+  std::vector<ItemState> all;
+  std::vector<assessment::ItemPast> pasts;
+  for (const CurriculumItem& item : curriculum.items) {
+    ItemState& state = all.emplace_back();
+    assessment::ItemPast& past = pasts.emplace_back();
+    past.gates = item.gates;
+    past.limit = item.attempt_limit;
+    past.available = false;
+    const std::vector<Version> versions = versions_of(library, item.family_id);
+    for (const Version& version : versions) {
+      if (state.title.empty()) state.title = version.title;
+      if (past.available || version.state != CaseState::published) continue;
+      past.available = true;
+      state.case_id = version.case_id;
+      state.title = version.title;
+      state.version = version.version;
+      const auto row = find_case(library, version.case_id);
+      CHECK(row.has_value());
+      if (!past.limit) past.limit = row->attempt_limit;
+    }
+    for (const AttemptRow& attempt : attempts) {
+      const bool of_item = std::any_of(versions.begin(), versions.end(),
+                                       [&](const Version& version) { return version.case_id == attempt.case_id; });
+      if (!of_item || !by_a_person(attempt)) continue;
+      past.verdicts.push_back(grader.grade(attempt).verdict);
+      ++state.attempts;
+      state.passes += past.verdicts.back() == assessment::Verdict::passed ? 1 : 0;
+    }
+    if (person_id && past.available) {
+      Statement begun = question(library.database(), "attempts_begun");
+      CHECK(begun.bind("case_id", state.case_id).bind("person_id", *person_id).step());
+      past.begun = begun.small_integer("begun");
+    }
+  }
+  const auto progress = assessment::progress_of(pasts);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].progress = progress[i];
+  return all;
+}
+
+}  // namespace
+
+base::Result<std::string> add_curriculum(Library& library, const std::string& title, const std::string& by) {
+  if (!is_title(title)) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
+  Transaction transaction(library.database());
+  const auto account = account_that_may(library, by, Action::make_curriculum);
+  if (!account) return account.error();
+  std::string curriculum_id = new_uuid();
+  question(library.database(), "add_curriculum")
+      .bind("curriculum_id", curriculum_id)
+      .bind("title", title)
+      .bind("made_by", account->person_id)
+      .bind("made_us", now_us())
+      .run();
+  transaction.commit();
+  return curriculum_id;
+}
+
+base::Result<int> add_curriculum_item(Library& library, const std::string& curriculum_id,
+                                      const std::string& case_id, std::optional<int> attempt_limit,
+                                      const std::vector<assessment::Gate>& gates, const std::string& by) {
+  Transaction transaction(library.database());
+  const auto account = account_that_may(library, by, Action::make_curriculum);
+  if (!account) return account.error();
+  const auto curriculum = find_curriculum(library, curriculum_id);
+  if (!curriculum) return curriculum.error();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
+  const auto row = find_case(library, case_id);
+  if (!row) return row.error();
+  if (row->state != CaseState::published) return base::Error{"not_published", "a curriculum holds published cases"};
+  if (row->rule.criteria.empty()) return base::Error{"no_rule", "without a pass rule a case cannot be passed"};
+  for (const CurriculumItem& item : curriculum->items)
+    if (item.family_id == row->family_id)
+      return base::Error{"case_taken", "the curriculum has an item of that case"};
+  const std::size_t index = curriculum->items.size();
+  if (attempt_limit && (*attempt_limit < 1 || *attempt_limit > kMostAttempts))
+    return base::Error{"bad_item", "a limit is 1 to 1000 attempts"};
+  for (std::size_t i = 0; i < gates.size(); ++i) {
+    const bool twice = std::any_of(gates.begin(), gates.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](const assessment::Gate& other) { return other.after == gates[i].after; });
+    if (gates[i].after >= index || twice || gates[i].reached < assessment::Proficiency::passed)
+      return base::Error{"bad_item", "a gate names an earlier item, once, that is to be passed or proficient"};
+  }
+  const int position = static_cast<int>(index) + 1;
+  question(library.database(), "add_curriculum_item")
+      .bind("curriculum_id", curriculum_id)
+      .bind("position", position)
+      .bind("family_id", row->family_id)
+      .bind("attempt_limit",
+            attempt_limit ? std::optional<std::int64_t>(*attempt_limit) : std::optional<std::int64_t>())
+      .run();
+  for (const assessment::Gate& gate : gates)
+    question(library.database(), "add_curriculum_gate")
+        .bind("curriculum_id", curriculum_id)
+        .bind("position", position)
+        .bind("after_position", static_cast<std::int64_t>(gate.after) + 1)
+        .bind("reached", assessment::name_of(gate.reached))
+        .run();
+  transaction.commit();
+  return position;
+}
+
+base::Result<void> publish_curriculum(Library& library, const std::string& curriculum_id, const std::string& by) {
+  Transaction transaction(library.database());
+  const auto account = account_that_may(library, by, Action::release_curriculum);
+  if (!account) return account.error();
+  const auto curriculum = find_curriculum(library, curriculum_id);
+  if (!curriculum) return curriculum.error();
+  if (curriculum->state != CurriculumState::draft) return not_a_draft();
+  if (curriculum->items.empty()) return base::Error{"no_items", "the curriculum has no item"};
+  for (const CurriculumItem& item : curriculum->items) {
+    const std::vector<Version> versions = versions_of(library, item.family_id);
+    if (std::none_of(versions.begin(), versions.end(),
+                     [](const auto& one) { return one.state == CaseState::published; }))
+      return base::Error{"not_published", "a case of the curriculum was retired since"};
+  }
+  set_state(library.database(), curriculum_id, CurriculumState::published, account->person_id);
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> remove_curriculum(Library& library, const std::string& curriculum_id, const std::string& by) {
+  Transaction transaction(library.database());
+  const auto curriculum = find_curriculum(library, curriculum_id);
+  if (!curriculum) return curriculum.error();
+  if (curriculum->state == CurriculumState::retired)
+    return base::Error{"bad_state", "the curriculum is retired already"};
+  const bool draft = curriculum->state == CurriculumState::draft;
+  const auto account =
+      account_that_may(library, by, draft ? Action::remove_draft_curriculum : Action::retire_curriculum);
+  if (!account) return account.error();
+  if (draft)
+    question(library.database(), "remove_curriculum").bind("curriculum_id", curriculum_id).run();
+  else
+    set_state(library.database(), curriculum_id, CurriculumState::retired, account->person_id);
+  transaction.commit();
+  return {};
+}
+
+std::vector<Curriculum> list_curricula(Library& library) {
+  std::vector<Curriculum> all;
+  for (Statement rows = question(library.database(), "curricula"); rows.step();)
+    all.push_back(read_curriculum(library.database(), rows));
+  return all;
+}
+
+base::Result<Curriculum> find_curriculum(Library& library, const std::string& curriculum_id) {
+  for (Curriculum& one : list_curricula(library))
+    if (one.curriculum_id == curriculum_id) return std::move(one);
+  return base::Error{"no_curriculum", "there is no such curriculum in the library"};
+}
+
+std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum, const std::string& person_id) {
+  return states(library, curriculum, person_id);
+}
+
+std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum) {
+  return states(library, curriculum, std::nullopt);
+}
+
+}  // namespace seldinger::casedb

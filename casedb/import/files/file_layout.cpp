@@ -1,0 +1,130 @@
+#include "casedb/import/files/file_layout.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "sim/volume/volume.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = static_cast<std::int64_t>(volume::kMaxVoxels);
+constexpr std::uint64_t kLongestHeader = 1 << 16, kSpareBytes = 1 << 20;
+
+// An exponent of ones is NaN or infinity (IEEE 754).
+bool all_finite(const FileLayout& layout, std::uint64_t need) {
+  std::vector<std::byte> bytes;
+  if (layout.packing == Packing::none)
+    bytes = read_bytes(layout.data_file, layout.data_offset, need).value_or(std::vector<std::byte>());
+  else {
+    bytes.reserve(need + kSpareBytes);  // counted before
+    unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing}, &bytes);
+  }
+  const auto size = static_cast<std::size_t>(layout.float_bytes);
+  for (std::size_t at = layout.unpacked_skip; at + size <= bytes.size() && at < need; at += size) {
+    const unsigned high = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 0 : size - 1)]);
+    const unsigned next = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 1 : size - 2)]);
+    const bool ones = (high & 0x7fU) == 0x7fU && (size == 4 ? (next & 0x80U) == 0x80U : (next & 0xf0U) == 0xf0U);
+    if (ones) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void check_layout(const FileLayout& layout, Problems& problems) {
+  std::int64_t voxels = 1;
+  for (const std::int64_t count : layout.size_voxels) {
+    if (count < 1 || count > kMostVoxelsAlong) {
+      problems.add("bad_size", "the header's size is out of range (1 to 4096 along each axis)");
+      return;
+    }
+    voxels *= count;
+  }
+  if (voxels > kMostVoxels) {
+    problems.add("bad_size", "the header promises more voxels than can be held");
+    return;
+  }
+  if (!problems.empty()) return;
+  const std::uint64_t need = layout.unpacked_skip + static_cast<std::uint64_t>(voxels) *
+                                                        static_cast<std::uint64_t>(layout.bytes_per_voxel);
+  Unpacked found;
+  if (layout.packing == Packing::none) {
+    const std::uint64_t size = file_size_bytes(layout.data_file);
+    found.size = size > layout.data_offset ? size - layout.data_offset : 0;
+    found.state = ByteState::complete;
+  } else {
+    found = unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing});
+  }
+  if (found.state == ByteState::damaged)
+    problems.add("damaged", "the packed voxels cannot be unpacked as the header promises");
+  else if (found.state == ByteState::too_few || found.size < need)
+    problems.add("truncated", "the file ends before its voxels do");
+  if (problems.empty() && layout.float_bytes > 0 && !all_finite(layout, need))
+    problems.add("not_finite", "voxels hold values that are no numbers");
+}
+
+std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name,
+                                       Problems& problems) {
+  const bool plain = !name.empty() && name != "." && name != ".." &&
+                     name.find_first_of("/\\%") == std::string::npos && name.find('\0') == std::string::npos;
+  if (!plain) {
+    problems.add("bad_data_file", "the header names voxels that do not lie in one file beside it");
+    return {};
+  }
+  const std::filesystem::path file = header.parent_path() / name;
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (error || !std::filesystem::is_regular_file(status)) {
+    problems.add("no_data_file", "the file with the voxels is not beside the header");
+    return {};
+  }
+  return file;
+}
+
+TextHeader read_text_header(const std::filesystem::path& file, const std::string& last_key) {
+  TextHeader header;
+  const auto bytes = read_bytes(file, 0, kLongestHeader);
+  if (!bytes) return header;
+  std::string line;
+  for (std::size_t i = 0; i < bytes->size() && !header.ended; ++i) {
+    const char c = static_cast<char>((*bytes)[i]);
+    if (c != '\n') {
+      line.push_back(c);
+      continue;
+    }
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    header.ended = last_key.empty() ? line.empty() : line.starts_with(last_key);
+    header.data_offset = i + 1;
+    header.lines.push_back(std::move(line));
+    line.clear();
+  }
+  if (!header.ended && bytes->size() < kLongestHeader) {  // a detached header may end with the file
+    header.ended = last_key.empty() || line.starts_with(last_key);
+    header.data_offset = bytes->size();
+    header.lines.push_back(line);
+  }
+  return header;
+}
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& word : words_of(text)) {
+    double value = 0.0;
+    const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
+    const auto [stop, error] = std::from_chars(first, word.data() + word.size(), value);
+    if (error != std::errc() || stop != word.data() + word.size() || !std::isfinite(value)) return {};
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+}  // namespace seldinger::casedb

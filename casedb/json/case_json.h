@@ -1,0 +1,29 @@
+// What a mentor made of a case as JSON, for the command line and the dashboard.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/versions.h"
+
+namespace seldinger::casedb {
+
+// One case with all that belongs to it.
+struct CaseParts {
+  CaseRow row;
+  std::vector<LesionRow> lesions;
+  std::vector<StructureRow> structures;
+  std::vector<Decision> decisions;
+  bool provisional = true;  // too few consultants have set the standard
+};
+base::Result<CaseParts> load_parts(Library& library, const std::string& case_id);  // `no_case`
+CaseParts load_parts(Library& library, CaseRow row);
+
+nlohmann::ordered_json json_of_lesion(const LesionRow& lesion);
+nlohmann::ordered_json json_of_structure(const StructureRow& structure);
+nlohmann::ordered_json json_of_rule_of(const assessment::PassRule& rule);
+// Fields of the setting, the version and who decided (by pseudonym) are added to `json`.
+void add_authoring(const CaseParts& parts, nlohmann::ordered_json& json);
+
+}  // namespace seldinger::casedb

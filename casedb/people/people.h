@@ -1,0 +1,48 @@
+// People of a library: accounts, roles, levels. One function per question, its SQL beside it in sql/. Ids are
+// UUIDv7 text, times microseconds since 1970 UTC. Every write is one transaction: it is stored whole and
+// acknowledged, or not at all.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "casedb/database/library.h"
+#include "sim/base/result.h"
+
+namespace seldinger::casedb {
+
+enum class Role { trainee, mentor, researcher, director, admin };
+std::string name_of(Role role);
+std::optional<Role> role_from(const std::string& name);
+
+// Who somebody is beside a role: what consultants do sets the standard (assessment/grading/standard.h).
+enum class Level { student, trainee, consultant };
+std::string name_of(Level level);
+std::optional<Level> level_from(const std::string& name);
+
+struct Account {
+  std::string person_id, login_name;
+  Role role = Role::trainee;
+  bool enabled = true;
+  std::string password_mark{};   // another one after each change of the password; says nothing about it
+  std::optional<Level> level{};  // in list_users: what is known last
+};
+
+// What add_user would refuse in any library: `bad_name`, `weak_password`.
+base::Result<void> check_new_user(const std::string& name, const std::string& password);
+
+// `bad_name` (1–64 printable characters, no leading or trailing space), `name_taken`, `weak_password` (8–128
+// bytes). Names compare without regard to ASCII case.
+base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
+                                   const std::string& password);
+std::vector<Account> list_users(Library& library);  // oldest first; those who have a name
+base::Result<void> set_password(Library& library, const std::string& name,
+                                const std::string& password);  // `no_user`, `weak_password`
+base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled);  // `no_user`
+// From now on; what was before stays, and with it what earlier attempts count as. `no_user`.
+base::Result<void> set_level(Library& library, const std::string& name, Level level);
+// The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
+std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,220 @@
+#include <array>
+#include <span>
+#include <unordered_map>
+
+#include "casedb/database/credentials.h"
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
+#include "casedb/people/login_name.h"
+#include "casedb/people/people.h"
+#include "sim/base/check.h"
+#include "sim/base/names.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr auto kRoles = base::names<Role>({{Role::trainee, "trainee"},
+                                           {Role::mentor, "mentor"},
+                                           {Role::researcher, "researcher"},
+                                           {Role::director, "director"},
+                                           {Role::admin, "admin"}});
+
+const base::Error kNoUser{"no_user", "there is no such user"};
+const base::Error kNameTaken{"name_taken", "there is already a user of that name"};
+
+Role stored_role(const Statement& from) {
+  const auto role = role_from(from.text("role"));
+  CHECK(role.has_value());  // the schema takes no other
+  return *role;
+}
+
+struct Identity {
+  std::string person_id, name;
+};
+
+std::optional<Identity> find_identity(Library& library, const std::string& name) {
+  Statement identity = question(library.identities(), "identity_by_name");
+  if (!identity.bind("name", name).step()) return std::nullopt;
+  return Identity{identity.text("person_id"), identity.text("name")};
+}
+
+constexpr auto kLevels = base::names<Level>(
+    {{Level::student, "student"}, {Level::trainee, "trainee"}, {Level::consultant, "consultant"}});
+
+std::string mark_of(const std::string& password_hash) {
+  return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
+}
+
+base::Result<void> check_password(const std::string& password) {
+  if (password.size() < 8 || password.size() > 128)
+    return base::Error{"weak_password", "a password has 8 to 128 bytes"};
+  return {};
+}
+
+void add_account(Sqlite& database, const std::string& person_id, Role role, const std::string& hash) {
+  std::array<std::byte, 5> random{};
+  fill_random(random);
+  const std::string pseudonym = "P-" + sha256_hex(random).substr(0, 10);
+  const std::int64_t created_us = now_us();
+  Transaction transaction(database);
+  question(database, "add_person")
+      .bind("person_id", person_id)
+      .bind("pseudonym", pseudonym)
+      .bind("created_us", created_us)
+      .run();
+  question(database, "add_account")
+      .bind("person_id", person_id)
+      .bind("role", name_of(role))
+      .bind("password_hash", hash)
+      .bind("enabled", 1)
+      .bind("created_us", created_us)
+      .run();
+  transaction.commit();
+}
+
+void remove_account(Sqlite& database, const std::string& person_id) {
+  Transaction transaction(database);
+  question(database, "remove_account").bind("person_id", person_id).run();
+  question(database, "remove_person").bind("person_id", person_id).run();
+  transaction.commit();
+}
+
+// False when somebody else has the name.
+bool add_identity(Sqlite& identities, const std::string& person_id, const std::string& name) {
+  Transaction transaction(identities);
+  Statement insert = question(identities, "add_identity");
+  insert.bind("person_id", person_id).bind("name", name).bind("created_us", now_us());
+  if (!insert.step()) return false;
+  CHECK(!insert.step());
+  transaction.commit();
+  return true;
+}
+
+void store_hash(Library& library, const std::string& person_id, const std::string& hash,
+                const std::optional<std::string>& old_hash) {
+  Transaction transaction(library.database());
+  question(library.database(), "set_password_hash")
+      .bind("person_id", person_id)
+      .bind("password_hash", hash)
+      .bind("old_hash", old_hash)
+      .run();
+  transaction.commit();
+}
+
+}  // namespace
+
+std::string name_of(Role role) {
+  return std::string(base::name_of(kRoles, role));
+}
+
+std::optional<Role> role_from(const std::string& name) {
+  return base::from_name(kRoles, name);
+}
+
+std::string name_of(Level level) {
+  return std::string(base::name_of(kLevels, level));
+}
+
+std::optional<Level> level_from(const std::string& name) {
+  return base::from_name(kLevels, name);
+}
+
+base::Result<void> check_new_user(const std::string& name, const std::string& password) {
+  if (!is_login_name(name))
+    return base::Error{"bad_name", "a user name has 1 to 64 printable characters and no space at its ends"};
+  return check_password(password);
+}
+
+base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
+                                   const std::string& password) {
+  if (const auto fit = check_new_user(name, password); !fit) return fit.error();
+  if (find_identity(library, name)) return kNameTaken;
+  std::string person_id = new_uuid();
+  // The account first: one without a name can never log in, a name without an account would be taken for ever.
+  add_account(library.database(), person_id, role, hash_password(password));
+  bool named = false;
+  try {
+    named = add_identity(library.identities(), person_id, name);
+  } catch (const base::Failure&) {
+    try {
+      remove_account(library.database(), person_id);
+    } catch (const base::Failure&) {
+      // It stays without a name; what went wrong first is what the caller hears.
+    }
+    throw;
+  }
+  if (!named) {  // another process was faster
+    remove_account(library.database(), person_id);
+    return kNameTaken;
+  }
+  return person_id;
+}
+
+std::vector<Account> list_users(Library& library) {
+  std::unordered_map<std::string, std::string> names;
+  for (Statement all = question(library.identities(), "identities"); all.step();)
+    names.emplace(all.text("person_id"), all.text("name"));
+  std::vector<Account> users;
+  for (Statement all = question(library.database(), "accounts"); all.step();)
+    if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
+      users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
+                       mark_of(all.text("password_hash")), level_from(all.text("level"))});
+  return users;
+}
+
+base::Result<void> set_password(Library& library, const std::string& name, const std::string& password) {
+  const auto identity = find_identity(library, name);
+  if (!identity) return kNoUser;
+  if (const auto fit = check_password(password); !fit) return fit.error();
+  store_hash(library, identity->person_id, hash_password(password), std::nullopt);
+  return {};
+}
+
+base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled) {
+  const auto identity = find_identity(library, name);
+  if (!identity) return kNoUser;
+  Transaction transaction(library.database());
+  question(library.database(), "set_enabled")
+      .bind("person_id", identity->person_id)
+      .bind("enabled", enabled ? 1 : 0)
+      .run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> set_level(Library& library, const std::string& name, Level level) {
+  const auto identity = find_identity(library, name);
+  if (!identity) return kNoUser;
+  Transaction transaction(library.database());
+  question(library.database(), "add_level")
+      .bind("person_id", identity->person_id)
+      .bind("since_us", now_us())
+      .bind("level", name_of(level))
+      .run();
+  transaction.commit();
+  return {};
+}
+
+std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password) {
+  Account account;
+  std::string hash = unmatchable_hash();
+  if (const auto identity = find_identity(library, name)) {
+    Statement stored = question(library.database(), "account");
+    if (stored.bind("person_id", identity->person_id).step()) {
+      account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}, {}};
+      hash = stored.text("password_hash");
+    }
+  }
+  const bool fits = verify_password(hash, password);
+  if (!fits || account.person_id.empty() || !account.enabled) return std::nullopt;
+  if (needs_rehash(hash)) {
+    const std::string better = hash_password(password);
+    store_hash(library, account.person_id, better, hash);
+    hash = better;
+  }
+  account.password_mark = mark_of(hash);
+  return account;
+}
+
+}  // namespace seldinger::casedb

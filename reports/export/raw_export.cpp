@@ -1,0 +1,207 @@
+#include "reports/export/raw_export.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+
+#include "casedb/attempts/attempt_history.h"
+#include "casedb/database/disk.h"
+#include "reports/export/raw_tables.h"
+#include "sim/base/hex.h"
+
+namespace seldinger::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 18;
+constexpr double kDayUs = 86'400e6;
+
+// A file of the new folder, written in pieces.
+class Table {
+ public:
+  Table(const fs::path& file, const std::string& header) : file_(file), text_(header) {}
+  void add(const std::string& line) {
+    text_ += line;
+    if (text_.size() >= kPieceBytes) flush();
+  }
+  void close() {
+    flush();
+    file_.keep_unsynced();
+  }
+
+ private:
+  void flush() {
+    file_.write(std::as_bytes(std::span(text_)));
+    text_.clear();
+  }
+  casedb::NewFile file_;
+  std::string text_;
+};
+
+void write_whole(const fs::path& file, const std::string& text) {
+  Table(file, text).close();
+}
+
+// Ids hold the time at which they were made, and link exports to each other.
+class Names {
+ public:
+  explicit Names(const casedb::HashKey& key) : key_(key) {}
+  std::string of(const char* kind, const std::string& id) const {
+    const auto hash = casedb::keyed_hash(key_, std::string(kind) + id);
+    return kind + base::hex_from_bytes(std::span(hash).first(8));
+  }
+
+ private:
+  const casedb::HashKey& key_;
+};
+
+// An attempt in the order of the rows: a person's attempts lie together as they were made, people and the
+// simulations of nobody in the order of their names, which tells nothing.
+struct Place {
+  const casedb::AttemptKey* key = nullptr;
+  std::string person, attempt;
+  int person_attempt = 0;
+  double days = 0.0;
+};
+
+std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const RawChoice& choice,
+                             const Names& names) {
+  struct Person {
+    std::int64_t first_us = 0;
+    int attempts = 0;
+    std::string name;
+  };
+  std::map<std::string, Person> people;
+  std::vector<Place> places;
+  for (const casedb::AttemptKey& key : keys) {
+    Place place{&key, {}, names.of("A-", key.attempt_id)};
+    if (key.person_id) {
+      auto [at, is_new] = people.try_emplace(*key.person_id);
+      if (is_new) at->second = {key.started_us, 0, names.of("P-", *key.person_id)};
+      place.person = at->second.name;
+      place.person_attempt = ++at->second.attempts;
+      place.days = static_cast<double>(key.started_us - at->second.first_us) / kDayUs;
+    }
+    if (!choice.case_id || key.case_id == *choice.case_id) places.push_back(std::move(place));
+  }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    if (a.person.empty() != b.person.empty()) return b.person.empty();
+    if (a.person != b.person) return a.person < b.person;
+    if (a.person_attempt != b.person_attempt) return a.person_attempt < b.person_attempt;
+    return a.attempt < b.attempt;
+  });
+  return places;
+}
+
+template <typename Row, typename Rows>
+void write_samples(const fs::path& file, const std::vector<Column<Row>>& columns, const Rows& rows) {
+  Table table(file, header_of(columns));
+  for (const auto& row : rows) table.add(line_of(columns, row));
+  table.close();
+}
+
+void write_recording(const fs::path& folder, const RawChoice& choice, const std::string& attempt,
+                     const cases::Recording& recording, Table* events, RawExport& sum) {
+  const std::string name = attempt + ".csv";
+  if (choice.poses) {
+    write_samples(folder / "poses" / name, pose_columns(), pose_facts(attempt, recording));
+    ++sum.files;
+  }
+  if (choice.forces && !recording.forces.empty()) {
+    std::vector<ForceFact> facts;
+    for (const cases::ForceSample& force : recording.forces) facts.push_back({&attempt, force});
+    write_samples(folder / "forces" / name, force_columns(), facts);
+    ++sum.files;
+  }
+  if (choice.frames) {
+    std::vector<FrameFact> facts;
+    cases::ConsoleSetting console;
+    std::size_t ticks = 0;
+    for (const cases::FrameTruth& frame : recording.frames) {
+      const auto until = static_cast<std::size_t>(std::max(0.0, std::round(frame.t_s / recording.dt_s)));
+      for (; ticks < std::min(until, recording.inputs.size()); ++ticks)
+        cases::turn(console, recording.inputs[ticks].console);
+      facts.push_back({&attempt, frame, console});
+    }
+    write_samples(folder / "frames" / name, frame_columns(), facts);
+    ++sum.files;
+  }
+  if (events != nullptr)
+    for (const RecordedEvent& event : recorded_events(recording))
+      events->add(line_of(event_columns(), EventFact{&attempt, event}));
+}
+
+}  // namespace
+
+base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out, const RawChoice& choice,
+                                   const casedb::HashKey& key) {
+  if (casedb::without_paths([&] { return fs::exists(fs::symlink_status(out)); }))
+    return base::Error{"exists", "there is already something of that name"};
+  if (choice.case_id)
+    if (const auto known = casedb::find_case(library, *choice.case_id); !known) return known.error();
+  const Names names(key);
+  const std::vector<casedb::AttemptKey> keys = casedb::list_attempt_keys(library);
+  std::map<std::string, casedb::CaseRow> cases_by_id;
+  for (casedb::CaseRow& row : casedb::list_case_heads(library)) {
+    std::string case_id = row.case_id;
+    cases_by_id.emplace(std::move(case_id), std::move(row));
+  }
+
+  casedb::NewFolders parents(casedb::without_paths([&] { return fs::absolute(out); }).parent_path());
+  casedb::NewFolder folder(out);
+  const fs::path& at = folder.unfinished();
+  RawExport sum;
+  for (const auto& [wanted, name] :
+       {std::pair{choice.poses, "poses"}, {choice.forces, "forces"}, {choice.frames, "frames"}})
+    if (wanted) casedb::without_paths([&, name = name] { return fs::create_directory(at / name); });
+  Table attempts(at / "attempts.csv", attempts_header());
+  Table metrics(at / "metrics.csv", header_of(metric_columns()));
+  Table steps(at / "steps.csv", header_of(step_columns()));
+  std::optional<Table> events;
+  if (choice.events) events.emplace(at / "events.csv", header_of(event_columns()));
+  const bool recorded = choice.poses || choice.forces || choice.frames || choice.events;
+  std::string person_before;
+  for (const Place& place : places_of(keys, choice, names)) {
+    const auto row = casedb::find_attempt(library, place.key->attempt_id);
+    if (!row) return row.error();
+    AttemptFacts facts;
+    facts.names = {place.attempt, names.of("C-", row->case_id), names.of("T-", row->lesion_id), std::nullopt};
+    facts.row = &*row;
+    facts.of_case = &cases_by_id.at(row->case_id);
+    if (!place.person.empty()) {
+      facts.names.person = place.person;
+      facts.person_attempt = place.person_attempt;
+      facts.days_since_first = place.days;
+      if (place.person != person_before) ++sum.people;
+      person_before = place.person;
+    }
+    attempts.add(attempt_line(facts));
+    for (const casedb::MetricValue& metric : casedb::list_metric_versions(library, row->attempt_id)) {
+      metrics.add(line_of(metric_columns(), MetricFact{&place.attempt, &metric}));
+      ++sum.metrics;
+    }
+    for (const assessment::StepResult& step : casedb::list_steps(library, row->attempt_id))
+      steps.add(line_of(step_columns(), StepFact{&place.attempt, &step}));
+    if (recorded) {
+      const auto recording = casedb::load_recording(library, row->attempt_id);
+      if (!recording) return recording.error();
+      write_recording(at, choice, place.attempt, *recording, events ? &*events : nullptr, sum);
+    }
+    ++sum.attempts;
+    if (row->synthetic()) ++sum.synthetic;
+  }
+  attempts.close();
+  metrics.close();
+  steps.close();
+  if (events) events->close();
+  write_whole(at / "data_dictionary.csv", data_dictionary());
+  write_whole(at / "README.txt", raw_readme());
+  sum.files += choice.events ? 6 : 5;
+  if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
+  parents.keep();
+  return sum;
+}
+
+}  // namespace seldinger::reports

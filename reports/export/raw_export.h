@@ -1,0 +1,33 @@
+// Attempts of a library as a folder of CSV for researchers (docs/export.md): without names, dates or anything that
+// somebody wrote.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "casedb/attempts/attempts.h"
+#include "casedb/database/credentials.h"
+#include "casedb/database/library.h"
+#include "sim/base/result.h"
+
+namespace seldinger::reports {
+
+struct RawChoice {
+  std::optional<std::string> case_id{};  // attempts at this case only
+  bool poses = true, forces = true, frames = true, events = true;
+};
+
+struct RawExport {
+  std::size_t attempts = 0, synthetic = 0, people = 0, metrics = 0, files = 0;
+};
+
+// `out` appears whole or not at all; attempts that are added meanwhile are not in it. One attempt's recording is in
+// memory at a time, beside a few hundred bytes for each attempt of the library. The same key gives the same
+// names. Refused: `exists`, `no_case`, and a damaged recording as casedb::load_recording refuses it. Throws
+// base::Failure("disk").
+base::Result<RawExport> export_raw(casedb::Library& library, const std::filesystem::path& out,
+                                   const RawChoice& choice, const casedb::HashKey& key);
+
+}  // namespace seldinger::reports

@@ -1,0 +1,464 @@
+#include "reports/export/raw_tables.h"
+
+#include <algorithm>
+#include <array>
+
+#include "assessment/procedure/steps.h"
+#include "assessment/registry.h"
+
+namespace seldinger::reports {
+namespace {
+
+constexpr std::array<std::string_view, 4> kOperators = {"novice", "intermediate", "expert",
+                                                        casedb::kPersonOperator};
+constexpr const char* kNotInUse = "another modality";
+constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
+constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
+constexpr const char* kAsTheCase = "as the case's picture has it, or another modality";
+constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at the tip";
+constexpr const char* kRestTip =
+    "where the tissue at the tip lies in a patient at rest, as CT, lesions and structures do, LPS";
+constexpr const char* kAttemptName = "key to attempts.csv";
+
+// A simulated operator's own name is text of a file that somebody wrote.
+std::string_view operator_of(const casedb::AttemptRow& row) {
+  for (const std::string_view known : kOperators)
+    if (row.operator_name == known) return known;
+  return "custom";
+}
+
+bool core(const casedb::AttemptRow& row) {
+  return row.instrument.kind == cases::InstrumentKind::core;
+}
+
+CsvLine& place(CsvLine& line, bool there, double value) {
+  return there ? line.number(value) : line.nothing();
+}
+
+template <typename Fact>
+Column<Fact> attempt_name() {
+  return {{"attempt", "text", "", "", kAttemptName},
+          [](CsvLine& line, const Fact& fact) { line.text(*fact.attempt); }};
+}
+
+}  // namespace
+
+const std::vector<Column<AttemptFacts>>& attempt_columns() {
+  using Facts = AttemptFacts;
+  // A long function, but a plain table: one entry for each column, in the order of the file.
+  static const std::vector<Column<Facts>> columns = {
+      // Whose attempt it is.
+      {{"attempt", "text", "", "", "this export's name of the attempt; says nothing of when or whose it was"},
+       [](CsvLine& line, const Facts& f) { line.text(f.names.attempt); }},
+      {{"person", "text", "", "a simulation of nobody",
+        "this export's name of the person; the same in another export only with the same key"},
+       [](CsvLine& line, const Facts& f) { f.names.person ? line.text(*f.names.person) : line.nothing(); }},
+      {{"person_attempt", "integer", "", "a simulation of nobody",
+        "which of the person's attempts in the library, from 1, whatever the case"},
+       [](CsvLine& line, const Facts& f) {
+         f.person_attempt ? line.whole(std::int64_t{*f.person_attempt}) : line.nothing();
+       }},
+      {{"days_since_first", "number", "d", "a simulation of nobody",
+        "from the start of the person's first attempt in the library to this one's; no date is exported"},
+       [](CsvLine& line, const Facts& f) { line.number(f.days_since_first); }},
+      // Who or what moved the hands.
+      {{"synthetic", "flag", "", "",
+        "1: a simulated operator moved the hands: test data, which says nothing about people"},
+       [](CsvLine& line, const Facts& f) { line.flag(f.row->synthetic()); }},
+      {{"operator", "text", "", "",
+        "person, or the simulated operator: novice, intermediate, expert, custom (somebody's own file)"},
+       [](CsvLine& line, const Facts& f) { line.text(operator_of(*f.row)); }},
+      {{"seed", "integer", "", "a person's attempt", "the simulated operator's, unsigned 64 bits"},
+       [](CsvLine& line, const Facts& f) {
+         f.row->synthetic() ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
+       }},
+      // The case.
+      {{"case", "text", "", "", "this export's name of the case; its title is somebody's words and stays"},
+       [](CsvLine& line, const Facts& f) { line.text(f.names.case_id); }},
+      {{"case_version", "integer", "", "", "version of the case within its family, from 1"},
+       [](CsvLine& line, const Facts& f) { line.whole(std::int64_t{f.of_case->version}); }},
+      {{"case_origin", "text", "", "", "import: a CT; phantom:VERSION: built in"},
+       [](CsvLine& line, const Facts& f) { line.text(f.of_case->origin); }},
+      // The target.
+      {{"target", "text", "", "", "this export's name of the lesion that was the target"},
+       [](CsvLine& line, const Facts& f) { line.text(f.names.target); }},
+      {{"target_x_mm", "number", "mm", "", "the target's centre, LPS"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.center_lps_mm.x); }},
+      {{"target_y_mm", "number", "mm", "", "the target's centre, LPS"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.center_lps_mm.y); }},
+      {{"target_z_mm", "number", "mm", "", "the target's centre, LPS"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.center_lps_mm.z); }},
+      {{"target_radius_mm", "number", "mm", "", "of the sphere, or of the ball of its volume"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->lesion.radius_mm); }},
+      // The guidance.
+      {{"modality", "text", "", "", "mpr: a CT slice under the probe; ultrasound; xray: fluoroscopy"},
+       [](CsvLine& line, const Facts& f) { line.text(casedb::name_of(f.row->picture.modality)); }},
+      {{"approach", "text", "", "", "in_plane or out_of_plane, of needle to picture; says nothing under xray"},
+       [](CsvLine& line, const Facts& f) { line.text(base::name_of(cases::kApproachNames, f.row->approach)); }},
+      {{"probe", "text", "", kNotInUse, "ultrasound: its name"},
+       [](CsvLine& line, const Facts& f) {
+         f.row->picture.probe.empty() ? line.nothing() : line.text(f.row->picture.probe);
+       }},
+      {{"picture_depth_mm", "number", "mm", "under xray", "depth of the picture"},
+       [](CsvLine& line, const Facts& f) {
+         place(line, f.row->picture.modality != cases::Modality::xray, f.row->picture.depth_mm);
+       }},
+      {{"picture_rate_hz", "number", "Hz", "under xray", "pictures a second"},
+       [](CsvLine& line, const Facts& f) {
+         place(line, f.row->picture.modality != cases::Modality::xray, f.row->picture.rate_hz);
+       }},
+      // The needle. Throw, notch and dead tip belong to core needles.
+      {{"instrument", "text", "", "", "access: the tip decides; core: the fired notch"},
+       [](CsvLine& line, const Facts& f) { line.text(core(*f.row) ? "core" : "access"); }},
+      {{"needle_length_mm", "number", "mm", "", "the needle's length"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->instrument.length_mm); }},
+      {{"needle_radius_mm", "number", "mm", "", "the needle's outer radius"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->instrument.radius_mm); }},
+      {{"throw_mm", "number", "mm", "no core needle", "the way the tip goes when fired"},
+       [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.throw_mm); }},
+      {{"notch_mm", "number", "mm", "no core needle", "length of the sample notch"},
+       [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.notch_mm); }},
+      {{"dead_tip_mm", "number", "mm", "no core needle", "from the notch's end to the tip"},
+       [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.dead_tip_mm); }},
+      // How long it took, and how it ended.
+      {{"duration_s", "number", "s", "", "how long was recorded"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->duration_s); }},
+      {{"end", "text", "", "stored before it was kept",
+        "fired, stopped, time_limit, device_lost, or interrupted (the program was gone)"},
+       [](CsvLine& line, const Facts& f) {
+         f.row->end ? line.text(casedb::name_of(*f.row->end)) : line.nothing();
+       }},
+      // What recorded it.
+      {{"program_version", "text", "", "", "of the program that recorded it"},
+       [](CsvLine& line, const Facts& f) { line.text(f.row->program_version); }},
+      {{"step_version", "integer", "", "", "of the simulation; a replay needs the same"},
+       [](CsvLine& line, const Facts& f) { line.whole(std::uint64_t{f.row->step_version}); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<MetricFact>>& metric_columns() {
+  using Fact = MetricFact;
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"metric", "text", "", "", "its id; a column of attempts.csv"},
+       [](CsvLine& line, const Fact& f) { line.text(f.metric->id); }},
+      {{"version", "integer", "", "", "of its definition; older ones stay beside newer ones"},
+       [](CsvLine& line, const Fact& f) { line.whole(std::int64_t{f.metric->version}); }},
+      {{"current", "flag", "", "", "1: the version that attempts.csv shows"},
+       [](CsvLine& line, const Fact& f) {
+         const assessment::MetricInfo* info = assessment::find_metric(f.metric->id);
+         line.flag(info != nullptr && info->version == f.metric->version);
+       }},
+      {{"value", "number", "that of the row", "there is none: see reason", "the value; yes is 1, no is 0"},
+       [](CsvLine& line, const Fact& f) { line.number(f.metric->value); }},
+      {{"unit", "text", "", "", "of value"}, [](CsvLine& line, const Fact& f) { line.text(f.metric->unit); }},
+      {{"reason", "text", "", "there is a value", "why there is none; never read it as 0"},
+       [](CsvLine& line, const Fact& f) { line.text(f.metric->reason); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<StepFact>>& step_columns() {
+  using Fact = StepFact;
+  static const std::string steps = [] {
+    std::string text = "in the order in which they are to be done:";
+    for (const assessment::StepInfo& step : assessment::procedure_steps())
+      text += std::string(&step == assessment::procedure_steps().data() ? " " : "; ") + step.id + ": " + step.words;
+    return text;
+  }();
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"step", "text", "", "", steps}, [](CsvLine& line, const Fact& f) { line.text(f.step->id); }},
+      {{"version", "integer", "", "", "of the steps' meaning; the newest that is stored"},
+       [](CsvLine& line, const Fact& f) { line.whole(std::int64_t{f.step->version}); }},
+      {{"state", "text", "", "", "done, skipped, violated, or not_asked (it says nothing here)"},
+       [](CsvLine& line, const Fact& f) { line.text(assessment::name_of(f.step->state)); }},
+      {{"t_s", "number", "s", "it was not done, or not asked",
+        "when it was done (skipped: too late) or violated, since the attempt began"},
+       [](CsvLine& line, const Fact& f) { line.number(f.step->t_s); }},
+      {{"reason", "text", "", "it was asked", "why it was not"},
+       [](CsvLine& line, const Fact& f) { line.text(f.step->reason); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<PoseFact>>& pose_columns() {
+  using Fact = PoseFact;
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"t_s", "number", "s", "", "since the attempt began; 100 rows a second, and one of the endpoint"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.t_s); }},
+      {{"needle_tip_x_mm", "number", "mm", "", "the needle's tip, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.tip_lps_mm.x); }},
+      {{"needle_tip_y_mm", "number", "mm", "", "the needle's tip, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.tip_lps_mm.y); }},
+      {{"needle_tip_z_mm", "number", "mm", "", "the needle's tip, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.tip_lps_mm.z); }},
+      {{"needle_dir_x", "number", "", "", "from hub to tip, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.needle_direction.x); }},
+      {{"needle_dir_y", "number", "", "", "from hub to tip, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.needle_direction.y); }},
+      {{"needle_dir_z", "number", "", "", "from hub to tip, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.needle_direction.z); }},
+      {{"probe_origin_x_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.x); }},
+      {{"probe_origin_y_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.y); }},
+      {{"probe_origin_z_mm", "number", "mm", "", "middle of the probe's face, LPS; says nothing under xray"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_origin_lps_mm.z); }},
+      {{"probe_axial_x", "number", "", "", "into the body, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_axial.x); }},
+      {{"probe_axial_y", "number", "", "", "into the body, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_axial.y); }},
+      {{"probe_axial_z", "number", "", "", "into the body, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_axial.z); }},
+      {{"probe_lateral_x", "number", "", "", "along the probe's face, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_lateral.x); }},
+      {{"probe_lateral_y", "number", "", "", "along the probe's face, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_lateral.y); }},
+      {{"probe_lateral_z", "number", "", "", "along the probe's face, unit vector, LPS"},
+       [](CsvLine& line, const Fact& f) { line.number(f.pose.probe_lateral.z); }},
+      {{"fire", "flag", "", "", "1: the endpoint, with the tip as it was before any throw"},
+       [](CsvLine& line, const Fact& f) { line.flag(f.fire); }},
+      {{"rest_tip_x_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->x) : line.nothing();
+       }},
+      {{"rest_tip_y_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->y) : line.nothing();
+       }},
+      {{"rest_tip_z_mm", "number", "mm", kAtRest, kRestTip},
+       [](CsvLine& line, const Fact& f) {
+         f.pose.rest_tip_lps_mm ? line.number(f.pose.rest_tip_lps_mm->z) : line.nothing();
+       }},
+  };
+  return columns;
+}
+
+const std::vector<Column<ForceFact>>& force_columns() {
+  using Fact = ForceFact;
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"t_s", "number", "s", "", "since the attempt began, 100 rows a second"},
+       [](CsvLine& line, const Fact& f) { line.number(f.force.t_s); }},
+      {{"needle_axial_n", "number", "N", "", "what the model of tissue asks along the needle; > 0 resists"},
+       [](CsvLine& line, const Fact& f) { line.number(f.force.needle_axial_n); }},
+      {{"needle_lateral_n", "number", "N", "", "the same across the needle, 0 or more"},
+       [](CsvLine& line, const Fact& f) { line.number(f.force.needle_lateral_n); }},
+      {{"probe_n", "number", "N", "", "the same at the probe, 0 or more"},
+       [](CsvLine& line, const Fact& f) { line.number(f.force.probe_n); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<FrameFact>>& frame_columns() {
+  using Fact = FrameFact;
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"t_s", "number", "s", "", "when the picture appeared, since the attempt began"},
+       [](CsvLine& line, const Fact& f) { line.number(f.frame.t_s); }},
+      {{"live", "flag", "", "", "0: frozen, or the last image held"},
+       [](CsvLine& line, const Fact& f) { line.flag(f.frame.live); }},
+      {{"needle_tip", "flag", "", "", "1: the picture shows the tip"},
+       [](CsvLine& line, const Fact& f) { line.flag(f.frame.needle_tip); }},
+      {{"target", "flag", "", "", "1: the picture shows the target"},
+       [](CsvLine& line, const Fact& f) { line.flag(f.frame.target); }},
+      {{"needle_length_mm", "number", "mm", "", "how much of the needle the picture shows"},
+       [](CsvLine& line, const Fact& f) { line.number(f.frame.needle_length_mm); }},
+      {{"tip_within_2_mm", "flag", "", kNoPlane, "1: the tip lies within 2 mm of the plane, in the field"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.near_plane ? line.flag(f.frame.near_plane->tip_2_mm) : line.nothing();
+       }},
+      {{"target_within_2_mm", "flag", "", kNoPlane, "1: the target's centre does"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.near_plane ? line.flag(f.frame.near_plane->target_2_mm) : line.nothing();
+       }},
+      {{"tip_within_5_mm", "flag", "", kNoPlane, "1: the tip lies within 5 mm of the plane, in the field"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.near_plane ? line.flag(f.frame.near_plane->tip_5_mm) : line.nothing();
+       }},
+      {{"target_within_5_mm", "flag", "", kNoPlane, "1: the target's centre does"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.near_plane ? line.flag(f.frame.near_plane->target_5_mm) : line.nothing();
+       }},
+      {{"lao_deg", "number", "deg", kNoBeam, "the detector to the patient's left; negative: RAO"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.number(f.frame.beam->lao_deg) : line.nothing(); }},
+      {{"cranial_deg", "number", "deg", kNoBeam, "the detector to the head; negative: caudal"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.beam ? line.number(f.frame.beam->cranial_deg) : line.nothing();
+       }},
+      {{"kv", "number", "kV", kNoBeam, "the tube's voltage"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.number(f.frame.beam->kv) : line.nothing(); }},
+      {{"ma", "number", "mA", kNoBeam, "the tube's current"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.number(f.frame.beam->ma) : line.nothing(); }},
+      {{"air_kerma_mgy", "number", "mGy", kNoBeam, "simulated, at the interventional reference point"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.beam ? line.number(f.frame.beam->air_kerma_mgy) : line.nothing();
+       }},
+      {{"dap_mgy_cm2", "number", "mGy·cm²", kNoBeam, "simulated dose–area product of the pulse"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.beam ? line.number(f.frame.beam->dap_mgy_cm2) : line.nothing();
+       }},
+      {{"collimated_share", "number", "", kNoBeam, "of the whole field, shut off"},
+       [](CsvLine& line, const Fact& f) {
+         f.frame.beam ? line.number(f.frame.beam->collimated_share) : line.nothing();
+       }},
+      {{"beam_s", "number", "s", kNoBeam, "what the pulse stands for: 1 / pulse rate"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.number(f.frame.beam->beam_s) : line.nothing(); }},
+      {{"arm_moving", "flag", "", kNoBeam, "1: arm or table moved during the pulse"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.flag(f.frame.beam->arm_moving) : line.nothing(); }},
+      {{"hand_in_beam", "flag", "", kNoBeam, "1: the hand at the needle was in the beam"},
+       [](CsvLine& line, const Fact& f) { f.frame.beam ? line.flag(f.frame.beam->hand_in_beam) : line.nothing(); }},
+      {{"console_depth_mm", "number", "mm", kAsTheCase, "depth of an ultrasound picture, as it was set"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.depth_mm != 0.0, f.console.depth_mm); }},
+      {{"console_focus_mm", "number", "mm", kAsTheCase, "its focus"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.focus_mm != 0.0, f.console.focus_mm); }},
+      {{"console_frequency_mhz", "number", "MHz", kAsTheCase, "its frequency"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.frequency_mhz != 0.0, f.console.frequency_mhz); }},
+      {{"console_slice_mm", "number", "mm", kAsTheCase, "how far beside the probe's plane a slice of the CT lies"},
+       [](CsvLine& line, const Fact& f) { place(line, f.console.slice_mm != 0.0, f.console.slice_mm); }},
+  };
+  return columns;
+}
+
+const std::vector<Column<EventFact>>& event_columns() {
+  using Fact = EventFact;
+  static const std::string kinds = [] {
+    std::string text;
+    for (const RecordedEventInfo& kind : recorded_event_kinds())
+      text += (text.empty() ? "" : "; ") + kind.kind + ": " + kind.about;
+    return text;
+  }();
+  static const std::vector<Column<Fact>> columns = {
+      attempt_name<Fact>(),
+      {{"t_s", "number", "s", "", "since the attempt began"},
+       [](CsvLine& line, const Fact& f) { line.number(f.event.t_s); }},
+      {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient, workstation"},
+       [](CsvLine& line, const Fact& f) { line.text(f.event.info->source); }},
+      {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
+  };
+  return columns;
+}
+
+const std::vector<ColumnInfo>& attempt_metrics() {
+  static const std::vector<ColumnInfo> columns = [] {
+    std::vector<ColumnInfo> all;
+    for (const assessment::MetricInfo& info : assessment::registry())
+      all.push_back({info.id, std::string(info.unit) == "bool" ? "flag" : "number", info.unit,
+                     "metrics.csv has the reason, or only another version of it",
+                     std::string(info.label) + ": " + info.definition, info.version});
+    return all;
+  }();
+  return columns;
+}
+
+std::string attempts_header() {
+  CsvLine line;
+  for (const auto& column : attempt_columns()) line.text(column.name);
+  for (const ColumnInfo& metric : attempt_metrics()) line.text(metric.name);
+  return line.take();
+}
+
+std::string attempt_line(const AttemptFacts& facts) {
+  CsvLine line;
+  for (const auto& column : attempt_columns()) column.write(line, facts);
+  const auto& metrics = facts.row->metrics;
+  for (const ColumnInfo& column : attempt_metrics()) {
+    const auto found = std::find_if(metrics.begin(), metrics.end(), [&](const casedb::MetricValue& metric) {
+      return metric.id == column.name && metric.version == column.version;
+    });
+    found == metrics.end() ? line.nothing() : line.number(found->value);
+  }
+  return line.take();
+}
+
+std::vector<PoseFact> pose_facts(const std::string& attempt, const cases::Recording& recording) {
+  std::vector<PoseFact> facts;
+  facts.reserve(recording.poses.size() + 1);
+  bool fired = !recording.endpoint;
+  const auto fire = [&](cases::PoseSample pose) {
+    pose.t_s = recording.endpoint->t_s;
+    pose.tip_lps_mm = recording.endpoint->tip_lps_mm;
+    pose.needle_direction = recording.endpoint->direction;
+    pose.rest_tip_lps_mm = recording.endpoint->rest_tip_lps_mm;
+    facts.push_back({&attempt, pose, true});
+    fired = true;
+  };
+  for (const cases::PoseSample& pose : recording.poses) {
+    if (!fired && pose.t_s >= recording.endpoint->t_s) {
+      const bool same_time = pose.t_s == recording.endpoint->t_s;
+      fire(same_time || facts.empty() ? pose : facts.back().pose);  // between two samples the probe stays
+      if (same_time) continue;
+    }
+    facts.push_back({&attempt, pose, false});
+  }
+  if (!fired && !facts.empty()) fire(facts.back().pose);
+  return facts;
+}
+
+namespace {
+
+template <typename Row>
+std::vector<ColumnInfo> infos_of(const std::vector<Column<Row>>& columns) {
+  return {columns.begin(), columns.end()};
+}
+
+}  // namespace
+
+const std::vector<TableInfo>& raw_tables() {
+  static const std::vector<TableInfo> tables = [] {
+    std::vector<ColumnInfo> attempts = infos_of(attempt_columns());
+    attempts.insert(attempts.end(), attempt_metrics().begin(), attempt_metrics().end());
+    return std::vector<TableInfo>{
+        {"attempts.csv", "one row an attempt: how it was made, and each metric's value", std::move(attempts)},
+        {"metrics.csv",
+         "one row a metric of an attempt: every stored version, with the reason where there is no "
+         "value",
+         infos_of(metric_columns())},
+        {"events.csv", "one row an event of an attempt; of one recorded before events were kept only the buttons'",
+         infos_of(event_columns())},
+        {"steps.csv", "one row a step of an attempt's procedure; none of attempts from before it was kept",
+         infos_of(step_columns())},
+        {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
+         infos_of(pose_columns())},
+        {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},
+        {"frames/ATTEMPT.csv", "what each picture showed, and how each pulse was made", infos_of(frame_columns())}};
+  }();
+  return tables;
+}
+
+std::string data_dictionary() {
+  CsvLine line;
+  for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description"})
+    line.text(name);
+  std::string text = line.take();
+  for (const TableInfo& table : raw_tables())
+    for (const ColumnInfo& column : table.columns) {
+      line.text(table.file).text(column.name).text(column.type).text(column.unit);
+      column.version ? line.whole(std::int64_t{*column.version}) : line.nothing();
+      text += line.text(column.missing.empty() ? "never" : column.missing).text(column.what).take();
+    }
+  return text;
+}
+
+std::string raw_readme() {
+  std::string text =
+      "Raw export of Seldinger: attempts at simulated punctures. Training data: nothing here is about a patient's "
+      "procedure.\n\n";
+  for (const TableInfo& table : raw_tables()) text += table.file + ": " + table.what + "\n";
+  text +=
+      "data_dictionary.csv: every column of every file: type, unit, when it is empty, what it means\n\n"
+      "CSV as RFC 4180: UTF-8, comma, '.' decimals, LF, header in the first line. Numbers read back bit for bit. "
+      "An "
+      "empty cell is a missing value and never 0. Text that a spreadsheet would take for a formula begins with an "
+      "apostrophe. Lengths in mm, coordinates LPS (x to the patient's left, y to the back, z to the head), times "
+      "in "
+      "seconds.\n\n"
+      "Names of attempts, people, cases and targets are made for this export. Rows with synthetic = 1 come from "
+      "simulated operators: leave them out of every statement about people.\n";
+  return text;
+}
+
+}  // namespace seldinger::reports

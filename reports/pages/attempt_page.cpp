@@ -1,0 +1,244 @@
+#include "reports/pages/attempt_page.h"
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "assessment/registry.h"
+#include "reports/charts/time_chart.h"
+#include "reports/pages/beam_table.h"
+#include "reports/pages/grade_section.h"
+#include "reports/words/grade_words.h"
+#include "reports/words/metric_words.h"
+
+namespace seldinger::reports {
+namespace {
+
+void add_value(Html& html, const casedb::MetricValue& metric) {
+  html.text(value_text(metric));
+  const std::string reason = reason_text(metric);
+  if (!reason.empty()) html.raw(" <span class=\"why\">").text(reason).raw("</span>");
+}
+
+// The two or three numbers that say what came of it.
+void add_outcome(Html& html, const casedb::AttemptRow& row) {
+  html.raw("<dl class=\"outcome\">\n");
+  for (const std::string_view id : {"hit", "tip_target_dist", "core_in_target", "time_total"}) {
+    const casedb::MetricValue* found = find_metric(row.metrics, id);
+    const bool leads = id == "hit" || id == "tip_target_dist";
+    if (found == nullptr && !leads) continue;
+    const bool core = row.instrument.kind == cases::InstrumentKind::core;
+    if (id == "core_in_target" && !core) continue;
+    const casedb::MetricValue missing{std::string(id), 1, std::nullopt, "", "not measured"};
+    const casedb::MetricValue& metric = found != nullptr ? *found : missing;
+    const std::string value = value_text(metric);
+    html.raw("<div class=\"");
+    html.text(id == "hit" && value == "Yes" ? "good" : id == "hit" && value == "No" ? "bad" : "plain");
+    html.raw("\"><dt>").text(metric_label(id)).raw("</dt><dd>");
+    add_value(html, metric);
+    html.raw("</dd></div>\n");
+  }
+  html.raw("</dl>\n");
+}
+
+assessment::Manner manner_of(const casedb::AttemptRow& row) {
+  return {row.picture.modality, row.approach, row.instrument.kind};
+}
+
+// What the case or the desk does not have is named apart, and what means nothing here not at all.
+bool absent(const casedb::MetricValue& metric) {
+  return !metric.value && assessment::absent_from_case(metric.reason);
+}
+bool shown(const casedb::MetricValue& metric, const casedb::AttemptRow& row) {
+  return assessment::applies(metric, manner_of(row)) && !absent(metric);
+}
+
+void add_definitions(Html& html, const casedb::AttemptRow& row) {
+  Html items;
+  for (const casedb::MetricValue& metric : row.metrics) {
+    const std::string definition = metric_definition(metric.id);
+    if (definition.empty() || !shown(metric, row)) continue;
+    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
+  }
+  if (items.empty()) return;
+  html.raw("<details><summary>How these are measured</summary>\n<dl class=\"definitions\">\n").add(items);
+  html.raw("</dl>\n</details>\n");
+}
+
+// As many rows of a group are read at a glance; the others are folded away.
+constexpr std::size_t kLeadingRows = 4;
+
+// What experts do, under the value it belongs to.
+void add_band(Html& html, const casedb::MetricValue& metric, const assessment::ExpertSet& experts) {
+  const std::string band = band_text(experts, metric.id, metric.version);
+  if (band.empty()) return;
+  html.raw(" <span class=\"band\">")
+      .text((experts.kind == assessment::SetKind::simulated ? "simulated expert " : "experts ") + band)
+      .raw("</span>");
+}
+
+void add_table(Html& html, const std::string& caption, std::span<const casedb::MetricValue* const> metrics,
+               const assessment::ExpertSet& experts) {
+  html.raw("<table>\n<caption>")
+      .text(caption)
+      .raw(
+          "</caption>\n<thead class=\"unseen-head\"><tr><th scope=\"col\">Metric</th><th scope=\"col\" "
+          "class=\"number\">Value</th></tr></thead>\n<tbody>\n");
+  for (const casedb::MetricValue* metric : metrics) {
+    html.raw("<tr><th scope=\"row\">")
+        .text(metric_label(metric->id))
+        .raw(" <span class=\"id\">")
+        .text(metric->id)
+        .raw(" v")
+        .text(std::to_string(metric->version))
+        .raw("</span></th><td class=\"number\">");
+    add_value(html, *metric);
+    add_band(html, *metric, experts);
+    html.raw("</td></tr>\n");
+  }
+  html.raw("</tbody>\n</table>\n");
+}
+
+void add_group(Html& html, const std::string& group, const AttemptView& view) {
+  const casedb::AttemptRow& row = view.row;
+  std::vector<const casedb::MetricValue*> metrics;
+  for (const casedb::MetricValue& metric : row.metrics)
+    if (metric_group(metric.id) == group && shown(metric, row)) metrics.push_back(&metric);
+  if (metrics.empty()) return;
+  // One row alone is not worth a fold.
+  const std::size_t leading = metrics.size() > kLeadingRows + 1 ? kLeadingRows : metrics.size();
+  const std::span all(metrics);
+  add_table(html, group, all.first(leading), view.grade.experts);
+  if (leading == metrics.size()) return;
+  html.raw("<details><summary>")
+      .text(group + ": " + std::to_string(metrics.size() - leading) + " more")
+      .raw("</summary>\n");
+  add_table(html, group + ", more", all.subspan(leading), view.grade.experts);
+  html.raw("</details>\n");
+}
+
+void add_absent(Html& html, const casedb::AttemptRow& row) {
+  Html items;
+  for (const casedb::MetricValue& metric : row.metrics) {
+    if (!absent(metric) || !assessment::applies(metric, manner_of(row))) continue;
+    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(reason_text(metric)).raw("</dd>\n");
+  }
+  if (items.empty()) return;
+  html.raw("<details><summary>What this case does not measure</summary>\n<dl class=\"definitions\">\n").add(items);
+  html.raw("</dl>\n</details>\n");
+}
+
+void add_metrics(Html& html, const AttemptView& view) {
+  const casedb::AttemptRow& row = view.row;
+  html.raw("<section class=\"metrics\" aria-labelledby=\"metrics\">\n<h2 id=\"metrics\">Metrics</h2>\n");
+  if (row.metrics.empty()) html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
+  for (const std::string& group : metric_groups()) add_group(html, group, view);
+  add_absent(html, row);
+  add_definitions(html, row);
+  html.raw("</section>\n");
+}
+
+void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recording* recording) {
+  html.raw("<section class=\"picture\" aria-labelledby=\"picture\">\n<h2 id=\"picture\">Picture</h2>\n");
+  if (row.picture_sha256.empty()) {
+    html.raw("<p class=\"note\">No picture is stored with this attempt.</p>\n");
+  } else {
+    const casedb::MetricValue* hit = find_metric(row.metrics, "hit");
+    const std::string outcome = hit == nullptr ? "" : value_text(*hit);
+    const bool xray = row.picture.modality == cases::Modality::xray;
+    const bool ultrasound = row.picture.modality == cases::Modality::ultrasound;
+    html.raw("<figure><img src=\"/attempts/")
+        .text(row.attempt_id)
+        .raw("/picture.png\" alt=\"")
+        .text(xray         ? "The fluoroscope's last image before the trigger fell, with the needle in it"
+              : ultrasound ? "Ultrasound picture under the probe when the trigger fell"
+                           : "Grey CT plane under the probe when the trigger fell, with the needle in it")
+        .text(outcome == "Yes"  ? "; the target was hit"
+              : outcome == "No" ? "; the target was missed"
+                                : "")
+        .raw("\">\n<figcaption>");
+    if (xray) {
+      html.raw("The last image before the moment of firing");
+      const double fired_s = recording != nullptr && recording->endpoint ? recording->endpoint->t_s : 1e300;
+      if (recording != nullptr)
+        if (const auto text = image_text(recording->frames, fired_s)) html.raw(": ").text(*text);
+      html.raw(".");
+    } else if (ultrasound) {
+      html.raw("Ultrasound at the moment of firing: probe ")
+          .text(row.picture.probe)
+          .raw(" at the upper edge, depth downwards, ")
+          .text(number_text(row.picture.depth_mm, 0))
+          .raw(" mm deep.");
+    } else {
+      html.raw("MPR under the probe at the moment of firing: probe at the upper edge, depth downwards, ")
+          .text(number_text(row.picture.width_mm, 0))
+          .raw(" mm wide, ")
+          .text(number_text(row.picture.depth_mm, 0))
+          .raw(" mm deep.");
+    }
+    html.raw("</figcaption></figure>\n");
+  }
+  html.raw("</section>\n");
+}
+
+void add_detail(Html& html, std::string_view name, std::string_view value) {
+  html.raw("<div><dt>").text(name).raw("</dt><dd>").name(value).raw("</dd></div>\n");
+}
+
+void add_details(Html& html, const AttemptView& attempt) {
+  const casedb::AttemptRow& row = attempt.row;
+  html.raw(
+      "<section aria-labelledby=\"details\">\n<h2 id=\"details\">How it was made</h2>\n<dl class=\"details\">\n");
+  add_detail(html, "Case", row.case_title);
+  add_detail(html, "Operator", attempt.operator_label);
+  if (row.synthetic()) {
+    add_detail(html, "Seed", std::to_string(row.seed));
+    add_detail(html, "Synthetic", "Made by a simulated operator: tests the software, says nothing about people");
+  }
+  add_detail(html, "Instrument", instrument_text(row.instrument) + ", " + instrument_size_text(row.instrument));
+  if (row.picture.modality != cases::Modality::xray) add_detail(html, "Approach", approach_text(row.approach));
+  add_detail(html, "Target", lesion_text(row.lesion));
+  add_detail(html, "Picture", picture_text(row.picture));
+  add_detail(html, "Started", utc_text(row.started_us));
+  add_detail(html, "Recorded for", number_text(row.duration_s, 1) + " s");
+  add_detail(html, "Step version", std::to_string(row.step_version));
+  add_detail(html, "Program version", row.program_version);
+  add_detail(html, "Attempt", row.attempt_id);
+  html.raw("</dl>\n</section>\n");
+}
+
+}  // namespace
+
+std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, const cases::Recording* recording) {
+  const casedb::AttemptRow& row = attempt.row;
+  Html html;
+  html.raw("<p class=\"back\"><a href=\"/attempts\">All attempts</a></p>\n<h1>Attempt of ")
+      .name(attempt.operator_label)
+      .raw("</h1>\n<p class=\"sub\">")
+      .name(row.case_title)
+      .raw(" · ")
+      .text(instrument_text(row.instrument))
+      .raw(" · <time datetime=\"")
+      .text(utc_machine_text(row.started_us))
+      .raw("\">")
+      .text(utc_text(row.started_us))
+      .raw("</time></p>\n");
+  html.add(grade_section(attempt.grade));
+  add_outcome(html, row);
+  html.raw("<div class=\"columns\">\n");
+  add_metrics(html, attempt);
+  add_picture(html, row, recording);
+  html.raw("</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
+  const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
+  if (chart.empty()) {
+    html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");
+  } else {
+    html.add(chart);
+    html.add(beam_table(*recording));
+  }
+  html.raw("</section>\n");
+  add_details(html, attempt);
+  return page("Attempt of " + attempt.operator_label, visitor, html);
+}
+
+}  // namespace seldinger::reports

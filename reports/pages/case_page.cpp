@@ -1,0 +1,145 @@
+#include "reports/pages/case_page.h"
+
+#include <algorithm>
+
+#include "assessment/registry.h"
+#include "casedb/cases/setting_table.h"
+#include "reports/words/attempt_words.h"
+#include "reports/words/metric_words.h"
+
+namespace seldinger::reports {
+namespace {
+
+void add_fact(Html& html, std::string_view name, std::string_view value) {
+  if (value.empty()) return;
+  html.raw("<tr><th scope=\"row\">").text(name).raw("</th><td>").text(value).raw("</td></tr>\n");
+}
+
+std::string words(std::string text) {
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string state_text(const casedb::CaseRow& row) {
+  return casedb::name_of(row.state) + ", version " + std::to_string(row.version) +
+         (row.own_cohort_only ? ", unreviewed: own cohort only" : "");
+}
+
+std::string guidance_text(const casedb::CaseRow& row) {
+  std::string text = casedb::name_of(row.modality) + ", ";
+  if (row.modality != cases::Modality::xray) text += words(casedb::name_of(row.approach)) + ", ";
+  text += row.subject == cases::Subject::phantom ? "phantom" : "patient " + words(casedb::name_of(row.position));
+  for (const cases::Modality one : row.further_modalities) text += ", also " + casedb::name_of(one);
+  return text;
+}
+
+// "at least 8.0 mm", "at most 0.0 mm", "Yes".
+std::string bound_text(const assessment::Criterion& criterion) {
+  const assessment::MetricInfo* info = assessment::find_metric(criterion.metric);
+  casedb::MetricValue value{criterion.metric, criterion.version, criterion.value, info != nullptr ? info->unit : "",
+                            ""};
+  const bool yes_or_no = value.unit == "bool";
+  const char* sign = yes_or_no                                                  ? ""
+                     : criterion.comparison == assessment::Comparison::at_least ? "at least "
+                     : criterion.comparison == assessment::Comparison::at_most  ? "at most "
+                                                                                : "";
+  return sign + value_text(value) + (criterion.critical ? "; missing it is a critical error" : "");
+}
+
+std::string lesion_text(const casedb::LesionRow& lesion) {
+  const cases::LesionForm& form = lesion.form;
+  return std::string(base::name_of(cases::kLesionKindNames, form.kind)) + ", " +
+         reports::lesion_text(lesion.lesion) + ", " + (form.adds ? "tissue plus " : "") + number_text(form.hu, 0) +
+         " HU";
+}
+
+// Empty: there is none. What is composed has words of its own above.
+std::string setting_text(const casedb::SettingRow& row, const casedb::CaseSetting& setting) {
+  using namespace casedb;
+  return std::visit(OfKind{[&](const NumberField& one) { return number_text(one.get(setting), row.page.digits); },
+                           [&](const MaybeNumberField& one) {
+                             const auto value = one.get(setting);
+                             return value ? number_text(*value, row.page.digits) : std::string();
+                           },
+                           [&](const MaybeWholeField& one) {
+                             const auto value = one.get(setting);
+                             return value ? std::to_string(*value) : std::string();
+                           },
+                           [&](const TextField& one) { return one.get(setting); },
+                           [&](const ChoiceField& one) { return words(std::string(one.get(setting))); },
+                           [&](const SwitchField& one) { return std::string(one.get(setting) ? one.yes : one.no); },
+                           [](const ComposedField&) { return std::string(); }},
+                    row.field);
+}
+
+void add_table(Html& html, std::string_view caption) {
+  html.raw("<div class=\"wide\">\n<table>\n<caption>").text(caption).raw("</caption>\n<tbody>\n");
+}
+void end_table(Html& html) {
+  html.raw("</tbody>\n</table>\n</div>\n");
+}
+
+}  // namespace
+
+std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
+  const casedb::CaseRow& row = parts.row;
+  Html html;
+  html.raw("<h1>").name(row.title).raw("</h1>\n");
+  add_table(html, "The case");
+  add_fact(html, "State", state_text(row));
+  const auto review = casedb::review_of(parts.decisions);
+  add_fact(html, "Reviewed by", review ? review->pseudonym : "nobody");
+  add_fact(html, "Guidance", guidance_text(row));
+  add_fact(html, "Needle",
+           instrument_text(row.instrument) + ", " + number_text(row.instrument.length_mm, 0) + " mm");
+  for (const casedb::SettingRow* one : casedb::shown_rows(&casedb::SettingRow::page))
+    add_fact(html, one->page.words, setting_text(*one, row));
+  for (const casedb::LesionRow& lesion : parts.lesions) add_fact(html, "Lesion", lesion_text(lesion));
+  end_table(html);
+
+  add_table(html, "Structures");
+  for (const casedb::StructureRow& one : parts.structures)
+    add_fact(html, one.name,
+             words(std::string(cases::name_of(one.rule))) + ", " + words(volume::about(one.tissue).name) + ", " +
+                 casedb::name_of(one.kind));
+  end_table(html);
+
+  add_table(html, "To pass");
+  for (const assessment::Criterion& one : row.rule.criteria)
+    add_fact(html, metric_label(one.metric), bound_text(one));
+  // clinical.md, "Passing": eight consultants with three attempts each; until then nobody's standard.
+  add_fact(html, "Standing",
+           row.rule.criteria.empty() ? ""
+           : parts.provisional       ? "provisional: too few consultants have set the standard"
+                                     : "consultants have set the standard");
+  end_table(html);
+
+  add_table(html, "Decisions");
+  for (const casedb::Decision& one : parts.decisions)
+    add_fact(html, casedb::name_of(one.kind),
+             one.pseudonym + ", " + utc_text(one.decided_us) + (one.note.empty() ? "" : ": " + one.note));
+  end_table(html);
+  html.raw("<p><a href=\"/cases/").text(row.case_id).raw("/case.json\">as JSON</a>, <a href=\"/cases/");
+  html.text(row.case_id).raw("/checks.json\">its checks</a></p>\n");
+  return page(row.title, visitor, html);
+}
+
+std::string cases_page(const Visitor& visitor, std::span<const casedb::CaseRow> rows) {
+  Html html;
+  html.raw("<h1>Cases</h1>\n");
+  add_table(html, "Oldest first");
+  for (const casedb::CaseRow& row : rows)
+    html.raw("<tr><th scope=\"row\"><a href=\"/cases/")
+        .text(row.case_id)
+        .raw("\">")
+        .name(row.title)
+        .raw("</a></th><td>")
+        .text(state_text(row))
+        .raw("</td><td>")
+        .text(guidance_text(row))
+        .raw("</td></tr>\n");
+  end_table(html);
+  return page("Cases", visitor, html);
+}
+
+}  // namespace seldinger::reports

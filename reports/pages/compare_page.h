@@ -1,0 +1,19 @@
+// Operators side by side: passes, criteria and metrics in columns, what each attempt was told beneath.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "casedb/grading/comparison.h"
+
+namespace seldinger::reports {
+
+// A file of its own, with its style sheet inside. People are named by pseudonym.
+std::string compare_page(const casedb::Comparison& comparison, std::string_view style);
+
+std::string group_label(const casedb::ComparedGroup& group);  // "Person 3f20ab", "Simulated expert"
+
+// "12 mm (9–14 mm)"; "2 of 5" of a yes and no; an em dash without a value.
+std::string compared_text(const casedb::ComparedMetric& metric, std::string_view unit);
+
+}  // namespace seldinger::reports

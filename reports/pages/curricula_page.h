@@ -1,0 +1,26 @@
+// Curricula: for a trainee how far they are and which case is due; for others what the items are.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casedb/grading/curriculum.h"
+#include "reports/pages/page.h"
+
+namespace seldinger::reports {
+
+struct CurriculumView {
+  casedb::Curriculum curriculum;
+  std::vector<casedb::ItemState> items;
+  bool own = false;  // the states are the reader's
+};
+
+std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula);
+
+std::string proficiency_text(assessment::Proficiency reached);  // "Not started", "Practising", …
+
+// "after 1 is passed and 2 is proficient"; empty without gates.
+std::string gates_text(const std::vector<assessment::Gate>& gates);
+
+}  // namespace seldinger::reports

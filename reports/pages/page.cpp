@@ -1,0 +1,66 @@
+#include "reports/pages/page.h"
+
+namespace seldinger::reports {
+
+std::string page(std::string_view title, const Visitor& visitor, const Html& content) {
+  Html html;
+  html.raw(
+          "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>")
+      .text(title)
+      .raw(
+          " · Seldinger</title>\n<link rel=\"stylesheet\" href=\"/style.css\">\n</head>\n<body>\n"
+          "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n"
+          "<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n");
+  if (!visitor.name.empty()) {
+    html.raw("<nav aria-label=\"Main\"><a href=\"/attempts\">Attempts</a>");
+    if (visitor.role != "admin") html.raw(" <a href=\"/curricula\">Curriculum</a>");
+    if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
+    html.raw("</nav>\n<div class=\"who\"><span>")
+        .name(visitor.name)
+        .raw(" <span class=\"role\">")
+        .text(visitor.role)
+        .raw(
+            "</span></span>\n<form method=\"post\" action=\"/logout\"><input type=\"hidden\" name=\"token\" "
+            "value=\"")
+        .text(visitor.form_token)
+        .raw("\"><button class=\"quiet\">Log out</button></form></div>\n");
+  }
+  html.raw("</header>\n<main id=\"content\" tabindex=\"-1\">\n")
+      .add(content)
+      .raw("</main>\n<footer><p><strong>")
+      .text(kTrainingOnly)
+      .raw("</strong></p></footer>\n</body>\n</html>\n");
+  return html.str();
+}
+
+std::string page_with_style(std::string_view title, std::string_view style, const Html& content) {
+  Html head, body;
+  head.raw(
+          "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>")
+      .text(title)
+      .raw(" · Seldinger</title>\n<style>\n");
+  body.raw(
+          "</style>\n</head>\n<body>\n<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n</header>\n"
+          "<main id=\"content\" tabindex=\"-1\">\n")
+      .add(content)
+      .raw("</main>\n<footer><p><strong>")
+      .text(kTrainingOnly)
+      .raw("</strong></p></footer>\n</body>\n</html>\n");
+  return head.str() + std::string(style) + body.str();
+}
+
+std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor) {
+  Html content;
+  content.raw("<div class=\"message\">\n<h1>")
+      .text(title)
+      .raw("</h1>\n<p>")
+      .text(message)
+      .raw("</p>\n<p><a href=\"/\">Go to the start page</a></p>\n</div>\n");
+  return page(title, visitor, content);
+}
+
+}  // namespace seldinger::reports

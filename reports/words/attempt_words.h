@@ -1,0 +1,27 @@
+// How an attempt's plain data is written for people.
+#pragma once
+
+#include <string>
+
+#include "casedb/grading/grading.h"
+
+namespace seldinger::reports {
+
+// An attempt, how its operator is called for this reader (whether a log-in name may be shown is not ours to say),
+// and what it is worth; a list needs no more of that than the grade.
+struct AttemptView {
+  casedb::AttemptRow row;
+  std::string operator_label;
+  casedb::AttemptGrade grade{};
+};
+
+std::string instrument_text(const cases::Instrument& instrument);       // short: "Access needle"
+std::string instrument_size_text(const cases::Instrument& instrument);  // "0.72 mm across, 200 mm long"
+std::string lesion_text(const cases::Lesion& lesion);        // "LPS (12.0, −3.5, 100.0) mm, diameter 16.0 mm"
+std::string picture_text(const cases::Picture& picture);     // "MPR, 150 mm wide, 150 mm deep"; "Fluoroscopy"
+std::string approach_text(cases::Approach approach);         // "In plane"
+std::string position_text(cases::PatientPosition position);  // "on the left side"
+std::string person_text(const std::string& person_id);       // "Person 3f20ab": no name
+std::string simulated_operator_text(const std::string& operator_name);  // "Simulated expert"
+
+}  // namespace seldinger::reports

@@ -1,0 +1,20 @@
+// How grades, scores and expert sets are written for people.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "casedb/grading/grading.h"
+
+namespace seldinger::reports {
+
+std::string verdict_text(const assessment::Grade& grade);  // "Passed", "Not passed: a critical error", …
+std::string verdict_word(
+    assessment::Verdict verdict);  // for lists: "Passed", "Not passed", "Not graded", "No rule"
+std::string score_text(const assessment::Score& score);      // "63 of 100", "none: no consultants' set"
+std::string experts_text(const assessment::ExpertSet& set);  // who they are, how many, since when
+
+// The band of this version of a metric, "0–3 mm"; empty where there is none, or for a yes and no.
+std::string band_text(const assessment::ExpertSet& set, std::string_view metric_id, int version);
+
+}  // namespace seldinger::reports

@@ -1,0 +1,146 @@
+#include "session/attempt/simulation.h"
+
+#include "assessment/score.h"
+#include "session/attempt/endpoint_picture.h"
+#include "session/attempt/ordered_work.h"
+#include "session/attempt/simulated_attempt.h"
+#include "session/guidance/guidance.h"
+#include "sim/base/check.h"
+#include "sim/base/hash.h"
+#include "sim/engine/step.h"
+
+namespace seldinger::session {
+
+base::Result<Simulation> Simulation::prepare(casedb::Library& library, Program program, const std::string& case_id,
+                                             const std::string& lesion_id,
+                                             std::optional<cases::InstrumentKind> kind,
+                                             std::optional<cases::Modality> modality) {
+  auto task = prepare_task(library, case_id, lesion_id, kind, modality);
+  if (!task) return task.error();
+  return Simulation(library, std::move(program), std::move(*task));
+}
+
+base::Result<void> Simulation::set_scenario(std::vector<cases::Event> events) {
+  if (!events.empty() && task_.scene.subject == cases::Subject::phantom)
+    return base::Error{"no_patient", "nothing happens to a phantom: --event is for patients"};
+  scenario_ = std::move(events);
+  return {};
+}
+
+base::Result<SimulatedAttempt> Simulation::live_attempt(const assessment::OperatorProfile& profile,
+                                                        std::uint64_t seed, const Opened& opened) {
+  // Whoever looks for needle and target in pulses is not made for real time.
+  if (!guidance_kind(task_.scene.picture.modality).probe_guides)
+    return base::Error{"not_in_real_time", "a fluoroscope's attempts run in virtual time only"};
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
+  return run_live(
+      LiveAttempt(*library_, program_, head_of(task_, program_, profile.name, seed, std::nullopt), task_.scene),
+      person, 0, seed, opened);
+}
+
+// The operator sees and hears what was recorded, and what they would have done then is left out: hands did what was
+// recorded. A picture is seen in the first tick after it, as it is in all but a few attempts.
+base::Result<SimulatedAttempt> Simulation::resume(InterruptedAttempt interrupted,
+                                                  const assessment::OperatorProfile& profile) {
+  const std::uint64_t seed = interrupted.attempt().seed;
+  CHECK(interrupted.attempt().synthetic());
+  if (!was_made_at(interrupted.attempt(), task_))
+    return base::Error{"other_case", "the attempt was made at another task than this"};
+  assessment::ScriptedOperator person(profile, task_.plan, task_.scene.instrument, seed);
+  std::uint32_t happened = 0;
+  auto frame = interrupted.recording().frames.begin();
+  const auto frames_end = interrupted.recording().frames.end();
+  const auto replayed =
+      interrupted.replay(task_.scene, [&](const cases::State& before, const cases::Inputs& inputs) {
+        const bool new_frame = frame != frames_end && frame->t_s <= before.t_s;
+        person.act(before, new_frame ? &*frame : nullptr, base::kTickS);
+        if (new_frame) ++frame;
+        if (happened < scenario_.size() && inputs.event == scenario_[happened].kind) ++happened;
+        person.hear(inputs.event);
+      });
+  if (!replayed) return replayed.error();
+  return run_live(LiveAttempt(*library_, program_, std::move(interrupted), task_.scene), person, happened, seed);
+}
+
+base::Result<SimulatedAttempt> Simulation::run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                                    std::uint32_t happened, std::uint64_t seed,
+                                                    const Opened& opened) const {
+  const engine::Scenario scenario(scenario_);
+  const auto stored = live.run({.hands =
+                                    [&](const cases::State& state, const cases::FrameTruth* frame) {
+                                      cases::Inputs inputs = person.act(state, frame, base::kTickS);
+                                      scenario.add_to(inputs, state.t_s, happened);
+                                      person.hear(inputs.event);
+                                      return inputs;
+                                    },
+                                .opened = opened,
+                                .done = [&] { return person.done(); }});
+  if (!stored) return stored.error();
+  return SimulatedAttempt{stored->attempt_id, live.head().operator_name, seed, stored->metrics};
+}
+
+base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                                  const std::optional<std::string>& person_id, bool picture) const {
+  casedb::NewAttempt attempt;
+  static_cast<casedb::AttemptHead&>(attempt) = head_of(task_, program_, profile.name, seed, person_id);
+  attempt.recording = run_attempt(task_.scene, task_.plan, profile, seed, scenario_);
+  attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
+  attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
+                : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
+                                                          : casedb::AttemptEnd::time_limit;
+  auto scored = assessment::score(task_.scene, attempt.recording);
+  if (!scored) return scored.error();
+  attempt.metrics = std::move(scored->metrics);
+  attempt.steps = std::move(scored->steps);
+  if (picture) attempt.picture_png = program_.file_of(picture_at_endpoint(task_.scene, attempt.recording));
+  return attempt;
+}
+
+base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                                   const std::optional<std::string>& person_id) {
+  const auto made = make(profile, seed, person_id, true);
+  if (!made) return made.error();
+  const auto attempt_id = casedb::add_attempt(*library_, *made);
+  if (!attempt_id) return attempt_id.error();
+  return SimulatedAttempt{*attempt_id, profile.name, seed, made->metrics};
+}
+
+base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                                        const std::function<void(SimulatedAttempt)>& stored) {
+  using Made = base::Result<casedb::NewAttempt>;
+  base::Result<void> done;
+  in_order<Made>(
+      trials.size(), jobs,
+      [&](std::size_t i) { return make(trials[i].profile, trials[i].seed, std::nullopt, pictures); },
+      [&](std::size_t i, Made made) {
+        const auto attempt_id = made ? casedb::add_attempt(*library_, *made) : made.error();
+        if (!attempt_id) {
+          done = attempt_id.error();
+          return false;
+        }
+        SimulatedAttempt one{*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics};
+        one.person = trials[i].person;
+        one.number = trials[i].number;
+        stored(std::move(one));
+        return true;
+      });
+  return done;
+}
+
+std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                             std::size_t count, std::optional<std::size_t> people) {
+  std::vector<SimulatedTrial> trials;
+  for (std::size_t p = 0; p < people.value_or(1); ++p) {
+    assessment::OperatorProfile person = profile;
+    if (people) {
+      person = assessment::person_of(profile, base::hash_combine(seed, p));
+      person.name.append("-").append(std::to_string(p + 1));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      trials.push_back({assessment::at_attempt(person, i), seed + trials.size(),
+                        people ? std::optional<std::uint64_t>(p + 1) : std::nullopt, i});
+  }
+  return trials;
+}
+
+}  // namespace seldinger::session

@@ -1,0 +1,93 @@
+// Attempts of simulated operators at a stored case: run, score, picture, store.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assessment/metrics/metric.h"
+#include "assessment/operators/profile.h"
+#include "assessment/operators/scripted.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/cases.h"
+#include "casedb/grading/grading.h"
+#include "session/attempt/interrupted_attempt.h"
+#include "session/attempt/live_attempt.h"
+#include "session/case/program.h"
+#include "session/case/task.h"
+
+namespace seldinger::session {
+
+// One of the attempts to be made: by whom, as he is then.
+struct SimulatedTrial {
+  assessment::OperatorProfile profile;
+  std::uint64_t seed = 0;
+  std::optional<std::uint64_t> person;  // number among people drawn about a profile, from 1
+  std::uint64_t number = 0;             // of the attempt, from 0
+};
+
+// `count` attempts of each of `people`, or of the profile itself; attempt i has seed + i, person p is drawn by seed
+// and p alone, so that the same seed is the same people at every case.
+std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                             std::size_t count, std::optional<std::size_t> people);
+
+// One that was made and stored.
+struct SimulatedAttempt {
+  std::string attempt_id, operator_name;
+  std::uint64_t seed = 0;
+  std::vector<assessment::MetricValue> metrics;
+  std::optional<std::uint64_t> person{};  // as its trial's
+  std::uint64_t number = 0;               // likewise
+  std::optional<casedb::AttemptGrade> grade{};
+};
+
+class Simulation {
+ public:
+  // As prepare_task. `library` must outlive it.
+  static base::Result<Simulation> prepare(casedb::Library& library, Program program, const std::string& case_id,
+                                          const std::string& lesion_id,
+                                          std::optional<cases::InstrumentKind> kind = std::nullopt,
+                                          std::optional<cases::Modality> modality = std::nullopt);
+
+  // What a mentor lets happen in each of the attempts, by rising time. Refused: `no_patient` of a phantom.
+  base::Result<void> set_scenario(std::vector<cases::Event> events);
+
+  // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
+  base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                         const std::optional<std::string>& person_id);
+
+  // Many, on so many threads; stored in their order, so that the result is that of one thread. `stored` is told of
+  // each. Without pictures none of the moment of firing is made.
+  base::Result<void> attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                              const std::function<void(SimulatedAttempt)>& stored);
+
+  // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
+  // was kept is stored with it. Refused: `not_in_real_time` under a fluoroscope. `opened` is told the attempt's id
+  // once there is one: whoever knows it can go on with it if this program dies.
+  using Opened = std::function<void(const std::string& attempt_id)>;
+  base::Result<SimulatedAttempt> live_attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                              const Opened& opened = {});
+
+  // Goes on with one of these that was interrupted, by the operator who made it: brought up to date by what was
+  // recorded. CHECKs that it is nobody's. Refused: `other_case` (it was made at another case or lesion, or
+  // otherwise), as InterruptedAttempt::replay.
+  base::Result<SimulatedAttempt> resume(InterruptedAttempt interrupted, const assessment::OperatorProfile& profile);
+
+ private:
+  // Changes nothing, so that threads may make many at once.
+  base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
+                                        const std::optional<std::string>& person_id, bool picture) const;
+  base::Result<SimulatedAttempt> run_live(LiveAttempt live, assessment::ScriptedOperator& person,
+                                          std::uint32_t happened, std::uint64_t seed,
+                                          const Opened& opened = {}) const;
+  Simulation(casedb::Library& library, Program program, Task task)
+      : library_(&library), program_(std::move(program)), task_(std::move(task)) {}
+
+  casedb::Library* library_;
+  Program program_;
+  Task task_;
+  std::vector<cases::Event> scenario_;
+};
+
+}  // namespace seldinger::session

@@ -1,0 +1,126 @@
+#include "session/attempt/watched_attempt.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "session/case/case_build.h"
+#include "sim/base/check.h"
+#include "sim/base/failure.h"
+
+namespace seldinger::session {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+// So often it looks at the clock.
+constexpr double kPieceS = 0.005;
+
+}  // namespace
+
+WatchedAttempt::WatchedAttempt(std::filesystem::path library, std::string attempt_id, PicturesBy by)
+    : library_(std::move(library)), attempt_id_(std::move(attempt_id)), by_(by) {
+  thread_ = std::thread([this] { run(); });
+}
+
+WatchedAttempt::~WatchedAttempt() {
+  ending_ = true;
+  thread_.join();
+}
+
+const base::Error& WatchedAttempt::error() const {
+  CHECK(phase() == Phase::refused);
+  return *error_;
+}
+
+const casedb::AttemptRow& WatchedAttempt::attempt() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *attempt_;
+}
+
+const cases::Case& WatchedAttempt::scene() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *scene_;
+}
+
+const cases::Recording& WatchedAttempt::recording() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return recording_;
+}
+
+Monitor& WatchedAttempt::monitor() {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return *monitor_;
+}
+
+double WatchedAttempt::duration_s() const {
+  return static_cast<double>(recording().inputs.size()) * recording_.dt_s;
+}
+
+void WatchedAttempt::play() {
+  const std::size_t ticks = recording_.inputs.size();
+  const auto piece = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
+  const engine::Tick whole(*scene_);
+  engine::TickState now;
+  std::size_t tick = 0;
+  std::optional<engine::Moment> pulse;  // a fluoroscope's picture stays until its next
+  const auto advance = [&] {
+    whole.advance(recording_.inputs[tick++], recording_.dt_s, now);
+    if (now.state.fluoroscopy.frame_due) pulse = engine::moment_of(now);
+  };
+  const auto show = [&] {
+    if (pulse) monitor_->show(*pulse);
+    pulse.reset();
+    const engine::Moment moment = engine::moment_of(now);
+    moments_.put(moment);
+    monitor_->show(moment);
+  };
+  for (auto due = Clock::now(); !ending_;) {
+    if (const double wanted_s = wanted_s_.exchange(kNowhere); wanted_s != kNowhere) {
+      const auto to = std::min(ticks, static_cast<std::size_t>(wanted_s / recording_.dt_s));
+      if (to < tick) {
+        now = {};
+        tick = 0;
+      }
+      while (tick < to && !ending_ && wanted_s_ == kNowhere) advance();
+      if (tick > 0) show();
+      due = Clock::now();
+    }
+    phase_.store(tick < ticks ? Phase::playing : Phase::over, std::memory_order_release);
+    const double speed = tick < ticks ? speed_.load() : 0.0;
+    if (speed > 0.0) {
+      for (const std::size_t end = std::min(ticks, tick + piece); tick < end;) advance();
+      show();
+    }
+    // A machine that cannot keep up shows it slower, and does not leap.
+    due = std::max(due, Clock::now() - std::chrono::milliseconds(50)) +
+          std::chrono::duration_cast<Clock::duration>(
+              std::chrono::duration<double>(speed > 0.0 ? kPieceS / speed : kPieceS));
+    std::this_thread::sleep_until(due);
+  }
+}
+
+void WatchedAttempt::run() {
+  const auto refuse = [this](base::Error error) {
+    error_ = std::move(error);
+    phase_.store(Phase::refused, std::memory_order_release);
+  };
+  try {
+    auto library = casedb::Library::open(library_);
+    if (!library) return refuse(library.error());
+    auto attempt = casedb::find_attempt(*library, attempt_id_);
+    if (!attempt) return refuse(attempt.error());
+    auto recording = casedb::load_recording(*library, attempt_id_);
+    if (!recording) return refuse(recording.error());
+    auto scene = build_case_of(*library, *attempt, needs_of(attempt->picture.modality));
+    if (!scene) return refuse(scene.error());
+    attempt_ = std::move(*attempt);
+    recording_ = std::move(*recording);
+    scene_ = std::make_shared<const cases::Case>(std::move(*scene));
+    monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed, by_);
+  } catch (const base::Failure& failure) {
+    return refuse({failure.code(), failure.what()});
+  }
+  phase_.store(Phase::playing, std::memory_order_release);
+  play();
+}
+
+}  // namespace seldinger::session

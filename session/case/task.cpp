@@ -1,0 +1,81 @@
+#include "session/case/task.h"
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+
+#include "session/case/case_build.h"
+#include "session/guidance/guidance.h"
+
+namespace seldinger::session {
+
+base::Result<Task> prepare_task(casedb::Library& library, const std::string& case_id, const std::string& lesion_id,
+                                std::optional<cases::InstrumentKind> kind, std::optional<cases::Modality> modality,
+                                const std::function<void(double share)>& told) {
+  const auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
+  const casedb::LesionRow* found = nullptr;
+  const auto lesions = casedb::list_lesions(library, case_id);
+  for (const casedb::LesionRow& lesion : lesions)
+    if (found == nullptr && (lesion_id.empty() || lesion.lesion_id == lesion_id)) found = &lesion;
+  if (found == nullptr)
+    return base::Error{"no_lesion", lesion_id.empty() ? "the case has no lesion; `seldinger case lesion` places one"
+                                                      : "the case has no lesion of that id"};
+  cases::Picture picture;
+  picture.modality = modality.value_or(row->modality);
+  const auto& further = row->further_modalities;
+  if (picture.modality != row->modality &&
+      std::find(further.begin(), further.end(), picture.modality) == further.end())
+    return base::Error{"other_modality", "the case is not practised with this modality"};
+  const auto tell = [&told](double share) {
+    if (told) told(share);
+  };
+  const GuidanceKind& guidance = guidance_kind(picture.modality);
+  const double built = guidance.loading_share;
+  auto scene = build_case(library, *row, found->form, picture, guidance.needs);
+  if (!scene) return scene.error();
+  tell(built);
+  scene->instrument.kind = kind.value_or(row->instrument.kind);
+  assessment::PathLimits limits = assessment::path_limits(*scene);
+  limits.told = [&](double share) { tell(built + (1.0 - built) * share); };
+  if (guidance.looks_from != nullptr) limits.looks_from = guidance.looks_from(*scene);
+  auto plan = assessment::plan_puncture(scene->volume, scene->skin_index, found->lesion.center_lps_mm, limits);
+  if (!plan) return plan.error();
+  if (plan->picture) scene->picture = *plan->picture;
+  tell(1.0);
+  plan->brief = {row->clinic.inr, row->clinic.platelets_per_nl, row->subject};
+  return Task{*row, *found, std::move(*scene), *plan};
+}
+
+casedb::AttemptHead head_of(const Task& task, const Program& program, std::string operator_name, std::uint64_t seed,
+                            const std::optional<std::string>& person_id) {
+  casedb::AttemptHead head;
+  head.case_id = task.row.case_id;
+  head.lesion_id = task.lesion.lesion_id;
+  head.person_id = person_id;
+  head.operator_name = std::move(operator_name);
+  head.seed = seed;
+  head.program_version = program.version;
+  head.instrument = task.scene.instrument;
+  head.picture = task.scene.picture;
+  head.approach = task.scene.approach;
+  head.started_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  return head;
+}
+
+bool was_made_at(const casedb::AttemptHead& attempt, const Task& task) {
+  const auto measures = [](const cases::Instrument& tool) {
+    return std::tuple(tool.kind, tool.length_mm, tool.radius_mm, tool.inner_radius_mm, tool.hu, tool.throw_mm,
+                      tool.notch_mm, tool.dead_tip_mm);
+  };
+  const auto shown = [](const cases::Picture& picture) {
+    return std::tuple(picture.modality, picture.depth_mm, picture.width_mm, picture.rate_hz, picture.probe);
+  };
+  return attempt.case_id == task.row.case_id && attempt.lesion_id == task.lesion.lesion_id &&
+         measures(attempt.instrument) == measures(task.scene.instrument) &&
+         shown(attempt.picture) == shown(task.scene.picture) && attempt.approach == task.scene.approach;
+}
+
+}  // namespace seldinger::session

@@ -1,0 +1,212 @@
+#include "session/guidance/ultrasound_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "assessment/operators/probe_over.h"
+#include "sim/base/check.h"
+#include "sim/imaging/ultrasound/console.h"
+
+namespace seldinger::session {
+namespace {
+
+constexpr double kLinearToMm = 35.0;
+constexpr double kTargetShare = 0.6, kDepthStepMm = 5.0, kLeastDepthMm = 30.0;
+constexpr double kScreenHz = 60.0;
+// A hand presses the face in until its ends touch too: a curved one's rise 10 mm above its middle (design). Where
+// tissue does not yield the picture begins so much deeper.
+constexpr double kPressCurvedMm = 10.0, kPressStraightMm = 3.0;
+constexpr double kBesideFaceMm = 3.0;  // room for the needle
+constexpr double kWayStepMm = 4.0, kNearSkinMm = 12.0, kNearSkinStepMm = 1.0;
+
+const imaging::Probe& probe_of(const cases::Picture& picture) {
+  const imaging::Probe* probe = imaging::probe_named(picture.probe);
+  CHECK(probe != nullptr);
+  return *probe;
+}
+
+double half_face_mm(const imaging::Probe& probe) {
+  const double half_mm = 0.5 * probe.elements * probe.pitch_mm;
+  return probe.radius_mm > 0.0 ? probe.radius_mm * std::sin(half_mm / probe.radius_mm) : half_mm;
+}
+
+double press_mm(const imaging::Probe& probe) {
+  return probe.radius_mm > 0.0 ? kPressCurvedMm : kPressStraightMm;
+}
+
+double sound_rate_hz(double depth_mm) {
+  return std::min(kScreenHz, imaging::frame_rate_hz(depth_mm, imaging::UltrasoundView{}.beams));
+}
+
+imaging::UltrasoundView held(imaging::UltrasoundView view, const cases::ToolPose& probe) {
+  view.origin_lps_mm = probe.position_lps_mm;
+  view.axial = probe.axis;
+  view.lateral = probe.side;
+  return view;
+}
+
+}  // namespace
+
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride,
+                                  const tissue::Displacement& displacement) {
+  const imaging::Probe& probe = view.probe;
+  std::vector<float> depths(static_cast<std::size_t>(probe.elements), -1e3F);
+  if (skin.empty()) return depths;
+  CHECK(stride >= 1);
+  std::uint32_t hint = 0;
+  const tissue::Displacement moving = tissue::without_presses(displacement);
+  const bool moves = tissue::count_sources(moving) > 0;
+  const auto depth_of = [&](int element) {
+    const double beam = probe.elements > 1 ? element * (view.beams - 1.0) / (probe.elements - 1.0) : 0.0;
+    const glm::dvec3 at = imaging::point_of(view, beam, 0.0);
+    const cases::Closest near = skin.closest(moves ? tissue::rest_of(moving, at) : at, hint);
+    hint = near.triangle;
+    return static_cast<float>(-near.distance_mm);
+  };
+  const int last = probe.elements - 1;
+  float before = depth_of(0);
+  depths[0] = before;
+  for (int from = 0; from < last; from += stride) {
+    const int to = std::min(last, from + stride);
+    const float next = depth_of(to);
+    for (int element = from + 1; element <= to; ++element)
+      depths[static_cast<std::size_t>(element)] =
+          before + (next - before) * static_cast<float>(element - from) / static_cast<float>(to - from);
+    before = next;
+  }
+  return depths;
+}
+
+cases::Picture ultrasound_picture(double target_below_skin_mm) {
+  const imaging::Probe& probe = target_below_skin_mm <= kLinearToMm ? imaging::kL115v : imaging::kC52v;
+  cases::Picture picture;
+  picture.modality = cases::Modality::ultrasound;
+  picture.probe = std::string(probe.name);
+  const double deep_mm = (target_below_skin_mm - press_mm(probe)) / kTargetShare;
+  picture.depth_mm = std::max(kLeastDepthMm, kDepthStepMm * std::round(deep_mm / kDepthStepMm));
+  picture.width_mm = 0.0;
+  picture.rate_hz = sound_rate_hz(picture.depth_mm);
+  return picture;
+}
+
+imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console) {
+  imaging::UltrasoundView view;
+  view.probe = probe_of(picture);
+  view.depth_mm = picture.depth_mm;
+  imaging::set_view(console, view);
+  return view;
+}
+
+double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept {
+  if (!(console.depth_mm > 0.0)) return picture.rate_hz;
+  return sound_rate_hz(console_view(picture, console).depth_mm);
+}
+
+UltrasoundSight::UltrasoundSight(const cases::Case& scene)
+    : scene_(scene), tissue_{&scene.volume, scene.classes, scene.echogenicity} {
+  CHECK(scene.classes.size() == scene.volume.hu.size());
+}
+
+imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& view,
+                                                const imaging::Inserted& inserted,
+                                                const tissue::Displacement& displacement) const {
+  return imaging::ultrasound_visible(
+      tissue_, view, inserted, element_depths(scene_.skin_index, view, kContactStride, displacement), displacement);
+}
+
+imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                                const imaging::NeedlePose& needle,
+                                                const tissue::Displacement& displacement) const {
+  return see(held(console_view(scene_.picture, console), probe), {needle, scene_.lesions}, displacement);
+}
+
+std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
+                                                                 const cases::Lesion& target) const {
+  const cases::ToolPose& touching = plan.probe;
+  const cases::Picture picture =
+      ultrasound_picture(glm::dot(target.center_lps_mm - touching.position_lps_mm, touching.axis));
+  const imaging::Probe& probe = probe_of(picture);
+  const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
+  if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)
+    return std::nullopt;
+  assessment::PuncturePlan pressed = plan;
+  pressed.probe.position_lps_mm += press_mm(probe) * pressed.probe.axis;
+  pressed.probe_first.position_lps_mm += press_mm(probe) * pressed.probe_first.axis;
+  const auto needle = [&](double inserted_mm) {
+    return imaging::needle_pose(scene_.instrument, plan.entry_lps_mm + inserted_mm * plan.direction,
+                                plan.direction);
+  };
+  const imaging::UltrasoundView unheld = console_view(picture, {}), view = held(unheld, pressed.probe);
+  const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);
+  const imaging::Visible seen =
+      imaging::ultrasound_visible(tissue_, view, {needle(plan.depth_mm), {target}}, depths).visible;
+  if (!seen.joint) return std::nullopt;
+  const auto tip_shows = [&](double inserted_mm) {
+    const imaging::Inserted inserted{needle(inserted_mm), {}};
+    if (plan.approach == cases::Approach::out_of_plane)
+      return see(held(unheld, assessment::probe_over(pressed, inserted_mm)), inserted, {}).visible.needle_tip;
+    return imaging::needle_level(tissue_, view, inserted, depths, 0.0).stands_out();
+  };
+  double shows_from_mm = plan.depth_mm;
+  for (double asked_mm = shows_from_mm; asked_mm > 0.0 && shows_from_mm == asked_mm;) {
+    asked_mm = std::max(0.0, asked_mm - (asked_mm > kNearSkinMm ? kWayStepMm : kNearSkinStepMm));
+    if (tip_shows(asked_mm)) shows_from_mm = asked_mm;
+  }
+  const imaging::TargetLevel level = imaging::target_level(tissue_, view, {std::nullopt, {target}}, depths);
+  assessment::ProbeView seen_from;
+  seen_from.probe = pressed.probe;
+  seen_from.probe_first = pressed.probe_first;
+  seen_from.picture = picture;
+  seen_from.tip_shows_from_mm = shows_from_mm;
+  seen_from.needle_mm = seen.needle_length_mm;
+  seen_from.shadow_db = std::max(0.0, -level.transmission_db);
+  return seen_from;
+}
+
+void UltrasoundSight::draw_on(gpu::Context& context) {
+  const bool moves = scene_.yields || scene_.breathing.has_value();
+  gpu_ = std::make_shared<imaging::UltrasoundGpu>(context, tissue_, imaging::LinesBy::machine,
+                                                  moves ? imaging::TissueMoves::yes : imaging::TissueMoves::no);
+}
+
+struct UltrasoundSight::Screen {
+  explicit Screen(const imaging::UltrasoundView& view) : converter(view, {}), depth_mm(view.depth_mm) {}
+  imaging::ScanConverter converter;
+  double depth_mm;
+  imaging::PolarPicture polar;
+};
+
+imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                               const imaging::NeedlePose& needle, std::uint64_t seed,
+                                               std::uint64_t frame, imaging::PolarPicture& picture,
+                                               const tissue::Displacement& displacement) const {
+  imaging::UltrasoundView view = held(console_view(scene_.picture, console), probe);
+  view.method = method_;
+  const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
+  if (gpu_)
+    gpu_->polar(view, {needle, scene_.lesions}, depths, picture, displacement);
+  else
+    imaging::ultrasound_polar(tissue_, view, {needle, scene_.lesions}, depths, picture, displacement);
+  imaging::add_receiver_noise(seed, frame, picture);
+  return view;
+}
+
+GreyPicture UltrasoundSight::picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                     const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
+                                     const tissue::Displacement& displacement) {
+  const imaging::UltrasoundView asked = console_view(scene_.picture, console);
+  if (!screen_ || screen_->depth_mm != asked.depth_mm) screen_ = std::make_shared<Screen>(asked);
+  const imaging::ScanConverter& converter = screen_->converter;
+  GreyPicture picture;
+  const imaging::UltrasoundView view = polar(probe, console, needle, seed, frame, screen_->polar, displacement);
+  converter.grey(view, {}, screen_->polar, picture.grey);
+  picture.width_px = converter.width_px();
+  picture.height_px =
+      std::min(converter.height_px(),
+               static_cast<int>(std::ceil((view.depth_mm - converter.top_mm()) / converter.pixel_mm())));
+  picture.grey.resize(static_cast<std::size_t>(picture.height_px) * static_cast<std::size_t>(picture.width_px));
+  return picture;
+}
+
+}  // namespace seldinger::session

@@ -1,0 +1,89 @@
+// What a person sees of a case by ultrasound: from a probe's pose to the picture, and to what is told of it. The
+// one place where attempts meet ultrasound imaging.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "assessment/operators/plan.h"
+#include "session/guidance/grey_picture.h"
+#include "sim/case/case.h"
+#include "sim/case/form/mesh_index.h"
+#include "sim/case/state.h"
+#include "sim/gpu/context.h"
+#include "sim/imaging/ultrasound/ultrasound_gpu.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
+#include "sim/imaging/ultrasound/visible.h"
+#include "sim/tissue/displacement.h"
+
+namespace seldinger::session {
+
+constexpr int kContactStride = 8;  // elements; 4 mm of a curved face, over which skin hardly bends
+
+// How deep below the skin each of the probe's elements lies, mm; an empty skin: all stand in air. Asked of every
+// `stride`-th element, between them linear. The skin is where the displacement puts it but for presses: under a
+// probe the whole face carries it, of which a press, being a ball's, knows only the middle.
+std::vector<float> element_depths(const cases::MeshIndex& skin, const imaging::UltrasoundView& view, int stride = 1,
+                                  const tissue::Displacement& displacement = {});
+
+// How a target so deep below the skin, along the probe's axis, is looked at: by the linear probe down to 35 mm,
+// else by the curved one, at a depth of which the target lies at 1/2 to 2/3, as fast as sound allows up to the
+// screen's 60 Hz.
+cases::Picture ultrasound_picture(double target_below_skin_mm);
+
+// How often an ultrasound machine makes a picture: as the case says, until a depth is asked for; then as sound
+// allows.
+double picture_rate_hz(const cases::Picture& picture, const cases::ConsoleSetting& console) noexcept;
+
+// Where the probe is.
+inline cases::ToolPose probe_in(const cases::State& state) noexcept {
+  return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
+}
+
+// The picture's view as the console stands, without a pose.
+imaging::UltrasoundView console_view(const cases::Picture& picture, const cases::ConsoleSetting& console);
+
+class UltrasoundSight {
+ public:
+  // The scene has its tissue (Needs::ultrasound; CHECK) and outlives it.
+  explicit UltrasoundSight(const cases::Case& scene);
+
+  // PathLimits::looks_from, by the picture that ultrasound_picture chooses there, with this target.
+  std::optional<assessment::ProbeView> looks_from(const assessment::PuncturePlan& plan,
+                                                  const cases::Lesion& target) const;
+
+  // In the scene's picture as the console stands, with its lesions, of tissue that is where the displacement puts
+  // it.
+  imaging::UltrasoundVisible see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                 const imaging::NeedlePose& needle,
+                                 const tissue::Displacement& displacement = {}) const;
+  // What the machine receives there, with its noise; answers how it looked.
+  imaging::UltrasoundView polar(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                                const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
+                                imaging::PolarPicture& picture,
+                                const tissue::Displacement& displacement = {}) const;
+  // How `polar` makes speckle; scatterers unless it is told.
+  void set_method(imaging::UltrasoundMethod method) noexcept { method_ = method; }
+  // `polar` is GL's from now on, on the context's thread. Throws base::Failure("gl").
+  void draw_on(gpu::Context& context);
+  void draw_on_cpu() noexcept { gpu_.reset(); }  // again
+  // As the screen shows it, without the empty rows below a wide field. `seed` and `frame` are the receiver's noise.
+  GreyPicture picture(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
+                      const imaging::NeedlePose& needle, std::uint64_t seed, std::uint64_t frame,
+                      const tissue::Displacement& displacement = {});
+
+ private:
+  struct Screen;  // what pictures need beside the tissue, made with the first
+  imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
+                                 const tissue::Displacement& displacement) const;
+
+  const cases::Case& scene_;
+  imaging::TissueVolume tissue_;
+  std::shared_ptr<Screen> screen_;
+  imaging::UltrasoundMethod method_ = imaging::UltrasoundMethod::scatterers;
+  std::shared_ptr<imaging::UltrasoundGpu> gpu_;
+};
+
+}  // namespace seldinger::session

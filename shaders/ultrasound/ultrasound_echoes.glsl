@@ -1,0 +1,139 @@
+// Echoes of the interfaces that ultrasound_lines.comp listed, of the needle, and of the lens of a face in air. An
+// invocation is a place in a beam's list; neighbours in a work group are neighbouring beams, which have lists
+// alike.
+#include "shared/ultrasound_line.glsl.h"
+#include "shared/ultrasound_passes.glsl.h"
+
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform usampler2DArray voxels;  // one layer a slice
+layout(std140, binding = 0) uniform Parameters { UsLineParameters parameters; };
+layout(std140, binding = 1) uniform Tissue { UsTissue tissue; };
+layout(std430, binding = 0) readonly buffer Neighbours { vec4 neighbours[]; };  // xyz: voxels off; w: weight
+layout(std430, binding = 1) readonly buffer EchoCountsBefore { ivec2 counts[]; };
+layout(std430, binding = 2) readonly buffer Beams { UsBeam beams[]; };
+layout(std430, binding = 3) readonly buffer Loss { float loss_db[]; };
+layout(std430, binding = 4) readonly buffer Shift { float shift_mm[]; };
+layout(std430, binding = 5) readonly buffer Interfaces { ivec4 interfaces[]; };
+layout(std430, binding = 6) writeonly buffer EchoCounts { int echo_counts[]; };
+layout(std430, binding = 7) writeonly buffer Echoes { vec4 echoes[]; };
+#include "ultrasound/ultrasound_tissue.glsl"
+#ifdef ULTRASOUND_MOVED
+layout(std140, binding = 3) uniform Motion { UsMotion motion; };
+#define paths neighbours  // the paths come after them
+#include "ultrasound/ultrasound_paths.glsl"
+#endif
+
+int sample_at(float depth_mm) {
+  return int(clamp(depth_mm / parameters.sample_mm - 0.5, 0.0, float(parameters.samples - 1)));
+}
+
+void put(int beam, int place, float depth_mm, float amplitude) {
+  float turns = depth_mm * parameters.turns_per_mm;
+  if (parameters.shifts != 0) {
+    depth_mm += shift_mm[beam * parameters.samples + sample_at(depth_mm)];
+    turns = depth_mm * parameters.turns_per_mm;
+  }
+  float angle = -6.283185307 * (turns - floor(turns));
+  echoes[beam * kUsMostEchoes + place] = vec4(depth_mm, amplitude * cos(angle), amplitude * sin(angle), 0.0);
+}
+
+void put_interface(int beam, UsBeam at, ivec4 here) {
+  // What is before and after the interface, and what was lost on the way to it.
+  int k = here.x;
+  int before_class = here.y & 255;
+  float before = before_class == kUsGel ? kUsMatchedMrayl : parameters.of_class[before_class].x;
+  float after = parameters.of_class[here.y >> 8].x;
+  float loss_to_db = intBitsToFloat(here.w);
+  float reflection = us_reflection(before, after);
+  float depth_mm = float(k) * parameters.sample_mm;
+  float cosine = 1.0;
+  if (k > 0) {
+    // The plane between the two: its normal from which side each neighbour resembles more, its place from how many
+    // resemble each (line.cpp, plane_at). Twice over the neighbours: the wider surroundings give the normal, then the
+    // close ones the place.
+    dvec3 index = dvec3(at.index.xyz) + dvec3(at.index_rest.xyz) +
+                  double(k) * (dvec3(at.index_along.xyz) + dvec3(at.index_along_rest.xyz));
+    vec3 from_origin_mm = at.start_mm.xyz + depth_mm * at.direction.xyz;
+    vec3 way = at.direction.xyz;
+#ifdef ULTRASOUND_MOVED
+    PathPlace place = path_place(beam, depth_mm);
+    vec3 back_mm = path_value(place, 0);
+    index += dvec3(voxels_of(back_mm));
+    from_origin_mm += back_mm;
+    way = way_along(place, at.direction.xyz);
+#endif
+    ivec3 voxel = ivec3(floor(index));
+    vec3 to_center = vec3(dvec3(voxel) + 0.5lf - index);
+    vec3 x_mm = parameters.mm_per_voxel[0].xyz;
+    vec3 y_mm = parameters.mm_per_voxel[1].xyz;
+    vec3 z_mm = parameters.mm_per_voxel[2].xyz;
+    float middle = sqrt(before * after);
+    vec3 normal = vec3(0.0);
+    float sum = 0.0;
+    float square = 0.0;
+    float along = 1.0;
+    for (int i = 0; i < parameters.around + parameters.close; ++i) {
+      if (i == parameters.around) {
+        float side_mm = length(normal);
+        normal = side_mm > parameters.least_side_mm ? normal / side_mm : vec3(0.0);
+      }
+      vec4 one = neighbours[i];
+      vec3 offset_mm = one.x * x_mm + one.y * y_mm + one.z * z_mm;
+      uint there = class_at(voxel + ivec3(one.xyz), from_origin_mm + offset_mm);
+      float side = (parameters.of_class[there].x > middle) == (after > before) ? one.w : -one.w;
+      if (i < parameters.around) {
+        normal += side * offset_mm;
+      } else {
+        float way = dot(offset_mm, normal);
+        sum += side;
+        square += one.w * way * way;
+      }
+    }
+    along = dot(normal, way);
+    bool told = normal != vec3(0.0);
+#ifdef ULTRASOUND_MOVED
+    float facing = us_facing(along, dot(normal, path_value(place, 1)), dot(normal, path_value(place, 2)));
+#else
+    float facing = abs(along);
+#endif
+    cosine = told ? clamp(facing, 0.0, 1.0) : 1.0;
+    // Placed between voxels, so that a slanted wall is a line, not a staircase; except where it is seen edge-on.
+    if (told && square > 1e-9 && cosine > kUsLeastPlaceCosine) {
+      float off_mm = dot(to_center.x * x_mm + to_center.y * y_mm + to_center.z * z_mm, normal) -
+                     us_plane_off(sum, parameters.close_weight, square);
+      depth_mm = max(0.0, depth_mm + clamp(off_mm / along, -parameters.most_shift_mm, parameters.most_shift_mm));
+    }
+  }
+  // Its echo, and the repeats of a strong one.
+  float face = reflection * us_interface_law(cosine) * us_amplitude(kUsInterfaceDb - loss_to_db);
+  put(beam, here.z, depth_mm, face);
+  if (abs(reflection) < kUsRepeatsFrom) return;
+  int room = float(k) * parameters.sample_mm > parameters.most_shift_mm ? kUsMostAgain : 1 + kUsLensLines;
+  for (int i = 1; i < room; ++i) {
+    // Gas repeats; right at the probe's face it rings in the lens. Places left over stay silent.
+    bool rings = depth_mm <= 0.0;
+    float again_mm = rings ? float(i) * kUsLensMm : float(i + 1) * depth_mm;
+    float amplitude = rings ? us_lens_line(i) : i < kUsMostAgain ? face * us_repeat(i + 1, loss_to_db) : 0.0;
+    put(beam, here.z + i, again_mm, again_mm < parameters.depth_mm ? amplitude : 0.0);
+  }
+}
+
+void main() {
+  int beam = int(gl_GlobalInvocationID.x);
+  int place = int(gl_WorkGroupID.y);
+  if (beam >= parameters.beams) return;
+  UsBeam at = beams[beam];
+  ivec2 count = counts[beam];
+  if (place < count.x) put_interface(beam, at, interfaces[beam * kUsMostInterfaces + place]);
+  if (place < at.needle_echoes && at.contact != 0) {
+    vec4 echo = at.needle_echo[place];
+    float down_db = loss_db[beam * parameters.samples + sample_at(echo.z)];
+    put(beam, count.y + place, echo.x, echo.y * us_amplitude(-down_db));
+  }
+  if (at.contact == 0 && place < kUsLensLines) {
+    float depth_mm = float(place + 1) * kUsLensMm;
+    put(beam, place, depth_mm, depth_mm < parameters.depth_mm ? us_lens_line(place + 1) : 0.0);
+  }
+  if (place == 0) echo_counts[beam] = at.contact != 0 ? count.y + at.needle_echoes : kUsLensLines;
+}

@@ -1,3 +1,0 @@
-#version 430 core
-#extension GL_GOOGLE_include_directive : enable
-#include "shared/ultrasound_scatter.glsl.h"

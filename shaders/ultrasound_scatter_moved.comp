@@ -1,4 +1,0 @@
-#version 430 core
-#extension GL_GOOGLE_include_directive : enable
-#define ULTRASOUND_MOVED
-#include "shared/ultrasound_scatter.glsl.h"

@@ -1,0 +1,5 @@
+#version 430 core
+#extension GL_GOOGLE_include_directive : enable
+#define XRAY_SLAB
+#define XRAY_TOTAL
+#include "xray/xray_walk.glsl"

@@ -1,4 +1,0 @@
-#version 430 core
-#extension GL_GOOGLE_include_directive : enable
-#define XRAY_SLAB
-#include "shared/xray_walk.glsl.h"

@@ -1,0 +1,15 @@
+#include "sim/case/record/recorded_tick.h"
+
+namespace seldinger::cases {
+
+PoseSample pose_of(const State& state) {
+  return {state.t_s,         state.needle.tip_lps_mm, state.needle.direction, state.probe.origin_lps_mm,
+          state.probe.axial, state.probe.lateral};
+}
+
+void add_events(double t_s, const RecordedTick& tick, std::vector<Event>& events) {
+  for (const EventKind kind : {tick.inputs.event, tick.reaction})
+    if (kind != EventKind::none) events.push_back({t_s, kind});
+}
+
+}  // namespace seldinger::cases

@@ -1,0 +1,130 @@
+#include "sim/haptics/needle/held_needle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace seldinger::haptics {
+namespace {
+
+// Of tissue ahead of the tip, this is looked up when less than half of it is left; at 200 mm/s every 50 ticks.
+constexpr double kAheadMm = 20.0;
+// While the line follows the hand: at 200 mm/s it has moved 1.6 mm by then, about a voxel.
+constexpr int kTicksBetweenLooks = 8;
+// A needle that comes back this near to a hole and to its direction, about 8°, goes in again there (design).
+constexpr double kSameHoleMm = 2.0, kSameHoleCosine = 0.99;
+// Flatter to the skin than 14.5°, or 78° off its own track, it counts as just that (design): both divide by it.
+constexpr double kFlattest = 0.25, kMostTurned = 0.2;
+
+double length(const glm::dvec3& v) noexcept {
+  return std::sqrt(glm::dot(v, v));
+}
+
+cases::Gauge gauge_of(const cases::Instrument& instrument) {
+  return {0, 2.0 * instrument.radius_mm, 2.0 * instrument.inner_radius_mm};
+}
+
+// Bone ahead does not give way: tissue is pushed no further than up to it.
+double pushed_mm(const HeldNeedleState& state) noexcept {
+  const auto path = state.path.span();
+  double to_mm = state.depth_mm;
+  for (std::size_t ahead = state.track.opened; ahead < path.size(); ++ahead)
+    if (path[ahead].tissue.impenetrable) to_mm = std::min(to_mm, path[ahead].start_mm);
+  return std::max(0.0, to_mm - state.track.cut_mm);
+}
+
+void leave(HeldNeedleState& state) noexcept {
+  // A hole stays where it is; a dent does not.
+  if (state.track.opened == 0) state.track = {};
+  state.track.shaft_n = state.track.falling_n = 0.0;
+  state.side = {};
+  interrupt(state);
+  state.outside = true;
+}
+
+}  // namespace
+
+void interrupt(HeldNeedleState& state) noexcept {
+  state.track.begun = state.side.begun = false;
+  state.track.damper_n = 0.0;
+  state.side.damper_n = {};
+}
+
+HeldNeedle::HeldNeedle(const cases::Case& scene)
+    : scene_(&scene), gauge_(gauge_of(scene.instrument)), tissue_(scene.volume, scene.classes, gauge_) {}
+
+// Along the needle from the undeformed skin to the tip. Continuous: no ray's miss makes it jump.
+double HeldNeedle::below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept {
+  const double most_mm = std::max(0.0, skin.depth_mm) / kFlattest;
+  const auto hit = scene_->skin_index.first_hit(pose.position_lps_mm, -pose.axis, most_mm);
+  return hit ? hit->distance_mm : most_mm;
+}
+
+HeldNeedleForce HeldNeedle::advance(const cases::ToolPose& pose, const NeedleLaw& law,
+                                    const NeedleSideLaw& side_law, HeldNeedleState& state) const noexcept {
+  const glm::dvec3& tip_lps_mm = pose.position_lps_mm;
+  const double on_line_mm = glm::dot(tip_lps_mm - state.entry_lps_mm, state.direction);
+  // In its track, it is in the body: the skin, costly to ask from deep below, is asked again at the hole.
+  const bool in_track = !state.outside && state.track.opened > 0 && on_line_mm > 0.0;
+  if (!state.begun)
+    state.skin = cases::start_passage(scene_->skin_index, tip_lps_mm, pose.axis);
+  else if (!in_track)
+    cases::advance_passage(scene_->skin_index, tip_lps_mm, state.skin);
+  state.begun = true;
+  const bool in_body = state.skin.in_body;
+  state.drag = {};
+  if (!state.free && in_body) return {};
+  state.free = true;
+  if (!in_body && !in_track) {
+    if (!state.outside) leave(state);
+    state.depth_mm = 0.0;
+    return {};
+  }
+  if (state.outside) {
+    const bool same_hole = state.track.opened > 0 && length(tip_lps_mm - state.entry_lps_mm) < kSameHoleMm &&
+                           glm::dot(pose.axis, state.direction) > kSameHoleCosine;
+    if (!same_hole) {
+      state.track = {};
+      state.track.begun = true;  // from no dent and no force
+      state.ticks_to_look = 0;
+    }
+    state.outside = false;
+  }
+
+  if (state.track.opened == 0) {
+    state.direction = pose.axis;
+    state.depth_mm = below_skin_mm(pose, state.skin);
+    state.entry_lps_mm = tip_lps_mm - state.depth_mm * pose.axis;
+    if (--state.ticks_to_look <= 0) {
+      state.path.count = 0;
+      tissue_.look(state.entry_lps_mm, state.direction, kAheadMm, 0.0, state.track, state.path);
+      state.ticks_to_look = kTicksBetweenLooks;
+      state.looked_mm = 0.0;  // of another line than the one that opens
+    }
+  } else {
+    state.depth_mm = on_line_mm;
+    const double reached_mm = std::max(state.depth_mm, state.track.cut_mm);
+    if (reached_mm + 0.5 * kAheadMm > state.looked_mm) {
+      state.looked_mm = reached_mm + kAheadMm;
+      tissue_.look(state.entry_lps_mm, state.direction, state.looked_mm, state.depth_mm, state.track, state.path);
+    }
+  }
+
+  HeldNeedleForce force;
+  force.along = law.advance(state.path.span(), state.depth_mm, state.track);
+  const double turned = std::max(glm::dot(pose.axis, state.direction), kMostTurned);
+  glm::dvec3 shift_mm = tip_lps_mm - state.depth_mm / turned * pose.axis - state.entry_lps_mm;
+  shift_mm -= glm::dot(shift_mm, state.direction) * state.direction;
+  const double in_tissue_mm = inserted_mm(state.path.span(), state.depth_mm, state.track);
+  state.drag = {.entry_lps_mm = state.entry_lps_mm,
+                .direction = state.direction,
+                .radius_mm = 0.5 * gauge_.outer_mm,
+                .cut_mm = std::min(state.track.cut_mm, state.depth_mm),
+                .tip_n = force.along.tip_n,
+                .tip_mm = pushed_mm(state),
+                .shaft_mm = law.dragged_mm(in_tissue_mm, state.track)};
+  force.force_n = side_law.advance(shift_mm, in_tissue_mm, state.side) - force.along.axial_n * state.direction;
+  return force;
+}
+
+}  // namespace seldinger::haptics

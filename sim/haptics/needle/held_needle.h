@@ -1,0 +1,63 @@
+// A needle held in a hand, in space: where it is against the skin and its own track, and the force from that. The
+// line of a track is fixed once the skin opens; before, it follows the hand. The devices here have three motors, so
+// the force acts where the hand holds it and no torque is given.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "sim/case/case.h"
+#include "sim/case/inputs.h"
+#include "sim/case/skin_passage.h"
+#include "sim/haptics/needle/needle_law.h"
+#include "sim/haptics/needle/needle_path.h"
+#include "sim/haptics/needle/needle_side.h"
+#include "sim/tissue/displacement.h"
+
+namespace seldinger::haptics {
+
+// What must be kept from tick to tick. A new one: just taken up. Taken up inside the body it is without force until
+// it has been outside.
+struct HeldNeedleState {
+  cases::SkinPassage skin;                                 // of the tip
+  glm::dvec3 entry_lps_mm{0.0}, direction{0.0, 0.0, 1.0};  // the track's line: depth 0, and unit, inwards
+  NeedlePath path;
+  NeedleTrack track;
+  NeedleSideTrack side;
+  double depth_mm = 0.0;    // of the tip along the line
+  double looked_mm = 0.0;   // how far along the line the path is known
+  int ticks_to_look = 0;    // while the line still moves
+  bool begun = false;       // `skin` says something
+  bool free = false;        // it has been outside
+  bool outside = true;      // of skin and track
+  tissue::NeedleDrag drag;  // what the last tick does to the tissue; nothing where it does nothing
+};
+
+struct HeldNeedleForce {
+  glm::dvec3 force_n{0.0};  // on the hand
+  NeedleForce along;        // the track
+};
+
+class HeldNeedle {
+ public:
+  // The scene has a class per voxel (CHECKed) and must outlive this.
+  explicit HeldNeedle(const cases::Case& scene);
+
+  // The needle of the scene's instrument: what its side law needs.
+  const cases::Gauge& gauge() const noexcept { return gauge_; }
+
+  // One tick: position = tip, axis = unit, hub → tip. Allocates nothing.
+  HeldNeedleForce advance(const cases::ToolPose& pose, const NeedleLaw& law, const NeedleSideLaw& side_law,
+                          HeldNeedleState& state) const noexcept;
+
+ private:
+  double below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept;
+
+  const cases::Case* scene_;
+  cases::Gauge gauge_;
+  TissueAlongNeedle tissue_;
+};
+
+// The hand was not followed for some ticks: the next has no speed.
+void interrupt(HeldNeedleState& state) noexcept;
+
+}  // namespace seldinger::haptics

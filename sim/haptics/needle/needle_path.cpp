@@ -1,0 +1,78 @@
+#include "sim/haptics/needle/needle_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/check.h"
+
+namespace seldinger::haptics {
+namespace {
+
+using volume::TissueClass;
+
+constexpr double kStepMm = 0.5;
+// CT tells no skin; it is this thick on trunk (design; 1.5-2.5 mm in textbooks).
+constexpr double kSkinMm = 2.0;
+// What is thinner is a voxel's fleck or partial volume, with no capsule of its own (design: about two voxels).
+constexpr double kThinnestMm = 2.0;
+
+}  // namespace
+
+TissueAlongNeedle::TissueAlongNeedle(const volume::Volume& volume, std::span<const TissueClass> classes,
+                                     const cases::Gauge& gauge)
+    : volume_(&volume), classes_(classes), voxel_from_lps_(volume::voxel_from_lps(volume)), gauge_(gauge) {
+  CHECK(classes.size() == volume.hu.size());
+  for (const NeedleTissueRow& row : needle_tissues())
+    rows_[static_cast<std::size_t>(row.tissue)] = at_gauge(row.needle, gauge);
+}
+
+TissueAlongNeedle::Sample TissueAlongNeedle::at(const glm::dvec3& p_lps_mm) const noexcept {
+  const glm::dvec3 index(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
+  if (!volume::inside(*volume_, index)) return {TissueClass::air, volume::kAirHu};
+  const auto nearest = [](double value, int size) {
+    return std::clamp(static_cast<int>(std::floor(value + 0.5)), 0, size - 1);
+  };
+  const glm::ivec3& size = volume_->size_voxels;
+  const std::size_t voxel =
+      volume_->index(nearest(index.x, size.x), nearest(index.y, size.y), nearest(index.z, size.z));
+  return {classes_[voxel], static_cast<double>(volume_->hu[voxel])};
+}
+
+void TissueAlongNeedle::add(double start_mm, TissueClass tissue, NeedlePath& path) const noexcept {
+  if (path.count == kMostNeedleLayers || (path.count > 0 && path.tissues[path.count - 1] == tissue)) return;
+  path.tissues[path.count] = tissue;
+  path.layers[path.count++] = {start_mm, rows_[static_cast<std::size_t>(tissue)]};
+}
+
+void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& direction, double length_mm,
+                             double depth_mm, const NeedleTrack& track, NeedlePath& path) const noexcept {
+  const double reached_mm = std::max(depth_mm, track.cut_mm);
+  std::size_t kept = std::min(track.opened, path.count);
+  while (kept < path.count && path.layers[kept].start_mm <= reached_mm) ++kept;
+  path.count = kept;
+  if (path.count == 0) add(0.0, TissueClass::skin, path);
+
+  // Runs of one class; a run becomes a layer once it is long enough, bone and metal at once.
+  // Always at the same depths, so that a path looked up in pieces is the whole one.
+  const double from_mm = std::max(kSkinMm, kStepMm * std::ceil(reached_mm / kStepMm));
+  TissueClass run = path.tissues[path.count - 1];
+  double run_mm = from_mm, sum_hu = 0.0, n = 0.0;
+  const std::size_t fixed = path.count;
+  for (int i = 0; from_mm + kStepMm * i <= length_mm; ++i) {
+    const double along_mm = from_mm + kStepMm * i;
+    const Sample sample = at(entry_lps_mm + along_mm * direction);
+    if (sample.tissue != run) {
+      run = sample.tissue;
+      run_mm = along_mm;
+      sum_hu = n = 0.0;
+    }
+    sum_hu += sample.hu;
+    n += 1.0;
+    const bool hard = rows_[static_cast<std::size_t>(run)].impenetrable;
+    if (hard || along_mm - run_mm >= kThinnestMm) add(run_mm, run, path);
+    if (run == TissueClass::soft_tissue && path.count > fixed && path.tissues[path.count - 1] == run)
+      path.layers[path.count - 1].tissue = at_gauge(soft_tissue_of_hu(sum_hu / n), gauge_);
+  }
+}
+
+}  // namespace seldinger::haptics

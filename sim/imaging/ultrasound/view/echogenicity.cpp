@@ -1,0 +1,152 @@
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/check.h"
+#include "sim/base/rows.h"
+
+namespace seldinger::imaging {
+namespace {
+
+using volume::TissueClass;
+constexpr double kSmoothMm = 2.0;  // noise of a voxel is averaged over this to each side
+constexpr double kBlockMm = 4.0;   // surroundings are known by blocks of this size
+constexpr int kAroundBlocks = 3;   // to each side: 28 mm, wider than vessels, narrower than organs
+constexpr double kLeastHu = -20.0, kMostHu = 250.0;  // clamped: a clip does not darken what lies beside it
+
+bool is_parenchyma(TissueClass tissue) {
+  return tissue == TissueClass::soft_tissue || tissue == TissueClass::vessel ||
+         (tissue >= TissueClass::liver && tissue <= TissueClass::muscle);
+}
+
+struct Sum {
+  std::int64_t hu = 0, count = 0;
+};
+
+// Mean HU of parenchyma in blocks, and of the blocks around them.
+class Surroundings {
+ public:
+  Surroundings(const volume::Volume& volume, std::span<const TissueClass> classes, int threads)
+      : block_(glm::max(glm::ivec3(glm::round(kBlockMm / volume.spacing_mm)), glm::ivec3(1))),
+        size_((volume.size_voxels + block_ - 1) / block_),
+        mean_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) *
+              static_cast<std::size_t>(size_.z)) {
+    std::vector<Sum> sums(mean_.size());
+    base::over_rows(size_.z, threads, [&](int z) {
+      for (int k = z * block_.z; k < std::min((z + 1) * block_.z, volume.size_voxels.z); ++k)
+        for (int j = 0; j < volume.size_voxels.y; ++j)
+          for (int i = 0; i < volume.size_voxels.x; ++i) {
+            const auto at = static_cast<std::size_t>(volume.index(i, j, k));
+            if (!is_parenchyma(classes[at])) continue;
+            Sum& sum = sums[index(i / block_.x, j / block_.y, z)];
+            sum.hu += std::clamp<int>(volume.hu[at], static_cast<int>(kLeastHu), static_cast<int>(kMostHu));
+            ++sum.count;
+          }
+    });
+    for (int axis = 0; axis < 3; ++axis) spread(sums, axis);
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      mean_[i] = sums[i].count > 0 ? static_cast<float>(sums[i].hu) / static_cast<float>(sums[i].count) : 0.0F;
+  }
+  double mean_hu(int i, int j, int k) const {
+    return static_cast<double>(mean_[index(i / block_.x, j / block_.y, k / block_.z)]);
+  }
+
+ private:
+  std::size_t index(int x, int y, int z) const {
+    return static_cast<std::size_t>(x) +
+           static_cast<std::size_t>(size_.x) *
+               (static_cast<std::size_t>(y) + static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(z));
+  }
+  // Each block becomes the sum of those to both sides along one axis.
+  void spread(std::vector<Sum>& sums, int axis) const {
+    const std::vector<Sum> from = sums;
+    glm::ivec3 at;
+    for (at.z = 0; at.z < size_.z; ++at.z)
+      for (at.y = 0; at.y < size_.y; ++at.y)
+        for (at.x = 0; at.x < size_.x; ++at.x) {
+          Sum sum;
+          glm::ivec3 other = at;
+          const int low = std::max(0, at[axis] - kAroundBlocks),
+                    high = std::min(size_[axis] - 1, at[axis] + kAroundBlocks);
+          for (other[axis] = low; other[axis] <= high; ++other[axis]) {
+            const Sum& one = from[index(other.x, other.y, other.z)];
+            sum.hu += one.hu;
+            sum.count += one.count;
+          }
+          sums[index(at.x, at.y, at.z)] = sum;
+        }
+  }
+
+  glm::ivec3 block_, size_;
+  std::vector<float> mean_;
+};
+
+// Share of parenchyma's surroundings that are denser than plain CT knows.
+bool is_enhanced(const volume::Volume& volume, std::span<const TissueClass> classes,
+                 const Surroundings& surroundings) {
+  std::size_t dense = 0, all = 0;
+  for (int k = 0; k < volume.size_voxels.z; ++k)
+    for (int j = 0; j < volume.size_voxels.y; j += 4)
+      for (int i = 0; i < volume.size_voxels.x; i += 4)
+        if (is_parenchyma(classes[static_cast<std::size_t>(volume.index(i, j, k))])) {
+          ++all;
+          if (surroundings.mean_hu(i, j, k) > kPlainMostHu) ++dense;
+        }
+  return static_cast<double>(dense) > kEnhancedShare * static_cast<double>(all);
+}
+
+double offset_db(double hu, double around_hu, bool enhanced) {
+  // Parenchyma by its surroundings: plain liver 60, spleen 50, kidney 30; enhanced liver and spleen about 110,
+  // kidney above 140, muscle 60.
+  const double organ = enhanced ? (around_hu < 85.0 ? -2.0 : 2.0 - 0.1 * std::max(0.0, around_hu - 125.0))
+                                : 0.3 * (around_hu - 50.0);
+  const double apart = enhanced ? hu - around_hu : around_hu - hu;
+  const double vessel = std::clamp((apart - kVesselFromHu) / (kVesselFullHu - kVesselFromHu), 0.0, 1.0);
+  return std::clamp(organ, -7.0, 3.0) + vessel * kVesselDb;
+}
+
+}  // namespace
+
+const std::array<float, 256>& echo_offset_amplitudes() {
+  static const auto kTable = [] {
+    std::array<float, 256> table;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      table[i] = static_cast<float>(std::pow(10.0, echo_offset_db(static_cast<std::uint8_t>(i)) / 20.0));
+    return table;
+  }();
+  return kTable;
+}
+
+std::vector<std::uint8_t> echogenicity(const volume::Volume& volume, std::span<const volume::TissueClass> classes,
+                                       int threads) {
+  CHECK(classes.size() == volume.hu.size());
+  const Surroundings surroundings(volume, classes, threads);
+  const bool enhanced = is_enhanced(volume, classes, surroundings);
+  const glm::ivec3 n = volume.size_voxels;
+  const glm::ivec3 reach = glm::ivec3(glm::floor(kSmoothMm / volume.spacing_mm + 0.5));
+  std::vector<std::uint8_t> levels(classes.size(), kNoEchoOffset);
+  base::over_rows(n.z, threads, [&](int k) {
+    for (int j = 0; j < n.y; ++j)
+      for (int i = 0; i < n.x; ++i) {
+        const auto at = static_cast<std::size_t>(volume.index(i, j, k));
+        if (classes[at] != TissueClass::soft_tissue) continue;
+        Sum sum;
+        for (int z = std::max(0, k - reach.z); z <= std::min(n.z - 1, k + reach.z); ++z)
+          for (int y = std::max(0, j - reach.y); y <= std::min(n.y - 1, j + reach.y); ++y)
+            for (int x = std::max(0, i - reach.x); x <= std::min(n.x - 1, i + reach.x); ++x) {
+              const auto other = static_cast<std::size_t>(volume.index(x, y, z));
+              if (!is_parenchyma(classes[other])) continue;
+              sum.hu += volume.hu[other];
+              ++sum.count;
+            }
+        const double hu =
+            std::clamp(static_cast<double>(sum.hu) / static_cast<double>(sum.count), kLeastHu, kMostHu);
+        const double db = offset_db(hu, surroundings.mean_hu(i, j, k), enhanced);
+        levels[at] = static_cast<std::uint8_t>(kNoEchoOffset + static_cast<int>(std::lround(db / kEchoStepDb)));
+      }
+  });
+  return levels;
+}
+
+}  // namespace seldinger::imaging

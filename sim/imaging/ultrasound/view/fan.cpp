@@ -1,0 +1,88 @@
+#include "sim/imaging/ultrasound/view/fan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shaders/shared/ultrasound.glsl.h"
+#include "sim/base/check.h"
+#include "sim/base/exact_math.h"
+#include "sim/base/vectors.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+
+namespace seldinger::imaging {
+
+glm::dvec3 Fan::direction(double beam) const noexcept {
+  if (!curved) return axial;
+  const double angle = first_beam + beam * beam_step;
+  return base::exact_cos(angle) * axial + base::exact_sin(angle) * lateral;
+}
+
+glm::dvec3 Fan::start_lps_mm(double beam) const noexcept {
+  if (!curved) return origin_lps_mm + (first_beam + beam * beam_step) * lateral;
+  return origin_lps_mm + radius_mm * (direction(beam) - axial);
+}
+
+double Fan::beam_spacing_mm(double depth_mm) const noexcept {
+  return curved ? beam_step * (radius_mm + depth_mm) : beam_step;
+}
+
+Fan fan_of(const UltrasoundView& view) noexcept {
+  Fan fan{};
+  fan.curved = view.probe.radius_mm > 0.0;
+  fan.radius_mm = view.probe.radius_mm;
+  const double face = view.probe.elements * view.probe.pitch_mm / (fan.curved ? fan.radius_mm : 1.0);
+  fan.beam_step = face / view.beams;
+  fan.first_beam = -0.5 * (view.beams - 1) * fan.beam_step;
+  fan.sample_mm = view.depth_mm / view.samples;
+  fan.origin_lps_mm = view.origin_lps_mm;
+  fan.axial = view.axial;
+  fan.lateral = view.lateral;
+  fan.elevation = glm::cross(view.axial, view.lateral);
+  return fan;
+}
+
+bool is_shown(const cases::Lesion& lesion) noexcept {
+  return base::is_finite(lesion.center_lps_mm) && lesion.radius_mm > 0.0 && !lesion.in_volume();
+}
+
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept {
+  if (depth_below_skin_mm.empty()) return true;
+  const double last = static_cast<double>(depth_below_skin_mm.size() - 1);
+  const auto element =
+      static_cast<std::size_t>(std::clamp((beam + 0.5) * view.probe.elements / view.beams, 0.0, last));
+  return depth_below_skin_mm[element] >= static_cast<float>(-kContactMm);
+}
+
+TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
+  CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
+  CHECK(inserted.lesions.size() <= kMaxLesions);
+  for (const cases::Lesion& lesion : inserted.lesions)
+    if (is_shown(lesion))
+      lesions_.push_back({lesion.center_lps_mm, lesion.radius_mm * lesion.radius_mm, tissue_of_lesion(lesion.hu)});
+  const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
+  a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;
+  const glm::ivec3 n = tissue.volume->size_voxels;
+  nx_ = n.x, ny_ = n.y, nz_ = n.z;
+  row_ = n.x;
+  slice_ = row_ * n.y;
+  classes_ = tissue.classes.data();
+  CHECK(tissue.echogenicity.empty() || tissue.echogenicity.size() == tissue.classes.size());
+  echogenicity_ = tissue.echogenicity.empty() ? nullptr : tissue.echogenicity.data();
+  amplitude_ = speckle_amplitudes();
+  offset_ = echo_offset_amplitudes().data();
+}
+
+glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept {
+  const Fan fan = fan_of(view);
+  return fan.start_lps_mm(beam) + depth_mm * fan.direction(beam);
+}
+
+BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept {
+  const Fan fan = fan_of(view);
+  if (!fan.curved) return {(x_mm - fan.first_beam) / fan.beam_step, z_mm};
+  const double half = base::exact_atan(shaders::us_half_tangent(x_mm, z_mm, fan.radius_mm));
+  return {(2.0 * half - fan.first_beam) / fan.beam_step, shaders::us_from_face_mm(x_mm, z_mm, fan.radius_mm)};
+}
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,82 @@
+// Where the beams of a view lie: side by side from a straight face, or fanned from the centre of a curved one. The
+// tissue that points are in, with what is inserted.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "sim/imaging/ultrasound/view/ultrasound.h"
+
+namespace seldinger::imaging {
+
+struct Fan {
+  bool curved;
+  double radius_mm;   // 0 for a straight face
+  double beam_step;   // between beams: radians, or mm for a straight face
+  double first_beam;  // of beam 0, same unit
+  double sample_mm;
+  glm::dvec3 origin_lps_mm, axial, lateral, elevation;
+
+  glm::dvec3 direction(double beam) const noexcept;
+  glm::dvec3 start_lps_mm(double beam) const noexcept;  // on the face
+  double beam_spacing_mm(double depth_mm) const noexcept;
+};
+Fan fan_of(const UltrasoundView& view) noexcept;
+
+bool is_shown(const cases::Lesion& lesion) noexcept;  // drawn over the volume: finite, with a radius
+// Whether the element in the middle of a beam's aperture is in contact; `beam` is continuous. An empty list: all
+// are.
+bool beam_touches(const UltrasoundView& view, std::span<const float> depth_below_skin_mm, double beam) noexcept;
+
+// Tissue at points; outside the volume there is air.
+class TissueAt {
+ public:
+  TissueAt(const TissueVolume& tissue, const Inserted& inserted);
+  volume::TissueClass operator()(const glm::dvec3& p_lps_mm) const noexcept {
+    if (const Sphere* s = lesion_at(p_lps_mm)) return s->tissue;
+    const std::int64_t at = voxel_at(p_lps_mm);
+    return at < 0 ? volume::TissueClass::air : classes_[at];
+  }
+  // Amplitude of the speckle, 1 for liver.
+  float speckle(const glm::dvec3& p_lps_mm) const noexcept {
+    if (const Sphere* s = lesion_at(p_lps_mm)) return amplitude_[static_cast<std::size_t>(s->tissue)];
+    const std::int64_t at = voxel_at(p_lps_mm);
+    if (at < 0) return amplitude_[static_cast<std::size_t>(volume::TissueClass::air)];
+    const float of_class = amplitude_[static_cast<std::size_t>(classes_[at])];
+    return echogenicity_ == nullptr ? of_class : of_class * offset_[echogenicity_[at]];
+  }
+
+ private:
+  struct Sphere {
+    glm::dvec3 center_lps_mm;
+    double radius_2;
+    volume::TissueClass tissue;
+  };
+  const Sphere* lesion_at(const glm::dvec3& p_lps_mm) const noexcept {
+    for (const Sphere& s : lesions_) {
+      const glm::dvec3 d = p_lps_mm - s.center_lps_mm;
+      if (d.x * d.x + d.y * d.y + d.z * d.z <= s.radius_2) return &s;
+    }
+    return nullptr;
+  }
+  // −1 outside.
+  std::int64_t voxel_at(const glm::dvec3& p_lps_mm) const noexcept {
+    const double i = a_.x * p_lps_mm.x + b_.x * p_lps_mm.y + c_.x * p_lps_mm.z + d_.x;
+    const double j = a_.y * p_lps_mm.x + b_.y * p_lps_mm.y + c_.y * p_lps_mm.z + d_.y;
+    const double k = a_.z * p_lps_mm.x + b_.z * p_lps_mm.y + c_.z * p_lps_mm.z + d_.z;
+    if (!(i >= 0.0 && j >= 0.0 && k >= 0.0 && i < nx_ && j < ny_ && k < nz_)) return -1;
+    return static_cast<std::int64_t>(i) + row_ * static_cast<std::int64_t>(j) +
+           slice_ * static_cast<std::int64_t>(k);
+  }
+
+  std::vector<Sphere> lesions_;
+  glm::dvec3 a_, b_, c_, d_;  // columns of index + ½ from LPS: truncation is the nearest voxel
+  double nx_, ny_, nz_;
+  std::int64_t row_, slice_;
+  const volume::TissueClass* classes_;
+  const std::uint8_t* echogenicity_;
+  std::array<float, volume::kTissueClasses> amplitude_;
+  const float* offset_;
+};
+
+}  // namespace seldinger::imaging

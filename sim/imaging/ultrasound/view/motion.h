@@ -1,0 +1,122 @@
+// What an ultrasound picture needs of tissue that moves: where the tissue along its beams was at rest, and where
+// the scatterers about its plane, which are told at rest, are now. Made for each picture of one displacement; a
+// still patient has none of it (docs/decisions/0025).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/tissue/moved_slab.h"
+
+namespace seldinger::imaging {
+
+// A beam's way through tissue at rest. Without nodes tissue lies still, and it is straight.
+class BeamPath {
+ public:
+  BeamPath(const glm::dvec3& start_lps_mm, const glm::dvec3& direction)
+      : start_lps_mm_(start_lps_mm), direction_(direction) {}
+  // How X goes on, a mm, across the beam and out of the plane: what tells which way an interface faces.
+  struct Aside {
+    glm::dvec3 across{0.0}, out{0.0};
+  };
+  // At nodes evenly down the beam, `per_mm` of them. `aside` may be empty where no interface is asked for.
+  BeamPath(const glm::dvec3& start_lps_mm, const glm::dvec3& direction, std::vector<glm::dvec3> back_mm,
+           std::vector<Aside> aside, double per_mm)
+      : start_lps_mm_(start_lps_mm),
+        direction_(direction),
+        back_mm_(std::move(back_mm)),
+        aside_(std::move(aside)),
+        per_mm_(per_mm) {}
+
+  // Cosine of the angle between the beam and an interface's normal, which is told at rest.
+  double facing(double depth_mm, const glm::dvec3& normal) const noexcept;
+
+  // X of the tissue at a depth.
+  glm::dvec3 at(double depth_mm) const noexcept {
+    const glm::dvec3 p = start_lps_mm_ + depth_mm * direction_;
+    if (back_mm_.empty()) return p;
+    const double nodes = depth_mm * per_mm_;
+    const std::size_t node = node_at(nodes);
+    return p + back_mm_[node] + (nodes - static_cast<double>(node)) * (back_mm_[node + 1] - back_mm_[node]);
+  }
+  // How X goes on with depth, mm a mm.
+  glm::dvec3 along(double depth_mm) const noexcept {
+    if (back_mm_.empty()) return direction_;
+    const std::size_t node = node_at(depth_mm * per_mm_);
+    return direction_ + per_mm_ * (back_mm_[node + 1] - back_mm_[node]);
+  }
+
+ private:
+  std::size_t node_at(double nodes) const noexcept {
+    return nodes > 0.0 ? std::min(static_cast<std::size_t>(nodes), back_mm_.size() - 2) : 0;
+  }
+  glm::dvec3 start_lps_mm_, direction_;
+  std::vector<glm::dvec3> back_mm_;  // X − x
+  std::vector<Aside> aside_;
+  double per_mm_ = 0.0;  // nodes
+};
+
+// The way back for all of a picture: X − x at nodes of beams and depths, between them straight in either.
+class RestFan {
+ public:
+  // rest_of(x, guess) → X. `beside`: beams beyond the first and the last that are asked for, too.
+  using RestOf = std::function<glm::dvec3(const glm::dvec3& at_lps_mm, const glm::dvec3& guess_lps_mm)>;
+  RestFan(const UltrasoundView& view, double spacing_mm, double beside, const RestOf& rest_of);
+
+  glm::dvec3 rest_of(double beam, double depth_mm) const noexcept;
+  BeamPath path(double beam) const;  // without Asides
+  std::vector<glm::dvec3> back_of(double beam) const;
+  glm::dvec3 start_lps_mm(double beam) const noexcept { return fan_.start_lps_mm(beam); }
+  glm::dvec3 direction(double beam) const noexcept { return fan_.direction(beam); }
+
+  // Node d of row r is at beam beam_of(r), d / depths_per_mm() deep: back_mm()[r · depths() + d].
+  int rows() const noexcept { return rows_; }
+  int depths() const noexcept { return depths_; }
+  double beam_of(int row) const noexcept { return first_beam_ + row / rows_per_beam_; }
+  double depths_per_mm() const noexcept { return depths_per_mm_; }
+  std::span<const glm::dvec3> back_mm() const noexcept { return back_mm_; }
+
+  // The rows beside a beam: this one and the next, `part` of the way between them.
+  struct Between {
+    int row;
+    double part;
+  };
+  Between between(double beam) const noexcept;
+
+ private:
+  Fan fan_;
+  int rows_, depths_;  // nodes
+  double first_beam_, rows_per_beam_, depths_per_mm_;
+  std::vector<glm::dvec3> back_mm_;
+};
+
+class PictureMotion {
+ public:
+  PictureMotion(const UltrasoundView& view, const tissue::Displacement& displacement);
+
+  const tissue::MovedSlab& slab() const noexcept { return slab_; }
+  BeamPath path(double beam) const;
+
+  // For a shader that does the same: for each beam its nodes, X − x, then across and out of the plane (Aside).
+  int path_nodes() const noexcept { return fan_.depths(); }
+  double nodes_per_mm() const noexcept { return fan_.depths_per_mm(); }
+  void append_path(double beam, std::vector<glm::vec4>& list) const;
+
+ private:
+  std::vector<BeamPath::Aside> aside_of(double beam) const;
+
+  tissue::MovedSlab slab_;
+  RestFan fan_;
+  std::vector<BeamPath::Aside> aside_;  // at the fan's nodes
+};
+
+// Nothing where nothing moves.
+std::optional<PictureMotion> motion_of(const UltrasoundView& view, const tissue::Displacement& displacement);
+
+inline BeamPath path_of(const Fan& fan, const PictureMotion* motion, double beam) {
+  return motion == nullptr ? BeamPath(fan.start_lps_mm(beam), fan.direction(beam)) : motion->path(beam);
+}
+
+}  // namespace seldinger::imaging

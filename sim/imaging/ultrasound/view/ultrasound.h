@@ -1,0 +1,164 @@
+// Ultrasound: what a probe on the skin shows of the CT. Everything up to the envelope is polar, one line of samples
+// a beam; every stage is a function of its beam alone, so threads share the beams and the picture has the same bits
+// for any number of them.
+//
+// Order: tissue along the beam → two-way loss (a prefix sum in dB) → scatterers on a lattice in tissue coordinates
+// under a beam whose width depends on depth → echoes of interfaces and needle → pulse on the complex baseband →
+// envelope; then noise, gain, logarithm against a fixed reference, scan conversion, grey. Not modelled: refraction,
+// compounding, persistence.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sim/imaging/inserted.h"
+#include "sim/imaging/ultrasound/view/probe.h"
+#include "sim/imaging/ultrasound/view/tissue.h"
+#include "sim/tissue/displacement.h"
+#include "sim/volume/volume.h"
+
+namespace seldinger::imaging {
+
+// How speckle comes about. scatterers: convolved with the beam, the picture that is practised with. lattice:
+// complex noise, fast, its resolution is the lattice's. thesis: what Vidal 2008 §4.6 did, to be compared with:
+// windowed HU times noise, shadows by thresholds, edges by Sobel; no attenuation, no needle's angle.
+enum class UltrasoundMethod { scatterers, lattice, thesis };
+
+struct UltrasoundView {
+  UltrasoundMethod method = UltrasoundMethod::scatterers;
+  Probe probe = kC52v;
+  glm::dvec3 origin_lps_mm{0.0};                  // centre of the transducer's face
+  glm::dvec3 axial{0.0, 1.0, 0.0};                // unit, into the body
+  glm::dvec3 lateral{1.0, 0.0, 0.0};              // unit, towards the last beam
+  double depth_mm = 150.0;                        // > 0
+  double frequency_mhz = 0.0;                     // 0: the probe's
+  double focus_mm = 0.0;                          // of the transmitted beam; 0: in focus at every depth
+  int beams = 128, samples = 1024;                // ≥ 1
+  std::uint64_t seed = 1;                         // of the tissue's scatterers
+  double scatterers_per_cell = 8.0;               // in the volume of one PSF: quality against time
+  std::optional<double> attenuation_db_cm_mhz{};  // of every soft class
+  bool echogenic_needle = false;
+  bool range_error = false;  // tissue shows deeper or shallower than it lies, by the speed of sound above it
+  int threads = 0;           // 0: as many as cores
+};
+
+// The tissue a picture is taken of. Both outlive the picture-taker.
+struct TissueVolume {
+  const volume::Volume* volume = nullptr;
+  std::span<const volume::TissueClass> classes;     // of every voxel, in the volume's order
+  std::span<const std::uint8_t> echogenicity = {};  // as echogenicity.h makes it; empty: classes alone
+};
+
+// Envelope, linear: 1 is the root mean square of the speckle of liver at the face, at every depth without loss.
+// Sample k of beam b, at (k + ½)·depth/samples from the face, is envelope[b·samples + k].
+struct PolarPicture {
+  int beams = 0, samples = 0;
+  std::vector<float> envelope;
+};
+
+// depth_below_skin_mm: one signed depth an element; an element below −kContactMm stands in air. Empty: all touch.
+constexpr double kContactMm = 1.0;
+
+// `inserted`: lesions take the tissue of their HU; the needle scatters nothing, casts a weak shadow and sends its
+// own echo. NaN or infinite poses: no needle. CHECKs the view. `picture`'s buffers are used again.
+// `displacement`: of a patient who moves; tissue, its speckle and lesions are where it puts them, needle and probe
+// where they are. Without sources no code of it runs.
+void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
+                      std::span<const float> depth_below_skin_mm, PolarPicture& picture,
+                      const tissue::Displacement& displacement = {});
+
+// contracts.md's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below kLeastDb.
+constexpr float kLeastDb = -200.0F;
+float level_db_of(float amplitude) noexcept;
+std::vector<float> polar_db(const PolarPicture& picture);
+
+// The receiver's own noise, on complex samples: what ends penetration. 120 dB of receiver below a mirror 61 dB
+// above liver (line.h): liver of 0.5 dB/cm/MHz drowns at 17 cm at 3.6 MHz and at 8 cm at 7.6. For the screen only;
+// a frozen picture keeps its `frame`. Same seed, frame and picture: same bits.
+constexpr double kReceiverNoiseDb = -60.0;
+void add_receiver_noise(std::uint64_t seed, std::uint64_t frame, PolarPicture& picture);
+
+// From a share of the dynamic range to a share of white: as it is, dark parts lifted, or middle greys spread.
+enum class GreyMap { linear, lifted, contrast };
+
+// How the console is set.
+struct UltrasoundKnobs {
+  double gain_db = 0.0;
+  double dynamic_range_db = 60.0;  // > 0
+  std::array<double, 8> tgc_db{};  // from the face to the depth
+  GreyMap grey_map = GreyMap::linear;
+  bool flip = false;  // left for right
+};
+
+// Of each grey of the linear map.
+std::array<unsigned char, 256> grey_table(GreyMap map) noexcept;
+
+// White is this much above the liver's speckle, so that liver is a middle grey.
+constexpr double kWhiteDb = 25.0;
+// What the scanner itself adds for depth, as if all were liver: with all sliders at 0 liver is even.
+constexpr double kAssumedAttenuationDbCmMhz = 0.5;
+
+// What gain, sliders and scanner add at a depth, dB.
+double display_gain_db(const UltrasoundView& view, const UltrasoundKnobs& knobs, double depth_mm) noexcept;
+
+struct DisplaySize {
+  int width_px = 800, height_px = 700;
+  double pixel_mm = 0.0;  // 0: the smallest at which the whole field fits
+};
+
+// top_mm ≤ 0: the sides of a curved face lie above its centre.
+struct Screen {
+  double pixel_mm, top_mm;
+};
+Screen screen_of(const UltrasoundView& view, DisplaySize size) noexcept;
+
+// From polar to the screen. Pixel (c, r) shows the point x = (c − (width − 1)/2)·pixel across (flipped: −x) and
+// z = top + (r + ½)·pixel below the face's centre. Built once for a probe, depth and size.
+class ScanConverter {
+ public:
+  ScanConverter(const UltrasoundView& view, DisplaySize size);
+  int width_px() const noexcept { return size_.width_px; }
+  int height_px() const noexcept { return size_.height_px; }
+  double pixel_mm() const noexcept { return screen_.pixel_mm; }
+  double top_mm() const noexcept { return screen_.top_mm; }
+
+  // Grey, 0 outside the field; the envelope is interpolated, then its logarithm taken. NaN shows as 255.
+  void grey(const UltrasoundView& view, const UltrasoundKnobs& knobs, const PolarPicture& polar,
+            std::vector<unsigned char>& grey) const;
+
+  // As polar_db, in the place of grey, never flipped; −200 outside the field.
+  std::vector<float> envelope_db(const PolarPicture& polar) const;
+
+ private:
+  struct Source {
+    std::int32_t at = -1;  // of the sample before in the beam before; −1: outside the field
+    std::uint16_t beam_65536 = 0, sample_65536 = 0;
+    float down() const noexcept { return static_cast<float>(sample_65536) * (1.0F / 65536.0F); }
+    // The envelope between two beams and two samples.
+    float level(const float* envelope, int samples) const noexcept {
+      const float* near = envelope + at;
+      const float* far = near + samples;
+      const float across = static_cast<float>(beam_65536) * (1.0F / 65536.0F);
+      const float above = near[0] + across * (far[0] - near[0]), below = near[1] + across * (far[1] - near[1]);
+      return above + down() * (below - above);
+    }
+  };
+  DisplaySize size_;
+  int beams_, samples_;
+  Screen screen_;
+  std::vector<Source> sources_;
+};
+
+// Where polar coordinates lie. `beam` is continuous, 0 the first's axis.
+glm::dvec3 point_of(const UltrasoundView& view, double beam, double depth_mm) noexcept;
+// x across and z below the face's centre, in the picture's plane → beam and depth.
+struct BeamAndDepth {
+  double beam, depth_mm;
+};
+BeamAndDepth beam_and_depth(const UltrasoundView& view, double x_mm, double z_mm) noexcept;
+
+}  // namespace seldinger::imaging

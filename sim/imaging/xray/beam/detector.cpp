@@ -1,0 +1,134 @@
+#include "sim/imaging/xray/beam/detector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "sim/base/check.h"
+#include "sim/base/exact_math.h"
+#include "sim/imaging/float_math.h"
+#include "sim/imaging/xray/beam/attenuation.h"
+
+namespace seldinger::imaging {
+namespace {
+
+using base::exact_exp, base::exact_log;
+
+constexpr double kLowestSeenKev = 20.0;  // photons below do not pass a patient, and attenuation.h begins here
+constexpr double kCalibrationWaterMm = 200.0;
+
+// Steps of the table: the curvature of log share is the spectrum's variance of μ, far greater for mineral.
+constexpr float kWaterStepMm = 5.0F, kMineralStepMm = 1.0F;
+constexpr int kWaterPoints = 121, kMineralPoints = 201;
+constexpr std::size_t kMaxBins = 160;
+
+}  // namespace
+
+BeamSignal::BeamSignal(const Spectrum& spectrum, const Detector& detector) : kv_(spectrum.kv) {
+  double open_signal = 0.0, open_kerma = 0.0;                            // keV/mm², keV cm²/(g mm²)
+  double hard_signal = 0.0, hard_energy_signal = 0.0, hard_kerma = 0.0;  // behind the calibration's water
+  for (std::size_t i = 0; i < spectrum.energy_kev.size(); ++i) {
+    const double energy_kev = spectrum.energy_kev[i], photons = spectrum.photons_per_mas_mm2[i];
+    const double kerma = photons * energy_kev * air_energy_absorption_cm2_g(energy_kev);
+    open_kerma += kerma;
+    if (energy_kev < kLowestSeenKev) continue;
+    const double seen = 1.0 - exact_exp(-detector.csi_mm * detector.packing *
+                                        attenuation_per_mm(Material::caesium_iodide, energy_kev));
+    const Attenuation attenuation = attenuation_at(energy_kev);
+    const double signal = photons * seen * energy_kev;
+    bins_.push_back({signal, attenuation.water_per_mm, attenuation.mineral_per_mm, attenuation.iron_per_mm});
+    const double through = exact_exp(-kCalibrationWaterMm * attenuation.water_per_mm);
+    open_signal += signal;
+    hard_signal += signal * through;
+    hard_energy_signal += signal * energy_kev * through;
+    hard_kerma += kerma * through;
+  }
+  CHECK(open_signal > 0.0 && bins_.size() <= kMaxBins);
+  for (Bin& bin : bins_) {
+    bin.signal /= open_signal;
+    const double members[4] = {bin.signal, bin.water_per_mm, bin.mineral_per_mm, bin.iron_per_mm};
+    for (std::size_t i = 0; i < 4; ++i) float_bins_[i].push_back(static_cast<float>(members[i]));
+  }
+  while (float_bins_[0].size() % 4 != 0) {  // of no signal, so that four are added at a time
+    float_bins_[0].push_back(0.0F);
+    for (std::size_t i = 1; i < 4; ++i) float_bins_[i].push_back(float_bins_[i].back());
+  }
+  // Adding up energies, a detector's noise is that of this many quanta of equal energy.
+  const double quantum_kev = hard_energy_signal / hard_signal / detector.swank;
+  open_quanta_ = open_signal / quantum_kev;
+  constexpr double kMgyPerKevCm2 = 100.0 * 1000.0 * 1.602176634e-16 * 1000.0;  // as in air_kerma_mgy_per_mas
+  open_kerma_mgy_ = open_kerma * kMgyPerKevCm2;
+  kerma_per_share_ = hard_kerma * kMgyPerKevCm2 / (hard_signal / open_signal);
+
+  // exp(−μw)·exp(−μm) by bin: one product of two small matrices instead of an exponential per entry and bin.
+  std::vector<double> through_water(bins_.size() * kWaterPoints);
+  std::array<double, kWaterPoints> row;
+  for (std::size_t bin = 0; bin < bins_.size(); ++bin)
+    for (std::size_t i = 0; i < kWaterPoints; ++i)
+      through_water[bin * kWaterPoints + i] =
+          bins_[bin].signal * exact_exp(-bins_[bin].water_per_mm * kWaterStepMm * static_cast<double>(i));
+  table_.resize(static_cast<std::size_t>(kWaterPoints) * kMineralPoints + 1);  // x may round up to the last point
+  for (std::size_t j = 0; j < kMineralPoints; ++j) {
+    row.fill(0.0);
+    for (std::size_t bin = 0; bin < bins_.size(); ++bin) {
+      const double through = exact_exp(-bins_[bin].mineral_per_mm * kMineralStepMm * static_cast<double>(j));
+      for (std::size_t i = 0; i < kWaterPoints; ++i) row[i] += through * through_water[bin * kWaterPoints + i];
+    }
+    for (std::size_t i = 0; i < kWaterPoints; ++i)
+      table_[j * kWaterPoints + i] = static_cast<float>(exact_log(row[i]));
+  }
+}
+
+// All three weaken the less the higher the energy is, so the last bin is weakened least. It is taken out of the
+// sum, which so keeps its digits behind anything.
+double BeamSignal::log_share(double water_mm, double mineral_mm, double iron_mm) const {
+  const double water = std::max(water_mm, 0.0), mineral = std::max(mineral_mm, 0.0), iron = std::max(iron_mm, 0.0);
+  const auto exponent = [&](const Bin& bin) {
+    return bin.water_per_mm * water + bin.mineral_per_mm * mineral + bin.iron_per_mm * iron;
+  };
+  const double least = exponent(bins_.back());
+  double sum = 0.0;
+  for (const Bin& bin : bins_) sum += bin.signal * exact_exp(least - exponent(bin));
+  return exact_log(sum) - least;
+}
+
+float BeamSignal::log_share_in_float(float water_mm, float mineral_mm, float iron_mm) const {
+  const std::size_t bins = float_bins_[0].size();
+  const float* signal = float_bins_[0].data();
+  const float* water = float_bins_[1].data();
+  const float* mineral = float_bins_[2].data();
+  const float* iron = float_bins_[3].data();
+  const float least = water[bins - 1] * water_mm + mineral[bins - 1] * mineral_mm + iron[bins - 1] * iron_mm;
+  std::array<float, kMaxBins> shares;
+  for (std::size_t i = 0; i < bins; ++i)
+    shares[i] = signal[i] * float_exp(least - (water[i] * water_mm + mineral[i] * mineral_mm + iron[i] * iron_mm));
+  float sums[4] = {0.0F, 0.0F, 0.0F, 0.0F};
+  for (std::size_t i = 0; i < bins; i += 4)
+    for (std::size_t lane = 0; lane < 4; ++lane) sums[lane] += shares[i + lane];
+  return float_log((sums[0] + sums[1]) + (sums[2] + sums[3])) - least;
+}
+
+void BeamSignal::log_shares(const float* water_mm, const float* mineral_mm, const float* iron_mm, int count,
+                            float* out) const {
+  const float* table = table_.data();
+  for (int i = 0; i < count; ++i) {
+    const float water = std::max(water_mm[i], 0.0F),
+                mineral = mineral_mm == nullptr ? 0.0F : std::max(mineral_mm[i], 0.0F);
+    const bool in_table =
+        water < static_cast<float>(kTableWaterMm) && mineral < static_cast<float>(kTableMineralMm);
+    if (!in_table || (iron_mm != nullptr && iron_mm[i] > 0.0F)) {
+      out[i] = log_share_in_float(water, mineral, iron_mm == nullptr ? 0.0F : std::max(iron_mm[i], 0.0F));
+      continue;
+    }
+    const float x = water * (1.0F / kWaterStepMm), y = mineral * (1.0F / kMineralStepMm);
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const float u = x - static_cast<float>(column), v = y - static_cast<float>(row);
+    const float* cell = table + row * kWaterPoints + column;
+    const float upper = cell[0] + u * (cell[1] - cell[0]);
+    const float lower = cell[kWaterPoints] + u * (cell[kWaterPoints + 1] - cell[kWaterPoints]);
+    out[i] = upper + v * (lower - upper);
+  }
+}
+
+}  // namespace seldinger::imaging

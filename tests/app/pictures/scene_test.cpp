@@ -1,0 +1,46 @@
+// What a scene file may name as its volume.
+#include "app/pictures/scene.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/volume/phantom.h"
+
+namespace seldinger::app {
+namespace {
+
+TEST(Scene, NamesTheBuiltInTorso) {
+  std::vector<std::string> unused;
+  const auto scene = scene_from_json(R"({"volume": {"built_in": "torso"}})", ".", unused);
+  ASSERT_TRUE(scene.has_value()) << scene.error().text;
+  EXPECT_TRUE(unused.empty());
+  const auto volume = volume_of(*scene, "");
+  ASSERT_TRUE(volume.has_value());
+  const volume::Phantom torso = volume::make_phantom();
+  EXPECT_EQ(volume->size_voxels, torso.volume.size_voxels);
+  EXPECT_EQ(volume->lps_from_voxel, torso.volume.lps_from_voxel);
+  EXPECT_EQ(volume->hu, torso.volume.hu);
+  // Classes come from its labels: HU alone cannot tell liver from spleen.
+  const auto classes = classes_of(*scene, *volume, "");
+  ASSERT_TRUE(classes.has_value());
+  const auto class_at = [&](const glm::dvec3& p_lps_mm) {
+    const glm::dvec3 at = glm::dvec3(volume::voxel_from_lps(*volume) * glm::dvec4(p_lps_mm, 1.0)) + 0.5;
+    return (*classes)[volume->index(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
+  };
+  EXPECT_EQ(class_at({-100.0, 0.0, 10.0}), volume::TissueClass::liver);
+  EXPECT_EQ(class_at({104.0, 34.0, 58.0}), volume::TissueClass::spleen);
+  EXPECT_EQ(class_at({0.0, 39.0, 3.0}), volume::TissueClass::bone);
+}
+
+TEST(Scene, RefusesWhatIsNotBuiltIn) {
+  std::vector<std::string> unused;
+  for (const char* text : {R"({"volume": {"built_in": "head"}})", R"({"volume": {"built_in": 1}})"}) {
+    const auto scene = scene_from_json(text, ".", unused);
+    ASSERT_FALSE(scene.has_value()) << text;
+    EXPECT_EQ(scene.error().code, "bad_scene");
+    EXPECT_NE(scene.error().text.find("volume.built_in"), std::string::npos) << scene.error().text;
+  }
+  EXPECT_FALSE(scene_from_json(R"({"volume": {}})", ".", unused).has_value());
+}
+
+}  // namespace
+}  // namespace seldinger::app

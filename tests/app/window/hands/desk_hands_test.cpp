@@ -1,0 +1,82 @@
+// Tests of app/window/hands/desk_hands: a simulated arm presses a probe on the built-in torso.
+#include "app/window/hands/desk_hands.h"
+
+#include <gtest/gtest.h>
+
+#include "app/device_simulation/haply_simulation.h"
+#include "app/hands/servo_trial.h"
+#include "sim/devices/arms/arm_mapping.h"
+#include "tests/fixtures/until.h"
+
+namespace seldinger::app {
+namespace {
+
+constexpr double kTickS = 0.001;
+
+TEST(DeskHands, AnArmFeelsWhatItsToolPressesOnAndALostOneLeavesItToTheMouse) {
+  const auto torso = torso_under_hands(0.9);
+  ASSERT_TRUE(torso);
+  cases::Case scene = torso->scene;
+  scene.planned_entry_lps_mm = torso->plan.entry_lps_mm;
+  // The needle in the air; the probe 8 mm below the entry, looking down.
+  std::array<SimulatedArm, 2> arms = circling_arms();
+  const glm::dmat3 down({1, 0, 0}, {0, 0, -1}, {0, 1, 0});  // the stylus' z is the device's y: up
+  arms[0].at_mm = [](double) { return glm::dvec3(0.0, devices::kEntryAboveMm - 8.0, 0.0); };
+  arms[0].held = [&](double) { return down; };
+  arms[1].at_mm = [](double) { return glm::dvec3(30.0, devices::kEntryAboveMm + 80.0, 0.0); };
+  arms[1].held = [&](double) { return down; };
+  Arms there;
+  there.place.port = 0;
+  const auto service = HaplySimulation::start(there.place, arms);
+  ASSERT_TRUE(service);
+  there.place.port = (*service)->port();
+
+  const glm::dvec3 up = cases::upwards(scene.position);
+  const glm::dvec3 above = torso->plan.entry_lps_mm + 60.0 * up;
+  const devices::HandsStart start{{above, -up, {0, 0, 1}}, {above + 20.0 * up, -up, {0, 0, 1}}};
+  DeskHands hands(scene, start, {}, haptics::Handedness::right, &there);
+  const engine::Tick whole(scene);
+  engine::TickState now;
+  devices::HandIntent nothing;
+  cases::Inputs inputs;
+  double most_n = 0.0;
+  const auto tick = [&](const devices::HandIntent& intent) {
+    inputs = {};
+    hands.advance(intent, now.state, {}, kTickS, inputs);
+    whole.advance_hands(inputs, {}, now);
+    hands.feel(whole, now, kTickS);
+    most_n = std::max(most_n, (*service)->arm(0).asked_n.y);
+    fixtures::let_pass(kTickS);  // the service's arms move in real time
+  };
+  for (int i = 0; i < 15000 && !(most_n > 0.5); ++i) tick(nothing);
+  EXPECT_GT(most_n, 0.5) << "newtons, upwards";
+  EXPECT_LT((*service)->arm(1).asked_n.y, 0.2) << "in the air there is nothing";
+  EXPECT_FALSE(hands.arms().lost[0]);
+  EXPECT_FALSE(hands.mouse_leads(haptics::Tool::needle));
+
+  (*service)->set({.away = true});
+  for (int i = 0; i < 5000 && !(hands.arms().lost[0] && hands.arms().lost[1]); ++i) tick(nothing);
+  ASSERT_TRUE(hands.arms().lost[0] && hands.arms().lost[1]);
+  const cases::Inputs stayed = inputs;
+  for (int i = 0; i < 50; ++i) tick(nothing);
+  EXPECT_EQ(inputs.needle.position_lps_mm, stayed.needle.position_lps_mm);
+  EXPECT_EQ(inputs.probe.position_lps_mm, stayed.probe.position_lps_mm);
+  devices::HandIntent slide;
+  slide.slide_lps_mm = 0.05 * up;
+  for (int i = 0; i < 100; ++i) tick(slide);
+  EXPECT_NEAR(glm::dot(inputs.needle.position_lps_mm - stayed.needle.position_lps_mm, up), 5.0, 0.01);
+  EXPECT_EQ(inputs.probe.position_lps_mm, stayed.probe.position_lps_mm) << "nobody moved it";
+  // Back: from where it is now.
+  const glm::dvec3 before = inputs.needle.position_lps_mm;
+  (*service)->set({});
+  glm::dvec3 last = before;
+  for (int i = 0; i < 10000 && (hands.arms().lost[0] || hands.arms().lost[1]); ++i) {
+    tick(nothing);
+    ASSERT_LT(glm::length(inputs.needle.position_lps_mm - last), 1.0) << "no jump";
+    last = inputs.needle.position_lps_mm;
+  }
+  EXPECT_FALSE(hands.arms().lost[0]);
+}
+
+}  // namespace
+}  // namespace seldinger::app

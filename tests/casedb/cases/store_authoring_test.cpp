@@ -1,0 +1,466 @@
+// What a mentor makes of a case: it comes back as it went in, only a draft is changed, and what is published stays.
+#include <functional>
+#include <limits>
+
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/structure_json.h"
+#include "casedb/cases/versions.h"
+#include "casedb/people/people.h"
+#include "tests/casedb/library_samples.h"
+#include "tests/fixtures/sound_check.h"
+
+namespace seldinger::casedb {
+namespace {
+
+class AuthoringTest : public testing::Test {
+ protected:
+  std::filesystem::path folder_ = fresh_folder() / "library";
+  Library library_ = open_library(folder_);
+  std::string case_id_ = add_case(library_, sample_case());
+
+  glm::dvec3 middle() const { return sample_lesion().center_lps_mm; }
+  StructureRow drawn(const std::string& name, cases::Shape shape) const {
+    StructureRow row;
+    row.case_id = case_id_;
+    row.name = name;
+    row.tissue = volume::TissueClass::vessel;
+    row.rule = cases::StructureRule::critical;
+    row.drawn = std::move(shape);
+    row.hu = 43.0;
+    return row;
+  }
+  void add_users() {
+    for (const auto& [name, role] : {std::pair{"ann", Role::mentor},
+                                     {"ben", Role::mentor},
+                                     {"dora", Role::director},
+                                     {"adam", Role::admin},
+                                     {"tim", Role::trainee}})
+      static_cast<void>(add_user(library_, name, role, "a password").value());
+  }
+  base::Result<void> publish(const char* by, bool own_cohort) {
+    return publish_case(library_, case_id_, fixtures::sound_check(library_, case_id_), by, own_cohort);
+  }
+  CaseState state() { return find_case(library_, case_id_).value().state; }
+  void refuse(const std::string& sql) {
+    EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(sql); })) << sql;
+  }
+};
+
+std::string code(const base::Result<void>& result) {
+  return result ? "none" : result.error().code;
+}
+std::string code(const base::Result<std::string>& result) {
+  return result ? "none" : result.error().code;
+}
+
+TEST_F(AuthoringTest, LesionsOfEveryShapeComeBack) {
+  cases::LesionForm form;
+  form.kind = cases::LesionKind::ellipsoid;
+  form.center_lps_mm = middle();
+  form.radii_mm = {0.5, 0.75, 1.25};
+  form.hu = -12.5;
+  form.adds = true;
+  form.edge_mm = 0.3;
+  static_cast<void>(add_lesion(library_, case_id_, form).value());
+  form.kind = cases::LesionKind::irregular;
+  form.radii_mm = glm::dvec3(0.9);
+  form.roughness = 0.11;
+  form.seed = 0xfedcba9876543210ULL;
+  static_cast<void>(add_lesion(library_, case_id_, form).value());
+  const auto rows = list_lesions(library_, case_id_);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].form.kind, cases::LesionKind::ellipsoid);
+  EXPECT_TRUE(same_bits(rows[0].form.radii_mm, {0.5, 0.75, 1.25}));
+  EXPECT_NEAR(rows[0].lesion.radius_mm, std::cbrt(0.5 * 0.75 * 1.25), 1e-15);
+  EXPECT_TRUE(rows[0].form.adds);
+  EXPECT_EQ(rows[0].form.edge_mm, 0.3);
+  EXPECT_EQ(rows[1].form.kind, cases::LesionKind::irregular);
+  EXPECT_EQ(rows[1].form.roughness, 0.11);
+  EXPECT_EQ(rows[1].form.seed, 0xfedcba9876543210ULL);
+  for (const auto& [roughness, edge_mm] : {std::pair{0.4, 0.0}, {-0.1, 0.0}, {0.0, 9.0}, {0.0, -1.0}}) {
+    form.roughness = roughness;
+    form.edge_mm = edge_mm;
+    EXPECT_EQ(code(add_lesion(library_, case_id_, form)), "bad_lesion") << roughness << " " << edge_mm;
+  }
+  ASSERT_TRUE(remove_lesion(library_, case_id_, rows[0].lesion_id));
+  EXPECT_EQ(list_lesions(library_, case_id_).size(), 1U);
+  EXPECT_EQ(code(remove_lesion(library_, case_id_, rows[0].lesion_id)), "no_lesion");
+}
+
+TEST_F(AuthoringTest, StructuresComeBackInTheirOrder) {
+  const cases::Shape shapes[] = {cases::Sphere{middle(), 1.5}, cases::Ellipsoid{middle(), {0.1, 2, 3}},
+                                 cases::Tube{{middle(), middle() + glm::dvec3(1.0 / 3.0, 0, 0)}, 0.7}};
+  for (std::size_t i = 0; i < std::size(shapes); ++i)
+    static_cast<void>(add_structure(library_, drawn("s" + std::to_string(i), shapes[i])).value());
+  StructureRow as_ct = drawn("as ct", shapes[0]);
+  as_ct.hu.reset();
+  static_cast<void>(add_structure(library_, as_ct).value());
+  const auto rows = list_structures(library_, case_id_);
+  ASSERT_EQ(rows.size(), 4U);
+  for (std::size_t i = 0; i < std::size(shapes); ++i) {
+    EXPECT_EQ(rows[i].name, "s" + std::to_string(i));
+    EXPECT_EQ(json_of_shape(rows[i].drawn), json_of_shape(shapes[i]));
+    EXPECT_EQ(rows[i].rule, cases::StructureRule::critical);
+    EXPECT_EQ(rows[i].tissue, volume::TissueClass::vessel);
+    EXPECT_EQ(rows[i].hu, 43.0);
+  }
+  EXPECT_TRUE(
+      same_bits(std::get<cases::Tube>(rows[2].drawn).points_lps_mm[1], middle() + glm::dvec3(1.0 / 3.0, 0, 0)));
+  EXPECT_FALSE(rows[3].hu.has_value());
+  EXPECT_EQ(code(add_structure(library_, drawn("s1", shapes[0]))), "name_taken");
+  ASSERT_TRUE(remove_structure(library_, case_id_, "s1"));
+  EXPECT_EQ(code(remove_structure(library_, case_id_, "s1")), "no_structure");
+  EXPECT_EQ(list_structures(library_, case_id_).size(), 3U);
+}
+
+TEST_F(AuthoringTest, WhatIsPutInPlaceKeepsItsIdAndItsOrder) {
+  std::vector<std::string> ids;
+  cases::LesionForm form;
+  form.center_lps_mm = middle();
+  form.radii_mm = glm::dvec3(0.5);
+  for (int i = 0; i < 2; ++i) ids.push_back(add_lesion(library_, case_id_, form).value());
+  LesionRow first = list_lesions(library_, case_id_).front();
+  const std::string first_id = first.lesion_id;
+  first.form.radii_mm = glm::dvec3(0.7);
+  ASSERT_TRUE(put_lesion(library_, first));
+  EXPECT_EQ(list_lesions(library_, case_id_).front().lesion_id, first_id);
+  EXPECT_EQ(list_lesions(library_, case_id_).front().form.radii_mm.x, 0.7);
+  ASSERT_TRUE(remove_lesion(library_, case_id_, first_id));
+  ASSERT_TRUE(put_lesion(library_, first)) << "it comes back";
+  ASSERT_EQ(list_lesions(library_, case_id_).size(), 2U);
+  EXPECT_EQ(list_lesions(library_, case_id_).front().lesion_id, first_id);
+  first.form.radii_mm = glm::dvec3(0.0);
+  EXPECT_EQ(code(put_lesion(library_, first)), "bad_lesion");
+  EXPECT_EQ(list_lesions(library_, case_id_).front().form.radii_mm.x, 0.7);
+
+  for (const char* name : {"one", "two", "three"})
+    static_cast<void>(add_structure(library_, drawn(name, cases::Sphere{middle(), 1.0})).value());
+  StructureRow second = list_structures(library_, case_id_)[1];
+  second.name = "another";
+  second.drawn = cases::Sphere{middle(), 2.0};
+  ASSERT_TRUE(put_structure(library_, second));
+  EXPECT_EQ(list_structures(library_, case_id_)[1].name, "another");
+  second.name = "three";
+  EXPECT_EQ(code(put_structure(library_, second)), "name_taken");
+  EXPECT_EQ(list_structures(library_, case_id_)[1].name, "another") << "a refusal changes nothing";
+  second.name = "another";
+  ASSERT_TRUE(remove_structure(library_, case_id_, "another"));
+  ASSERT_TRUE(put_structure(library_, second));
+  EXPECT_EQ(list_structures(library_, case_id_)[1].structure_id, second.structure_id);
+}
+
+TEST_F(AuthoringTest, StructuresThatAreNotSoundAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(code(add_structure(library_, drawn("", cases::Sphere{middle(), 1.0}))), "bad_structure");
+  EXPECT_EQ(code(add_structure(library_, drawn("a\nb", cases::Sphere{middle(), 1.0}))), "bad_structure");
+  EXPECT_EQ(code(add_structure(library_, drawn("far", cases::Sphere{{5000, 0, 0}, 1.0}))), "bad_structure");
+  for (const double bad : {nan, 0.0, -1.0, 501.0, std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(code(add_structure(library_, drawn("r", cases::Sphere{middle(), bad}))), "bad_geometry") << bad;
+    EXPECT_EQ(code(add_structure(library_, drawn("e", cases::Ellipsoid{middle(), {1, bad, 1}}))), "bad_geometry");
+  }
+  EXPECT_EQ(code(add_structure(library_, drawn("n", cases::Sphere{{nan, 0, 0}, 1.0}))), "bad_geometry");
+  EXPECT_EQ(code(add_structure(library_, drawn("t", cases::Tube{{}, 1.0}))), "bad_geometry");
+  EXPECT_EQ(code(add_structure(library_, drawn("v", cases::VoxelSet{}))), "bad_geometry");
+  StructureRow bright = drawn("b", cases::Sphere{middle(), 1.0});
+  bright.hu = 40000.0;
+  EXPECT_EQ(code(add_structure(library_, bright)), "bad_structure");
+  StructureRow of_class = drawn("c", {});
+  of_class.kind = StructureKind::tissue_class;
+  of_class.tissue = volume::TissueClass::spleen;  // from labels only
+  EXPECT_EQ(code(add_structure(library_, of_class)), "bad_structure");
+  StructureRow label = of_class;
+  label.kind = StructureKind::label;
+  label.label = 1;
+  label.labels_sha256 = std::string(64, '0');
+  EXPECT_EQ(code(add_structure(library_, label)), "bad_structure");
+  EXPECT_TRUE(list_structures(library_, case_id_).empty());
+}
+
+TEST_F(AuthoringTest, GeometryThatIsNoneIsRefused) {
+  for (const char* text :
+       {"", "{", "[]", "null", R"({"kind":"cube"})", R"({"kind":"sphere","center_mm":[0,0],"radius_mm":1})",
+        R"({"kind":"sphere","center_mm":[0,0,"x"],"radius_mm":1})", R"({"kind":"sphere","center_mm":[0,0,0]})",
+        R"({"kind":"tube","points_mm":7,"radius_mm":1})",
+        R"({"kind":"tube","points_mm":[[0,0,1e999]],"radius_mm":1})",
+        R"({"kind":"ellipsoid","center_mm":[0,0,0],"radii_mm":[1,2]})"})
+    EXPECT_EQ(shape_from_json(text).has_value(), false) << text;
+}
+
+TEST_F(AuthoringTest, ALabelMapIsAFileOfTheCase) {
+  volume::LabelMap labels;
+  labels.names = {"none", "gallbladder", "vein"};
+  labels.label.assign(sample_volume().hu.size(), 0);
+  labels.label[7] = labels.label[8] = 2;
+  const std::string sha256 = add_label_map(library_, case_id_, labels).value();
+  EXPECT_EQ(add_label_map(library_, case_id_, labels).value(), sha256) << "twice is once";
+  const auto maps = load_label_maps(library_, find_case(library_, case_id_).value()).value();
+  ASSERT_EQ(maps.size(), 1U);
+  EXPECT_EQ(maps[0].labels.label, labels.label);
+  EXPECT_EQ(maps[0].labels.names, labels.names);
+  StructureRow row = drawn("vein", {});
+  row.kind = StructureKind::label;
+  row.labels_sha256 = sha256;
+  row.label = 1;
+  EXPECT_EQ(code(add_structure(library_, row)), "bad_structure") << "no voxel has it";
+  row.label = 2;
+  EXPECT_EQ(code(add_structure(library_, row)), "none");
+  labels.label.pop_back();
+  EXPECT_EQ(code(add_label_map(library_, case_id_, labels)), "bad_labels");
+  labels.label.push_back(3);
+  EXPECT_EQ(code(add_label_map(library_, case_id_, labels)), "bad_labels");
+}
+
+CaseSetting full_setting() {
+  CaseSetting setting;
+  setting.modality = cases::Modality::ultrasound;
+  setting.further_modalities = {cases::Modality::mpr, cases::Modality::xray};
+  setting.position = cases::PatientPosition::lateral_left;
+  setting.approach = cases::Approach::out_of_plane;
+  setting.instrument = {cases::InstrumentKind::core, 160.5, 0.635, 0.4, 2900.0, 21.5, 17.5, 3.5};
+  setting.clinic = {1.3, 187.0, "latex", "lesion of the liver", true};
+  setting.planned_entry_lps_mm = glm::dvec3(1.0 / 3.0, -2.0, 3e-3);
+  setting.difficulty = Difficulty::hard;
+  setting.time_limit_s = 300.5;
+  setting.attempt_limit = 5;
+  setting.rule.criteria = {{"core_in_target", 1, assessment::Comparison::at_least, 10.25, false},
+                           {"skin_punctures", 2, assessment::Comparison::at_most, 1.0, true}};
+  return setting;
+}
+
+TEST_F(AuthoringTest, TheSettingComesBack) {
+  const CaseSetting setting = full_setting();
+  ASSERT_TRUE(set_setting(library_, case_id_, setting));
+  const CaseRow row = find_case(library_, case_id_).value();
+  EXPECT_EQ(row.modality, setting.modality);
+  EXPECT_EQ(row.further_modalities, setting.further_modalities);
+  EXPECT_EQ(row.position, setting.position);
+  EXPECT_EQ(row.approach, setting.approach);
+  EXPECT_EQ(row.instrument.kind, setting.instrument.kind);
+  for (const auto member :
+       {&cases::Instrument::length_mm, &cases::Instrument::radius_mm, &cases::Instrument::inner_radius_mm,
+        &cases::Instrument::hu, &cases::Instrument::throw_mm, &cases::Instrument::notch_mm,
+        &cases::Instrument::dead_tip_mm})
+    EXPECT_EQ(row.instrument.*member, setting.instrument.*member);
+  EXPECT_EQ(row.clinic.inr, setting.clinic.inr);
+  EXPECT_EQ(row.clinic.platelets_per_nl, setting.clinic.platelets_per_nl);
+  EXPECT_EQ(row.clinic.allergy, setting.clinic.allergy);
+  EXPECT_EQ(row.clinic.indication, setting.clinic.indication);
+  EXPECT_TRUE(row.clinic.defer);
+  EXPECT_TRUE(same_bits(*row.planned_entry_lps_mm, *setting.planned_entry_lps_mm));
+  EXPECT_EQ(row.difficulty, setting.difficulty);
+  EXPECT_EQ(row.time_limit_s, setting.time_limit_s);
+  EXPECT_EQ(row.attempt_limit, setting.attempt_limit);
+  ASSERT_EQ(row.rule.criteria.size(), 2U);
+  EXPECT_EQ(assessment::text_of(row.rule.criteria[0]), "core_in_target >= 10.25");
+  EXPECT_EQ(assessment::text_of(row.rule.criteria[1]), "skin_punctures@2 <= 1");
+  EXPECT_TRUE(row.rule.criteria[1].critical);
+  // A new case may bring its setting along.
+  NewCase whole = sample_case();
+  static_cast<CaseSetting&>(whole) = setting;
+  EXPECT_EQ(find_case(library_, add_case(library_, whole)).value().attempt_limit, 5);
+}
+
+TEST_F(AuthoringTest, APhantomHasNothingOfAPatient) {
+  CaseSetting setting = full_setting();
+  setting.subject = cases::Subject::phantom;
+  EXPECT_EQ(code(set_setting(library_, case_id_, setting)), "bad_setting");
+  setting.clinic = {{}, {}, "", "find the ball", false};
+  ASSERT_TRUE(set_setting(library_, case_id_, setting));
+  EXPECT_EQ(find_case(library_, case_id_).value().subject, cases::Subject::phantom);
+  for (const auto& spoil : std::vector<void (*)(CaseSetting&)>{
+           [](CaseSetting& s) { s.clinic.inr = 1.0; }, [](CaseSetting& s) { s.clinic.platelets_per_nl = 200.0; },
+           [](CaseSetting& s) { s.clinic.allergy = "latex"; }, [](CaseSetting& s) { s.clinic.defer = true; },
+           [](CaseSetting& s) { s.motion.breath_depth = 1.0; }}) {
+    CaseSetting bad = setting;
+    spoil(bad);
+    EXPECT_EQ(code(set_setting(library_, case_id_, bad)), "bad_setting");
+  }
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
+  refuse("UPDATE training_case SET subject = 'patient'");
+}
+
+TEST_F(AuthoringTest, SettingsThatAreNotSoundAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<CaseSetting> bad(13, full_setting());
+  bad[0].instrument.length_mm = 5.0;
+  bad[1].instrument.radius_mm = nan;
+  bad[2].instrument.inner_radius_mm = 1.0;
+  bad[3].instrument.notch_mm = 19.0;  // with the dead tip beyond the throw
+  bad[4].further_modalities = {cases::Modality::ultrasound};
+  bad[5].clinic.inr = nan;
+  bad[6].clinic.platelets_per_nl = -1.0;
+  bad[7].clinic.allergy = "two\nlines";
+  bad[8].clinic.indication = std::string(201, 'x');
+  bad[9].planned_entry_lps_mm = glm::dvec3(nan);
+  bad[10].time_limit_s = 0.0;
+  bad[11].attempt_limit = 0;
+  bad[12].instrument.throw_mm = nan;
+  for (std::size_t i = 0; i < bad.size(); ++i)
+    EXPECT_EQ(code(set_setting(library_, case_id_, bad[i])), "bad_setting") << i;
+  EXPECT_EQ(find_case(library_, case_id_).value().modality, cases::Modality::mpr);
+}
+
+TEST_F(AuthoringTest, AnAttemptFreezesWhatItWasMadeOn) {
+  static_cast<void>(add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0})).value());
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
+  EXPECT_EQ(code(set_setting(library_, case_id_, full_setting())), "has_attempts");
+  EXPECT_EQ(code(add_structure(library_, drawn("b", cases::Sphere{middle(), 1.0}))), "has_attempts");
+  EXPECT_EQ(code(remove_structure(library_, case_id_, "vein")), "has_attempts");
+  EXPECT_EQ(code(remove_lesion(library_, case_id_, lesion_id)), "has_attempts");
+  EXPECT_EQ(code(put_lesion(library_, list_lesions(library_, case_id_).front())), "has_attempts");
+  EXPECT_EQ(code(put_structure(library_, list_structures(library_, case_id_).front())), "has_attempts");
+  refuse("UPDATE training_case SET pass_rule = '{}'");
+  refuse("UPDATE structure SET hu = 1");
+  refuse("DELETE FROM structure");
+  EXPECT_EQ(code(add_lesion(library_, case_id_, sample_lesion())), "none") << "another target changes none";
+}
+
+TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
+  add_users();
+  static_cast<void>(add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0})).value());
+  static_cast<void>(add_lesion(library_, case_id_, sample_lesion()).value());
+  EXPECT_EQ(code(submit_case(library_, case_id_, "tim")), "not_allowed");
+  EXPECT_EQ(code(submit_case(library_, case_id_, "dora")), "not_allowed");
+  EXPECT_EQ(code(submit_case(library_, case_id_, "nobody")), "no_user");
+  EXPECT_EQ(code(judge_case(library_, case_id_, "ben", true)), "bad_state");
+  EXPECT_EQ(code(publish("ann", false)), "not_allowed") << "nobody approved it";
+  ASSERT_TRUE(submit_case(library_, case_id_, "ann", "please"));
+  EXPECT_EQ(state(), CaseState::review);
+  EXPECT_EQ(code(set_setting(library_, case_id_, full_setting())), "not_a_draft");
+  EXPECT_EQ(code(add_lesion(library_, case_id_, sample_lesion())), "not_a_draft");
+  EXPECT_EQ(code(judge_case(library_, case_id_, "ann", true)), "not_allowed") << "not who submitted it";
+  EXPECT_EQ(code(judge_case(library_, case_id_, "adam", true)), "not_allowed");
+  ASSERT_TRUE(judge_case(library_, case_id_, "ben", false, "the vein is missing"));
+  EXPECT_EQ(state(), CaseState::draft);
+  ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
+  EXPECT_EQ(code(publish("dora", false)), "not_allowed");
+  ASSERT_TRUE(judge_case(library_, case_id_, "dora", true));
+  EXPECT_EQ(code(publish("tim", false)), "not_allowed");
+  EXPECT_EQ(code(publish("ann", false)), "burned_in_unchecked");
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  ASSERT_TRUE(publish("ann", false));
+  EXPECT_EQ(state(), CaseState::published);
+  EXPECT_FALSE(find_case(library_, case_id_).value().own_cohort_only);
+  const auto decisions = list_decisions(library_, case_id_);
+  ASSERT_EQ(decisions.size(), 5U);
+  EXPECT_EQ(decisions[1].note, "the vein is missing");
+  ASSERT_TRUE(review_of(decisions).has_value());
+  EXPECT_EQ(review_of(decisions)->pseudonym.substr(0, 2), "P-");
+
+  for (const char* change :
+       {"UPDATE training_case SET state = 'draft'", "UPDATE training_case SET title = 'x'",
+        "UPDATE training_case SET audience = 'own_cohort'", "UPDATE training_case SET inr = 3",
+        "UPDATE training_case SET version = 2", "DELETE FROM training_case", "DELETE FROM lesion",
+        "DELETE FROM structure", "UPDATE case_decision SET note = ''", "DELETE FROM case_decision"})
+    refuse(change);
+  EXPECT_EQ(code(set_title(library_, case_id_, "x")), "not_a_draft");
+  EXPECT_EQ(code(retire_case(library_, case_id_, "ben")), "not_allowed");
+  ASSERT_TRUE(retire_case(library_, case_id_, "adam"));
+  EXPECT_EQ(state(), CaseState::retired);
+  refuse("UPDATE training_case SET state = 'published'");
+}
+
+TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
+  add_users();
+  EXPECT_EQ(code(publish("dora", true)), "not_allowed");
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  ASSERT_TRUE(publish("ann", true));
+  EXPECT_TRUE(find_case(library_, case_id_).value().own_cohort_only);
+  EXPECT_FALSE(review_of(list_decisions(library_, case_id_)).has_value());
+  ASSERT_TRUE(retire_case(library_, case_id_, "ann")) << "who published it may take it back";
+}
+
+// What was looked at is what is published: a check is of one case, as it was then.
+TEST_F(AuthoringTest, OnlyACheckOfTheCaseAsItIsLetsItBePublished) {
+  add_users();
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  const auto publish_by = [&](const CaseCheck& check) {
+    return publish_case(library_, case_id_, check, "ann", true);
+  };
+  EXPECT_EQ(code(publish_by({})), "checks_failed") << "nobody has looked";
+
+  CaseCheck failed = fixtures::sound_check(library_, case_id_);
+  failed.checks.push_back({"lesion_present", false, "there is no lesion"});
+  const auto refused = publish_by(failed);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "checks_failed");
+  ASSERT_EQ(refused.error().findings.size(), 1U) << "what holds is no finding";
+  EXPECT_EQ(refused.error().findings[0].code, "lesion_present");
+  EXPECT_EQ(refused.error().findings[0].text, "there is no lesion");
+  EXPECT_EQ(ready_to_publish(failed).error().text, refused.error().text) << "one text, whoever asks";
+
+  EXPECT_EQ(code(publish_by(fixtures::sound_check(library_, add_case(library_, sample_case())))), "checks_failed")
+      << "another case's, though it is made of the same volume";
+
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  const std::pair<const char*, std::function<base::Result<void>()>> changes[] = {
+      {"a lesion goes", [&] { return remove_lesion(library_, case_id_, lesion_id); }},
+      {"a structure comes",
+       [&]() -> base::Result<void> {
+         const auto added = add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0}));
+         return added ? base::Result<void>() : added.error();
+       }},
+      {"the setting changes", [&] { return set_setting(library_, case_id_, full_setting()); }}};
+  for (const auto& [what, change] : changes) {
+    const CaseCheck before = fixtures::sound_check(library_, case_id_);
+    ASSERT_TRUE(change()) << what;
+    EXPECT_EQ(code(publish_by(before)), "checks_failed") << what;
+  }
+  EXPECT_EQ(state(), CaseState::draft) << "nothing of what was refused was written";
+  EXPECT_TRUE(list_decisions(library_, case_id_).empty());
+
+  // What no check looks at: the title, a decision, an attempt.
+  const std::string again = add_lesion(library_, case_id_, sample_lesion()).value();
+  const CaseCheck check = fixtures::sound_check(library_, case_id_);
+  ASSERT_TRUE(set_title(library_, case_id_, "Another title"));
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, again)).value());
+  ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
+  ASSERT_TRUE(judge_case(library_, case_id_, "ben", true));
+  ASSERT_TRUE(publish_by(check));
+  EXPECT_EQ(state(), CaseState::published);
+}
+
+TEST_F(AuthoringTest, AClosedAccountDecidesNothing) {
+  add_users();
+  ASSERT_TRUE(set_enabled(library_, "ann", false));
+  EXPECT_EQ(code(submit_case(library_, case_id_, "ann")), "no_user");
+}
+
+TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
+  add_users();
+  ASSERT_TRUE(set_setting(library_, case_id_, full_setting()));
+  static_cast<void>(add_structure(library_, drawn("vein", cases::Sphere{middle(), 1.0})).value());
+  const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
+  static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  ASSERT_TRUE(publish("ann", true));
+  EXPECT_EQ(code(new_version(library_, case_id_, "tim")), "not_allowed");
+  const std::string second = new_version(library_, case_id_, "ann").value();
+  const std::string third = new_version(library_, second, "ben").value();
+  for (const auto& [id, version] : {std::pair{case_id_, 1}, {second, 2}, {third, 3}}) {
+    const CaseRow row = find_case(library_, id).value();
+    EXPECT_EQ(row.version, version);
+    EXPECT_EQ(row.family_id, case_id_);
+    EXPECT_EQ(row.state, version == 1 ? CaseState::published : CaseState::draft);
+    EXPECT_EQ(row.title, sample_case().title);
+    EXPECT_EQ(row.attempt_limit, 5);
+    EXPECT_EQ(row.attributes.size(), 3U);
+    EXPECT_EQ(row.warnings.size(), 2U);
+    EXPECT_EQ(list_lesions(library_, id).size(), 1U);
+    EXPECT_EQ(list_structures(library_, id).size(), 1U);
+  }
+  // The new one changes; the old one and its attempt do not.
+  CaseSetting other = full_setting();
+  other.attempt_limit = 9;
+  ASSERT_TRUE(set_setting(library_, second, other));
+  ASSERT_TRUE(remove_structure(library_, second, "vein"));
+  EXPECT_EQ(find_case(library_, case_id_).value().attempt_limit, 5);
+  EXPECT_EQ(list_structures(library_, case_id_).size(), 1U);
+  EXPECT_EQ(list_attempts(library_).front().case_id, case_id_);
+  EXPECT_EQ(library_.database().integer("SELECT count(*) FROM pragma_foreign_key_check"), 0);
+}
+
+}  // namespace
+}  // namespace seldinger::casedb

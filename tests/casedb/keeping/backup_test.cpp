@@ -1,0 +1,227 @@
+// A backup of a library in use comes back as it was, and nothing else does.
+#include "casedb/keeping/backup.h"
+#include "casedb/people/people.h"
+
+#include <sys/stat.h>
+
+#include <atomic>
+#include <thread>
+
+#include "casedb/database/credentials.h"
+#include "casedb/keeping/check.h"
+#include "tests/casedb/library_samples.h"
+
+namespace seldinger::casedb {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BackupTest : public testing::Test {
+ protected:
+  fs::path scratch_ = fresh_folder();
+  fs::path folder_ = scratch_ / "library", backup_ = scratch_ / "backup", restored_ = scratch_ / "restored";
+
+  void make() {
+    Library library = open_library(folder_);
+    const std::string case_id = add_case(library, sample_case());
+    const std::string lesion_id = add_lesion(library, case_id, sample_lesion()).value();
+    static_cast<void>(add_attempt(library, sample_attempt(case_id, lesion_id)).value());
+    static_cast<void>(add_user(library, "ann", Role::mentor, "password").value());
+  }
+  std::string backed_up() {
+    Library library = open_library(folder_);
+    const auto copied = back_up(library, backup_, "0.1.0");
+    return copied ? "none" : copied.error().code;
+  }
+  std::string refusal() {
+    const auto copied = restore(backup_, restored_);
+    return copied ? "none" : copied.error().code;
+  }
+};
+
+TEST_F(BackupTest, ComesBackAsItWas) {
+  make();
+  ASSERT_EQ(backed_up(), "none");
+  fs::remove_all(folder_);
+  const auto kept = contents_of(backup_);
+  ASSERT_EQ(refusal(), "none");
+  EXPECT_EQ(contents_of(backup_), kept);
+  EXPECT_EQ(contents_of(scratch_).count("backup.unfinished"), 0U);
+  EXPECT_EQ(contents_of(scratch_).count("restored.unfinished"), 0U);
+  Library library = open_library(restored_);
+  EXPECT_TRUE(check_library(restored_, false).value().holds());
+  const CaseRow row = list_cases(library).front();
+  EXPECT_EQ(row.title, "Kidney A");
+  EXPECT_EQ(load_volume(library, row).value().hu, sample_volume().hu);
+  const AttemptRow attempt = list_attempts(library).front();
+  EXPECT_EQ(difference(load_recording(library, attempt.attempt_id).value(), sample_recording()), "");
+  ASSERT_TRUE(log_in(library, "ann", "password").has_value());
+  // It is a library like any other.
+  static_cast<void>(add_lesion(library, row.case_id, sample_lesion()).value());
+}
+
+TEST_F(BackupTest, IsReadableByItsOwnerOnly) {
+  make();
+  const mode_t mask = ::umask(0);
+  ASSERT_EQ(backed_up(), "none");
+  ASSERT_EQ(refusal(), "none");
+  ::umask(mask);
+  struct stat about {};
+  ASSERT_EQ(::stat(backup_.c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777U, 0700U);
+  for (const fs::path& folder : {backup_, restored_}) {
+    ASSERT_EQ(::stat((folder / "identities.sqlite").c_str(), &about), 0);
+    EXPECT_EQ(about.st_mode & 0777U, 0600U);
+  }
+}
+
+TEST_F(BackupTest, NothingIsOverwritten) {
+  make();
+  fs::create_directory(backup_);
+  EXPECT_EQ(backed_up(), "exists");
+  EXPECT_TRUE(fs::is_empty(backup_));
+  fs::remove(backup_);
+  ASSERT_EQ(backed_up(), "none");
+  fs::create_directory(restored_);
+  std::ofstream(restored_ / "letter") << "text";
+  EXPECT_EQ(refusal(), "exists");
+  EXPECT_EQ(contents_of(restored_).size(), 1U);
+  fs::remove_all(restored_);
+  std::ofstream(restored_) << "text";
+  EXPECT_EQ(refusal(), "exists");
+  EXPECT_EQ(fixtures::whole_file(restored_), "text");
+  fs::remove(restored_);
+  fs::create_directory(restored_);  // empty
+  EXPECT_EQ(refusal(), "none");
+  EXPECT_EQ(refusal(), "exists");
+}
+
+// Cases and accounts come while backups are made: each is one whole state, and at least what was there before.
+TEST_F(BackupTest, OfALibraryInUseIsOneState) {
+  make();
+  std::atomic<bool> stop{false};
+  std::atomic<int> added{0};
+  std::thread writer([&] {
+    Library library = open_library(folder_);
+    for (std::uint64_t number = 10; !stop; ++number) {
+      NewCase sample = sample_case("Case " + std::to_string(number));
+      sample.volume = sample_volume({9, 7, 5}, number);
+      const std::string case_id = add_case(library, sample);
+      const std::string lesion_id = add_lesion(library, case_id, sample_lesion()).value();
+      static_cast<void>(add_attempt(library, sample_attempt(case_id, lesion_id)).value());
+      ++added;
+    }
+  });
+  Library library = open_library(folder_);
+  for (int round = 0; round < 4; ++round) {
+    const int before = added;
+    const fs::path out = scratch_ / ("backup" + std::to_string(round)),
+                   in = scratch_ / ("in" + std::to_string(round));
+    const auto copied = back_up(library, out, "0.1.0");
+    ASSERT_TRUE(copied.has_value()) << copied.error().code;
+    ASSERT_TRUE(restore(out, in).has_value());
+    const CheckReport report = check_library(in, false).value();
+    EXPECT_TRUE(report.holds()) << (report.holds() ? "" : report.findings.front().text);
+    EXPECT_GE(report.cases, static_cast<std::size_t>(before + 1));
+    while (added == before) std::this_thread::yield();
+  }
+  stop = true;
+  writer.join();
+}
+
+TEST_F(BackupTest, OfADamagedLibraryIsRefusedAndLeavesNothing) {
+  make();
+  const fs::path asset = fs::directory_iterator(folder_ / "assets")->path();
+  const std::string good = fixtures::whole_file(asset);
+  std::ofstream(asset, std::ios::binary) << good << 'x';
+  EXPECT_EQ(backed_up(), "asset_damaged");
+  fs::remove(asset);
+  EXPECT_EQ(backed_up(), "asset_missing");
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch_), {}), 1);
+}
+
+TEST_F(BackupTest, AnyChangedByteIsRefusedAndNothingIsThere) {
+  make();
+  ASSERT_EQ(backed_up(), "none");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(backup_))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 7U);
+  base::Rng rng(5);
+  for (const fs::path& file : files) {
+    const std::string good = fixtures::whole_file(file);
+    for (int kind = 0; kind < 4; ++kind) {
+      std::string bad = good;
+      const auto at = static_cast<std::size_t>(rng.uniform() * static_cast<double>(good.size()));
+      if (kind == 0) bad[at] = static_cast<char>(bad[at] ^ 4);
+      if (kind == 1) bad.resize(at);
+      if (kind == 2) bad += "x";
+      std::ofstream(file, std::ios::binary) << bad;
+      if (kind == 3) fs::remove(file);
+      const std::string code = refusal();
+      // Only the program's version in the list says nothing that could be held against anything.
+      if (file.filename() == "backup.txt" && code == "none" && kind == 0) {
+        fs::remove_all(restored_);
+      } else {
+        EXPECT_TRUE(code == "damaged" || code == "no_backup") << file.filename() << " " << kind << " " << code;
+      }
+      EXPECT_FALSE(fs::exists(restored_));
+      std::ofstream(file, std::ios::binary) << good;
+    }
+  }
+  EXPECT_FALSE(fs::exists(scratch_ / "restored.unfinished"));
+  EXPECT_EQ(refusal(), "none");
+}
+
+TEST_F(BackupTest, AListThatLeadsElsewhereIsRefused) {
+  make();
+  ASSERT_EQ(backed_up(), "none");
+  const std::string good = fixtures::whole_file(backup_ / "backup.txt");
+  const std::string end = "end 6\n", hash(64, 'a');
+  ASSERT_TRUE(good.ends_with(end));
+  for (const std::string& name : {std::string("../x"), std::string("/etc/passwd"), std::string("assets/../../x"),
+                                  std::string("assets/") + hash + "/x", std::string("seldinger.sqlite-wal")}) {
+    std::ofstream(backup_ / "backup.txt")
+        << good.substr(0, good.size() - end.size()) << "file " + name + " 1 " + hash + "\nend 7\n";
+    EXPECT_EQ(refusal(), "damaged") << name;
+    EXPECT_FALSE(fs::exists(restored_));
+  }
+}
+
+TEST_F(BackupTest, WhatIsNoBackupIsRefused) {
+  EXPECT_EQ(refusal(), "no_backup");
+  fs::create_directory(backup_);
+  EXPECT_EQ(refusal(), "no_backup");
+  make();
+  fs::remove_all(backup_);
+  fs::copy(folder_, backup_, fs::copy_options::recursive);  // a library is none
+  EXPECT_EQ(refusal(), "no_backup");
+}
+
+TEST_F(BackupTest, OfANewerSchemaIsRefused) {
+  make();
+  ASSERT_EQ(backed_up(), "none");
+  const fs::path file = backup_ / "seldinger.sqlite";
+  { Sqlite(file).run("PRAGMA user_version = 9999"); }
+  std::string list = fixtures::whole_file(backup_ / "backup.txt");
+  const std::string bytes = fixtures::whole_file(file);
+  const std::size_t at = list.find("file seldinger.sqlite ");
+  list.replace(
+      at, list.find('\n', at) - at,
+      "file seldinger.sqlite " + std::to_string(bytes.size()) + " " + sha256_hex(std::as_bytes(std::span(bytes))));
+  std::ofstream(backup_ / "backup.txt") << list;
+  EXPECT_EQ(refusal(), "newer_schema");
+  EXPECT_FALSE(fs::exists(restored_));
+}
+
+TEST_F(BackupTest, LeftByAKilledProcessIsReplaced) {
+  make();
+  fs::create_directory(scratch_ / "backup.unfinished");
+  std::ofstream(scratch_ / "backup.unfinished" / "seldinger.sqlite") << "half";
+  EXPECT_EQ(backed_up(), "none");
+  EXPECT_FALSE(fs::exists(scratch_ / "backup.unfinished"));
+  EXPECT_EQ(refusal(), "none");
+}
+
+}  // namespace
+}  // namespace seldinger::casedb

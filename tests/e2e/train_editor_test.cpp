@@ -1,0 +1,164 @@
+// The case editor as a mentor uses it, in a real window: a draft is opened, lesion and entry are clicked, its
+// checks go red and green, it is tried, published, and a trainee finds it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/command_library.h"
+#include "tests/fixtures/trainee.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::kPassword;
+
+// Shares of the axial plane's width and height at z = 0, where the cursor begins: air, the liver, skin on the right
+// side.
+constexpr std::pair<double, double> kOutside{0.043, 0.10}, kLiver{0.244, 0.447}, kFlank{0.078, 0.475};
+
+class TrainEditorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string demo = library_.ask("demo --no-serve")["case_id"];
+    for (const char* user : {"mona --role mentor", "tina --role trainee"})
+      library_.done(std::string("user add ") + user);
+    case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
+    library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
+    library_.done("case setting " + case_id_ + " --title 'From the bench' --pass 'hit >= 1'");
+  }
+  void sit_down(const std::vector<std::string>& options = {}) {
+    mentor_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(), options);
+  }
+  Json shown() const { return library_.ask("case show " + case_id_); }
+  Json editor() const { return mentor_->now().value("bench", Json::object()); }
+  // Once what was done last is checked.
+  bool check_is(const std::string& list, const std::string& name) {
+    return fixtures::until(
+        [&] {
+          const Json now = editor();
+          return !now.value("checking", true) && now.contains(list) &&
+                 std::find(now[list].begin(), now[list].end(), name) != now[list].end();
+        },
+        60.0);
+  }
+  void click_axial(const std::pair<double, double>& at) const { mentor_->click("plane", at.first, at.second); }
+
+  fixtures::CommandLibrary library_{fixtures::fresh_folder("train_bench")};
+  std::string case_id_;
+  std::unique_ptr<fixtures::Trainee> mentor_;
+};
+
+TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
+  sit_down();
+  ASSERT_FALSE(HasFailure());
+  const fixtures::Screen& screen = mentor_->screen();
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword));
+  mentor_->click("Bench#2");  // the first is the demo's own, which attempts have frozen
+  ASSERT_TRUE(mentor_->reaches("bench"));
+  ASSERT_TRUE(check_is("failing", "lesion_present")) << mentor_->now();
+  mentor_->keep_picture();
+  screen.press("l");
+  click_axial(kOutside);
+  ASSERT_TRUE(check_is("failing", "lesion_inside_body")) << mentor_->now();
+  mentor_->keep_picture();
+  click_axial(kLiver);
+  ASSERT_TRUE(check_is("holding", "lesion_inside_body")) << mentor_->now();
+  EXPECT_EQ(editor()["lesions"], 1);
+  const double before_mm = shown()["lesions"][0]["radius_mm"];
+  const double grip_px = before_mm / editor()["mm_per_pixel"].get<double>();
+  const auto [x_px, y_px] = mentor_->place_of("plane").at(kLiver.first, kLiver.second);
+  screen.drag(x_px + static_cast<int>(std::lround(grip_px)), y_px, x_px + 22, y_px, 1, 0.8);
+  ASSERT_TRUE(fixtures::until([&] { return shown()["lesions"][0]["radius_mm"].get<double>() > before_mm + 1.0; }))
+      << "the rim was dragged";
+  screen.press("e");
+  click_axial(kFlank);
+  ASSERT_TRUE(check_is("holding", "entry_on_skin")) << mentor_->now();
+  screen.press("ctrl+z");
+  ASSERT_TRUE(fixtures::until([&] { return !editor().value("entry", true); })) << "taken back";
+  click_axial(kFlank);
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("entry", false) && !editor().value("checking", true); }));
+  ASSERT_TRUE(editor()["failing"].empty()) << editor();
+  mentor_->keep_picture();
+  const auto checked = library_.call("case check " + case_id_);
+  EXPECT_EQ(checked.exit_code, 0) << "the command line says the same\n" << checked.out;
+
+  mentor_->click("Try it");
+  ASSERT_TRUE(mentor_->reaches("ready")) << mentor_->now();
+  ASSERT_NO_FATAL_FAILURE(mentor_->enter_room());
+  screen.press("y");
+  screen.press("F9");
+  ASSERT_TRUE(mentor_->reaches("debrief"));
+  screen.press("Escape");
+  ASSERT_TRUE(mentor_->reaches("bench"));
+  const Json attempts = library_.ask("attempt list");
+  for (const Json& attempt : attempts["attempts"])
+    EXPECT_TRUE(attempt["synthetic"].get<bool>()) << "it was only tried";
+  EXPECT_TRUE(attempts["running"].empty());
+
+  mentor_->click("Publish to my cohort");
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("state", "") == "published"; })) << mentor_->now();
+  mentor_->keep_picture();
+  EXPECT_EQ(shown()["state"], "published");
+  mentor_->click("Cases");
+  ASSERT_TRUE(mentor_->reaches("choose"));
+  mentor_->click("Log out");
+  ASSERT_TRUE(mentor_->reaches("log_in"));
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("tina", kPassword));
+  mentor_->keep_picture();
+  ASSERT_NO_FATAL_FAILURE(mentor_->open_first_case());
+}
+
+// Submitted, returned, submitted again, approved by another, published; and edited afterwards, which is a new
+// draft.
+TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
+  const std::string demo = library_.ask("case list")["cases"].at(0)["case_id"];
+  const std::string whole = library_.ask("case version " + demo + " --by mona")["case_id"];
+  library_.done("case setting " + whole + " --title Reviewed --pass 'hit >= 1' --difficulty easy");
+  library_.done("user add rita --role mentor");
+  sit_down({"--case", whole});
+  ASSERT_FALSE(HasFailure());
+  const auto state = [&] { return library_.ask("case show " + whole)["state"].get<std::string>(); };
+  const auto becomes = [&](const char* wanted) {
+    return fixtures::until(
+               [&] { return editor().value("state", "") == wanted && !editor().value("checking", true); }, 60.0) &&
+           state() == wanted;
+  };
+  const auto log_out = [&] {
+    mentor_->click("Cases");
+    ASSERT_TRUE(mentor_->reaches("choose")) << mentor_->now();
+    mentor_->click("Log out");
+    ASSERT_TRUE(mentor_->reaches("log_in"));
+  };
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword, "bench"));
+  ASSERT_TRUE(becomes("draft")) << mentor_->now();
+  ASSERT_TRUE(editor()["failing"].empty()) << editor();
+  mentor_->click("Submit for review");
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  mentor_->keep_picture();
+  mentor_->click("Return to draft");
+  ASSERT_TRUE(becomes("draft")) << mentor_->now();
+  mentor_->click("Submit for review");
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  mentor_->click("Approve");  // not for who made it
+  ASSERT_TRUE(fixtures::until([&] { return !editor().value("refusal", "").empty(); })) << mentor_->now();
+  ASSERT_NO_FATAL_FAILURE(log_out());
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("rita", kPassword, "bench"));
+  ASSERT_TRUE(becomes("review")) << mentor_->now();
+  mentor_->click("Approve");
+  mentor_->click("Publish");
+  ASSERT_TRUE(becomes("published")) << mentor_->now();
+  mentor_->keep_picture();
+  mentor_->click("Cases");
+  ASSERT_TRUE(mentor_->reaches("choose"));
+  mentor_->keep_picture();
+  mentor_->click("Edit#2");  // of the second one that may be practised
+  ASSERT_TRUE(mentor_->reaches("bench")) << mentor_->now();
+  EXPECT_TRUE(fixtures::until([&] { return editor().value("state", "") == "draft"; })) << mentor_->now();
+  EXPECT_EQ(state(), "published") << "trainees keep what they have";
+}
+
+}  // namespace
+}  // namespace seldinger

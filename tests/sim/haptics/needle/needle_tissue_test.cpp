@@ -1,0 +1,74 @@
+// Tests of sim/haptics/needle/needle_tissue: the table.
+#include "sim/haptics/needle/needle_tissue.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace seldinger::haptics {
+namespace {
+
+using volume::TissueClass;
+
+TEST(NeedleTissues, HoldTheThesisLines) {
+  EXPECT_EQ(needle_tissue(TissueClass::kidney).slope_n_mm, 0.010);
+  EXPECT_EQ(needle_tissue(TissueClass::kidney).intercept_n, 1.53);
+  EXPECT_EQ(needle_tissue(TissueClass::liver).slope_n_mm, 0.020);
+  EXPECT_EQ(needle_tissue(TissueClass::liver).intercept_n, 0.38);
+}
+
+TEST(NeedleTissues, EveryClassHasItsRow) {
+  for (std::size_t i = 0; i < volume::kTissueClasses; ++i)
+    EXPECT_EQ(needle_tissues()[i].tissue, static_cast<TissueClass>(i)) << i;
+  for (const TissueClass hard : {TissueClass::bone, TissueClass::metal})
+    EXPECT_TRUE(needle_tissue(hard).impenetrable);
+  for (const TissueClass empty : {TissueClass::air, TissueClass::gas, TissueClass::fluid})
+    EXPECT_EQ(needle_tissue(empty).intercept_n + needle_tissue(empty).slope_n_mm, 0.0);
+}
+
+TEST(NeedleTissues, EveryRowSaysWhereItComesFromAndIsPhysical) {
+  for (const NeedleTissueRow& row : needle_tissues()) {
+    const std::string name = volume::about(row.tissue).name;
+    const NeedleTissue& tissue = row.needle;
+    EXPECT_NE(std::string(row.provenance), "") << name;
+    EXPECT_NE(std::string(row.validated_against), "") << name;
+    if (tissue.impenetrable || tissue.rupture_n == 0.0) continue;
+    EXPECT_GT(tissue.slope_n_mm, 0.0) << name;
+    EXPECT_GT(tissue.tip_stiffness_n_mm, 2.0 * tissue.slope_n_mm) << name;
+    EXPECT_GT(tissue.dent_mm, 0.0) << name;
+    EXPECT_GT(tissue.rupture_n, tissue.intercept_n + tissue.slope_n_mm * tissue.dent_mm)
+        << name << ": a capsule is felt as a fall";
+  }
+}
+
+TEST(NeedleTissues, BetweenFatAndTissueHuDecides) {
+  const NeedleTissue &fat = needle_tissue(TissueClass::fat), &full = needle_tissue(TissueClass::soft_tissue);
+  for (const double hu : {-300.0, -100.0}) {
+    EXPECT_EQ(soft_tissue_of_hu(hu).intercept_n, fat.intercept_n);
+    EXPECT_EQ(soft_tissue_of_hu(hu).rupture_n, fat.rupture_n);
+  }
+  for (const double hu : {40.0, 300.0}) {
+    EXPECT_NEAR(soft_tissue_of_hu(hu).intercept_n, full.intercept_n, 1e-12);
+    EXPECT_NEAR(soft_tissue_of_hu(hu).dent_mm, full.dent_mm, 1e-12);
+  }
+  EXPECT_NEAR(soft_tissue_of_hu(-30.0).intercept_n, 0.5 * (fat.intercept_n + full.intercept_n), 1e-12);
+  EXPECT_NEAR(soft_tissue_of_hu(-30.0).slope_n_mm, 0.5 * (fat.slope_n_mm + full.slope_n_mm), 1e-12);
+}
+
+TEST(NeedleTissues, ThickerNeedlesTakeMoreForce) {
+  const NeedleTissue& liver = needle_tissue(TissueClass::liver);
+  const NeedleTissue same = at_gauge(liver, *cases::gauge(22)), thick = at_gauge(liver, *cases::gauge(18));
+  EXPECT_EQ(same.intercept_n, liver.intercept_n);
+  EXPECT_NEAR(thick.intercept_n / liver.intercept_n, 1.270 / 0.718, 1e-12);
+  EXPECT_NEAR(thick.slope_n_mm / liver.slope_n_mm, 1.270 / 0.718, 1e-12);
+  EXPECT_NEAR(thick.rupture_n / liver.rupture_n, 1.270 / 0.718, 1e-12);
+  EXPECT_EQ(thick.dent_mm, liver.dent_mm);
+  const NeedleTissue back = at_table_gauge(thick, *cases::gauge(18));
+  EXPECT_NEAR(back.intercept_n, liver.intercept_n, 1e-12);
+  EXPECT_NEAR(back.slope_n_mm, liver.slope_n_mm, 1e-12);
+  EXPECT_NEAR(back.rupture_n, liver.rupture_n, 1e-12);
+  EXPECT_EQ(back.dent_mm, liver.dent_mm);
+}
+
+}  // namespace
+}  // namespace seldinger::haptics
