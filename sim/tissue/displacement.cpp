@@ -33,6 +33,10 @@ constexpr double kNeedleShearNMm2 = 0.0045;
 // What moves nothing more than this is no source.
 constexpr double kLeastMm = 1e-4;
 
+// Bone farther away than this is none. A probe that has left bone forgets it by halves without an end, and the
+// source is kept in float, where more than 3.4e38 is infinite and its image not a number.
+constexpr double kFarthestBoneMm = 1e38;
+
 // A vein never closes altogether: its wall has a thickness.
 constexpr double kLeastVeinArea = 0.03;
 // K of a thin wall, E (h/r)³ / (12 (1 − ν²)): 0.5 Pa, of 0.3 MPa and a wall of 0.025 radii (design).
@@ -112,7 +116,7 @@ PressedDisk pressed_disk(const SkinPress& press) noexcept {
   CHECK(press.radius_mm > 0.0 && press.per_bone_mm >= 0.0);
   PressedDisk disk;
   if (!(press.depth_mm > 0.0)) return disk;
-  disk.bone_mm = press.per_bone_mm > 0.0 ? 1.0 / press.per_bone_mm : 0.0;
+  disk.bone_mm = press.per_bone_mm > 1.0 / kFarthestBoneMm ? 1.0 / press.per_bone_mm : 0.0;
   disk.depth_mm = std::min(press.depth_mm, kMostOfRadius * press.radius_mm);
   if (disk.bone_mm > 0.0)
     disk.depth_mm = std::min({disk.depth_mm, kMostOfBone * disk.bone_mm,

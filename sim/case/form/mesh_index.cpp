@@ -109,6 +109,7 @@ void MeshIndex::visit(const glm::dvec3& p, bool skin_only, Nearest& nearest) con
 
 Closest MeshIndex::answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept {
   CHECK(!triangles_.empty());
+  CHECK(p.x == p.x && p.y == p.y && p.z == p.z);  // every box would seem to be near
   Nearest nearest;
   const std::uint32_t at = position_[hint < position_.size() ? hint : 0];
   if (!(skin_only && triangles_[at].cut)) {

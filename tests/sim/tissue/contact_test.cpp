@@ -224,6 +224,22 @@ TEST(Contact, DeepBoneIsNoBone) {
     EXPECT_LT(glm::length(u_of(none, at_mm) - u_of(deep, at_mm)), 0.03);
 }
 
+// What is left of bone that a probe has slid off falls by a share a tick, down to numbers that have no finite
+// inverse.
+TEST(Contact, BoneThatIsAllButForgottenIsNoBone) {
+  const Displacement without = pressed(straight_down(5.0));
+  for (const double per_bone_mm : {1e-9, 1e-30, 1e-37, 1e-39, 1e-300, 5e-324}) {
+    SkinPress press = straight_down(5.0);
+    press.per_bone_mm = per_bone_mm;
+    const Displacement displacement = pressed(press);
+    for (const glm::dvec3& rest_mm :
+         {glm::dvec3(0.0, 0.0, 0.0), glm::dvec3(3.0, 4.0, 10.0), glm::dvec3(150.0, 0.0, 60.0)}) {
+      EXPECT_LT(glm::length(u_of(displacement, rest_mm) - u_of(without, rest_mm)), 1e-6) << per_bone_mm;
+      EXPECT_LT(glm::length(rest_of(displacement, rest_mm) - rest_of(without, rest_mm)), 1e-6) << per_bone_mm;
+    }
+  }
+}
+
 // The force that our field needs, from nothing but the disk and its image, is what touch gives: Hertz' without
 // bone, and over bone Dimitriadis' series (2002) to 8 % as long as the tissue is not thinner than 0.7 of √(R δ).
 TEST(Contact, NeedsTheForceThatTouchGives) {
