@@ -9,7 +9,7 @@
 
 namespace seldinger::app {
 
-// contracts.md, exit codes
+// Exit codes, as docs/commands.md tells them.
 constexpr int kDone = 0, kCheckFailed = 1, kUsage = 2, kRefused = 3, kEnvironment = 4;
 
 struct Option {
