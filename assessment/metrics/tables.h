@@ -16,6 +16,7 @@ std::span<const MetricInfo> structure_metrics();
 std::span<const MetricInfo> puncture_metrics();
 std::span<const MetricInfo> visibility_metrics();
 std::span<const MetricInfo> advance_metrics();
+std::span<const MetricInfo> probe_metrics();
 std::span<const MetricInfo> path_metrics();
 std::span<const MetricInfo> force_metrics();
 std::span<const MetricInfo> time_metrics();
@@ -32,6 +33,7 @@ struct PunctureCounts {
   // Of the first puncture that counted: when it was 2 mm deep, and the first pose of it in the body.
   std::optional<double> first_s;
   std::size_t first_pose = 0;
+  bool withdrawn_at_end = false;
   // When each was 2 mm deep; and for each withdrawal, when the tip was deepest before it.
   std::vector<double> punctures_s, full_withdrawals_s, partial_withdrawals_s;
 };
