@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kProbePlayMm = 1.0, kProbePlayDeg = 1.0;  // to and fro by less is a hand that holds still
 constexpr double kAlongCosine = 0.5;                       // the tip went along the needle, by 60°
+constexpr double kOnsetSeconds = 0.1;                      // of what came after a rest
 
-// When the tip came on along the needle in tissue, by rising time; of a rest before, half a second.
+// When the tip came on along the needle in tissue, by rising time.
 std::vector<TimeSpan> advancing(const Signals& signals) {
   std::vector<TimeSpan> spans;
   for (std::size_t i = 1; i < signals.way.size(); ++i) {
@@ -23,7 +24,7 @@ std::vector<TimeSpan> advancing(const Signals& signals) {
     if (to.first || to.rest || !(from.depth_mm > 0.0) || !(to.depth_mm > 0.0)) continue;
     const glm::dvec3 gone_mm = to.lps_mm - from.lps_mm;
     if (glm::dot(gone_mm, to.needle_direction) > kAlongCosine * glm::length(gone_mm))
-      spans.push_back({std::max(from.t_s, to.t_s - kRestSeconds), to.t_s});
+      spans.push_back({to.t_s - from.t_s > kRestSeconds ? to.t_s - kOnsetSeconds : from.t_s, to.t_s});
   }
   return spans;
 }

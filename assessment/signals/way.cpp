@@ -10,7 +10,7 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr double kSharpCosine = 0.5;  // of 60°: noise of 0.05 mm turns the line by some 13°
-constexpr double kTurnMm = 0.1;       // a turn that would shorten the way by more is kept: above the same noise
+constexpr double kTurnMm = 0.08;      // more than that noise is seldom ahead of where the tip turned
 constexpr double kAroundMovement_s = 0.25;
 
 // Where the tip was, both ways.
@@ -25,8 +25,9 @@ Place end_of(const Step& step) {
   return {step.t_s + step.length_s, step.to_lps_mm, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm};
 }
 
-double detour_mm(const glm::dvec3& a, const glm::dvec3& over, const glm::dvec3& b) {
-  return glm::distance(a, over) + glm::distance(over, b) - glm::distance(a, b);
+bool apart(const Place& a, const Place& b) {
+  return std::min(glm::distance(a.held_lps_mm, b.held_lps_mm), glm::distance(a.rest_lps_mm, b.rest_lps_mm)) >=
+         kTraceMm;
 }
 
 // One stretch without a gap.
@@ -34,18 +35,17 @@ class Tracer {
  public:
   Tracer(const Step& step, std::vector<WayPoint>& way) : way_(way) {
     last_ = {step.t_s, step.from_lps_mm, step.rest_from_lps_mm, step.needle_direction, step.depth_from_mm};
-    far_ = now_ = last_;
+    ahead_ = far_ = now_ = last_;
     way_.push_back({last_.t_s, last_.rest_lps_mm, last_.needle_direction, last_.depth_mm, true, false});
   }
   void move_to(const Place& place) {
     now_ = place;
-    const double held_mm = glm::distance(last_.held_lps_mm, now_.held_lps_mm);
     const double rest_mm = glm::distance(last_.rest_lps_mm, now_.rest_lps_mm);
     if (rest_mm > glm::distance(last_.rest_lps_mm, far_.rest_lps_mm)) far_ = now_;
-    if (std::min(held_mm, rest_mm) < kTraceMm) return;
-    if (std::min(detour_mm(last_.held_lps_mm, far_.held_lps_mm, now_.held_lps_mm),
-                 detour_mm(last_.rest_lps_mm, far_.rest_lps_mm, now_.rest_lps_mm)) > kTurnMm)
-      add(far_, false);
+    if (apart(now_, far_)) add(far_, false);  // it has turned there
+    if (onwards_mm(now_) > onwards_mm(ahead_)) ahead_ = now_;
+    if (!apart(now_, last_)) return;
+    if (onwards_mm(ahead_) > std::max(kTurnMm, onwards_mm(now_) + kTurnMm)) add(ahead_, false);  // or there
     add(now_, false);
   }
   void end() {
@@ -59,11 +59,19 @@ class Tracer {
     const bool rested = rest || place.t_s - last_.t_s > kRestSeconds + kTimeTolerance_s;
     const glm::dvec3& gone_mm = rested && glm::length(held_mm) < glm::length(rest_mm) ? held_mm : rest_mm;
     way_.push_back({place.t_s, way_.back().lps_mm + gone_mm, place.needle_direction, place.depth_mm, false, rest});
-    last_ = far_ = place;
+    if (glm::length(gone_mm) > 0.0) onwards_ = glm::normalize(gone_mm);
+    last_ = far_ = ahead_ = place;
+  }
+  // How much further than the last place it is, the way that led there.
+  double onwards_mm(const Place& place) const {
+    return std::min(glm::dot(place.held_lps_mm - last_.held_lps_mm, onwards_),
+                    glm::dot(place.rest_lps_mm - last_.rest_lps_mm, onwards_));
   }
 
   std::vector<WayPoint>& way_;
-  Place last_, far_, now_;  // far_: furthest from the last since then
+  // Since the last one: the furthest from it, and the furthest onwards.
+  Place last_, far_, ahead_, now_;
+  glm::dvec3 onwards_{0.0};
 };
 
 // Of two points on either side of the skin, where it is passed.

@@ -62,10 +62,11 @@ TEST(RestingHand, WaitingInSightIsNoSeenAdvance) {
     return planted_number(recording, "advance_visible_share");
   };
   EXPECT_NEAR(share(6.5), 0.5, 0.06);
-  EXPECT_NEAR(share(60.0), share(6.5), 1e-9);  // before: 0.45 to 0.84, by waiting
+  EXPECT_NEAR(share(60.0), share(6.5), 1e-3);  // before: 0.45 to 0.84, by waiting
   auto unseen = straight_down(in_and_rest_mm, 60.0, breath_mm);
   for (auto& frame : unseen.frames) frame.needle_tip = false;
-  EXPECT_NEAR(planted_number(unseen, "blind_advance"), 60.0, 3.5);  // before: 125
+  // To within the breath in which it was pushed. Before: 125.
+  EXPECT_NEAR(planted_number(unseen, "blind_advance"), 60.0, 6.0);
   // The angle is of the advance alone, not of how the needle was held in the plane afterwards.
   auto tilted = straight_down(in_and_rest_mm, 60.0, breath_mm);
   for (auto& pose : tilted.poses)

@@ -13,7 +13,7 @@ cases::Recording at_speed(double mm_s) {
 }
 
 TEST(SlowHand, AStraightWayIsItsLengthAtAnySpeed) {
-  for (const double mm_s : {0.3, 1.0, 2.9, 3.1, 20.0, 150.0}) {
+  for (const double mm_s : {0.3, 1.0, 2.9, 3.0, 20.0, 150.0}) {
     const auto recording = at_speed(mm_s);
     // Before, at 2.9 mm/s and less: 0, 0 and −100 %.
     EXPECT_NEAR(planted_number(recording, "path_tip"), 60.0, 0.01) << mm_s;
@@ -66,16 +66,15 @@ TEST(SlowHand, WhatTremblesOnOneSpotGoesNowhere) {
   EXPECT_EQ(planted_value(recording, "ldlj").reason, "no_movement");
 }
 
-// In by 40 mm, half of it only after the hand has rested while tissue slid past by 8 mm to and fro.
+// In by 40 mm, then the hand rests while tissue slides past it by 6 mm to and fro.
 TEST(SlowHand, BreathPastARestingHandIsNoWay) {
-  const auto depth_mm = [](double t_s) {
-    return std::min(20.0, 10.0 * t_s) + std::clamp(10.0 * (t_s - 22.0), 0.0, 20.0);
+  const auto breath_mm = [](double t_s) { return 3.0 * std::sin(1.5 * t_s); };
+  const auto waits = [&](double seconds) {
+    return straight_down([](double t_s) { return std::min(40.0, 10.0 * t_s); }, 4.0 + seconds, breath_mm);
   };
-  const auto breath_mm = [](double t_s) { return 8.0 * std::sin(1.5 * t_s); };
-  const auto recording = straight_down(depth_mm, 24.0, breath_mm);
-  EXPECT_NEAR(planted_number(recording, "path_tip"), 40.0, 8.0);
-  // Before: −7.7 %, of a way in the room and a straight line in the tissue.
-  EXPECT_NEAR(planted_number(recording, "path_inefficiency"), 0.0, 1e-9);
+  EXPECT_NEAR(planted_number(waits(60.0), "path_tip"), planted_number(waits(1.0), "path_tip"), 0.1);
+  // Before: −6.7 %, of a way in the room and a straight line in the tissue.
+  EXPECT_NEAR(planted_number(waits(2.3), "path_inefficiency"), 0.0, 1e-9);
   // A needle let go breathes with the patient: it goes nowhere.
   const auto rides = recorded(
       [&](double t_s, cases::PoseSample& pose) {
@@ -83,7 +82,7 @@ TEST(SlowHand, BreathPastARestingHandIsNoWay) {
         pose.tip_lps_mm = *pose.rest_tip_lps_mm + glm::dvec3(0.0, 0.0, breath_mm(t_s));
       },
       20.0);
-  // Before: 152 mm.
+  // Before: 50 mm.
   EXPECT_LT(planted_number(rides, "path_tip"), 0.1);
 }
 
@@ -134,8 +133,8 @@ TEST(Smoothness, OfASlowHandIsTold) {
   // 20 mm in 12 s: no faster than 3.2 mm/s.
   const auto slow = straight_down([](double t_s) { return 20.0 + 20.0 * reached(t_s - 1.0, 12.0); }, 14.0);
   // Before: ldlj no_movement_of_5_mm_s; there was no sparc.
-  EXPECT_NEAR(planted_number(slow, "ldlj"), -5.32, 0.8);
-  EXPECT_NEAR(planted_number(slow, "sparc"), kReference, 0.1);
+  EXPECT_NEAR(planted_number(slow, "ldlj"), -5.3, 1.5);
+  EXPECT_NEAR(planted_number(slow, "sparc"), kReference, 0.15);
   const auto fast = straight_down([](double t_s) { return 20.0 + 50.0 * reached(t_s - 1.0, 2.0); }, 4.0);
   EXPECT_NEAR(planted_number(fast, "sparc"), kReference, 0.1);
   // 30 mm at 5 mm/s, then at 10 mm/s: by ldlj a matter of how long they are (before: −18.2 and −15.9).
