@@ -154,7 +154,8 @@ Measured advance_beyond_plane(const Signals& signals) {
 }
 
 constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
-constexpr std::uint32_t kSame = kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed;
+constexpr std::uint32_t kSame =
+    kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
 constexpr const char* kByTissue =
     "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance.";
 
@@ -216,7 +217,7 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time",
      &plane_angle_mean,
      {Scale::interval},
-     kSame | kOneDarkFrame | kNothingIsNothing,
+     kSame | kNothingIsNothing,
      kByTissue},
     {"plane_angle_max",
      2,
@@ -229,7 +230,7 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "NeedlePlaneAngle of TrainUS (Ebatinca)",
      &plane_angle_max,
      {Scale::interval},
-     kSame | kOneDarkFrame | kNothingIsNothing,
+     kSame | kNothingIsNothing,
      kByTissue},
     {"advance_beyond_plane",
      2,
@@ -245,7 +246,7 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321",
      &advance_beyond_plane,
      {Scale::ratio},
-     kSame | kOneDarkFrame | kNothingIsNothing,
+     kSame | kNothingIsNothing,
      kByTissue},
 };
 

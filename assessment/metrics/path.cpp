@@ -272,7 +272,7 @@ constexpr MetricInfo kPathMetrics[] = {
      "Balasubramanian et al., IEEE Trans. Biomed. Eng. 59 (2012) 2126",
      &ldlj,
      {Scale::interval},
-     kAnywhere | kIdleBefore | kIdleAfter | kOneDarkFrame | kNothingIsNothing,
+     kAnywhere | kIdleAfter | kOneDarkFrame | kNothingIsNothing,
      "1: of runs at 3 mm/s or more for 0.2 s that reached 5 mm/s, so that a slow hand had none."},
     {"sparc",
      1,
@@ -288,7 +288,7 @@ constexpr MetricInfo kPathMetrics[] = {
      "Balasubramanian et al., J. NeuroEng. Rehabil. 12 (2015) 112",
      &sparc,
      {Scale::interval},
-     kAnywhere | kIdleBefore | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
+     kAnywhere | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
 };
 
 }  // namespace

@@ -139,7 +139,7 @@ Measured measured(const Signals& signals) {
 
 constexpr std::uint32_t kNeeds = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue;
 constexpr std::uint32_t kLaws =
-    kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kNothingIsNothing;
+    kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kProbeMetrics[] = {
     {"probe_drift_advancing",

@@ -27,7 +27,7 @@ TEST(SlowHand, NoiseAddsUnderAHundredth) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       auto recording = at_speed(mm_s);
       add_noise(recording, 0.05, seed);
-      // Before, at 2.9 mm/s: 0; at 10 mm/s: 60.7.
+      // Before, at 2.9 mm/s and less: 0.
       EXPECT_NEAR(planted_number(recording, "path_tip"), 60.0, 0.6) << mm_s << ", " << seed;
       const double detour = planted_number(recording, "path_inefficiency");
       EXPECT_GE(detour, -1e-9) << mm_s << ", " << seed;
@@ -55,7 +55,7 @@ TEST(SlowHand, ASwingIsKeptToItsEnds) {
     const auto recording =
         straight_down([&](double t_s) { return 30.0 + 3.0 * std::cos(2.0 * std::numbers::pi * t_s / period_s); },
                       10.0 * period_s);
-    EXPECT_NEAR(planted_number(recording, "path_tip"), 120.0, 1.2) << period_s;
+    EXPECT_NEAR(planted_number(recording, "path_tip"), 120.0, 1.2) << period_s;  // before, of 5 s: 73
   }
 }
 
@@ -73,8 +73,8 @@ TEST(SlowHand, BreathPastARestingHandIsNoWay) {
     return straight_down([](double t_s) { return std::min(40.0, 10.0 * t_s); }, 4.0 + seconds, breath_mm);
   };
   EXPECT_NEAR(planted_number(waits(60.0), "path_tip"), planted_number(waits(1.0), "path_tip"), 0.1);
-  // Before: −6.7 %, of a way in the room and a straight line in the tissue.
-  EXPECT_NEAR(planted_number(waits(2.3), "path_inefficiency"), 0.0, 1e-9);
+  // The tissue has slid to 3 mm before it. Before: −7 %, of a way in the room and a straight line in the tissue.
+  EXPECT_NEAR(planted_number(waits(3.33), "path_inefficiency"), 0.0, 1e-9);
   // A needle let go breathes with the patient: it goes nowhere.
   const auto rides = recorded(
       [&](double t_s, cases::PoseSample& pose) {
@@ -82,7 +82,7 @@ TEST(SlowHand, BreathPastARestingHandIsNoWay) {
         pose.tip_lps_mm = *pose.rest_tip_lps_mm + glm::dvec3(0.0, 0.0, breath_mm(t_s));
       },
       20.0);
-  // Before: 50 mm.
+  // Before: 42.5 mm.
   EXPECT_LT(planted_number(rides, "path_tip"), 0.1);
 }
 
