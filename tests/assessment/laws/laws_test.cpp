@@ -184,6 +184,32 @@ TEST(Laws, HoldForEveryMetricThatStatesThem) {
     }
 }
 
+// What every metric must be: the same wherever the patient lies, and for the left hand as for the right.
+TEST(Laws, OfSpaceAreEveryMetrics) {
+  for (const MetricInfo& info : registry())
+    for (const LawInfo& law : laws())
+      if (law.law == kInAnyFrame || law.law == kMirrored) {
+        EXPECT_NE(info.laws & law.law, 0U) << info.id << ": " << law.name;
+      }
+}
+
+// The changes are such: what they must change, they do.
+TEST(Laws, ChangeWhatTheyMay) {
+  const auto broken = [](Law law, const char* id) {
+    for (std::size_t l = 0; l < laws().size(); ++l)
+      for (std::size_t m = 0; m < registry().size(); ++m)
+        if (laws()[l].law == law && id == std::string(registry()[m].id)) return findings().of_law[l][m];
+    return Held{};
+  };
+  EXPECT_GT(broken(kAtAnySpeed, "time_total").broken, 400);
+  EXPECT_EQ(broken(kIdleBefore, "time_total").broken, static_cast<int>(kAttempts));
+  EXPECT_GT(broken(kIdleAfter, "time_total").broken, 100);
+  EXPECT_GT(broken(kInAnyFrame, "tip_target_dist").worst, 0.0);
+  EXPECT_GT(broken(kInAnyBreath, "closest_approach").values, 200);
+  EXPECT_GT(broken(kOneDarkFrame, "vis_needle").worst, 0.1);
+  EXPECT_GT(broken(kLostSamples, "path_tip").worst, 0.0);
+}
+
 TEST(Laws, SpeakOfEveryMetricInManyAttempts) {
   for (std::size_t m = 0; m < registry().size(); ++m)
     EXPECT_GE(findings().values[m], kFewValues) << registry()[m].id;
@@ -196,6 +222,9 @@ TEST(Laws, OfNothingDoneIsNothing) {
     const Held& nothing = findings().nothing[m];
     if ((info.laws & kNothingIsNothing) != 0) {
       EXPECT_EQ(nothing.values, 0) << info.id << ", nothing done, first " << nothing.first;
+    } else if (info.id == std::string("procedure_performed")) {
+      EXPECT_EQ(nothing.values, static_cast<int>(kAttempts));
+      EXPECT_EQ(findings().nothing_best[m], 0.0) << "comparisons are among those who did something";
     } else if (flatters_nothing(findings(), m)) {
       flattered += std::string(flattered.empty() ? "" : ", ") + info.id;
     }
