@@ -3,7 +3,6 @@
 #include "app/cli/command.h"
 #include "app/cli/file.h"
 #include "assessment/grading/rule_json.h"
-#include "assessment/registry.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/setting_table.h"
 #include "sim/case/gauge.h"
@@ -72,10 +71,6 @@ void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
       auto criterion = assessment::criterion_from(text);
       if (!criterion) throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE");
       criterion->critical = std::string(option) == "--critical";
-      // Whoever names no version means the metric as it is measured now.
-      if (const auto* info = assessment::find_metric(criterion->metric);
-          info != nullptr && text.find('@') == text.npos)
-        criterion->version = info->version;
       rule.criteria.push_back(std::move(*criterion));
     }
   }
