@@ -187,7 +187,7 @@ constexpr MetricInfo kStructuresMetrics[] = {
      "next counts after 0.5 mm outside. Steps of under 0.25 mm are no way. Where a structure comes from voxels, "
      "its "
      "surface is known to nogo_uncertainty.",
-     kClinical, &nogo_contacts, kMeanCount, kOfTheWay},
+     kClinical, &nogo_contacts, kMeanCount, kOfTheTrace},
     {"clearance_min", 1, "mm", "Least clearance", Group::safety, Direction::higher_is_better,
      kNoGo | kSkin | kMotion | kTissue,
      "Least distance of the tip in tissue, on its way and in a core needle's throw, from a structure to stay out "
@@ -195,15 +195,15 @@ constexpr MetricInfo kStructuresMetrics[] = {
      "negative inside, also where that is too short a way to be a contact; at most 20. Where a structure comes "
      "from "
      "voxels, its surface is known to nogo_uncertainty.",
-     kClinical, &clearance_min, kMedianInterval, kOfTheWay | kNothingIsNothing},
+     kClinical, &clearance_min, kMedianInterval, kOfTheTrace | kNothingIsNothing},
     {"capsule_punctures", 1, "count", "Capsule punctures", Group::safety, Direction::lower_is_better, kOrgan,
      "Times the tip, a core needle's throw included, went from outside more than 0.5 mm into the organ that "
      "carries "
      "the target; the next counts after 0.5 mm outside.",
-     kCapsule, &capsule_punctures, kMeanCount, kOfTheWay},
+     kCapsule, &capsule_punctures, kMeanCount, kOfTheTrace},
     {"posterior_wall", 1, "count", "Far wall punctures", Group::safety, Direction::lower_is_better, kLumen,
      "Times the tip, a core needle's throw included, left the lumen to be reached forwards, by more than 0.5 mm.",
-     kWall, &posterior_wall, kMeanCount, kOfTheWay},
+     kWall, &posterior_wall, kMeanCount, kOfTheTrace},
     {"back_wall_dist", 1, "mm", "Before far wall", Group::safety, Direction::higher_is_better, kLumen | kEndpoint,
      "At the endpoint, along the needle from the tip in the lumen to be reached to its far wall. Null: "
      "not_in_target_structure.",
@@ -219,17 +219,17 @@ constexpr MetricInfo kStructuresMetrics[] = {
      "counted from the entry of each visit that nogo_contacts counts; shorter ones are 0. Where two overlap it "
      "counts "
      "once. Of voxels the surface is known to nogo_uncertainty.",
-     kClinical, &nogo_length, kMedianRatio, kOfTheWay,
+     kClinical, &nogo_length, kMedianRatio, kOfTheTrace,
      "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_length_critical", 2, "mm", "Way through critical", Group::safety, Direction::lower_is_better,
      kNoGoCritical, "As nogo_length, of structures that must never be touched.", kClinical, &nogo_length_critical,
-     kMedianRatio, kOfTheWay, "1: every length inside counted, a graze of under 0.5 mm, too."},
+     kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_length_major", 2, "mm", "Way through major", Group::safety, Direction::lower_is_better, kNoGoMajor,
      "As nogo_length, of structures whose injury is a complication.", kClinical, &nogo_length_major, kMedianRatio,
-     kOfTheWay, "1: every length inside counted, a graze of under 0.5 mm, too."},
+     kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_length_advisory", 2, "mm", "Way through advisory", Group::safety, Direction::lower_is_better,
      kNoGoAdvisory, "As nogo_length, of structures that are better avoided.", kClinical, &nogo_length_advisory,
-     kMedianRatio, kOfTheWay, "1: every length inside counted, a graze of under 0.5 mm, too."},
+     kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
     {"nogo_time", 2, "s", "Time in no-go", Group::safety, Direction::lower_is_better, kNoGo | kMotion,
      "Time with the tip inside structures to stay out of, counted from the entry of each visit that nogo_contacts "
      "counts; shorter ones are 0. Gaps over 0.25 s belong to no time.",

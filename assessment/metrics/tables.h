@@ -66,6 +66,9 @@ inline constexpr Estimand kProportionOrFailure{Scale::yes_no, WithoutEndpoint::f
 inline constexpr std::uint32_t kAnyPlace = kInAnyFrame | kMirrored;
 inline constexpr std::uint32_t kOfTheWay =
     kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
+// Of the trace, which the low-pass cuts short where a hand turns fast.
+inline constexpr std::uint32_t kOfTheTrace =
+    kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
 
 // Sources that more than one table names.
 inline constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";

@@ -93,7 +93,7 @@ constexpr MetricInfo kTimeMetrics[] = {
      "The part of time_total after time_talk in which the tip was not below the skin: the probe is at work, the "
      "entry "
      "is sought, also between two punctures. A gap counts with what was before it.",
-     kThreeParts, &time_search, kMedianRatio, kAnyPlace | kOneDarkFrame | kLostSamples},
+     kThreeParts, &time_search, kMedianRatio, kAnyPlace | kIdleBefore | kOneDarkFrame | kLostSamples},
     {"time_needle", 1, "s", "Time with needle in", Group::time, Direction::lower_is_better, kSkin,
      "The part of time_total in which the tip was below the skin. A gap counts with what was before it; "
      "time_in_tissue leaves gaps out.",

@@ -77,11 +77,13 @@ Measured vis_joint_session(const Signals& signals) {
 
 constexpr const char* kPerk = "Perk Tutor's TargetsScanned: 5 mm in its code, 2 mm in its comment";
 
+constexpr std::uint32_t kShares =
+    kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples | kNothingIsNothing;
+
 constexpr MetricInfo kVisibilityMetrics[] = {
     {"vis_joint", 2, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
-     kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out."},
     {"vis_needle", 2, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
@@ -90,22 +92,19 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      "its time counts. Under a fluoroscope the share is of the time with a live picture alone, which lasts from a "
      "pulse until the time to the next is over. Null: under_1_s_in_tissue (fluoroscope: "
      "under_1_s_in_tissue_with_a_live_picture).",
-     kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out."},
     {"vis_shaft", 2, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: as vis_needle.",
-     kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out."},
     {"vis_target", 2, "share", "Target visible", Group::picture, Direction::higher_is_better,
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
      "could: "
      "across its whole width the target takes off under 3 % more or less than what lies about it).",
-     kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target."},
     {"vis_joint_session", 2, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kPictures,
@@ -117,20 +116,17 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint, by geometry alone: tip and target's centre within 2 mm of the picture's plane and inside its "
      "field. Null: as vis_needle.",
-     kPerk, &share<&Shares::joint_2_mm_s, Shown::places>, kMedianShare,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kPerk, &share<&Shares::joint_2_mm_s, Shown::places>, kMedianShare, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out."},
     {"vis_joint_5_mm", 2, "share", "Both within 5 mm", Group::picture, Direction::higher_is_better,
      kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint_2_mm, within 5 mm. Null: as vis_needle.", kPerk, &share<&Shares::joint_5_mm_s, Shown::places>,
-     kMedianShare, kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
-     "1: of the time with a live picture alone: to freeze it took bad time out."},
+     kMedianShare, kShares, "1: of the time with a live picture alone: to freeze it took bad time out."},
     {"visible_needle_length", 2, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
      kInPlane | kSkin | kPictures,
      "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
      "vis_needle.",
-     kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kNothingIsNothing,
+     kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio, kShares,
      "1: of the time with a live picture alone: to freeze it took bad time out."},
 };
 

@@ -48,8 +48,7 @@ constexpr MetricInfo kProcedureMetrics[] = {
      kEvents | kDecision | kSkin,
      "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
      "nothing_decided (neither said nor punctured).",
-     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion,
-     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kInAnyBreath | kLostSamples | kNothingIsNothing},
+     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfTheWay | kNothingIsNothing},
     {"steps_done", 2, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for. Null: no_step_asked_for.", kStepSources,
      &steps_done, kMedianShare, kAnyPlace | kIdleBefore,
