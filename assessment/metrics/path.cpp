@@ -192,103 +192,47 @@ Measured sparc(const Signals& signals) {
   });
 }
 
-constexpr std::uint32_t kAnywhere = kInAnyFrame | kMirrored;
-constexpr std::uint32_t kOfWay = kAnywhere | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
+constexpr std::uint32_t kOfPath = kAnyPlace | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
 
 constexpr MetricInfo kPathMetrics[] = {
-    {"path_tip",
-     3,
-     "mm",
-     "Tip path",
-     Group::path,
-     Direction::lower_is_better,
-     kMotion,
+    {"path_tip", 3, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
      "Length of the tip's way, however slowly it went: resampled to 100 Hz, low-passed at 10 Hz (zero-phase "
      "4th-order Butterworth), through points at least 0.25 mm apart, so that what trembles on one spot goes "
-     "nowhere. "
-     "The way is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle along with the "
-     "tissue, is none. Gaps over 0.25 s are not bridged. One pose: 0.",
-     kJohnson,
-     &path_tip,
-     {Scale::ratio},
-     kOfWay,
-     "1: the filtered way as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 s, "
-     "so "
-     "that a slow way was none, and in the room's frame."},
-    {"path_in_tissue",
-     2,
-     "mm",
-     "Tip path in tissue",
-     Group::path,
-     Direction::lower_is_better,
-     kMotion | kSkin,
-     "The part of path_tip below the skin; what goes through the skin is clipped at it.",
-     "Perk Tutor's TissuePath",
-     &path_in_tissue,
-     {Scale::ratio},
-     kOfWay,
-     "1: the part of path_tip's version 2."},
-    {"path_inefficiency",
-     2,
-     "%",
-     "Detour in tissue",
-     Group::path,
-     Direction::lower_is_better,
-     kMotion | kSkin,
-     "How much longer path_in_tissue was than the straight line from where the tip last came through the skin to "
-     "where it ended; to and fro along the needle by under 5 mm is left out (jiggling is taught), and a gap in "
-     "tissue counts as a straight line. Never negative. Null: not_in_tissue_at_the_end, under_5_mm_from_the_skin.",
-     "Perk Tutor's PathInefficiency, in tissue",
-     &path_inefficiency,
-     {Scale::ratio},
-     kOfWay,
+     "nowhere. The way is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle "
+     "along with the tissue, is none. Gaps over 0.25 s are not bridged. One pose: 0.",
+     kJohnson, &path_tip, kMedianRatio, kOfPath,
+     "1: the filtered way as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 "
+     "s, so that a slow way was none, and in the room's frame."},
+    {"path_in_tissue", 2, "mm", "Tip path in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
+     "The part of path_tip below the skin; what goes through the skin is clipped at it.", "Perk Tutor's TissuePath",
+     &path_in_tissue, kMedianRatio, kOfPath, "1: the part of path_tip's version 2."},
+    {"path_inefficiency", 2, "%", "Detour in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
+     "How much longer path_in_tissue was than the straight line from where the tip last came through the skin "
+     "to where it ended; to and fro along the needle by under 5 mm is left out (jiggling is taught), and a gap "
+     "in tissue counts as a straight line. Never negative. Null: not_in_tissue_at_the_end, "
+     "under_5_mm_from_the_skin.",
+     "Perk Tutor's PathInefficiency, in tissue", &path_inefficiency, kMedianRatio, kOfPath,
      "1: of path_in_tissue's version 1: −100 % for whoever went more slowly than 3 mm/s."},
-    {"swept_area",
-     1,
-     "mm²",
-     "Area swept by shaft",
-     Group::safety,
-     Direction::lower_is_better,
-     kMotion | kSkin,
-     "Area that the needle between skin entry and tip swept, as a fan of triangles; to and fro by under 0.5 mm at "
-     "the tip, and pushing, sweep nothing.",
-     "potential tissue damage: Perk Tutor's TissueDamage; Keri et al. 2015",
-     &swept_area,
-     {Scale::ratio},
-     kAnywhere | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples},
-    {"ldlj",
-     2,
-     "1",
-     "Smoothness",
-     Group::path,
-     Direction::higher_is_better,
-     kMotion,
-     "Log dimensionless jerk, −ln(T³/v_peak² ∫‖jerk‖² dt), of each movement, averaged over their times; nearer to "
-     "0 "
-     "is smoother, a single minimum-jerk reach has −5.3 from start to end. A movement is what lies between two "
-     "rests: the tip rests while it comes no further than 0.25 mm in 0.5 s; movements under 1 mm are left out. "
-     "Null: "
-     "no_movement.",
-     "Balasubramanian et al., IEEE Trans. Biomed. Eng. 59 (2012) 2126",
-     &ldlj,
-     {Scale::interval},
-     kAnywhere | kIdleAfter | kOneDarkFrame | kNothingIsNothing,
+    {"swept_area", 1, "mm²", "Area swept by shaft", Group::safety, Direction::lower_is_better, kMotion | kSkin,
+     "Area that the needle between skin entry and tip swept, as a fan of triangles; to and fro by under 0.5 mm "
+     "at the tip, and pushing, sweep nothing.",
+     "potential tissue damage: Perk Tutor's TissueDamage; Keri et al. 2015", &swept_area, kMedianRatio,
+     kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples},
+    {"ldlj", 2, "1", "Smoothness", Group::path, Direction::higher_is_better, kMotion,
+     "Log dimensionless jerk, −ln(T³/v_peak² ∫‖jerk‖² dt), of each movement, averaged over their times; nearer "
+     "to 0 is smoother, a single minimum-jerk reach has −5.3 from start to end. A movement is what lies "
+     "between two rests: the tip rests while it comes no further than 0.25 mm in 0.5 s; movements under 1 mm "
+     "are left out. Null: no_movement.",
+     "Balasubramanian et al., IEEE Trans. Biomed. Eng. 59 (2012) 2126", &ldlj, kMedianInterval,
+     kAnyPlace | kIdleAfter | kOneDarkFrame | kNothingIsNothing,
      "1: of runs at 3 mm/s or more for 0.2 s that reached 5 mm/s, so that a slow hand had none."},
-    {"sparc",
-     1,
-     "1",
-     "Spectral smoothness",
-     Group::path,
-     Direction::higher_is_better,
-     kMotion,
+    {"sparc", 1, "1", "Spectral smoothness", Group::path, Direction::higher_is_better, kMotion,
      "Spectral arc length (SPARC) of the tip's speed in each movement, as ldlj has them, averaged over their "
-     "times: "
-     "length of the normalised amplitude spectrum up to 10 Hz and above 5 %; nearer to 0 is smoother, a single "
-     "minimum-jerk reach has −1.4. Unlike ldlj it does not depend on how long a movement was. Null: no_movement.",
-     "Balasubramanian et al., J. NeuroEng. Rehabil. 12 (2015) 112",
-     &sparc,
-     {Scale::interval},
-     kAnywhere | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
+     "times: length of the normalised amplitude spectrum up to 10 Hz and above 5 %; nearer to 0 is smoother, a "
+     "single minimum-jerk reach has −1.4. Unlike ldlj it does not depend on how long a movement was. Null: "
+     "no_movement.",
+     "Balasubramanian et al., J. NeuroEng. Rehabil. 12 (2015) 112", &sparc, kMedianInterval,
+     kAnyPlace | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
 };
 
 }  // namespace

@@ -142,53 +142,22 @@ constexpr std::uint32_t kLaws =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kProbeMetrics[] = {
-    {"probe_drift_advancing",
-     2,
-     "mm",
-     "Probe drift advancing",
-     Group::picture,
-     Direction::lower_is_better,
-     kNeeds,
-     "How far the picture's plane went, across itself, at the tip or at the target's centre, whichever is more, "
-     "while "
-     "the needle in tissue advanced; a tilt counts with its depth. To and fro by under 1 mm is no drift, nor is a "
-     "probe at rest on a patient who breathes or one that goes along with the skin: what counts is what both the "
-     "room "
-     "and the tissue at the tip say. Null: no_picture_plane.",
-     kSites,
-     &measured<&Probe::drift_mm>,
-     {Scale::ratio},
-     kLaws,
-     "1: the way of the middle of the probe's face in the room, so that no tilt counted, while the needle went at "
-     "more than 2 mm/s."},
-    {"probe_shift_advancing",
-     1,
-     "mm",
-     "Probe shift advancing",
-     Group::picture,
-     Direction::lower_is_better,
-     kNeeds,
-     "The part of probe_drift_advancing's motion that slides: way of the middle of the probe's face over the skin, "
-     "in "
-     "any direction, while the needle in tissue advanced; counted as that is. Null: no_picture_plane.",
-     kSites,
-     &measured<&Probe::shift_mm>,
-     {Scale::ratio},
-     kLaws},
-    {"probe_turn_advancing",
-     1,
-     "deg",
-     "Probe turn advancing",
-     Group::picture,
-     Direction::lower_is_better,
-     kNeeds,
+    {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better, kNeeds,
+     "How far the picture's plane went, across itself, at the tip or at the target's centre, whichever is "
+     "more, while the needle in tissue advanced; a tilt counts with its depth. To and fro by under 1 mm is no "
+     "drift, nor is a probe at rest on a patient who breathes or one that goes along with the skin: what "
+     "counts is what both the room and the tissue at the tip say. Null: no_picture_plane.",
+     kSites, &measured<&Probe::drift_mm>, kMedianRatio, kLaws,
+     "1: the way of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
+     "at more than 2 mm/s."},
+    {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better, kNeeds,
+     "The part of probe_drift_advancing's motion that slides: way of the middle of the probe's face over the "
+     "skin, in any direction, while the needle in tissue advanced; counted as that is. Null: no_picture_plane.",
+     kSites, &measured<&Probe::shift_mm>, kMedianRatio, kLaws},
+    {"probe_turn_advancing", 1, "deg", "Probe turn advancing", Group::picture, Direction::lower_is_better, kNeeds,
      "The part that turns: by how much the probe was tilted, rocked or rotated while the needle in tissue "
-     "advanced; "
-     "to and fro by under 1° is none. Null: no_picture_plane.",
-     kSites,
-     &measured<&Probe::turn_deg>,
-     {Scale::ratio},
-     kLaws},
+     "advanced; to and fro by under 1° is none. Null: no_picture_plane.",
+     kSites, &measured<&Probe::turn_deg>, kMedianRatio, kLaws},
 };
 
 }  // namespace

@@ -161,21 +161,28 @@ std::vector<Step> steps_of(const Signals& signals) {
 std::vector<TraceSegment> trace_of(const Signals& signals) {
   std::vector<TraceSegment> trace;
   glm::dvec3 point(0.0);
+  double point_s = 0.0;
   for (std::size_t i = 0; i < signals.steps.size(); ++i) {
     const Step& step = signals.steps[i];
-    if (step.first) point = step.rest_from_lps_mm;
+    if (step.first) {
+      point = step.rest_from_lps_mm;
+      point_s = step.t_s;
+    }
     const bool ends = i + 1 == signals.steps.size() || signals.steps[i + 1].first;
     const double length_mm = glm::distance(point, step.rest_to_lps_mm);
     if (length_mm < kTraceMm && !(ends && length_mm > 0.0)) continue;
-    trace.push_back({point, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false});
+    const double now_s = step.t_s + step.length_s;
+    trace.push_back(
+        {point, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false, point_s, now_s});
     point = step.rest_to_lps_mm;
+    point_s = now_s;
   }
   const cases::Instrument& needle = signals.setting.instrument;
   if (signals.endpoint && needle.kind == cases::InstrumentKind::core) {
     const cases::Endpoint& fired = *signals.endpoint;
     const glm::dvec3& from = fired.tip_at_rest_lps_mm();
-    trace.push_back(
-        {from, from + fired.direction * needle.throw_mm, fired.direction, signals.passages.back().in_body, true});
+    trace.push_back({from, from + fired.direction * needle.throw_mm, fired.direction,
+                     signals.passages.back().in_body, true, fired.t_s, fired.t_s});
   }
   return trace;
 }

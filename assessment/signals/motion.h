@@ -33,6 +33,9 @@ struct TraceSegment {
   glm::dvec3 needle_direction{0.0};
   bool in_body = false;  // at its end
   bool thrown = false;   // a fired core needle's throw
+  // When the tip had come to its start, and to its end; between the two it may have rested. Of a throw both are the
+  // trigger's.
+  double from_s = 0.0, to_s = 0.0;
 };
 
 // From the poses and passages of `signals`.
