@@ -1,6 +1,9 @@
 #include "assessment/registry.h"
 
 #include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "assessment/metrics/tables.h"
 
@@ -11,8 +14,8 @@ std::vector<MetricInfo> all_metrics() {
   std::vector<MetricInfo> all;
   for (const auto& table :
        {endpoint_metrics(), approach_metrics(), puncture_metrics(), structure_metrics(), procedure_metrics(),
-        breath_metrics(), force_metrics(), advance_metrics(), visibility_metrics(), path_metrics(), time_metrics(),
-        fluoroscopy_metrics(), recording_metrics()})
+        breath_metrics(), force_metrics(), advance_metrics(), probe_metrics(), visibility_metrics(), path_metrics(),
+        time_metrics(), fluoroscopy_metrics(), recording_metrics()})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }
@@ -36,7 +39,76 @@ std::string needs_of(const MetricInfo& info) {
   return text.empty() ? "–" : text;
 }
 
+constexpr std::pair<Law, const char*> kLaws[] = {
+    {kAtAnySpeed, "the same way in half to twice the time"},
+    {kInAnyFrame, "case and attempt, turned and shifted"},
+    {kMirrored, "left for right"},
+    {kInAnyBreath, "breath on or off, the hands at rest relative to tissue"},
+    {kIdleBefore, "seconds in which nothing is done, before"},
+    {kIdleAfter, "the same after the last deed, where nothing was fired"},
+    {kOneDarkFrame, "one picture that shows nothing"},
+    {kLostSamples, "one pose in a hundred missing"},
+    {kNothingIsNothing, "(who does nothing has no value)"}};
+
+// "1 2 5": the laws that hold, by their place in the table.
+std::string laws_of(const MetricInfo& info) {
+  std::string text;
+  for (std::size_t i = 0; i < std::size(kLaws); ++i)
+    if ((info.laws & kLaws[i].first) != 0) text += (text.empty() ? "" : " ") + std::to_string(i + 1);
+  return text.empty() ? "–" : text;
+}
+
+std::string estimands_markdown() {
+  std::string text =
+      "\n## What is estimated\n\n"
+      "One value a person (of the attempts on one task, by the column \"of a person's\"), and of those attempts "
+      "only in "
+      "which\nthe procedure was performed (`procedure_performed`). What an attempt without an endpoint says, not "
+      "fired "
+      "and not\ndeferred: nothing where the metric is left out; the worst value there is where it is a failure; "
+      "where "
+      "it is censored, a\ntime that was still running, longer than any that ended. A failure is also what was "
+      "never "
+      "reached (`never_punctured`,\n`not_in_target_structure`, `not_in_tissue_at_the_end`). \"Unchanged by\" names "
+      "laws "
+      "of the table below.\n\n"
+      "| id | scale | better | without an endpoint | of a person's | unchanged by |\n|---|---|---|---|---|---|\n";
+  for (const MetricInfo& info : registry())
+    text += "| `" + std::string(info.id) + "` | " + std::string(words(info.estimand.scale)) + " | " +
+            words(info.direction) + " | " + std::string(words(info.estimand.without_endpoint)) + " | " +
+            std::string(words(info.estimand.aggregation)) + " | " + laws_of(info) + " |\n";
+  text += "\n| law | a metric that names it stays as it is under |\n|---|---|\n";
+  for (std::size_t i = 0; i < std::size(kLaws); ++i)
+    text += "| " + std::to_string(i + 1) + " | " + kLaws[i].second + " |\n";
+  return text;
+}
+
+std::string history_markdown() {
+  std::string text =
+      "\n## Older versions\n\nValues stored by an older version stay as they are; `seldinger recompute` adds the "
+      "newest beside them. What the older\nones did otherwise:\n\n| id | version now | before |\n|---|---|---|\n";
+  for (const MetricInfo& info : registry())
+    if (*info.history != '\0')
+      text += "| `" + std::string(info.id) + "` | " + std::to_string(info.version) + " | " + info.history + " |\n";
+  return text;
+}
+
 }  // namespace
+
+std::string_view words(Scale scale) noexcept {
+  constexpr std::string_view kWords[] = {"ratio", "interval", "share", "count", "yes or no"};
+  return kWords[static_cast<std::size_t>(scale)];
+}
+
+std::string_view words(WithoutEndpoint without) noexcept {
+  constexpr std::string_view kWords[] = {"left out", "failure", "censored"};
+  return kWords[static_cast<std::size_t>(without)];
+}
+
+std::string_view words(Aggregation aggregation) noexcept {
+  constexpr std::string_view kWords[] = {"median", "mean", "proportion"};
+  return kWords[static_cast<std::size_t>(aggregation)];
+}
 
 std::span<const MetricInfo> registry() {
   static const std::vector<MetricInfo> all = all_metrics();
@@ -83,7 +155,7 @@ std::string metrics_markdown() {
   text += "\nWhat a metric needs and does not find makes it null, for the first of these reasons:\n\n";
   text += "| needs | reason |\n|---|---|\n";
   for (const NeedInfo& need : needs()) text += "| " + std::string(need.words) + " | `" + need.reason + "` |\n";
-  return text;
+  return text + estimands_markdown() + history_markdown();
 }
 
 }  // namespace seldinger::assessment

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "assessment/metrics/metric.h"
@@ -20,6 +21,11 @@ std::vector<MetricValue> measure_all(const Signals& signals);
 
 // Whether a stored value could be one, practising in this manner. An id that is not known any more is shown.
 bool applies(const MetricValue& metric, const Manner& manner);
+
+// As documents, exports and pages write them: "ratio", "left out", "median".
+std::string_view words(Scale scale) noexcept;
+std::string_view words(WithoutEndpoint without) noexcept;
+std::string_view words(Aggregation aggregation) noexcept;
 
 // docs/metrics.md, from the registry.
 std::string metrics_markdown();

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "assessment/registry.h"
+#include "assessment/signals/target_view.h"
 
 namespace seldinger::assessment {
 
@@ -23,6 +24,7 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   setting.defer_is_right = scene.defer_is_right;
   setting.breathes = scene.breathing.has_value();
   setting.yields = scene.yields;
+  setting.target_cannot_show = target_cannot_show(scene);
   return make_signals(setting, recording);
 }
 

@@ -17,6 +17,8 @@ void print_comparison(const casedb::Comparison& comparison) {
   for (const casedb::ComparedGroup& group : comparison.groups) {
     std::printf("\n%s: passed %zu of %zu, with a critical error %zu\n", reports::group_label(group).c_str(),
                 group.passed, group.gradable, group.with_critical_errors);
+    if (group.not_performed > 0)
+      std::printf("  left out, the procedure was not performed: %zu\n", group.not_performed);
     for (std::size_t i = 0; i < comparison.criteria.size(); ++i) {
       const assessment::CriterionResult& one = comparison.criteria[i];
       std::printf("  %-34s%s met %zu of %zu, %s\n", assessment::text_of(one.criterion).c_str(),

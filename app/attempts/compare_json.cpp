@@ -1,5 +1,6 @@
 #include "app/attempts/compare_json.h"
 
+#include "assessment/registry.h"
 #include "casedb/database/values_json.h"
 #include "casedb/json/grading_json.h"
 
@@ -15,6 +16,17 @@ Json json_of(const casedb::ComparedMetric& metric) {
           {"mean", metric.mean},
           {"low", metric.low},
           {"high", metric.high}};
+}
+
+// What the group says by the metric's estimand.
+void add_estimate(const assessment::MetricInfo& info, const assessment::OnePerson& one, Json& json) {
+  json["scale"] = assessment::words(info.estimand.scale);
+  json["aggregation"] = assessment::words(info.estimand.aggregation);
+  json["without_endpoint"] = assessment::words(info.estimand.without_endpoint);
+  json["failures"] = one.failures;
+  json["censored"] = one.censored;
+  json["estimate"] = one.estimate ? Json(*one.estimate) : Json(nullptr);
+  json["estimate_is_worst"] = one.worst;
 }
 
 Json json_of(const casedb::ComparedGroup& group, const casedb::Comparison& comparison) {
@@ -36,6 +48,7 @@ Json json_of(const casedb::ComparedGroup& group, const casedb::Comparison& compa
     json["metric"] = comparison.metrics[i]->id;
     json["version"] = comparison.metrics[i]->version;
     json["unit"] = comparison.metrics[i]->unit;
+    add_estimate(*comparison.metrics[i], group.of_metrics[i].one, json);
     metrics.push_back(std::move(json));
   }
   for (const casedb::ComparedAttempt& one : group.attempts) {
@@ -47,6 +60,7 @@ Json json_of(const casedb::ComparedGroup& group, const casedb::Comparison& compa
           {"operator", group.person_id ? Json(nullptr) : Json(group.operator_name)},
           {"person_id", group.person_id ? Json(*group.person_id) : Json(nullptr)},
           {"attempts", group.attempts.size()},
+          {"not_performed", group.not_performed},
           {"gradable", group.gradable},
           {"passed", group.passed},
           {"with_critical_errors", group.with_critical_errors},

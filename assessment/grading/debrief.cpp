@@ -20,9 +20,19 @@ constexpr Group kBySeverity[] = {Group::safety, Group::procedure, Group::target,
 
 // Said where a rule asks for them, not of their own accord: variants of others, secondary by definition, or nothing
 // that a trainee could do otherwise next time.
-constexpr std::string_view kOnlyIfAsked[] = {
-    "vis_shaft", "vis_joint_2_mm", "vis_joint_5_mm",   "vis_joint_session", "closest_approach",
-    "path_tip",  "ldlj",           "force_peak_axial", "lateral_force_peak"};
+constexpr std::string_view kOnlyIfAsked[] = {"vis_shaft",
+                                             "vis_joint_2_mm",
+                                             "vis_joint_5_mm",
+                                             "vis_joint_session",
+                                             "closest_approach",
+                                             "path_tip",
+                                             "ldlj",
+                                             "sparc",
+                                             "probe_shift_advancing",
+                                             "probe_turn_advancing",
+                                             "force_peak_axial",
+                                             "lateral_force_peak",
+                                             "withdrawn_at_end"};
 
 // Said without judging where there is neither rule nor band.
 constexpr std::string_view kFacts[] = {
@@ -205,6 +215,7 @@ std::string not_gradable_text(std::string_view reason) {
       {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
       {"tracking_slow", "tracking was slower than 60 Hz"},
       {"tracking_jumps", "tracking jumped further than a hand can move"},
+      {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
       {"too_short", "it was over before it began"},
       {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"}};
   for (const auto& [code, words] : kTexts)

@@ -1,10 +1,11 @@
-// Metrics of how the needle was advanced in tissue under a picture: what of it was seen, and where the probe was.
+// Metrics of how the needle was advanced in tissue under a picture: what of it was seen, and at what angle to it.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
 
+#include "assessment/metrics/plane.h"
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
 
@@ -12,9 +13,7 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr double kBeyondMm = 3.0;      // clinical.md, out-of-plane
-constexpr double kAdvancingMmS = 2.0;  // assessment.md §8, probe_drift_advancing
-constexpr double kProbePlayMm = 1.0;   // a probe that breathes with the skin has not drifted
-constexpr double kMinPlaneSine = 0.5;  // the probe's axes are perpendicular, or nothing can be said
+constexpr double kSightSeconds = 0.2;  // of the tip, until an unseen advance is over: a flicker is no sight
 
 struct Seen {
   double advance_mm = 0.0, visible_mm = 0.0;
@@ -22,26 +21,49 @@ struct Seen {
   std::optional<double> blind_s;  // when a blind run was first longer than was asked for
 };
 
+// Whether pictures show the tip, and for how long they have.
+class Sight {
+ public:
+  // The picture since `t_s`.
+  void picture(double t_s, bool visible) {
+    if (visible && !visible_) since_s_ = t_s;
+    if (!visible && visible_) ended_ = ended_ || lasts(t_s);
+    visible_ = visible;
+  }
+  void gap(double seconds) { since_s_ += seconds; }  // is no sight
+  bool visible() const { return visible_; }
+  // Whether it had lasted kSightSeconds by then, now or since last asked.
+  bool seen(double t_s) {
+    const bool seen = ended_ || (visible_ && lasts(t_s));
+    ended_ = false;
+    return seen;
+  }
+
+ private:
+  bool lasts(double t_s) const { return t_s - since_s_ >= kSightSeconds - kTimeTolerance_s; }
+  double since_s_ = 0.0;
+  bool visible_ = false, ended_ = false;
+};
+
 // What a picture showed counts for the step of the way that began with it.
 Seen seen_advance(const Signals& signals, double blind_run_mm = 0.0) {
   Seen seen;
   BlindRun blind;
-  bool visible = false;
+  Sight sight;
   std::size_t next_frame = 0;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
-    bool shown = visible;  // by any picture since the step before
-    for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= signals.poses[i - 1].t_s;
-         ++next_frame) {
-      visible = signals.frames[next_frame].live && signals.frames[next_frame].needle_tip;
-      shown = shown || visible;
-    }
-    if (shown || signals.gap(i - 1)) blind.length_mm = 0.0;  // what happened in a gap is not known
+    const double from_s = signals.poses[i - 1].t_s;
+    for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= from_s; ++next_frame)
+      sight.picture(signals.frames[next_frame].t_s,
+                    signals.frames[next_frame].live && signals.frames[next_frame].needle_tip);
+    if (sight.seen(from_s)) blind = {};
+    if (signals.gap(i - 1)) sight.gap(signals.interval_s(i - 1));
     const double advance_mm = signals.advance_mm[i];
     seen.advance_mm += advance_mm;
-    if (visible) {
+    if (sight.visible()) {
       seen.visible_mm += advance_mm;
     } else if (advance_mm > 0.0) {
-      if (blind.length_mm == 0.0) blind.from_s = signals.poses[i - 1].t_s;
+      if (blind.length_mm == 0.0) blind.from_s = from_s;
       blind.length_mm += advance_mm;
       blind.to_s = signals.poses[i].t_s;
       if (blind.length_mm > seen.longest_blind.length_mm) seen.longest_blind = blind;
@@ -66,14 +88,6 @@ Measured blind_advance_max(const Signals& signals) {
   return Measured::of(seen_advance(signals).longest_blind.length_mm);
 }
 
-// Unit normal of the picture's plane; nothing where the probe's axes span none.
-std::optional<glm::dvec3> plane_normal(const cases::PoseSample& pose) {
-  const glm::dvec3 across = glm::cross(pose.probe_axial, pose.probe_lateral);
-  const double sine = glm::length(across);
-  if (!(sine >= kMinPlaneSine)) return std::nullopt;
-  return across / sine;
-}
-
 struct PlaneAngle {
   double mean_deg = 0.0, max_deg = 0.0;
   const char* reason = nullptr;
@@ -83,7 +97,7 @@ PlaneAngle plane_angle(const Signals& signals) {
   double advance_mm = 0.0;
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     if (!(signals.advance_mm[i] > 0.0)) continue;
-    const auto normal = plane_normal(signals.poses[i]);
+    const auto normal = plane_normal(signals.poses[i].probe_axial, signals.poses[i].probe_lateral);
     if (!normal) return {0.0, 0.0, "no_picture_plane"};
     const double sine = std::min(1.0, std::abs(glm::dot(*normal, signals.poses[i].needle_direction)));
     const double deg = std::asin(sine) * 180.0 / std::numbers::pi;
@@ -115,7 +129,7 @@ Beyond beyond_plane(const Signals& signals, double more_than_mm = 0.0) {
   Beyond beyond;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
     if (!(signals.advance_mm[i] > 0.0)) continue;
-    const auto normal = plane_normal(signals.poses[i]);
+    const auto normal = plane_normal(signals.poses[i].probe_axial, signals.poses[i].probe_lateral);
     if (!normal) {
       beyond.no_plane = true;
       return beyond;
@@ -139,61 +153,49 @@ Measured advance_beyond_plane(const Signals& signals) {
   return beyond.no_plane ? Measured::none("no_picture_plane") : Measured::of(beyond.advance_mm);
 }
 
-// The probe is followed by a point that it drags along once it is kProbePlayMm away: the point's way is the drift.
-Measured probe_drift_advancing(const Signals& signals) {
-  double drift_mm = 0.0;
-  glm::dvec3 lead(0.0);  // from the point to the probe
-  for (const Step& step : signals.steps) {
-    const double speed_mm_s = glm::dot(step.to_lps_mm - step.from_lps_mm, step.needle_direction) / step.length_s;
-    const bool advancing = step.depth_from_mm > 0.0 && speed_mm_s > kAdvancingMmS;
-    if (step.first) lead = glm::dvec3(0.0);
-    if (!advancing) continue;  // the point goes with it
-    lead += step.probe_to_lps_mm - step.probe_from_lps_mm;
-    const double length_mm = glm::length(lead);
-    if (length_mm <= kProbePlayMm) continue;
-    drift_mm += length_mm - kProbePlayMm;
-    lead *= kProbePlayMm / length_mm;
-  }
-  return Measured::of(drift_mm);
-}
-
 constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
+constexpr std::uint32_t kSame =
+    kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
+constexpr const char* kByTissue =
+    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance.";
 
 constexpr MetricInfo kAdvanceMetrics[] = {
-    {"advance_visible_share", 1, "share", "Advance visible", Group::picture, Direction::higher_is_better,
+    {"advance_visible_share", 2, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
-     "Share of the way that the tip advanced in tissue while a live picture showed it; to and fro by under 1 mm is "
-     "no "
-     "advance. A frozen picture shows nothing. Null: under_1_mm_of_advance.",
-     "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share},
-    {"blind_advance", 1, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
+     "Share of the way that the hand advanced the tip in tissue while a live picture showed it; to and fro by "
+     "under 1 mm is no advance, nor is breath that slides past a hand at rest (as withdrawals_partial). A "
+     "frozen picture shows nothing. Null: under_1_mm_of_advance.",
+     "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
+     kMedianShare, kSame | kNothingIsNothing, kByTissue},
+    {"blind_advance", 2, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
-     "Length that the tip advanced in tissue while no live picture showed it; as advance_visible_share counts it.",
-     kSites, &blind_advance},
-    {"blind_advance_max", 1, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
+     "Length that the hand advanced the tip in tissue while no live picture showed it; as "
+     "advance_visible_share counts it.",
+     kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissue},
+    {"blind_advance_max", 2, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
-     "Longest part of blind_advance from one sight of the tip to the next.", kSites, &blind_advance_max},
-    {"plane_angle_mean", 1, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
+     "Longest part of blind_advance from one sight of the tip to the next: of 0.2 s or longer, for a flicker "
+     "shows nobody where it is. A tracking gap neither adds nor ends it.",
+     kSites, &blind_advance_max, kMedianRatio,
+     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
+     "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it."},
+    {"plane_angle_mean", 2, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion,
-     "Angle between needle and picture plane, averaged over the way that the tip advanced in tissue. Null: "
-     "under_1_mm_of_advance, no_picture_plane.",
-     "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean},
-    {"plane_angle_max", 1, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
+     "Angle between needle and picture plane, averaged over the way that the hand advanced the tip in tissue. "
+     "Null: under_1_mm_of_advance, no_picture_plane.",
+     "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean, kMedianInterval,
+     kSame | kNothingIsNothing, kByTissue},
+    {"plane_angle_max", 2, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
-     "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max},
-    {"advance_beyond_plane", 1, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
+     "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max, kMedianInterval, kSame | kNothingIsNothing,
+     kByTissue},
+    {"advance_beyond_plane", 2, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kOutOfPlane | kMotion | kTissue,
-     "Length that the tip advanced in tissue while it was more than 3 mm beyond the picture's plane, on the side "
-     "to "
-     "which the needle points: out of plane, the probe goes first and the tip follows into the picture. Null: "
-     "no_picture_plane.",
-     "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321", &advance_beyond_plane},
-    {"probe_drift_advancing", 1, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion | kTissue,
-     "Way of the probe, filtered as path_tip, while the needle in tissue advanced at more than 2 mm/s; to and fro "
-     "by "
-     "under 1 mm is no drift.",
-     kSites, &probe_drift_advancing},
+     "Length that the hand advanced the tip in tissue while it was more than 3 mm beyond the picture's plane, "
+     "on the side to which the needle points: out of plane, the probe goes first and the tip follows into the "
+     "picture. Null: no_picture_plane.",
+     "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321", &advance_beyond_plane,
+     kMedianRatio, kSame | kNothingIsNothing, kByTissue},
 };
 
 }  // namespace

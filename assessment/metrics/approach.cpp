@@ -50,16 +50,16 @@ constexpr MetricInfo kApproachMetrics[] = {
      "Least distance of the tip from the target's centre on the whole way; secondary to tip_target_dist. Before a "
      "core "
      "needle's throw. Gaps over 0.25 s are not bridged.",
-     "Perk Tutor's TargetsHit, as a distance", &closest_approach},
+     "Perk Tutor's TargetsHit, as a distance", &closest_approach, kMedianRatio, kOfTheWay},
     {"entry_angle_error", 1, "deg", "Angle to planned entry", Group::path, Direction::lower_is_better,
      kPlan | kSkin | kMotion,
      "Angle between the needle and the planned direction at the first pose in the body of the first skin puncture. "
      "Null: never_punctured.",
-     kPlanned, &entry_angle_error},
+     kPlanned, &entry_angle_error, kMedianRatio, kOfTheWay | kNothingIsNothing},
     {"entry_point_error", 1, "mm", "Distance from planned entry", Group::path, Direction::lower_is_better,
      kPlan | kSkin | kMotion,
      "From where the first skin puncture went through the skin to the planned entry. Null: never_punctured.",
-     kPlanned, &entry_point_error},
+     kPlanned, &entry_point_error, kMedianRatio, kOfTheWay | kNothingIsNothing},
 };
 
 }  // namespace

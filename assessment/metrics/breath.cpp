@@ -84,28 +84,34 @@ constexpr MetricInfo kBreathMetrics[] = {
      "Share of the way that the hand pushed the tip on inside the target's organ (where none is marked, at most 20 "
      "mm from the target's edge) while the breath was held; to and fro by under 1 mm is no advance, nor is what "
      "breath moves. Null: under_1_mm_of_advance.",
-     kSource, &advance_held_share},
+     kSource, &advance_held_share, kMedianShare,
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples | kNothingIsNothing},
     {"advance_in_breath", 1, "mm", "Advance in moving breath", Group::procedure, Direction::lower_is_better,
      kHeld | kSkin | kTarget | kMotion,
      "The length of that way, as advance_breath_held_share counts it, that was gone while breath moved.", kSource,
-     &advance_in_breath},
+     &advance_in_breath, kMedianRatio,
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples},
     {"fired_breath_held", 1, "bool", "Fired with breath held", Group::procedure, Direction::higher_is_better,
-     kHeld | kEndpoint, "1 or 0: whether the breath was held when the trigger fell.", kSource, &fired_breath_held},
-    {"breath_hold_time", 1, "s", "Breath held for", Group::procedure, Direction::lower_is_better, kHeld,
+     kHeld | kEndpoint, "1 or 0: whether the breath was held when the trigger fell.", kSource, &fired_breath_held,
+     kProportionOrFailure,
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples | kNothingIsNothing},
+    {"breath_hold_time", 1, "s", "Breath held for", Group::procedure, Direction::none, kHeld,
      "Time up to the endpoint in which the patient held the breath: from when it stood still to when it was lost "
-     "or "
-     "given back.",
-     kSource, &breath_hold_time},
-    {"breath_hold_used", 1, "share", "Held breath used", Group::procedure, Direction::higher_is_better,
+     "or given back. Neither long nor short is better: never to ask for a hold is 0.",
+     kSource, &breath_hold_time, kMedianRatio, kAnyPlace | kOneDarkFrame | kIdleBefore | kLostSamples},
+    {"breath_hold_used", 2, "share", "Held breath used", Group::procedure, Direction::higher_is_better,
      kHeld | kSkin,
      "Share of breath_hold_time that led to something: of each hold, from its begin to the last advance in tissue "
      "in it, or to the trigger. Null: breath_never_held.",
-     kSource, &breath_hold_used},
+     kSource, &breath_hold_used, kMedianShare, kAnyPlace | kOneDarkFrame | kIdleBefore | kNothingIsNothing,
+     "1: an advance was what the tip came on in the tissue, of breath as well."},
     {"breath_holds_asked", 1, "count", "Breath holds asked for", Group::procedure, Direction::none, kHeld,
-     "How often a held breath was asked for up to the endpoint.", kSource, &breath_holds_asked},
+     "How often a held breath was asked for up to the endpoint.", kSource, &breath_holds_asked, kMeanCount,
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples},
     {"breath_holds_failed", 1, "count", "Breath holds failed", Group::procedure, Direction::lower_is_better, kHeld,
      "How often, up to the endpoint, a held breath was lost by itself: held for too long, or by a cough.", kSource,
-     &breath_holds_failed},
+     &breath_holds_failed, kMeanCount,
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples},
 };
 
 }  // namespace

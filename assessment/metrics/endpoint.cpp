@@ -82,37 +82,50 @@ Measured tip_target_lateral(const Signals& signals) {
 }
 
 constexpr MetricInfo kEndpointMetrics[] = {
-    {"hit", 1, "bool", "Target hit", Group::target, Direction::higher_is_better, kEndpoint | kTarget,
-     "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target; core needle, at least 5 mm "
-     "of "
-     "the fired notch are. A sweep through the target before is no hit.",
-     kVidal, &hit},
-    {"first_pass_success", 1, "bool", "First pass hit", Group::target, Direction::higher_is_better,
+    {"hit", 2, "bool", "Target hit", Group::target, Direction::higher_is_better, kEndpoint | kTarget,
+     "1 or 0. At the endpoint (trigger): access needle, the tip is inside the target, or, where a structure is the "
+     "lumen to be reached, inside that lumen; core needle, at least 5 mm of the fired notch are inside the target. "
+     "A "
+     "sweep through it before is no hit.",
+     kVidal, &hit, kProportionOrFailure, kOfTheWay | kNothingIsNothing,
+     "1: an access needle hit the target lesion alone, also where a structure is the lumen to be reached."},
+    {"first_pass_success", 2, "bool", "First pass hit", Group::target, Direction::higher_is_better,
      kEndpoint | kTarget | kSkin | kMotion,
      "1 where the target was hit with one skin puncture and no partial withdrawal, else 0. Null: never_punctured.",
-     "first-pass completion as in a phantom study of needle guidance, PMC5318157", &first_pass_success},
+     "first-pass completion as in a phantom study of needle guidance, PMC5318157", &first_pass_success,
+     kProportionOrFailure, kOfTheWay | kNothingIsNothing, "1: as hit 1 and withdrawals_partial 1 had it."},
     {"core_in_target", 1, "mm", "Core in target", Group::target, Direction::higher_is_better,
-     kCoreNeedle | kEndpoint | kTarget, "Length of the fired notch inside the target.", kJohnson, &core_in_target},
+     kCoreNeedle | kEndpoint | kTarget, "Length of the fired notch inside the target.", kJohnson, &core_in_target,
+     kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"tip_target_dist", 1, "mm", "Distance to target centre", Group::target, Direction::lower_is_better,
      kEndpoint | kTarget,
      "At the endpoint, from the tip (core needle: the middle of the fired notch) to the target's centre; never the "
      "closest approach.",
-     kVidal, &tip_target_dist},
+     kVidal, &tip_target_dist, kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"tip_target_surface", 1, "mm", "Distance to target surface", Group::target, Direction::lower_is_better,
      kEndpoint | kTarget, "As tip_target_dist, to the target's surface; negative inside.", kVidal,
-     &tip_target_surface},
+     &tip_target_surface, kMedianIntervalOrFailure, kOfTheWay | kNothingIsNothing},
     {"tip_target_axial", 1, "mm", "Short of target", Group::target, Direction::none, kEndpoint | kTarget,
      "The part of tip_target_dist along the needle; positive when the needle stopped short.", kJohnson,
-     &tip_target_axial},
+     &tip_target_axial, kMedianInterval, kOfTheWay | kNothingIsNothing},
     {"tip_target_lateral", 1, "mm", "Beside target", Group::target, Direction::lower_is_better, kEndpoint | kTarget,
-     "The part of tip_target_dist across the needle.", kJohnson, &tip_target_lateral},
+     "The part of tip_target_dist across the needle.", kJohnson, &tip_target_lateral, kMedianRatioOrFailure,
+     kOfTheWay | kNothingIsNothing},
 };
 
 }  // namespace
 
 bool target_hit(const Signals& signals) {
   if (core(signals)) return *core_in_target(signals).value >= kMinCoreMm;
-  return to_surface_mm(signals) <= 0.0;
+  // A lumen to be reached is reached anywhere in it, not only where a lesion marks the place.
+  const glm::dvec3& tip = signals.endpoint->tip_at_rest_lps_mm();
+  bool lumen = false;
+  for (const cases::Structure& one : signals.setting.structures) {
+    if (one.rule != cases::StructureRule::target) continue;
+    lumen = true;
+    if (cases::signed_distance_mm(one.shape, tip, 1.0) <= 0.0) return true;
+  }
+  return !lumen && to_surface_mm(signals) <= 0.0;
 }
 
 std::span<const MetricInfo> endpoint_metrics() {

@@ -25,10 +25,11 @@ constexpr const char* kModel = "model force: what the needle's law commanded, no
 
 constexpr MetricInfo kForcesMetrics[] = {
     {"force_peak_axial", 1, "N", "Peak axial force", Group::safety, Direction::lower_is_better, kForces,
-     "Greatest force along the needle against its insertion, up to the endpoint.", kModel, &force_peak_axial},
+     "Greatest force along the needle against its insertion, up to the endpoint.", kModel, &force_peak_axial,
+     kMedianRatio, kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame},
     {"lateral_force_peak", 1, "N", "Peak lateral force", Group::safety, Direction::lower_is_better, kForces,
      "Greatest force across the needle, up to the endpoint: it bends the needle and tears the organ.", kModel,
-     &lateral_force_peak},
+     &lateral_force_peak, kMedianRatio, kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame},
 };
 
 }  // namespace

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <vector>
 
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
+#include "assessment/signals/smoothness.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -14,29 +16,16 @@ constexpr double kMinStraightMm = 5.0;  // assessment.md §8, path_inefficiency
 constexpr double kExcursionMm = 5.0;    // clinical.md: jiggling is taught
 constexpr double kSwingMm = 0.5;        // the shaft swings when its tip does by this
 
-double length_mm(const Step& step) {
-  return glm::distance(step.from_lps_mm, step.to_lps_mm);
-}
-
-// Of a step's length, clipped at the skin.
-double share_in_tissue(const Step& step) {
-  const double from_mm = step.depth_from_mm, to_mm = step.depth_to_mm;
-  if (from_mm > 0.0 && to_mm > 0.0) return 1.0;
-  if (from_mm <= 0.0 && to_mm <= 0.0) return 0.0;
-  return std::max(from_mm, to_mm) / std::abs(to_mm - from_mm);
-}
-
 Measured path_tip(const Signals& signals) {
   double path_mm = 0.0;
-  for (const Step& step : signals.steps)
-    if (step.moving) path_mm += length_mm(step);
+  for (const Stretch& stretch : stretches_of(signals.way)) path_mm += length_mm(stretch.points_mm);
   return Measured::of(path_mm);
 }
 
 Measured path_in_tissue(const Signals& signals) {
   double path_mm = 0.0;
-  for (const Step& step : signals.steps)
-    if (step.moving) path_mm += length_mm(step) * share_in_tissue(step);
+  for (const Stretch& stretch : stretches_of(signals.way))
+    if (stretch.in_tissue) path_mm += length_mm(stretch.points_mm);
   return Measured::of(path_mm);
 }
 
@@ -88,18 +77,33 @@ class Excursions {
 
 Measured path_inefficiency(const Signals& signals) {
   const cases::SkinPassage& skin = signals.passages.back();
-  if (!skin.in_body) return Measured::none("not_in_tissue_at_the_end");
-  const double straight_mm = glm::distance(skin.entry_lps_mm, signals.poses.back().tip_at_rest_lps_mm());
-  if (!(straight_mm >= kMinStraightMm)) return Measured::none("under_5_mm_from_the_skin");
+  const std::vector<Stretch> stretches = stretches_of(signals.way);
+  if (!skin.in_body || stretches.empty() || !stretches.back().in_tissue)
+    return Measured::none("not_in_tissue_at_the_end");
   double path_mm = 0.0;
   Excursions excursions;
-  for (const Step& step : signals.steps) {
-    const double share = step.moving ? share_in_tissue(step) : 0.0;
-    if (!(share > 0.0)) continue;
-    path_mm += length_mm(step) * share;
-    excursions.move_by(glm::dot(step.to_lps_mm - step.from_lps_mm, step.needle_direction) * share);
+  // Of the last stretches in tissue, those that a gap parts are joined by a straight line.
+  glm::dvec3 entry = skin.entry_lps_mm, last = entry;
+  bool joins = false;
+  for (const Stretch& stretch : stretches) {
+    if (!stretch.in_tissue) {
+      joins = false;
+      continue;
+    }
+    if (!joins)
+      entry = stretch.points_mm.front();
+    else
+      path_mm += glm::distance(last, stretch.points_mm.front());
+    path_mm += length_mm(stretch.points_mm);
+    for (std::size_t i = 1; i < stretch.points_mm.size(); ++i)
+      excursions.move_by(glm::dot(stretch.points_mm[i] - stretch.points_mm[i - 1], stretch.needle_directions[i]));
+    last = stretch.points_mm.back();
+    joins = true;
   }
-  return Measured::of(100.0 * ((path_mm - excursions.excess_mm()) / straight_mm - 1.0));
+  const double straight_mm = glm::distance(entry, last);
+  if (!(straight_mm >= kMinStraightMm)) return Measured::none("under_5_mm_from_the_skin");
+  // However much of it went to and fro, what is left leads from one end to the other.
+  return Measured::of(100.0 * (std::max(straight_mm, path_mm - excursions.excess_mm()) / straight_mm - 1.0));
 }
 
 // Between skin entry and tip, triangle by triangle: what is swept to and fro cancels until the tip is kSwingMm
@@ -150,54 +154,85 @@ Measured swept_area(const Signals& signals) {
   return Measured::of(sweep.area_mm2());
 }
 
-// Movements: runs of moving steps; each counts by how long it lasted.
-Measured ldlj(const Signals& signals) {
+// The mean of what `of_one` says of each movement, weighed by how long it lasted.
+template <typename OfOne>
+Measured of_movements(const Signals& signals, const OfOne& of_one) {
   double sum = 0.0, total_s = 0.0;
-  std::vector<glm::dvec3> positions;
-  const auto close = [&] {
-    const auto one = log_dimensionless_jerk(positions, kMotionRateHz);
+  std::size_t at = 0;
+  for (const Movement& movement : movements_of(signals)) {
+    std::vector<glm::dvec3> positions;
+    for (; at < signals.steps.size(); ++at) {
+      const Step& step = signals.steps[at];
+      const double middle_s = step.t_s + 0.5 * step.length_s;
+      if (middle_s < movement.from_s) continue;
+      if (middle_s > movement.to_s) break;
+      if (step.length_s < 1.0 / kMotionRateHz - 1e-9) continue;  // the piece that is left at an end
+      if (positions.empty()) positions.push_back(step.from_lps_mm);
+      positions.push_back(step.to_lps_mm);
+    }
     const double length_s = static_cast<double>(positions.size()) / kMotionRateHz;
-    if (one) sum += *one * length_s, total_s += length_s;
-    positions.clear();
-  };
-  for (const Step& step : signals.steps) {
-    const bool whole = step.length_s > 1.0 / kMotionRateHz - 1e-9;
-    if (!step.moving || step.first || !whole) close();
-    if (!step.moving || !whole) continue;
-    if (positions.empty()) positions.push_back(step.from_lps_mm);
-    positions.push_back(step.to_lps_mm);
+    if (const std::optional<double> one = of_one(positions)) sum += *one * length_s, total_s += length_s;
   }
-  close();
-  if (!(total_s > 0.0)) return Measured::none("no_movement_of_5_mm_s");
+  if (!(total_s > 0.0)) return Measured::none("no_movement");
   return Measured::of(sum / total_s);
 }
 
+Measured ldlj(const Signals& signals) {
+  return of_movements(signals, [](const std::vector<glm::dvec3>& positions) {
+    return log_dimensionless_jerk(positions, kMotionRateHz);
+  });
+}
+
+Measured sparc(const Signals& signals) {
+  return of_movements(signals, [](const std::vector<glm::dvec3>& positions) {
+    std::vector<double> speeds_mm_s;
+    for (std::size_t i = 1; i < positions.size(); ++i)
+      speeds_mm_s.push_back(glm::distance(positions[i - 1], positions[i]) * kMotionRateHz);
+    return spectral_arc_length(speeds_mm_s, kMotionRateHz);
+  });
+}
+
+constexpr std::uint32_t kOfPath = kAnyPlace | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
+
 constexpr MetricInfo kPathMetrics[] = {
-    {"path_tip", 2, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
-     "Length of the tip's way while it moved: resampled to 100 Hz, low-passed at 10 Hz (zero-phase 4th-order "
-     "Butterworth), at 3 mm/s or more for at least 0.2 s; gaps over 0.25 s are not bridged. One pose: 0.",
-     kJohnson, &path_tip},
-    {"path_in_tissue", 1, "mm", "Tip path in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
+    {"path_tip", 3, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
+     "Length of the tip's way, however slowly it went: resampled to 100 Hz, low-passed at 10 Hz (zero-phase "
+     "4th-order Butterworth), through points at least 0.25 mm apart, so that what trembles on one spot goes "
+     "nowhere. The way is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle "
+     "along with the tissue, is none. Gaps over 0.25 s are not bridged. One pose: 0.",
+     kJohnson, &path_tip, kMedianRatio, kOfPath,
+     "1: the filtered way as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 "
+     "s, so that a slow way was none, and in the room's frame."},
+    {"path_in_tissue", 2, "mm", "Tip path in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
      "The part of path_tip below the skin; what goes through the skin is clipped at it.", "Perk Tutor's TissuePath",
-     &path_in_tissue},
-    {"path_inefficiency", 1, "%", "Detour in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
-     "How much longer path_in_tissue was than the straight line from the last skin entry to the tip at the end; to "
-     "and "
-     "fro along the needle by under 5 mm is left out (jiggling is taught). Null: not_in_tissue_at_the_end, "
+     &path_in_tissue, kMedianRatio, kOfPath, "1: the part of path_tip's version 2."},
+    {"path_inefficiency", 2, "%", "Detour in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
+     "How much longer path_in_tissue was than the straight line from where the tip last came through the skin "
+     "to where it ended; to and fro along the needle by under 5 mm is left out (jiggling is taught), and a gap "
+     "in tissue counts as a straight line. Never negative. Null: not_in_tissue_at_the_end, "
      "under_5_mm_from_the_skin.",
-     "Perk Tutor's PathInefficiency, in tissue", &path_inefficiency},
+     "Perk Tutor's PathInefficiency, in tissue", &path_inefficiency, kMedianRatio, kOfPath,
+     "1: of path_in_tissue's version 1: −100 % for whoever went more slowly than 3 mm/s."},
     {"swept_area", 1, "mm²", "Area swept by shaft", Group::safety, Direction::lower_is_better, kMotion | kSkin,
-     "Area that the needle between skin entry and tip swept, as a fan of triangles; to and fro by under 0.5 mm at "
-     "the "
-     "tip, and pushing, sweep nothing.",
-     "potential tissue damage: Perk Tutor's TissueDamage; Keri et al. 2015", &swept_area},
-    {"ldlj", 1, "1", "Smoothness", Group::path, Direction::higher_is_better, kMotion,
-     "Log dimensionless jerk, −ln(T³/v_peak² ∫‖jerk‖² dt), of each movement (a run that path_tip counts), averaged "
-     "over "
-     "their times; nearer to 0 is smoother, a single minimum-jerk reach has −5.3 from start to end. Movements "
-     "under 5 "
-     "mm/s are left out. Null: no_movement_of_5_mm_s.",
-     "Balasubramanian et al., IEEE Trans. Biomed. Eng. 59 (2012) 2126", &ldlj},
+     "Area that the needle between skin entry and tip swept, as a fan of triangles; to and fro by under 0.5 mm "
+     "at the tip, and pushing, sweep nothing.",
+     "potential tissue damage: Perk Tutor's TissueDamage; Keri et al. 2015", &swept_area, kMedianRatio,
+     kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples},
+    {"ldlj", 2, "1", "Smoothness", Group::path, Direction::higher_is_better, kMotion,
+     "Log dimensionless jerk, −ln(T³/v_peak² ∫‖jerk‖² dt), of each movement, averaged over their times; nearer "
+     "to 0 is smoother, a single minimum-jerk reach has −5.3 from start to end. A movement is what lies "
+     "between two rests: the tip rests while it comes no further than 0.25 mm in 0.5 s; movements under 1 mm "
+     "are left out. Null: no_movement.",
+     "Balasubramanian et al., IEEE Trans. Biomed. Eng. 59 (2012) 2126", &ldlj, kMedianInterval,
+     kAnyPlace | kIdleAfter | kOneDarkFrame | kNothingIsNothing,
+     "1: of runs at 3 mm/s or more for 0.2 s that reached 5 mm/s, so that a slow hand had none."},
+    {"sparc", 1, "1", "Spectral smoothness", Group::path, Direction::higher_is_better, kMotion,
+     "Spectral arc length (SPARC) of the tip's speed in each movement, as ldlj has them, averaged over their "
+     "times: length of the normalised amplitude spectrum up to 10 Hz and above 5 %; nearer to 0 is smoother, a "
+     "single minimum-jerk reach has −1.4. Unlike ldlj it does not depend on how long a movement was. Null: "
+     "no_movement.",
+     "Balasubramanian et al., J. NeuroEng. Rehabil. 12 (2015) 112", &sparc, kMedianInterval,
+     kAnyPlace | kIdleAfter | kOneDarkFrame | kNothingIsNothing},
 };
 
 }  // namespace

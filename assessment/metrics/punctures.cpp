@@ -1,6 +1,5 @@
 // Skin punctures and withdrawals.
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
@@ -23,22 +22,38 @@ Measured withdrawals_full(const Signals& signals) {
   return Measured::of(count_punctures(signals).full_withdrawals);
 }
 
+Measured withdrawn_at_end(const Signals& signals) {
+  const PunctureCounts counts = count_punctures(signals);
+  if (counts.punctures == 0) return Measured::none("never_punctured");
+  return Measured::of(counts.withdrawn_at_end ? 1.0 : 0.0);
+}
+
+constexpr std::uint32_t kAnyOfThese = kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame;
+
 constexpr MetricInfo kPuncturesMetrics[] = {
     {"skin_punctures", 1, "count", "Skin punctures", Group::safety, Direction::lower_is_better, kSkin | kMotion,
      "Times the tip went more than 2 mm below the skin for at least 100 ms; the next counts after it was 1 mm "
-     "outside. "
-     "The ends of the volume are no skin; lung and gas are body. What starts inside is no puncture.",
-     kJohnson, &skin_punctures},
-    {"withdrawals_partial", 1, "count", "Partial withdrawals", Group::path, Direction::lower_is_better,
+     "outside. The ends of the volume are no skin; lung and gas are body. What starts inside is no puncture.",
+     kJohnson, &skin_punctures, kMeanCount, kAnyOfThese | kInAnyBreath | kLostSamples},
+    {"withdrawals_partial", 2, "count", "Partial withdrawals", Group::path, Direction::lower_is_better,
      kSkin | kMotion,
-     "Times the inserted length fell below its running maximum by 20 % of it (at least 2, at most 5 mm) and rose "
-     "by as "
-     "much again without leaving the skin.",
-     kVidal, &withdrawals_partial},
-    {"withdrawals_full", 1, "count", "Full withdrawals", Group::path, Direction::lower_is_better, kSkin | kMotion,
-     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm before the "
-     "endpoint.",
-     kVidal, &withdrawals_full},
+     "Times the hand drew the needle back by 20 % of how deep it had pushed it (at least 2, at most 5 mm) and "
+     "pushed it on by as much again without leaving the skin. What goes along the needle counts where both the "
+     "hand's tip and its place in the tissue went: breath that slides past a hand at rest draws nothing back.",
+     kVidal, &withdrawals_partial, kMeanCount, kAnyOfThese | kAtAnySpeed | kLostSamples,
+     "1: told by the tip's place in the tissue alone, so that breath past a resting hand drew back with each "
+     "cycle."},
+    {"withdrawals_full", 2, "count", "Full withdrawals", Group::path, Direction::lower_is_better, kSkin | kMotion,
+     "Times the needle, once more than 2 mm below the skin for 100 ms, left it by more than 1 mm and punctured "
+     "it again; the last removal is none.",
+     kVidal, &withdrawals_full, kMeanCount, kAnyOfThese | kInAnyBreath | kLostSamples,
+     "1: the removal at the end of an attempt without a trigger counted, too."},
+    {"withdrawn_at_end", 1, "bool", "Withdrawn at the end", Group::path, Direction::none, kSkin | kMotion,
+     "1 where the needle, once it had punctured the skin, stood drawn back at the end, by as much as "
+     "withdrawals_partial asks for or out of the skin, and was not pushed on again; else 0. Null: "
+     "never_punctured.",
+     "what a withdrawal that nothing follows is, and no count of withdrawals sees", &withdrawn_at_end, kProportion,
+     kAnyOfThese | kAtAnySpeed | kLostSamples | kNothingIsNothing},
 };
 
 }  // namespace
@@ -51,12 +66,19 @@ PunctureCounts count_punctures(const Signals& signals) {
   double deep_since_s = 0.0, highest_mm = 0.0, lowest_mm = 0.0;
   double highest_s = signals.poses.front().t_s;  // when highest_mm was reached, before any fall from it
   std::size_t entered = 0;                       // the pose with which the tip last came into the body
+  bool drawn_out = false;
+  double out_s = 0.0;  // when what was drawn out had been deepest
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     const cases::SkinPassage& skin = signals.passages[i];
     const double t_s = signals.poses[i].t_s;
     if (i > 0 && signals.gap(i - 1)) deep = false;  // what happened in a gap is not known
     // Sample and hold: the depth of the pose before lasted until now.
     if (armed && deep && t_s - deep_since_s >= kPunctureSeconds - kTimeTolerance_s) {
+      if (drawn_out) {  // what was drawn out went in again
+        ++counts.full_withdrawals;
+        counts.full_withdrawals_s.push_back(out_s);
+        drawn_out = false;
+      }
       if (++counts.punctures == 1) {
         counts.first_s = deep_since_s;
         counts.first_pose = entered;
@@ -72,8 +94,8 @@ PunctureCounts count_punctures(const Signals& signals) {
       deep = false;
     }
     if (skin.depth_mm < kRearmDepthMm && !armed) {
-      ++counts.full_withdrawals;
-      counts.full_withdrawals_s.push_back(highest_s);
+      drawn_out = true;
+      out_s = highest_s;
       armed = true;
     }
     if (!skin.in_body) {
@@ -81,7 +103,7 @@ PunctureCounts count_punctures(const Signals& signals) {
       highest_mm = 0.0;
       continue;
     }
-    const double inserted_mm = glm::dot(skin.tip_lps_mm - skin.entry_lps_mm, signals.poses[i].needle_direction);
+    const double inserted_mm = signals.pushed_mm[i];
     if (!fallen && inserted_mm >= highest_mm) highest_s = t_s;
     highest_mm = std::max(highest_mm, inserted_mm);
     const double hysteresis_mm = std::clamp(kPartialShare * highest_mm, kPartialMinMm, kPartialMaxMm);
@@ -99,6 +121,7 @@ PunctureCounts count_punctures(const Signals& signals) {
       highest_s = t_s;
     }
   }
+  counts.withdrawn_at_end = counts.punctures > 0 && (fallen || drawn_out);
   return counts;
 }
 

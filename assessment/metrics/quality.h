@@ -9,10 +9,12 @@
 namespace seldinger::assessment {
 
 constexpr double kMaxGapShare = 0.05, kMinSampleRateHz = 60.0;  // assessment.md §8
+constexpr double kMaxRepairedShare = 0.01;                      // judgement: one pose in a hundred
 
 // Why an attempt with these metrics is not to be graded, as a stable code; empty when it is. `too_short` (no time
 // passed), `tracking_gaps` (over 5 % of the time), `tracking_slow` (under 60 Hz in over 5 % of the time),
-// `tracking_jumps` (any), `quality_not_measured` (stored before these were).
+// `tracking_jumps` (any that was not repaired), `tracking_repaired` (over 1 % of the poses), `quality_not_measured`
+// (stored before these were). Of several versions of a metric the newest counts.
 std::string why_not_gradable(std::span<const MetricValue> metrics);
 
 }  // namespace seldinger::assessment

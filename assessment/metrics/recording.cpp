@@ -1,6 +1,4 @@
 // Metrics of the recording's own quality.
-#include <algorithm>
-
 #include "assessment/metrics/quality.h"
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
@@ -13,7 +11,7 @@ Measured gap_share(const Signals& signals) {
   if (!(total_s > 0.0)) return Measured::none("too_short");
   double gap_s = 0.0;
   for (std::size_t i = 0; i + 1 < signals.poses.size(); ++i)
-    if (signals.gap(i)) gap_s += signals.interval_s(i);
+    if (signals.gaps[i] == Gap::silence || signals.gaps[i] == Gap::jump) gap_s += signals.interval_s(i);
   return Measured::of(gap_s / total_s);
 }
 
@@ -23,27 +21,46 @@ Measured sample_rate_p5(const Signals& signals) {
 }
 
 Measured tracking_jumps(const Signals& signals) {
-  int jumps = 0;
-  for (const Gap gap : signals.gaps) jumps += gap == Gap::jump ? 1 : 0;
-  return Measured::of(jumps);
+  return Measured::of(signals.tracking.jumps);
 }
 
+Measured jumps_unrepaired(const Signals& signals) {
+  return Measured::of(signals.tracking.left);
+}
+
+Measured repaired_share(const Signals& signals) {
+  return Measured::of(static_cast<double>(signals.tracking.repaired) / static_cast<double>(signals.poses.size()));
+}
+
+constexpr std::uint32_t kOfTracker = kInAnyFrame | kMirrored | kOneDarkFrame;
+
 constexpr MetricInfo kRecordingMetrics[] = {
-    {"gap_share", 2, "share", "Tracking gaps", Group::recording, Direction::lower_is_better, 0,
-     "Share of the time in gaps between poses: of over 0.25 s, or in which the tip jumped (tracking_jumps); gaps "
-     "belong "
-     "to no other metric's denominator. An attempt with over 5 % is not graded. Null: too_short.",
-     "data quality", &gap_share},
+    {"gap_share", 3, "share", "Tracking gaps", Group::recording, Direction::lower_is_better, 0,
+     "Share of the time in gaps between poses: of over 0.25 s, or in which the tip jumped and was not repaired "
+     "(jumps_unrepaired); gaps belong to no other metric's denominator. An attempt with over 5 % is not "
+     "graded. Null: too_short.",
+     "data quality", &gap_share, kMedianShare, kOfTracker,
+     "1: only of over 0.25 s; 2: with jumps as tracking_jumps' version 1 had them."},
     {"sample_rate_p5", 1, "Hz", "Tracking rate", Group::recording, Direction::higher_is_better, 0,
      "Rate of the poses that was kept for 95 % of the time outside gaps. An attempt under 60 Hz is not graded. "
-     "Null: "
-     "too_short (or nothing but gaps).",
-     "data quality", &sample_rate_p5},
-    {"tracking_jumps", 1, "count", "Tracking jumps", Group::recording, Direction::lower_is_better, 0,
-     "Times the tip went more than 50 mm at more than 10 m/s from one pose to the next: no hand does, the tracker "
-     "lost "
-     "it. An attempt with any is not graded.",
-     "data quality", &tracking_jumps},
+     "Null: too_short (or nothing but gaps).",
+     "data quality", &sample_rate_p5, kMedianRatio, kOfTracker},
+    {"tracking_jumps", 2, "count", "Tracking jumps", Group::recording, Direction::lower_is_better, 0,
+     "Times the needle's tip went, over 10 ms, at more than 2 m/s or was accelerated by more than 100 m/s²: no "
+     "hand does, the tracker lost it. There and back within 0.1 s is one. Counted before anything is repaired; "
+     "moves of the program's own (needle guide, change of hands, start) are none.",
+     "data quality", &tracking_jumps, kMeanCount, kOfTracker,
+     "1: only more than 50 mm at more than 10 m/s, so that 80 mm in 10 ms were the hand's."},
+    {"jumps_unrepaired", 1, "count", "Jumps not repaired", Group::recording, Direction::lower_is_better, 0,
+     "Of tracking_jumps, those left after single poses far from their neighbours were put back between them "
+     "(repaired_share). They are gaps, and an attempt with any is not graded.",
+     "data quality", &jumps_unrepaired, kMeanCount, kOfTracker},
+    {"repaired_share", 1, "share", "Poses repaired", Group::recording, Direction::lower_is_better, 0,
+     "Share of the poses that were part of a jump, that a Hampel filter (seven poses, three times 1.4826 the "
+     "median absolute deviation) found far from their neighbours, and that were put back between them, at most "
+     "three in a row: every metric is of the poses so repaired. An attempt with over 1 % is not graded.",
+     "Hampel filter: Pearson, IEEE Trans. Control Syst. Technol. 10 (2002) 55", &repaired_share, kMedianShare,
+     kOfTracker},
 };
 
 }  // namespace
@@ -53,15 +70,24 @@ std::span<const MetricInfo> recording_metrics() {
 }
 
 std::string why_not_gradable(std::span<const MetricValue> metrics) {
-  const auto find = [&](const char* id) {
-    return std::find_if(metrics.begin(), metrics.end(), [&](const MetricValue& metric) { return metric.id == id; });
+  const auto newest = [&](const char* id) {
+    const MetricValue* found = nullptr;
+    for (const MetricValue& metric : metrics)
+      if (metric.id == id && (found == nullptr || metric.version > found->version)) found = &metric;
+    return found;
   };
-  const auto gaps = find("gap_share"), rate = find("sample_rate_p5"), jumps = find("tracking_jumps");
-  if (gaps == metrics.end() || rate == metrics.end() || jumps == metrics.end()) return "quality_not_measured";
+  const MetricValue *gaps = newest("gap_share"), *rate = newest("sample_rate_p5"),
+                    *jumps = newest("tracking_jumps");
+  if (gaps == nullptr || rate == nullptr || jumps == nullptr) return "quality_not_measured";
   if (!gaps->value) return "too_short";
   if (!(*gaps->value <= kMaxGapShare)) return "tracking_gaps";
   if (!rate->value || !(*rate->value >= kMinSampleRateHz * (1.0 - 1e-6))) return "tracking_slow";
-  if (!jumps->value || *jumps->value > 0.0) return "tracking_jumps";
+  // Stored before anything was repaired, an attempt with any jump is spoiled.
+  const MetricValue *left = newest("jumps_unrepaired"), *repaired = newest("repaired_share");
+  if (left == nullptr) left = jumps;
+  if (!left->value || *left->value > 0.0) return "tracking_jumps";
+  if (repaired != nullptr && !(repaired->value && *repaired->value <= kMaxRepairedShare))
+    return "tracking_repaired";
   return "";
 }
 

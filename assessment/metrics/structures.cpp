@@ -1,13 +1,13 @@
 // Metrics of what lies beside the target: structures to stay out of, to cross, to enter once, and the target's far
 // wall.
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
-#include <variant>
+#include <utility>
 #include <vector>
 
+#include "assessment/metrics/structure_visits.h"
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
 
@@ -17,10 +17,7 @@ namespace {
 using cases::Structure;
 using cases::StructureRule;
 
-constexpr double kContactMm = 0.5;      // clinical.md: any path longer than this inside
 constexpr double kClearanceMm = 20.0;   // nobody asks how far beyond
-constexpr double kNearMm = 4.0;         // first asked within this
-constexpr double kDeepMm = 64.0;        // deeper inside is this deep
 constexpr std::size_t kWayPart = 64;    // points of the way asked together
 constexpr double kNeedleEndMm = 200.0;  // farther than any lumen's far wall
 
@@ -29,47 +26,9 @@ bool no_go(const Structure& structure) {
          structure.rule == StructureRule::advisory;
 }
 
-// The box around a structure, which most of the way is outside of.
-class Boxed {
- public:
-  explicit Boxed(const Structure& structure) : structure_(&structure), box_(cases::bounds_of(structure.shape)) {}
-  // By a formula, which is asked at no cost.
-  bool drawn() const { return !std::holds_alternative<cases::VoxelSet>(structure_->shape); }
-  // A lower bound of the distance, mm.
-  double beyond_mm(const glm::dvec3& p) const {
-    return glm::length(glm::max(glm::dvec3(0.0), glm::max(box_.low_lps_mm - p, p - box_.high_lps_mm)));
-  }
-  std::vector<cases::Stretch> stretches(const glm::dvec3& a, const glm::dvec3& b) const {
-    for (int axis = 0; axis < 3; ++axis)
-      if (std::max(a[axis], b[axis]) < box_.low_lps_mm[axis] || std::min(a[axis], b[axis]) > box_.high_lps_mm[axis])
-        return {};
-    return cases::stretches_inside(structure_->shape, a, b);
-  }
-  // Exact below `enough_mm`, else some lower bound that is not below it. Far is asked in voxels at a high price, so
-  // the search widens only as long as it must, from a lower bound that is known.
-  double distance_mm(const glm::dvec3& p, double known_mm, double enough_mm) const {
-    const double bound_mm = std::max(known_mm, beyond_mm(p));
-    if (bound_mm > 0.0 && bound_mm >= enough_mm) return bound_mm;
-    double most_mm = std::max(kNearMm, enough_mm);
-    for (double limit_mm = std::max(kNearMm, bound_mm + kNearMm);; limit_mm *= 2.0) {
-      const double asked_mm = std::min(limit_mm, most_mm);
-      const double found_mm = cases::signed_distance_mm(structure_->shape, p, asked_mm);
-      if (std::abs(found_mm) < asked_mm || found_mm >= enough_mm || limit_mm >= kDeepMm) return found_mm;
-      if (found_mm < 0.0) most_mm = kDeepMm;
-    }
-  }
-  bool contains(const glm::dvec3& p) const {
-    return beyond_mm(p) == 0.0 && cases::signed_distance_mm(structure_->shape, p, 1e-3) < 0.0;
-  }
-
- private:
-  const Structure* structure_;
-  cases::Bounds box_;
-};
-
 template <typename Chosen>
-std::vector<Boxed> chosen(const Signals& signals, const Chosen& is) {
-  std::vector<Boxed> found;
+std::vector<BoxedStructure> chosen(const Signals& signals, const Chosen& is) {
+  std::vector<BoxedStructure> found;
   for (const Structure& structure : signals.setting.structures)
     if (is(structure)) found.emplace_back(structure);
   return found;
@@ -79,88 +38,32 @@ bool of_rule(const Structure& structure) {
   return structure.rule == rule;
 }
 
-// Length of a → b inside any of them, each part once.
-double length_inside_mm(const std::vector<Boxed>& structures, const glm::dvec3& a, const glm::dvec3& b) {
-  std::vector<cases::Stretch> all;
-  for (const Boxed& one : structures) {
-    const auto found = one.stretches(a, b);
-    all.insert(all.end(), found.begin(), found.end());
-  }
-  std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.from < y.from; });
-  double share = 0.0, reached = 0.0;
-  for (const cases::Stretch& stretch : all) {
-    share += std::max(0.0, stretch.to - std::max(reached, stretch.from));
-    reached = std::max(reached, stretch.to);
-  }
-  return share * glm::distance(a, b);
-}
-
-// The tip in and out of one structure: a visit is more than kContactMm of way inside, and ends with as much
-// outside.
-struct Visits {
-  int entered = 0;       // from outside
-  int began_inside = 0;  // 1 when the way began inside
-  int through = 0;       // left forwards, along the needle: through the far wall
-};
-Visits visits_of(const Boxed& structure, const std::vector<TraceSegment>& trace) {
-  Visits visits;
-  bool visiting = false, left_forwards = false, any = false;
-  double inside_mm = 0.0, outside_mm = 0.0;
-  bool began_inside = false;
-  const auto pass = [&](bool inside, double length_mm, bool forwards) {
-    if (!any) began_inside = inside;
-    any = true;
-    if (inside) {
-      inside_mm += length_mm;
-      outside_mm = 0.0;
-      if (inside_mm > kContactMm && !visiting) {
-        visiting = true;
-        (began_inside ? visits.began_inside : visits.entered) += 1;
-        began_inside = false;
-      }
-      return;
-    }
-    if (outside_mm == 0.0) left_forwards = forwards;
-    outside_mm += length_mm;
-    if (outside_mm > kContactMm) {
-      if (visiting && left_forwards) ++visits.through;
-      visiting = began_inside = false;
-      inside_mm = 0.0;
-    }
-  };
-  for (const TraceSegment& segment : trace) {
-    const glm::dvec3 way = segment.to_lps_mm - segment.from_lps_mm;
-    const double length_mm = glm::length(way);
-    const bool forwards = glm::dot(way, segment.needle_direction) > 0.0;
-    double at = 0.0;
-    for (const cases::Stretch& stretch : structure.stretches(segment.from_lps_mm, segment.to_lps_mm)) {
-      if (stretch.from > at) pass(false, (stretch.from - at) * length_mm, forwards);
-      pass(true, (stretch.to - stretch.from) * length_mm, forwards);
-      at = stretch.to;
-    }
-    if (at < 1.0) pass(false, (1.0 - at) * length_mm, forwards);
-  }
-  return visits;
-}
-
 template <typename Chosen>
-Measured sum_of_visits(const Signals& signals, const Chosen& is, int (*part)(const Visits&)) {
-  int sum = 0;
-  for (const Boxed& structure : chosen(signals, is)) sum += part(visits_of(structure, signals.trace));
-  return Measured::of(sum);
+Measured count_visits(const Signals& signals, const Chosen& is, bool (*counts)(const Visit&)) {
+  std::ptrdiff_t sum = 0;
+  for (const BoxedStructure& structure : chosen(signals, is)) {
+    const std::vector<Visit> visits = visits_of(structure, signals.trace);
+    sum += std::count_if(visits.begin(), visits.end(), counts);
+  }
+  return Measured::of(static_cast<double>(sum));
 }
 
 template <typename Chosen>
 Measured path_inside(const Signals& signals, const Chosen& is) {
-  const auto structures = chosen(signals, is);
+  std::vector<std::vector<cases::Stretch>> inside(signals.trace.size());
+  for (const BoxedStructure& structure : chosen(signals, is))
+    for (const Visit& visit : visits_of(structure, signals.trace))
+      for (const WayPart& part : visit.inside) inside[part.segment].push_back(part.stretch);
   double length_mm = 0.0;
-  for (const TraceSegment& segment : signals.trace)
-    length_mm += length_inside_mm(structures, segment.from_lps_mm, segment.to_lps_mm);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    const TraceSegment& segment = signals.trace[i];
+    length_mm += covered_share(std::move(inside[i])) * glm::distance(segment.from_lps_mm, segment.to_lps_mm);
+  }
   return Measured::of(length_mm);
 }
 
 Measured nogo_contacts(const Signals& signals) {
-  return sum_of_visits(signals, &no_go, [](const Visits& visits) { return visits.entered + visits.began_inside; });
+  return count_visits(signals, &no_go, [](const Visit&) { return true; });
 }
 Measured nogo_length(const Signals& signals) {
   return path_inside(signals, &no_go);
@@ -175,21 +78,38 @@ Measured nogo_length_advisory(const Signals& signals) {
   return path_inside(signals, &of_rule<StructureRule::advisory>);
 }
 
+// Whether the tip of a pose is inside is asked only while a visit may have lasted: a graze is none.
 Measured nogo_time(const Signals& signals) {
   const auto structures = chosen(signals, &no_go);
+  std::vector<std::vector<Visit>> visits;
+  for (const BoxedStructure& structure : structures) visits.push_back(visits_of(structure, signals.trace));
+  const auto inside = [&](std::size_t structure, double t_s, const glm::dvec3& tip) {
+    return std::any_of(visits[structure].begin(), visits[structure].end(),
+                       [&](const Visit& visit) { return t_s >= visit.from_s && t_s <= visit.to_s; }) &&
+           structures[structure].contains(tip);
+  };
   double time_s = 0.0;
   for (std::size_t i = 0; i + 1 < signals.poses.size(); ++i) {
     if (signals.gap(i)) continue;
-    const glm::dvec3& tip = signals.poses[i].tip_at_rest_lps_mm();
-    if (std::any_of(structures.begin(), structures.end(), [&](const Boxed& one) { return one.contains(tip); }))
-      time_s += signals.interval_s(i);
+    bool any = false;
+    for (std::size_t k = 0; k < structures.size() && !any; ++k)
+      any = inside(k, signals.poses[i].t_s, signals.poses[i].tip_at_rest_lps_mm());
+    if (any) time_s += signals.interval_s(i);
   }
   return Measured::of(time_s);
 }
 
+Measured nogo_uncertainty(const Signals& signals) {
+  double half_mm = 0.0;
+  for (const BoxedStructure& structure : chosen(signals, &no_go))
+    half_mm = std::max(half_mm, structure.half_voxel_mm());
+  return Measured::of(half_mm);
+}
+
 // A distance changes by no more than the way: of a part of it, what is not nearer than `nearest_mm` in the middle
 // by the part's extent is nowhere nearer.
-void come_nearer(const Boxed& structure, std::span<const glm::dvec3> way, double known_mm, double& nearest_mm) {
+void come_nearer(const BoxedStructure& structure, std::span<const glm::dvec3> way, double known_mm,
+                 double& nearest_mm) {
   if (way.empty()) return;
   const std::size_t middle = way.size() / 2;
   double extent_mm = 0.0;
@@ -206,14 +126,15 @@ Measured clearance_min(const Signals& signals) {
   for (const TraceSegment& segment : signals.trace) {
     if (!segment.in_body) continue;
     const double length_mm = glm::distance(segment.from_lps_mm, segment.to_lps_mm);
-    const int pieces = std::max(1, static_cast<int>(length_mm / kContactMm));  // a throw is one long segment
+    const int pieces = std::max(1, static_cast<int>(length_mm / kVisitMm));  // a throw is one long segment
     for (int piece = 0; piece <= pieces; ++piece)
       way.push_back(glm::mix(segment.from_lps_mm, segment.to_lps_mm, static_cast<double>(piece) / pieces));
   }
   double nearest_mm = kClearanceMm;
   auto structures = chosen(signals, &no_go);
-  std::stable_partition(structures.begin(), structures.end(), [](const Boxed& one) { return one.drawn(); });
-  for (const Boxed& structure : structures)
+  std::stable_partition(structures.begin(), structures.end(),
+                        [](const BoxedStructure& one) { return one.drawn(); });
+  for (const BoxedStructure& structure : structures)
     for (std::size_t from = 0; from < way.size(); from += kWayPart)
       come_nearer(structure, std::span(way).subspan(from, std::min(kWayPart, way.size() - from)), -kClearanceMm,
                   nearest_mm);
@@ -223,24 +144,28 @@ Measured clearance_min(const Signals& signals) {
 Measured must_cross_length(const Signals& signals) {
   const cases::SkinPassage& skin = signals.passages.back();
   if (!skin.in_body) return Measured::none("not_in_tissue_at_the_end");
-  return Measured::of(length_inside_mm(chosen(signals, &of_rule<StructureRule::must_cross>), skin.entry_lps_mm,
-                                       signals.endpoint->tip_at_rest_lps_mm()));
+  const glm::dvec3 &from = skin.entry_lps_mm, &to = signals.endpoint->tip_at_rest_lps_mm();
+  std::vector<cases::Stretch> inside;
+  for (const BoxedStructure& structure : chosen(signals, &of_rule<StructureRule::must_cross>)) {
+    const auto found = structure.stretches(from, to);
+    inside.insert(inside.end(), found.begin(), found.end());
+  }
+  return Measured::of(covered_share(std::move(inside)) * glm::distance(from, to));
 }
 
 Measured capsule_punctures(const Signals& signals) {
-  return sum_of_visits(signals, &of_rule<StructureRule::organ>,
-                       [](const Visits& visits) { return visits.entered; });
+  return count_visits(signals, &of_rule<StructureRule::organ>,
+                      [](const Visit& visit) { return !visit.began_inside; });
 }
 
 Measured posterior_wall(const Signals& signals) {
-  return sum_of_visits(signals, &of_rule<StructureRule::target>,
-                       [](const Visits& visits) { return visits.through; });
+  return count_visits(signals, &of_rule<StructureRule::target>, [](const Visit& visit) { return visit.through; });
 }
 
 Measured back_wall_dist(const Signals& signals) {
   const glm::dvec3& tip = signals.endpoint->tip_at_rest_lps_mm();
   const glm::dvec3 beyond = tip + signals.endpoint->direction * kNeedleEndMm;
-  for (const Boxed& lumen : chosen(signals, &of_rule<StructureRule::target>)) {
+  for (const BoxedStructure& lumen : chosen(signals, &of_rule<StructureRule::target>)) {
     if (!lumen.contains(tip)) continue;
     const auto stretches = lumen.stretches(tip, beyond);
     if (!stretches.empty()) return Measured::of(stretches.front().to * kNeedleEndMm);
@@ -259,45 +184,65 @@ constexpr MetricInfo kStructuresMetrics[] = {
     {"nogo_contacts", 1, "count", "No-go contacts", Group::safety, Direction::lower_is_better, kNoGo,
      "Times the tip's way, a core needle's throw included, went more than 0.5 mm inside a structure to stay out "
      "of; the "
-     "next counts after 0.5 mm outside. Steps of under 0.25 mm are no way.",
-     kClinical, &nogo_contacts},
+     "next counts after 0.5 mm outside. Steps of under 0.25 mm are no way. Where a structure comes from voxels, "
+     "its "
+     "surface is known to nogo_uncertainty.",
+     kClinical, &nogo_contacts, kMeanCount, kOfTheTrace},
     {"clearance_min", 1, "mm", "Least clearance", Group::safety, Direction::higher_is_better,
      kNoGo | kSkin | kMotion | kTissue,
      "Least distance of the tip in tissue, on its way and in a core needle's throw, from a structure to stay out "
      "of; "
-     "negative inside, at most 20.",
-     kClinical, &clearance_min},
+     "negative inside, also where that is too short a way to be a contact; at most 20. Where a structure comes "
+     "from "
+     "voxels, its surface is known to nogo_uncertainty.",
+     kClinical, &clearance_min, kMedianInterval, kOfTheTrace | kNothingIsNothing},
     {"capsule_punctures", 1, "count", "Capsule punctures", Group::safety, Direction::lower_is_better, kOrgan,
      "Times the tip, a core needle's throw included, went from outside more than 0.5 mm into the organ that "
      "carries "
      "the target; the next counts after 0.5 mm outside.",
-     kCapsule, &capsule_punctures},
+     kCapsule, &capsule_punctures, kMeanCount, kOfTheTrace},
     {"posterior_wall", 1, "count", "Far wall punctures", Group::safety, Direction::lower_is_better, kLumen,
      "Times the tip, a core needle's throw included, left the lumen to be reached forwards, by more than 0.5 mm.",
-     kWall, &posterior_wall},
+     kWall, &posterior_wall, kMeanCount, kOfTheTrace},
     {"back_wall_dist", 1, "mm", "Before far wall", Group::safety, Direction::higher_is_better, kLumen | kEndpoint,
      "At the endpoint, along the needle from the tip in the lumen to be reached to its far wall. Null: "
      "not_in_target_structure.",
-     kWall, &back_wall_dist},
+     kWall, &back_wall_dist, kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"must_cross_length", 1, "mm", "Way through must-cross", Group::safety, Direction::higher_is_better,
      kMustCross | kEndpoint | kSkin,
      "At the endpoint, length of the needle from the skin to the tip inside structures through which the right way "
      "leads (renal parenchyma before a calyx). Null: not_in_tissue_at_the_end.",
-     "puncture through the parenchyma: Sampaio et al., J. Urol. 148 (1992) 1769", &must_cross_length},
-    {"nogo_length", 1, "mm", "Way through no-go", Group::safety, Direction::lower_is_better, kNoGo,
-     "Length of the tip's way, to and fro and a core needle's throw included, inside structures to stay out of; "
-     "where "
-     "two overlap it counts once.",
-     kClinical, &nogo_length},
-    {"nogo_length_critical", 1, "mm", "Way through critical", Group::safety, Direction::lower_is_better,
-     kNoGoCritical, "As nogo_length, of structures that must never be touched.", kClinical, &nogo_length_critical},
-    {"nogo_length_major", 1, "mm", "Way through major", Group::safety, Direction::lower_is_better, kNoGoMajor,
-     "As nogo_length, of structures whose injury is a complication.", kClinical, &nogo_length_major},
-    {"nogo_length_advisory", 1, "mm", "Way through advisory", Group::safety, Direction::lower_is_better,
-     kNoGoAdvisory, "As nogo_length, of structures that are better avoided.", kClinical, &nogo_length_advisory},
-    {"nogo_time", 1, "s", "Time in no-go", Group::safety, Direction::lower_is_better, kNoGo | kMotion,
-     "Time with the tip inside structures to stay out of. Gaps over 0.25 s belong to no time.", kClinical,
-     &nogo_time},
+     "puncture through the parenchyma: Sampaio et al., J. Urol. 148 (1992) 1769", &must_cross_length,
+     kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
+    {"nogo_length", 2, "mm", "Way through no-go", Group::safety, Direction::lower_is_better, kNoGo,
+     "Length of the tip's way, to and fro and a core needle's throw included, inside structures to stay out of, "
+     "counted from the entry of each visit that nogo_contacts counts; shorter ones are 0. Where two overlap it "
+     "counts "
+     "once. Of voxels the surface is known to nogo_uncertainty.",
+     kClinical, &nogo_length, kMedianRatio, kOfTheTrace,
+     "1: every length inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_length_critical", 2, "mm", "Way through critical", Group::safety, Direction::lower_is_better,
+     kNoGoCritical, "As nogo_length, of structures that must never be touched.", kClinical, &nogo_length_critical,
+     kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_length_major", 2, "mm", "Way through major", Group::safety, Direction::lower_is_better, kNoGoMajor,
+     "As nogo_length, of structures whose injury is a complication.", kClinical, &nogo_length_major, kMedianRatio,
+     kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_length_advisory", 2, "mm", "Way through advisory", Group::safety, Direction::lower_is_better,
+     kNoGoAdvisory, "As nogo_length, of structures that are better avoided.", kClinical, &nogo_length_advisory,
+     kMedianRatio, kOfTheTrace, "1: every length inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_time", 2, "s", "Time in no-go", Group::safety, Direction::lower_is_better, kNoGo | kMotion,
+     "Time with the tip inside structures to stay out of, counted from the entry of each visit that nogo_contacts "
+     "counts; shorter ones are 0. Gaps over 0.25 s belong to no time.",
+     kClinical, &nogo_time, kMedianRatio, kAnyPlace | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples,
+     "1: every time inside counted, a graze of under 0.5 mm, too."},
+    {"nogo_uncertainty", 1, "mm", "No-go surfaces known to", Group::safety, Direction::none, kNoGo,
+     "How far off the surface of a structure to stay out of may be: half the longest edge of a voxel where one "
+     "comes "
+     "from voxels (a label map, a tissue class), 0 where all are drawn. No-go lengths, contacts and clearance "
+     "within "
+     "it are not told apart from a graze.",
+     "half the width of a rectangular distribution: JCGM 100:2008 (GUM), 4.3.7", &nogo_uncertainty, kMedianRatio,
+     kOfTheWay},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // names. What one metric takes from another file's is declared here, too.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +17,7 @@ std::span<const MetricInfo> structure_metrics();
 std::span<const MetricInfo> puncture_metrics();
 std::span<const MetricInfo> visibility_metrics();
 std::span<const MetricInfo> advance_metrics();
+std::span<const MetricInfo> probe_metrics();
 std::span<const MetricInfo> path_metrics();
 std::span<const MetricInfo> force_metrics();
 std::span<const MetricInfo> time_metrics();
@@ -32,10 +34,14 @@ struct PunctureCounts {
   // Of the first puncture that counted: when it was 2 mm deep, and the first pose of it in the body.
   std::optional<double> first_s;
   std::size_t first_pose = 0;
+  bool withdrawn_at_end = false;
   // When each was 2 mm deep; and for each withdrawal, when the tip was deepest before it.
   std::vector<double> punctures_s, full_withdrawals_s, partial_withdrawals_s;
 };
 PunctureCounts count_punctures(const Signals& signals);
+
+// Whether the needle was put to use, or the case deferred (procedure_performed). There is skin.
+bool performed(const Signals& signals);
 
 // What blind_advance_max measures, and when; nothing where no advance was unseen.
 struct BlindRun {
@@ -45,6 +51,26 @@ std::optional<BlindRun> longest_blind_run(const Signals& signals);
 // When a blind run, as blind_advance_max counts it, was first longer; when advance_beyond_plane was first more.
 std::optional<double> first_blind_run_s(const Signals& signals, double longer_than_mm);
 std::optional<double> first_beyond_plane_s(const Signals& signals, double more_than_mm);
+
+// Estimands that many rows share. Rare events are told as a mean: the median of most people's is 0.
+inline constexpr Estimand kMedianRatio{Scale::ratio, WithoutEndpoint::left_out, Aggregation::median};
+inline constexpr Estimand kMedianRatioOrFailure{Scale::ratio, WithoutEndpoint::failure, Aggregation::median};
+inline constexpr Estimand kMedianInterval{Scale::interval, WithoutEndpoint::left_out, Aggregation::median};
+inline constexpr Estimand kMedianIntervalOrFailure{Scale::interval, WithoutEndpoint::failure, Aggregation::median};
+inline constexpr Estimand kMedianShare{Scale::share, WithoutEndpoint::left_out, Aggregation::median};
+inline constexpr Estimand kMedianTimeCensored{Scale::ratio, WithoutEndpoint::censored, Aggregation::median};
+inline constexpr Estimand kMeanCount{Scale::count, WithoutEndpoint::left_out, Aggregation::mean};
+inline constexpr Estimand kProportion{Scale::yes_no, WithoutEndpoint::left_out, Aggregation::proportion};
+inline constexpr Estimand kProportionOrFailure{Scale::yes_no, WithoutEndpoint::failure, Aggregation::proportion};
+
+// Laws that many rows share: of what has a place but no side, and of what is told of the way in the patient at
+// rest.
+inline constexpr std::uint32_t kAnyPlace = kInAnyFrame | kMirrored;
+inline constexpr std::uint32_t kOfTheWay =
+    kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
+// Of the trace, which the low-pass cuts short where a hand turns fast.
+inline constexpr std::uint32_t kOfTheTrace =
+    kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples;
 
 // Sources that more than one table names.
 inline constexpr const char* kVidal = "F. P. Vidal's thesis, §4.5";

@@ -3,6 +3,7 @@
 
 #include "assessment/metrics/tables.h"
 #include "assessment/signals/signals.h"
+#include "assessment/signals/target_view.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -11,6 +12,7 @@ constexpr double kMinSeconds = 1.0;  // assessment.md §8: a shorter denominator
 
 struct Shares {
   double session_s = 0.0, joint_session_s = 0.0;  // in tissue or not, live or not
+  double tissue_s = 0.0;                          // with the tip in tissue, live or not
   double live_s = 0.0, shaft_s = 0.0, needle_s = 0.0, target_s = 0.0, joint_s = 0.0;
   double joint_2_mm_s = 0.0, joint_5_mm_s = 0.0;  // where `near_plane` was told
   double needle_length_mm_s = 0.0;
@@ -29,6 +31,7 @@ Shares integrate(const Signals& signals) {
           next_frame < signals.frames.size() ? std::min(to_s, signals.frames[next_frame].t_s) : to_s;
       const double length_s = signals.gap(i) ? 0.0 : until_s - from_s;
       shares.session_s += length_s;
+      if (signals.passages[i].in_body) shares.tissue_s += length_s;
       if (next_frame > 0) {
         const cases::FrameTruth& frame = signals.frames[next_frame - 1];
         if (frame.live && frame.joint()) shares.joint_session_s += length_s;
@@ -50,14 +53,23 @@ Shares integrate(const Signals& signals) {
   return shares;
 }
 
-template <double Shares::*part>
+enum class Shown { needle, target, places };  // places: by geometry alone
+
+// A probe's picture is there unless somebody froze it, and what is frozen shows nothing. A fluoroscope's is there
+// only while a pulse's time lasts, and nobody is asked to look between two.
+template <double Shares::*part, Shown shown>
 Measured share(const Signals& signals) {
+  if (shown == Shown::target && no_view_shows_target(signals)) return Measured::none("no_view_shows_target");
   const Shares shares = integrate(signals);
-  if (!(shares.live_s >= kMinSeconds)) return Measured::none("under_1_s_in_tissue_with_a_live_picture");
-  return Measured::of(shares.*part / shares.live_s);
+  const bool xray = signals.setting.modality == cases::Modality::xray;
+  const double all_s = xray ? shares.live_s : shares.tissue_s;
+  if (!(all_s >= kMinSeconds))
+    return Measured::none(xray ? "under_1_s_in_tissue_with_a_live_picture" : "under_1_s_in_tissue");
+  return Measured::of(shares.*part / all_s);
 }
 
 Measured vis_joint_session(const Signals& signals) {
+  if (no_view_shows_target(signals)) return Measured::none("no_view_shows_target");
   const Shares shares = integrate(signals);
   if (!(shares.session_s >= kMinSeconds)) return Measured::none("under_1_s");
   return Measured::of(shares.joint_session_s / shares.session_s);
@@ -65,42 +77,57 @@ Measured vis_joint_session(const Signals& signals) {
 
 constexpr const char* kPerk = "Perk Tutor's TargetsScanned: 5 mm in its code, 2 mm in its comment";
 
+constexpr std::uint32_t kShares =
+    kAnyPlace | kAtAnySpeed | kInAnyBreath | kIdleBefore | kOneDarkFrame | kLostSamples | kNothingIsNothing;
+
 constexpr MetricInfo kVisibilityMetrics[] = {
-    {"vis_joint", 1, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
-     kInPlane | kTarget | kSkin,
-     "As vis_needle, for tip and target at once. Null: under_1_s_in_tissue_with_a_live_picture.", kVidal,
-     &share<&Shares::joint_s>},
-    {"vis_needle", 1, "share", "Needle tip visible", Group::picture, Direction::higher_is_better, kInPlane | kSkin,
-     "Share of the time in tissue with a live picture in which the picture showed the needle's tip. A "
-     "fluoroscope's "
-     "picture is live from a pulse until the time to the next is over; a held image is not. Null: "
-     "under_1_s_in_tissue_with_a_live_picture.",
-     kVidal, &share<&Shares::needle_s>},
-    {"vis_shaft", 1, "share", "Any needle visible", Group::picture, Direction::higher_is_better, kInPlane | kSkin,
-     "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: "
-     "under_1_s_in_tissue_with_a_live_picture.",
-     kJohnson, &share<&Shares::shaft_s>},
-    {"vis_target", 1, "share", "Target visible", Group::picture, Direction::higher_is_better, kTarget | kSkin,
-     "As vis_needle, for the target. Null: under_1_s_in_tissue_with_a_live_picture.", kVidal,
-     &share<&Shares::target_s>},
-    {"vis_joint_session", 1, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
+    {"vis_joint", 2, "share", "Needle and target visible", Group::picture, Direction::higher_is_better,
+     kInPlane | kTarget | kSkin | kPictures, "As vis_needle, for tip and target at once. Null: as vis_target.",
+     kVidal, &share<&Shares::joint_s, Shown::target>, kMedianShare, kShares,
+     "1: of the time with a live picture alone: to freeze it took bad time out."},
+    {"vis_needle", 2, "share", "Needle tip visible", Group::picture, Direction::higher_is_better,
+     kInPlane | kSkin | kPictures,
+     "Share of the time in tissue in which a live picture showed the needle's tip. A frozen picture shows nothing, "
+     "and "
+     "its time counts. Under a fluoroscope the share is of the time with a live picture alone, which lasts from a "
+     "pulse until the time to the next is over. Null: under_1_s_in_tissue (fluoroscope: "
+     "under_1_s_in_tissue_with_a_live_picture).",
+     kVidal, &share<&Shares::needle_s, Shown::needle>, kMedianShare, kShares,
+     "1: of the time with a live picture alone: to freeze it took bad time out."},
+    {"vis_shaft", 2, "share", "Any needle visible", Group::picture, Direction::higher_is_better,
+     kInPlane | kSkin | kPictures,
+     "As vis_needle, for any part of the needle: shown without its tip, it misleads. Null: as vis_needle.",
+     kJohnson, &share<&Shares::shaft_s, Shown::needle>, kMedianShare, kShares,
+     "1: of the time with a live picture alone: to freeze it took bad time out."},
+    {"vis_target", 2, "share", "Target visible", Group::picture, Direction::higher_is_better,
+     kTarget | kSkin | kPictures,
+     "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
+     "could: "
+     "across its whole width the target takes off under 3 % more or less than what lies about it).",
+     kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
+     "1: of the time with a live picture alone, and 0 where no picture could show the target."},
+    {"vis_joint_session", 2, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,
      kInPlane | kTarget | kPictures,
      "Share of the whole time, gaps left out, in which a live picture showed tip and target at once. Null: "
-     "under_1_s.",
-     kVidal, &vis_joint_session},
-    {"vis_joint_2_mm", 1, "share", "Both within 2 mm", Group::picture, Direction::higher_is_better,
-     kUltrasound | kInPlane | kTarget | kSkin | kNearPlane,
+     "under_1_s, no_view_shows_target.",
+     kVidal, &vis_joint_session, kMedianShare, kAnyPlace | kAtAnySpeed,
+     "1: 0 where no picture could show the target."},
+    {"vis_joint_2_mm", 2, "share", "Both within 2 mm", Group::picture, Direction::higher_is_better,
+     kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
      "As vis_joint, by geometry alone: tip and target's centre within 2 mm of the picture's plane and inside its "
-     "field. Null: as vis_joint.",
-     kPerk, &share<&Shares::joint_2_mm_s>},
-    {"vis_joint_5_mm", 1, "share", "Both within 5 mm", Group::picture, Direction::higher_is_better,
-     kUltrasound | kInPlane | kTarget | kSkin | kNearPlane, "As vis_joint_2_mm, within 5 mm. Null: as vis_joint.",
-     kPerk, &share<&Shares::joint_5_mm_s>},
-    {"visible_needle_length", 1, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
-     kInPlane | kSkin,
+     "field. Null: as vis_needle.",
+     kPerk, &share<&Shares::joint_2_mm_s, Shown::places>, kMedianShare, kShares,
+     "1: of the time with a live picture alone: to freeze it took bad time out."},
+    {"vis_joint_5_mm", 2, "share", "Both within 5 mm", Group::picture, Direction::higher_is_better,
+     kUltrasound | kInPlane | kTarget | kSkin | kPictures | kNearPlane,
+     "As vis_joint_2_mm, within 5 mm. Null: as vis_needle.", kPerk, &share<&Shares::joint_5_mm_s, Shown::places>,
+     kMedianShare, kShares, "1: of the time with a live picture alone: to freeze it took bad time out."},
+    {"visible_needle_length", 2, "mm", "Visible needle length", Group::picture, Direction::higher_is_better,
+     kInPlane | kSkin | kPictures,
      "Mean, over the time that vis_needle counts, of the shaft's length that the picture showed. Null: as "
      "vis_needle.",
-     kJohnson, &share<&Shares::needle_length_mm_s>},
+     kJohnson, &share<&Shares::needle_length_mm_s, Shown::needle>, kMedianRatio, kShares,
+     "1: of the time with a live picture alone: to freeze it took bad time out."},
 };
 
 }  // namespace

@@ -6,6 +6,10 @@
 namespace seldinger::assessment {
 namespace {
 
+Measured procedure_performed(const Signals& signals) {
+  return Measured::of(performed(signals) ? 1.0 : 0.0);
+}
+
 Measured decision_right(const Signals& signals) {
   const bool deferred = first_s(Evidence::deferred, signals).has_value();
   const bool punctured = count_punctures(signals).punctures > 0;
@@ -34,22 +38,35 @@ Measured pain_reactions(const Signals& signals) {
 constexpr const char* kStepSources = "thesis, appendix A; clinical.md: steps around the puncture";
 
 constexpr MetricInfo kProcedureMetrics[] = {
+    {"procedure_performed", 1, "bool", "Procedure performed", Group::procedure, Direction::none, kSkin,
+     "1 where the skin was punctured (as skin_punctures counts), the trigger fell, or it was said to defer the "
+     "case; "
+     "else 0. To look, to talk or to hold the needle beside the patient is no procedure, and has the best value of "
+     "whatever counts errors: comparisons are among attempts with 1.",
+     "the population of an estimand: ICH E9(R1), 2019, A.3.3", &procedure_performed, kProportion, kOfTheWay},
     {"decision_right", 1, "bool", "Right decision", Group::procedure, Direction::higher_is_better,
      kEvents | kDecision | kSkin,
      "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
      "nothing_decided (neither said nor punctured).",
-     "clinical.md, case 8; SIR 2019 thresholds", &decision_right},
+     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfTheWay | kNothingIsNothing},
     {"steps_done", 2, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for. Null: no_step_asked_for.", kStepSources,
-     &steps_done},
+     &steps_done, kMedianShare, kAnyPlace | kIdleBefore,
+     "1: a held breath and a jiggle counted also where no tissue moves."},
     {"steps_violated", 2, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
-     "Graded steps (steps.md) that were violated.", kStepSources, &steps_violated},
+     "Graded steps (steps.md) that were violated.", kStepSources, &steps_violated, kMeanCount,
+     kAnyPlace | kIdleBefore, "1: a held breath and a jiggle counted also where no tissue moves."},
     {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
      kPatient | kEvents | kSkin, "How often the patient felt pain: skin punctured where it was not numb, bone met.",
-     kStepSources, &pain_reactions},
+     kStepSources, &pain_reactions, kMeanCount, kOfTheWay},
 };
 
 }  // namespace
+
+bool performed(const Signals& signals) {
+  return signals.endpoint || count_punctures(signals).punctures > 0 ||
+         first_s(Evidence::deferred, signals).has_value();
+}
 
 std::span<const MetricInfo> procedure_metrics() {
   return kProcedureMetrics;

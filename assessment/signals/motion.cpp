@@ -10,8 +10,6 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kMinPeakMmS = 5.0;  // assessment.md §8: slower movements tell nothing about smoothness
-
 // Second-order Butterworth by the bilinear transform, started in the steady state of its first value.
 void second_order(std::vector<glm::dvec3>& x, double b0, double b1, double b2, double a1, double a2) {
   glm::dvec3 x1 = x.front(), x2 = x.front(), y1 = x.front(), y2 = x.front();
@@ -27,7 +25,7 @@ void second_order(std::vector<glm::dvec3>& x, double b0, double b1, double b2, d
 
 // What is between two poses, 100 times a second.
 struct Resampled {
-  std::vector<glm::dvec3> tip, probe;
+  std::vector<glm::dvec3> tip, probe, probe_axial, probe_lateral;
   std::vector<glm::dvec3> rest;  // the tip's places at rest; empty: they are the tip's
   std::vector<double> depth_mm;
   std::vector<std::size_t> pose;  // the last one not later
@@ -41,7 +39,8 @@ Resampled resampled(const Signals& signals, std::size_t first, std::size_t last)
   const auto steps = static_cast<std::size_t>(std::floor(length_s * kMotionRateHz + 1e-9));
   Resampled out;
   out.tip.reserve(steps + 2);
-  out.probe.reserve(steps + 2);
+  for (std::vector<glm::dvec3>* points : {&out.probe, &out.probe_axial, &out.probe_lateral})
+    points->reserve(steps + 2);
   out.depth_mm.reserve(steps + 2);
   out.pose.reserve(steps + 2);
   const bool moves = std::any_of(poses.begin() + static_cast<std::ptrdiff_t>(first),
@@ -58,6 +57,8 @@ Resampled resampled(const Signals& signals, std::size_t first, std::size_t last)
     out.tip.push_back(between(poses[at].tip_lps_mm, poses[next].tip_lps_mm));
     if (moves) out.rest.push_back(between(poses[at].tip_at_rest_lps_mm(), poses[next].tip_at_rest_lps_mm()));
     out.probe.push_back(between(poses[at].probe_origin_lps_mm, poses[next].probe_origin_lps_mm));
+    out.probe_axial.push_back(between(poses[at].probe_axial, poses[next].probe_axial));
+    out.probe_lateral.push_back(between(poses[at].probe_lateral, poses[next].probe_lateral));
     out.depth_mm.push_back(between(signals.passages[at].depth_mm, signals.passages[next].depth_mm));
     out.pose.push_back(at);
   }
@@ -69,7 +70,8 @@ void add_steps(const Signals& signals, std::size_t first, std::size_t last, std:
   if (last == first) return;
   Resampled way = resampled(signals, first, last);
   way.tip = low_pass(way.tip, kMotionRateHz, kMotionCutoffHz);
-  way.probe = low_pass(way.probe, kMotionRateHz, kMotionCutoffHz);
+  for (std::vector<glm::dvec3>* points : {&way.probe, &way.probe_axial, &way.probe_lateral})
+    *points = low_pass(*points, kMotionRateHz, kMotionCutoffHz);
   const bool moves = !way.rest.empty();
   if (moves) way.rest = low_pass(way.rest, kMotionRateHz, kMotionCutoffHz);
   const double start_s = signals.poses[first].t_s, length_s = signals.poses[last].t_s - start_s;
@@ -79,10 +81,11 @@ void add_steps(const Signals& signals, std::size_t first, std::size_t last, std:
     way.tip.push_back(signals.poses[last].tip_lps_mm);
     if (moves) way.rest.push_back(signals.poses[last].tip_at_rest_lps_mm());
     way.probe.push_back(signals.poses[last].probe_origin_lps_mm);
+    way.probe_axial.push_back(signals.poses[last].probe_axial);
+    way.probe_lateral.push_back(signals.poses[last].probe_lateral);
     way.depth_mm.push_back(signals.passages[last].depth_mm);
     way.pose.push_back(last);
   }
-  const std::size_t begin = steps.size();
   for (std::size_t i = 0; i + 1 < way.tip.size(); ++i) {
     Step step;
     step.t_s = start_s + static_cast<double>(i) / kMotionRateHz;
@@ -93,24 +96,16 @@ void add_steps(const Signals& signals, std::size_t first, std::size_t last, std:
     step.rest_to_lps_mm = moves ? way.rest[i + 1] : way.tip[i + 1];
     step.probe_from_lps_mm = way.probe[i];
     step.probe_to_lps_mm = way.probe[i + 1];
+    step.probe_axial_from = way.probe_axial[i];
+    step.probe_axial_to = way.probe_axial[i + 1];
+    step.probe_lateral_from = way.probe_lateral[i];
+    step.probe_lateral_to = way.probe_lateral[i + 1];
     step.needle_direction = signals.poses[way.pose[i]].needle_direction;
     step.depth_from_mm = way.depth_mm[i];
     step.depth_to_mm = way.depth_mm[i + 1];
     step.first = i == 0;
     steps.push_back(step);
   }
-  // Runs that are fast for long enough. The piece that is left is too short to have a speed of its own.
-  const std::size_t whole = steps.size() - (rest_s > 1e-9 ? 1 : 0);
-  for (std::size_t from = begin; from < whole;) {
-    std::size_t to = from;
-    while (to < whole &&
-           glm::distance(steps[to].from_lps_mm, steps[to].to_lps_mm) * kMotionRateHz >= kMovingMmS - 1e-9)
-      ++to;
-    const bool moving = static_cast<double>(to - from) / kMotionRateHz >= kMovingSeconds - kTimeTolerance_s;
-    for (std::size_t i = from; i < to; ++i) steps[i].moving = moving;
-    from = std::max(to, from + 1);
-  }
-  if (whole < steps.size() && whole > begin) steps[whole].moving = steps[whole - 1].moving;
 }
 
 }  // namespace
@@ -166,57 +161,30 @@ std::vector<Step> steps_of(const Signals& signals) {
 std::vector<TraceSegment> trace_of(const Signals& signals) {
   std::vector<TraceSegment> trace;
   glm::dvec3 point(0.0);
+  double point_s = 0.0;
   for (std::size_t i = 0; i < signals.steps.size(); ++i) {
     const Step& step = signals.steps[i];
-    if (step.first) point = step.rest_from_lps_mm;
+    if (step.first) {
+      point = step.rest_from_lps_mm;
+      point_s = step.t_s;
+    }
     const bool ends = i + 1 == signals.steps.size() || signals.steps[i + 1].first;
     const double length_mm = glm::distance(point, step.rest_to_lps_mm);
     if (length_mm < kTraceMm && !(ends && length_mm > 0.0)) continue;
-    trace.push_back({point, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false});
+    const double now_s = step.t_s + step.length_s;
+    trace.push_back(
+        {point, step.rest_to_lps_mm, step.needle_direction, step.depth_to_mm > 0.0, false, point_s, now_s});
     point = step.rest_to_lps_mm;
+    point_s = now_s;
   }
   const cases::Instrument& needle = signals.setting.instrument;
   if (signals.endpoint && needle.kind == cases::InstrumentKind::core) {
     const cases::Endpoint& fired = *signals.endpoint;
     const glm::dvec3& from = fired.tip_at_rest_lps_mm();
-    trace.push_back(
-        {from, from + fired.direction * needle.throw_mm, fired.direction, signals.passages.back().in_body, true});
+    trace.push_back({from, from + fired.direction * needle.throw_mm, fired.direction,
+                     signals.passages.back().in_body, true, fired.t_s, fired.t_s});
   }
   return trace;
-}
-
-std::optional<double> log_dimensionless_jerk(std::span<const glm::dvec3> positions, double rate_hz) {
-  const std::size_t count = positions.size();
-  if (count < 4) return std::nullopt;
-  double peak_mm_s = 0.0;
-  for (std::size_t i = 0; i + 1 < count; ++i)
-    peak_mm_s = std::max(peak_mm_s, glm::distance(positions[i], positions[i + 1]) * rate_hz);
-  if (!(peak_mm_s >= kMinPeakMmS)) return std::nullopt;
-  // Third differences stand between the second and the third of four samples; what is beyond the outermost is like
-  // them.
-  double jerk2_s = 0.0;
-  for (std::size_t i = 0; i + 3 < count; ++i) {
-    const glm::dvec3 jerk =
-        (positions[i + 3] - 3.0 * positions[i + 2] + 3.0 * positions[i + 1] - positions[i]) * std::pow(rate_hz, 3);
-    const double width = 1.0 + (i == 0 ? 1.0 : 0.0) + (i + 4 == count ? 1.0 : 0.0);
-    jerk2_s += glm::dot(jerk, jerk) * width / rate_hz;
-  }
-  const double length_s = static_cast<double>(count - 1) / rate_hz;
-  return -std::log(std::pow(length_s, 3) / (peak_mm_s * peak_mm_s) * jerk2_s);
-}
-
-std::optional<double> log_dimensionless_jerk(const Signals& signals, double from_s, double to_s) {
-  std::vector<glm::dvec3> positions;
-  for (const Step& step : signals.steps) {
-    if (step.t_s < from_s - kTimeTolerance_s || step.t_s + 1.0 / kMotionRateHz > to_s + kTimeTolerance_s) continue;
-    if (positions.empty()) {
-      positions.push_back(step.from_lps_mm);
-    } else if (step.first) {
-      return std::nullopt;
-    }
-    positions.push_back(step.to_lps_mm);
-  }
-  return log_dimensionless_jerk(positions, kMotionRateHz);
 }
 
 }  // namespace seldinger::assessment

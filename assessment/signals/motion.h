@@ -1,9 +1,7 @@
-// The tools' way as metrics of movement see it: 100 times a second, low-passed at 10 Hz (assessment.md §8), with
-// what was moved told from what was held still.
+// The tools' way as metrics of movement see it: 100 times a second, low-passed at 10 Hz (assessment.md §8).
 #pragma once
 
 #include <glm/vec3.hpp>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,8 +10,6 @@ namespace seldinger::assessment {
 struct Signals;
 
 constexpr double kMotionRateHz = 100.0, kMotionCutoffHz = 10.0;
-// A hand at rest trembles more slowly than this, or for shorter.
-constexpr double kMovingMmS = 3.0, kMovingSeconds = 0.2;
 // The trace's points are no nearer to each other: the noise of a tracker (0.05 mm) makes none.
 constexpr double kTraceMm = 0.25;
 
@@ -23,9 +19,10 @@ struct Step {
   glm::dvec3 from_lps_mm{0.0}, to_lps_mm{0.0};
   glm::dvec3 rest_from_lps_mm{0.0}, rest_to_lps_mm{0.0};  // of the tissue at the tip, in a patient at rest
   glm::dvec3 probe_from_lps_mm{0.0}, probe_to_lps_mm{0.0};
+  glm::dvec3 probe_axial_from{0.0}, probe_axial_to{0.0};  // near unit
+  glm::dvec3 probe_lateral_from{0.0}, probe_lateral_to{0.0};
   glm::dvec3 needle_direction{0.0};
   double depth_from_mm = 0.0, depth_to_mm = 0.0;  // of the tip below the skin; negative outside
-  bool moving = false;                            // part of at least kMovingSeconds at kMovingMmS or more
   bool first = false;                             // nothing is known of the time before
 };
 
@@ -36,6 +33,9 @@ struct TraceSegment {
   glm::dvec3 needle_direction{0.0};
   bool in_body = false;  // at its end
   bool thrown = false;   // a fired core needle's throw
+  // When the tip had come to its start, and to its end; between the two it may have rested. Of a throw both are the
+  // trigger's.
+  double from_s = 0.0, to_s = 0.0;
 };
 
 // From the poses and passages of `signals`.
@@ -47,12 +47,5 @@ std::vector<TraceSegment> trace_of(const Signals& signals);
 // the two passes together lose 3 dB at cutoff_hz (Winter, Biomechanics, 4th ed. 2009, §2.2.4.4). Ends are continued
 // by odd reflection, so that a straight motion stays one.
 std::vector<glm::dvec3> low_pass(std::span<const glm::dvec3> positions, double rate_hz, double cutoff_hz);
-
-// Log dimensionless jerk of one movement, −ln(T³/v_peak² ∫‖jerk‖² dt), sampled from its beginning to its end; the
-// nearer to 0, the smoother (Balasubramanian et al., IEEE Trans. Biomed. Eng. 59, 2012). Nothing under 5 mm/s or
-// four samples.
-std::optional<double> log_dimensionless_jerk(std::span<const glm::dvec3> positions, double rate_hz);
-// The same of the filtered way between two times; nothing where a gap is between them, too.
-std::optional<double> log_dimensionless_jerk(const Signals& signals, double from_s, double to_s);
 
 }  // namespace seldinger::assessment

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "assessment/signals/pushed.h"
 #include "sim/base/vectors.h"
 
 namespace seldinger::assessment {
@@ -132,19 +133,6 @@ base::Result<void> take_forces(std::span<const cases::ForceSample> forces, Signa
   return {};
 }
 
-std::vector<Gap> gaps_of(std::span<const cases::PoseSample> poses) {
-  std::vector<Gap> gaps(poses.size(), Gap::none);
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
-    const double interval_s = poses[i + 1].t_s - poses[i].t_s;
-    const double length_mm = glm::distance(poses[i].tip_lps_mm, poses[i + 1].tip_lps_mm);
-    if (interval_s > kGapSeconds + kTimeTolerance_s)
-      gaps[i] = Gap::silence;
-    else if (length_mm > kJumpMm && length_mm > kJumpMmS * interval_s)
-      gaps[i] = Gap::jump;
-  }
-  return gaps;
-}
-
 std::vector<cases::SkinPassage> passages_of(const cases::MeshIndex& skin,
                                             std::span<const cases::PoseSample> poses) {
   std::vector<cases::SkinPassage> passages;
@@ -178,23 +166,6 @@ Aftermath aftermath_of(const Signals& signals, const cases::Recording& recording
   return after;
 }
 
-std::vector<double> advances_of(const Signals& signals) {
-  std::vector<double> advances(signals.poses.size(), 0.0);
-  double reached_mm = 0.0;
-  for (std::size_t i = 0; i < signals.poses.size(); ++i) {
-    const double inserted_mm = signals.inserted_mm(i);
-    if (i == 0 || signals.gap(i - 1)) {
-      reached_mm = inserted_mm;  // what happened before, or in a gap, is not known
-    } else if (inserted_mm > reached_mm) {
-      advances[i] = inserted_mm - reached_mm;
-      reached_mm = inserted_mm;
-    } else {
-      reached_mm = std::min(reached_mm, inserted_mm + kJiggleMm);
-    }
-  }
-  return advances;
-}
-
 }  // namespace
 
 double Signals::inserted_mm(std::size_t i) const {
@@ -219,10 +190,15 @@ base::Result<Signals> make_signals(const AttemptSetting& setting, const cases::R
   signals.events = recording.events;
   for (const cases::Event& event : signals.events.value_or(std::vector<cases::Event>{}))
     if (!std::isfinite(event.t_s)) return base::Error{"bad_events", "an event's time is not finite"};
-  signals.gaps = gaps_of(signals.poses);
+  const auto by_program =
+      program_moves(signals.poses, signals.events ? std::span<const cases::Event>(*signals.events)
+                                                  : std::span<const cases::Event>());
+  signals.tracking = mend(by_program, signals.poses, signals.gaps);
   signals.passages = passages_of(*setting.skin, signals.poses);
+  signals.pushed_mm = pushed_mm_of(signals);
   signals.advance_mm = advances_of(signals);
   signals.steps = steps_of(signals);
+  signals.way = way_of(signals);
   signals.trace = trace_of(signals);
   signals.after = aftermath_of(signals, recording);
   return signals;

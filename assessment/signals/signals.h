@@ -10,6 +10,8 @@
 
 #include "assessment/signals/motion.h"
 #include "assessment/signals/needs.h"
+#include "assessment/signals/tracking.h"
+#include "assessment/signals/way.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
 #include "sim/case/record/recording.h"
@@ -20,8 +22,6 @@ namespace seldinger::assessment {
 
 constexpr double kTimeTolerance_s = 1e-6;  // decimal time stamps are not exact
 constexpr double kGapSeconds = 0.25;       // a longer silence of the tracker is not bridged (assessment.md §8)
-// No hand moves a needle's tip like this: the tracker lost it, and what was between is not known.
-constexpr double kJumpMm = 50.0, kJumpMmS = 10'000.0;
 
 // Where the needle was to enter the skin, and how.
 struct PlannedEntry {
@@ -42,13 +42,12 @@ struct AttemptSetting {
   cases::PatientPosition position = cases::PatientPosition::supine;  // which way a fluoroscope's angles look
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
   bool breathes = false, yields = false;                             // what moves the case's tissue
+  bool target_cannot_show = false;                                   // in no picture of the case (target_view.h)
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {
   return {setting.modality, setting.approach, setting.instrument.kind};
 }
-
-enum class Gap : std::uint8_t { none, silence, jump };
 
 // What was done after the endpoint: when the tip left the skin (it may never have been in), and when a picture then
 // showed the target.
@@ -58,10 +57,11 @@ struct Aftermath {
 
 struct Signals {
   AttemptSetting setting;
-  std::vector<cases::PoseSample> poses;      // strictly increasing in time, at most 200 a second
+  std::vector<cases::PoseSample> poses;      // strictly increasing in time, at most 200 a second; repaired
   std::vector<Gap> gaps;                     // one per pose: what is between it and the next
   std::vector<cases::SkinPassage> passages;  // one per pose
-  std::vector<double> advance_mm;            // one per pose: how far the tip came beyond where it had been (below)
+  std::vector<double> pushed_mm;             // one per pose: how deep the hand has pushed the needle
+  std::vector<double> advance_mm;            // one per pose: how far that came beyond where it had been (below)
   std::vector<cases::FrameTruth> frames;     // strictly increasing in time
   std::vector<cases::ForceSample> forces;    // empty: no device
   // Of the whole recording, after the endpoint too; nothing: it was not listened to.
@@ -69,8 +69,10 @@ struct Signals {
   Aftermath after;
   std::optional<cases::Endpoint> endpoint;
   std::optional<double> sample_rate_p5_hz;  // 95 % of the time was sampled at least so often; gaps not counted
-  std::vector<Step> steps;                  // the tools' way, filtered
-  std::vector<TraceSegment> trace;          // the tip's way without its tremor
+  Tracking tracking;
+  std::vector<Step> steps;          // the tools' way, filtered
+  std::vector<WayPoint> way;        // the tip's, without what trembles
+  std::vector<TraceSegment> trace;  // the tip's way without its tremor
 
   // Interval i runs from pose i to pose i + 1; a gap belongs to no denominator.
   double interval_s(std::size_t i) const { return poses[i + 1].t_s - poses[i].t_s; }

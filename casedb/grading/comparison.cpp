@@ -52,8 +52,12 @@ std::optional<double> value_of(const AttemptRow& row, const assessment::MetricIn
 
 void sum_up(ComparedGroup& group, const Comparison& comparison) {
   std::vector<const ComparedAttempt*> gradable;
-  for (const ComparedAttempt& attempt : group.attempts)
-    if (attempt.grade.grade.reason.empty()) gradable.push_back(&attempt);
+  for (const ComparedAttempt& attempt : group.attempts) {
+    if (!assessment::compared(attempt.row.metrics))
+      ++group.not_performed;
+    else if (attempt.grade.grade.reason.empty())
+      gradable.push_back(&attempt);
+  }
   group.gradable = gradable.size();
   for (const ComparedAttempt* attempt : gradable) {
     group.passed += attempt->grade.grade.verdict == assessment::Verdict::passed ? 1U : 0U;
@@ -72,9 +76,13 @@ void sum_up(ComparedGroup& group, const Comparison& comparison) {
   }
   for (const assessment::MetricInfo* info : comparison.metrics) {
     std::vector<double> values;
-    for (const ComparedAttempt* attempt : gradable)
+    std::vector<assessment::Contribution> contributions;
+    for (const ComparedAttempt* attempt : gradable) {
       if (const auto value = value_of(attempt->row, *info)) values.push_back(*value);
+      contributions.push_back(assessment::contribution_of(*info, attempt->row.metrics));
+    }
     group.of_metrics.push_back(over(std::move(values)));
+    group.of_metrics.back().one = assessment::of_one_person(*info, contributions);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/estimand.h"
 #include "casedb/grading/grading.h"
 
 namespace seldinger::casedb {
@@ -15,6 +16,9 @@ struct ComparedMetric {
   double median = 0.0;           // of those; n of 0: none
   double mean = 0.0;             // of a yes and no, the share
   double low = 0.0, high = 0.0;  // least and most
+  // As the metric's estimand has it (assessment/estimand.h): one value of all of the group's attempts that count.
+  // Of a criterion none.
+  assessment::OnePerson one{};
 };
 
 struct ComparedAttempt {
@@ -25,10 +29,12 @@ struct ComparedAttempt {
 struct ComparedGroup {
   std::string operator_name;             // of a simulated operator
   std::optional<std::string> person_id;  // of a person
-  std::size_t gradable = 0, passed = 0, with_critical_errors = 0;
-  std::vector<std::size_t> met;                         // of the gradable, a count for each criterion
-  std::vector<ComparedMetric> of_criteria, of_metrics;  // of the gradable
-  std::vector<ComparedAttempt> attempts;                // oldest first
+  // Comparisons are among attempts in which the procedure was performed; the others are left out of all below.
+  std::size_t not_performed = 0;
+  std::size_t gradable = 0, passed = 0, with_critical_errors = 0;  // of the performed
+  std::vector<std::size_t> met;                                    // of the gradable, a count for each criterion
+  std::vector<ComparedMetric> of_criteria, of_metrics;             // of the gradable
+  std::vector<ComparedAttempt> attempts;                           // oldest first
 };
 
 struct Comparison {

@@ -342,13 +342,32 @@ const std::vector<Column<EventFact>>& event_columns() {
   return columns;
 }
 
+namespace {
+
+std::string better_of(const assessment::MetricInfo& info) {
+  switch (info.direction) {
+    case assessment::Direction::lower_is_better:
+      return "lower";
+    case assessment::Direction::higher_is_better:
+      return "higher";
+    case assessment::Direction::none:
+      break;
+  }
+  return "neither";
+}
+
+}  // namespace
+
 const std::vector<ColumnInfo>& attempt_metrics() {
   static const std::vector<ColumnInfo> columns = [] {
     std::vector<ColumnInfo> all;
     for (const assessment::MetricInfo& info : assessment::registry())
       all.push_back({info.id, std::string(info.unit) == "bool" ? "flag" : "number", info.unit,
                      "metrics.csv has the reason, or only another version of it",
-                     std::string(info.label) + ": " + info.definition, info.version});
+                     std::string(info.label) + ": " + info.definition, info.version, better_of(info),
+                     std::string(assessment::words(info.estimand.scale)),
+                     std::string(assessment::words(info.estimand.without_endpoint)),
+                     std::string(assessment::words(info.estimand.aggregation))});
     return all;
   }();
   return columns;
@@ -431,14 +450,18 @@ const std::vector<TableInfo>& raw_tables() {
 
 std::string data_dictionary() {
   CsvLine line;
-  for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description"})
+  for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description", "better",
+                           "scale", "without_endpoint", "of_a_person"})
     line.text(name);
   std::string text = line.take();
   for (const TableInfo& table : raw_tables())
     for (const ColumnInfo& column : table.columns) {
       line.text(table.file).text(column.name).text(column.type).text(column.unit);
       column.version ? line.whole(std::int64_t{*column.version}) : line.nothing();
-      text += line.text(column.missing.empty() ? "never" : column.missing).text(column.what).take();
+      line.text(column.missing.empty() ? "never" : column.missing).text(column.what);
+      for (const std::string* one : {&column.better, &column.scale, &column.without_endpoint, &column.of_a_person})
+        one->empty() ? line.nothing() : line.text(*one);
+      text += line.take();
     }
   return text;
 }
@@ -449,7 +472,11 @@ std::string raw_readme() {
       "procedure.\n\n";
   for (const TableInfo& table : raw_tables()) text += table.file + ": " + table.what + "\n";
   text +=
-      "data_dictionary.csv: every column of every file: type, unit, when it is empty, what it means\n\n"
+      "data_dictionary.csv: every column of every file: type, unit, when it is empty, what it means; of a metric "
+      "also "
+      "how people are compared by it: which way is better, its scale, what an attempt without an endpoint counts "
+      "as, "
+      "how a person's attempts become one value (those with procedure_performed = 1)\n\n"
       "CSV as RFC 4180: UTF-8, comma, '.' decimals, LF, header in the first line. Numbers read back bit for bit. "
       "An "
       "empty cell is a missing value and never 0. Text that a spreadsheet would take for a formula begins with an "

@@ -21,6 +21,8 @@ struct ColumnInfo {
   std::string missing;  // when the cell is empty; empty text: never
   std::string what;
   std::optional<int> version{};  // of a metric's definition
+  // Of a metric: how it is compared. Empty: of none.
+  std::string better{}, scale{}, without_endpoint{}, of_a_person{};
 };
 
 template <typename Row>

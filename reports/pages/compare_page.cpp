@@ -57,6 +57,8 @@ void add_criteria(Html& html, const Comparison& comparison) {
   html.raw("<tbody>\n");
   add_count_row(html, comparison, "Attempts",
                 [](const ComparedGroup& group) { return std::to_string(group.attempts.size()); });
+  add_count_row(html, comparison, "Left out: procedure not performed",
+                [](const ComparedGroup& group) { return std::to_string(group.not_performed); });
   add_count_row(html, comparison, "Passed, of those that are graded",
                 [](const ComparedGroup& group) { return of(group.passed, group.gradable); });
   add_count_row(html, comparison, "With a critical error",
@@ -90,15 +92,16 @@ void add_criteria(Html& html, const Comparison& comparison) {
 void add_metrics(Html& html, const Comparison& comparison) {
   html.raw(
       "<details open><summary>Every metric</summary>\n<div class=\"wide compare\" role=\"region\" tabindex=\"0\" "
-      "aria-label=\"Metrics\"><table>\n<caption>Median, and least to "
-      "most; of a yes and no how many</caption>\n");
+      "aria-label=\"Metrics\"><table>\n<caption>Median (of rare events the mean), and least to "
+      "most; of a yes and no how many. Of attempts in which the procedure was performed; who neither fired nor "
+      "deferred counts as the worst where it says so</caption>\n");
   add_head(html, comparison, "Metric");
   html.raw("<tbody>\n");
   for (std::size_t i = 0; i < comparison.metrics.size(); ++i) {
     const assessment::MetricInfo& info = *comparison.metrics[i];
     html.raw("<tr><th scope=\"row\">").text(info.label).raw("</th>");
     for (const ComparedGroup& group : comparison.groups) {
-      html.raw("<td class=\"number\">").text(compared_text(group.of_metrics[i], info.unit));
+      html.raw("<td class=\"number\">").text(estimate_text(group.of_metrics[i], info));
       if (group.of_metrics[i].n > 0 && group.of_metrics[i].n < group.gradable)
         html.raw(" <span class=\"why\">n = ").text(std::to_string(group.of_metrics[i].n)).raw("</span>");
       html.raw("</td>");
@@ -137,6 +140,26 @@ std::string compared_text(const casedb::ComparedMetric& metric, std::string_view
     return number_text(metric.mean * static_cast<double>(metric.n), 0) + " of " + std::to_string(metric.n);
   std::string text = assessment::plain_value(metric.median, unit);
   if (metric.low != metric.high) text += " (" + assessment::plain_range(metric.low, metric.high, unit) + ")";
+  return text;
+}
+
+std::string estimate_text(const casedb::ComparedMetric& metric, const assessment::MetricInfo& info) {
+  const assessment::OnePerson& one = metric.one;
+  std::string text;
+  if (info.estimand.aggregation == assessment::Aggregation::proportion && one.estimate) {
+    const std::size_t all = one.values + one.failures;
+    text = number_text(*one.estimate * static_cast<double>(all), 0) + " of " + std::to_string(all);
+  } else if (one.worst) {
+    text = "worse than any value";
+  } else if (one.estimate) {
+    text = assessment::plain_value(*one.estimate, info.unit);
+  } else {
+    return "—";
+  }
+  if (metric.n > 0 && metric.low != metric.high && std::string_view(info.unit) != "bool")
+    text += " (" + assessment::plain_range(metric.low, metric.high, info.unit) + ")";
+  if (one.failures > 0) text += ", " + std::to_string(one.failures) + " without success";
+  if (one.censored > 0) text += ", " + std::to_string(one.censored) + " not ended";
   return text;
 }
 

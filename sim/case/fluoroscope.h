@@ -21,6 +21,10 @@ struct CArm {
   bool operator==(const CArm&) const = default;
 };
 
+// Air kerma is told at the interventional reference point, so far from the isocentre towards the tube
+// (IEC 60601-2-43).
+constexpr double kReferenceBeforeIsocentreMm = 150.0;
+
 // Fixed facts of the machine. Defaults: a typical angiographic C-arm with a 30 × 30 cm flat detector.
 struct Fluoroscope {
   double source_isocentre_mm = 785.0;

@@ -16,6 +16,7 @@ constexpr double kSlowest = 2.0, kFastest = 6.0;  // radians of a wave from the 
 constexpr double kLeastShare = 0.2;
 constexpr double kFinestMm = 0.25;
 constexpr double kVoxelsARadius = 24.0;
+constexpr double kAboutMm = 2.0;
 
 struct Wave {
   glm::dvec3 along;
@@ -104,6 +105,24 @@ Lesion lesion_of(const LesionForm& form) {
   if (form.kind != LesionKind::sphere)
     lesion.radius_mm = std::cbrt(volume_mm3(*lesion.shape) * 3.0 / (4.0 * std::numbers::pi));
   return lesion;
+}
+
+std::optional<double> hu_about(const volume::Volume& volume, const Lesion& drawn) {
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  double sum = 0.0;
+  int count = 0;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const glm::dvec3 p =
+            drawn.center_lps_mm + (drawn.radius_mm + kAboutMm) * glm::normalize(glm::dvec3(x, y, z));
+        const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
+        if (!hu) continue;
+        sum += *hu;
+        ++count;
+      }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 }  // namespace seldinger::cases

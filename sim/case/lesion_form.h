@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "sim/base/names.h"
 #include "sim/case/case.h"
@@ -42,5 +43,9 @@ Lesion lesion_of(const LesionForm& form);
 inline bool is_plain(const LesionForm& form) noexcept {
   return form.kind == LesionKind::sphere && !form.adds && form.edge_mm == 0.0;
 }
+
+// Mean of what lies about a drawn target, 2 mm from its surface; nothing where that is outside the volume. What it
+// is drawn over tells nothing: a calyx that the volume shows is drawn over itself.
+std::optional<double> hu_about(const volume::Volume& volume, const Lesion& drawn);
 
 }  // namespace seldinger::cases

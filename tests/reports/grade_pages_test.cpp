@@ -2,6 +2,7 @@
 // markup.
 #include <gmock/gmock.h>
 
+#include "assessment/registry.h"
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/compare_page.h"
@@ -176,6 +177,7 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
     group.gradable = 3;
     group.passed = person ? 1 : 0;
     group.met = {3, 1};
+    group.not_performed = 7;
     group.of_criteria = {{3, 0.0, 0.0, 0.0, 0.0}, {3, 0.0, 1.0 / 3.0, 0.0, 1.0}};
     group.attempts.push_back({sample_attempt().row, failed_grade()});
   }
@@ -185,6 +187,7 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
   EXPECT_THAT(html, HasSubstr("Simulated novice"));
   EXPECT_LT(html.find("Person 3f20ab"), html.find("Simulated novice"));
   EXPECT_THAT(html, HasSubstr("1 of 3"));
+  EXPECT_THAT(html, HasSubstr("Left out: procedure not performed</th><td class=\"number\">7</td>"));
   EXPECT_THAT(html, HasSubstr("Went 3.2 mm through something."));
   EXPECT_THAT(html, HasSubstr("Training only, not for planning a patient&#39;s procedure."));
   EXPECT_THAT(html, HasSubstr("Simulated operators test the software."));
@@ -204,6 +207,16 @@ TEST(GradeWords, ScoresAndSetsReadAsSentences) {
   EXPECT_EQ(compared_text({0, 0, 0, 0, 0}, "mm"), "—");
   EXPECT_EQ(compared_text({5, 12.0, 12.0, 9.0, 14.0}, "mm"), "12 mm (9–14 mm)");
   EXPECT_EQ(compared_text({5, 1.0, 0.6, 0.0, 1.0}, "bool"), "3 of 5");
+  const assessment::MetricInfo &dist = *assessment::find_metric("tip_target_dist"),
+                               &hit = *assessment::find_metric("hit"),
+                               &time = *assessment::find_metric("time_total");
+  EXPECT_EQ(estimate_text({}, dist), "—");
+  EXPECT_EQ(estimate_text({2, 11.5, 11.5, 9.0, 14.0, {2, 1, 0, 14.0, false}}, dist),
+            "14 mm (9–14 mm), 1 without success");
+  EXPECT_EQ(estimate_text({1, 9.0, 9.0, 9.0, 9.0, {1, 2, 0, std::nullopt, true}}, dist),
+            "worse than any value, 2 without success");
+  EXPECT_EQ(estimate_text({2, 1.0, 1.0, 1.0, 1.0, {2, 2, 0, 0.5, false}}, hit), "2 of 4, 2 without success");
+  EXPECT_EQ(estimate_text({3, 20.0, 20.0, 20.0, 20.0, {2, 0, 1, 20.0, false}}, time), "20 s, 1 not ended");
 }
 
 }  // namespace

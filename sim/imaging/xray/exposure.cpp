@@ -12,7 +12,6 @@ namespace {
 
 using base::exact_exp, base::exact_log;
 
-constexpr double kReferenceBeforeIsocentreMm = 150.0;  // IEC 60601-2-43
 constexpr double kNgyPerMgy = 1e6;
 
 double square(double x) noexcept {
@@ -116,7 +115,7 @@ OpenField open_field(int width_px, int height_px, const cases::Collimator& colli
 
 double reference_air_kerma_mgy(Beams& beams, const Pulse& pulse) {
   return beams.at(pulse.technique.kv).open_kerma_mgy_per_mas() * pulse.mas() *
-         at_distance(beams.fluoroscope().source_isocentre_mm - kReferenceBeforeIsocentreMm);
+         at_distance(beams.fluoroscope().source_isocentre_mm - cases::kReferenceBeforeIsocentreMm);
 }
 
 double dose_area_mgy_cm2(Beams& beams, const Pulse& pulse, double plane_mm) {

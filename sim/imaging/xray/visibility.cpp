@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/vectors.h"
+#include "sim/case/lesion_form.h"
 #include "sim/imaging/segment_clip.h"
 #include "sim/imaging/xray/instruments.h"
 
@@ -47,27 +48,6 @@ std::optional<RayThrough> ray_through(const volume::Volume& volume, const XrayGe
   through.ray = {through.hit_lps_mm - (glm::length(first.to_lps_mm - first.from_lps_mm)) * g.direction,
                  through.hit_lps_mm};
   return through;
-}
-
-// Mean of what lies about a drawn target, kAboutMm from its surface; nothing where that is outside the volume. What
-// it is drawn over tells nothing: a calyx that the volume shows is drawn over itself.
-constexpr double kAboutMm = 2.0;
-std::optional<double> about_hu(const volume::Volume& volume, const cases::Lesion& target) {
-  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
-  double sum = 0.0;
-  int count = 0;
-  for (int x = -1; x <= 1; ++x)
-    for (int y = -1; y <= 1; ++y)
-      for (int z = -1; z <= 1; ++z) {
-        if (x == 0 && y == 0 && z == 0) continue;
-        const glm::dvec3 p =
-            target.center_lps_mm + (target.radius_mm + kAboutMm) * glm::normalize(glm::dvec3(x, y, z));
-        const auto hu = volume::sample_trilinear(volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
-        if (!hu) continue;
-        sum += *hu;
-        ++count;
-      }
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 double log_share(const BeamSignal& beam, const RayLengths& volume, const OverlaidLengths& overlaid) {
@@ -164,7 +144,7 @@ std::optional<Contrast> target_contrast(const volume::Volume& volume, const Xray
   if (target.in_volume()) {  // drawn as the ball of its volume: once as it is, once as what was there
     with.lesions.front().shape = without.lesions.front().shape = nullptr;
     without.lesions.front().hu = target.around_hu;
-  } else if (const auto about = about_hu(volume, target)) {
+  } else if (const auto about = cases::hu_about(volume, target)) {
     without.lesions.front().hu = *about;
   } else {
     without.lesions.erase(without.lesions.begin());

@@ -114,13 +114,14 @@ TEST(FluoroscopyMetrics, AddUpThePulses) {
   moving.arm_moving = true;
   hand.hand_in_beam = true;
   hand.air_kerma_mgy = 0.5;
+  hand.dap_mgy_cm2 = 75.0;  // of the same field
   expose(recording, 0.5, wide);
   expose(recording, 1.0, moving);
   expose(recording, 2.0, hand);
   hold(recording, 2.4);
   expose(recording, 7.0, beam());  // after the endpoint
   EXPECT_NEAR(number(recording, "fluoroscopy_time"), 2.0 / 7.5 + 1.0 / 3.0, 1e-12);
-  EXPECT_NEAR(number(recording, "dap"), 0.009, 1e-12) << "Gy·cm²";
+  EXPECT_NEAR(number(recording, "dap"), 0.081, 1e-12) << "Gy·cm²";
   EXPECT_NEAR(number(recording, "air_kerma"), 0.54, 1e-12);
   EXPECT_NEAR(number(recording, "beam_while_moving"), 1.0 / 7.5, 1e-12);
   EXPECT_NEAR(number(recording, "hand_in_beam"), 1.0 / 3.0, 1e-12);
@@ -246,7 +247,12 @@ TEST(FluoroscopyMetrics, AgreeWithWhatTheMachineAddedUp) {
     if (i % 10 == 0)
       recording.poses.push_back({state.t_s, state.needle.tip_lps_mm, {0, 0, 1}, {0, 0, 0}, {0, 0, 1}, {1, 0, 0}});
     if (!machine.frame_due) continue;
-    inputs.exposure = {machine.frames, 0.1 * rng.uniform(), 5.0 * rng.uniform(), {}, rng.uniform() < 0.3};
+    const double kerma_mgy = 0.1 * rng.uniform();
+    inputs.exposure = {machine.frames,
+                       kerma_mgy,
+                       2500.0 * (1.0 - machine.collimator.shut_share()) * kerma_mgy,
+                       {},
+                       rng.uniform() < 0.3};
     expose(recording, state.t_s,
            {machine.arm.lao_deg, machine.arm.cranial_deg, machine.last_technique.kv, machine.last_technique.ma,
             inputs.exposure.air_kerma_mgy, inputs.exposure.dap_mgy_cm2, machine.collimator.shut_share(),

@@ -96,7 +96,9 @@ TEST(EveryMetric, OfTissueIsToldInThePatientAtRest) {
         of_the_hand.insert(info.id);
     EXPECT_GT(of_tissue, 15);
     expect_same(still, moving, 1e-12, here.name, of_the_hand);
-    EXPECT_GT(*moving.at("path_tip").value, *still.at("path_tip").value + 20.0) << here.name;
+    // The way is the tissue's: a hand that breathes along goes no further (in version 2 it did, by over 20 mm).
+    EXPECT_NEAR(*moving.at("path_tip").value, *still.at("path_tip").value, 0.01 * *still.at("path_tip").value)
+        << here.name;
   }
 }
 
@@ -140,6 +142,9 @@ TEST(EveryMetric, BarelyChangesWithTheSamplingRate) {
 const std::set<std::string> kOfTime = {"time_total",
                                        "time_in_tissue",
                                        "time_puncture_to_target",
+                                       "time_talk",
+                                       "time_search",
+                                       "time_needle",
                                        "nogo_time",
                                        "gap_share",
                                        "vis_joint",
@@ -302,7 +307,12 @@ TEST(Quality, GatesWhatIsGraded) {
   EXPECT_EQ(gate(silent(0.6)), "") << "4.4 % of 13.5 s";
   EXPECT_EQ(gate(silent(0.8)), "tracking_gaps") << "5.9 %";
   EXPECT_EQ(gate([](auto& r) { r.poses.resize(1), r.endpoint.reset(); }), "too_short");
-  EXPECT_EQ(gate([](auto& r) { r.poses[700].tip_lps_mm.x += 500.0; }), "tracking_jumps");
+  // One pose far away is repaired; a leap that stays is not.
+  EXPECT_EQ(gate([](auto& r) { r.poses[700].tip_lps_mm.x += 500.0; }), "");
+  EXPECT_EQ(gate([](auto& r) {
+              for (std::size_t i = 700; i < r.poses.size(); ++i) r.poses[i].tip_lps_mm.x += 500.0;
+            }),
+            "tracking_jumps");
   EXPECT_EQ(why_not_gradable({}), "quality_not_measured");
 }
 

@@ -9,6 +9,7 @@
 #include "assessment/registry.h"
 #include "assessment/signals/motion.h"
 #include "assessment/signals/signals.h"
+#include "assessment/signals/smoothness.h"
 #include "sim/base/rng.h"
 #include "tests/fixtures/meshes.h"
 
@@ -64,6 +65,21 @@ double ramp(double t_s, double mm_s) {
   return -20.0 + mm_s * t_s;
 }
 
+// From one depth to the next in a tenth of a second, as a hand may, each kept until its time: what went there from
+// one pose to the next would be the tracker's leap.
+std::function<double(double)> in_turn(std::vector<std::pair<double, double>> until_s_depth_mm) {
+  return [=](double t_s) {
+    for (std::size_t i = 0; i < until_s_depth_mm.size(); ++i) {
+      const auto& [until_s, depth_mm] = until_s_depth_mm[i];
+      if (t_s >= until_s && i + 1 < until_s_depth_mm.size()) continue;
+      const double since_s = i == 0 ? 1.0 : t_s - until_s_depth_mm[i - 1].first;
+      const double before_mm = i == 0 ? depth_mm : until_s_depth_mm[i - 1].second;
+      return before_mm + (depth_mm - before_mm) * std::clamp(since_s / 0.1, 0.0, 1.0);
+    }
+    return 0.0;
+  };
+}
+
 TEST(PathTip, AStraightWayIsItsLength) {
   const auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);
   EXPECT_NEAR(number(recording, "path_tip"), 60.0, 0.06);
@@ -105,12 +121,12 @@ TEST(PathTip, WhatTremblesWhileItRestsIsNoWay) {
   auto recording = straight([](double t) { return ramp(std::fmin(t, 2.0), 20.0); }, 20.0);
   for (auto& pose : recording.poses) pose.tip_lps_mm += glm::dvec3(rng.normal(), rng.normal(), rng.normal()) * 0.05;
   EXPECT_NEAR(number(recording, "path_tip"), 40.0, 1.2);
-  // A move for less than 0.2 s is none; one for longer is.
-  const auto brief = [](double seconds) {
-    return straight([=](double t) { return 20.0 + 20.0 * std::clamp(t - 2.0, 0.0, seconds); }, 5.0);
+  // A move for less than 0.2 s is one, too (version 2 left it out); one on the spot is none.
+  const auto brief = [](double seconds, double mm_s) {
+    return straight([=](double t) { return 20.0 + mm_s * std::clamp(t - 2.0, 0.0, seconds); }, 5.0);
   };
-  EXPECT_EQ(number(brief(0.1), "path_tip"), 0.0);
-  EXPECT_NEAR(number(brief(0.5), "path_tip"), 10.0, 0.2);
+  EXPECT_NEAR(number(brief(0.1, 20.0), "path_tip"), 2.0, 0.05);
+  EXPECT_NEAR(number(brief(0.5, 20.0), "path_tip"), 10.0, 0.05);
 }
 
 TEST(PathTip, OnePoseIsZeroAndAGapIsNotBridged) {
@@ -251,7 +267,10 @@ TEST(Smoothness, IsLessOfAnInterruptedReachAndNullOfASlowOne) {
   const auto reach = of([](double t) { return minimum_jerk(t - 1.0, 50.0, 3.0).y; });
   const auto trembling = of([](double t) { return minimum_jerk(t - 1.0, 50.0, 3.0).y + 0.5 * std::sin(25.0 * t); });
   EXPECT_GT(number(reach, "ldlj"), number(trembling, "ldlj") + 2.0);
-  EXPECT_EQ(value(of([](double t) { return 20.0 + 4.5 * t; }), "ldlj").reason, "no_movement_of_5_mm_s");
+  // A slow hand moves, too: version 1 knew nothing under 5 mm/s.
+  EXPECT_TRUE(
+      value(of([](double t) { return 20.0 + 4.5 * std::clamp(t - 1.0, 0.0, 4.0); }), "ldlj").value.has_value());
+  EXPECT_EQ(value(of([](double t) { return 20.0 + 0.2 * std::sin(t); }), "ldlj").reason, "no_movement");
   EXPECT_FALSE(log_dimensionless_jerk(std::vector<glm::dvec3>(3, glm::dvec3(1.0)), 100.0).has_value());
 }
 
@@ -296,17 +315,15 @@ TEST(Endpoint, NoTriggerAndNoTargetAreNullWithTheirReason) {
 }
 
 TEST(SkinPunctures, ScrapesAndShortTouchesAreNone) {
-  EXPECT_EQ(number(straight([](double t) { return t < 1.0 ? -5.0 : 1.9; }, 3.0), "skin_punctures"), 0.0);
-  const auto touch = [](double t) { return t > 1.0 && t < 1.085 ? 3.0 : -5.0; };
-  EXPECT_EQ(number(straight(touch, 3.0), "skin_punctures"), 0.0);
-  EXPECT_EQ(number(straight([](double t) { return t > 1.0 && t < 1.125 ? 3.0 : -5.0; }, 3.0), "skin_punctures"),
-            1.0);
+  EXPECT_EQ(number(straight(in_turn({{1.0, -5.0}, {9.0, 1.9}}), 3.0), "skin_punctures"), 0.0);
+  // Deeper than 2 mm for the last 12.5 ms of the way in, for as long as it stays, and for as much of the way out.
+  const auto touch = [](double seconds) { return in_turn({{1.0, -5.0}, {1.1 + seconds, 3.0}, {9.0, -5.0}}); };
+  EXPECT_EQ(number(straight(touch(0.06), 3.0), "skin_punctures"), 0.0);
+  EXPECT_EQ(number(straight(touch(0.1), 3.0), "skin_punctures"), 1.0);
 }
 
 TEST(SkinPunctures, TheNextNeedsTheTipOneMillimetreOutside) {
-  const auto twice = [](double out_mm) {
-    return [out_mm](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? 10.0 : t < 3.0 ? out_mm : 10.0; };
-  };
+  const auto twice = [](double out_mm) { return in_turn({{1.0, -5.0}, {2.0, 10.0}, {3.0, out_mm}, {9.0, 10.0}}); };
   EXPECT_EQ(number(straight(twice(-0.9), 4.0), "skin_punctures"), 1.0);
   EXPECT_EQ(number(straight(twice(-0.9), 4.0), "withdrawals_full"), 0.0);
   EXPECT_EQ(number(straight(twice(-1.1), 4.0), "skin_punctures"), 2.0);
@@ -329,7 +346,7 @@ TEST(SkinPunctures, ANeedleInThroughTheVolumesEndIsNone) {
 
 TEST(WithdrawalsPartial, HysteresisIsAFifthOfTheDepthBetweenTwoAndFiveMillimetres) {
   const auto back_by = [](double depth_mm, double back_mm) {
-    return [=](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? depth_mm : t < 3.0 ? depth_mm - back_mm : depth_mm; };
+    return in_turn({{1.0, -5.0}, {2.0, depth_mm}, {3.0, depth_mm - back_mm}, {9.0, depth_mm}});
   };
   const auto count = [&](double depth_mm, double back_mm) {
     return number(straight(back_by(depth_mm, back_mm), 4.0), "withdrawals_partial");
@@ -343,14 +360,15 @@ TEST(WithdrawalsPartial, HysteresisIsAFifthOfTheDepthBetweenTwoAndFiveMillimetre
 }
 
 TEST(WithdrawalsPartial, JitterAndLeavingTheSkinAreNone) {
-  const auto jitter = [](double t) { return t < 1.0 ? -5.0 : 40.0 + 2.4 * std::sin(30.0 * t); };
+  const auto in = in_turn({{1.0, -5.0}, {9.0, 40.0}});
+  const auto jitter = [&](double t) { return in(t) + (t < 1.0 ? 0.0 : 2.4 * std::sin(30.0 * t)); };
   EXPECT_EQ(number(straight(jitter, 6.0), "withdrawals_partial"), 0.0);
-  const auto out = [](double t) { return t < 1.0 ? -5.0 : t < 2.0 ? 40.0 : t < 3.0 ? -5.0 : 40.0; };
+  const auto out = in_turn({{1.0, -5.0}, {2.0, 40.0}, {3.0, -5.0}, {9.0, 40.0}});
   EXPECT_EQ(number(straight(out, 4.0), "withdrawals_partial"), 0.0);
   EXPECT_EQ(number(straight(out, 4.0), "withdrawals_full"), 1.0);
 }
 
-TEST(Visibility, SharesAreOfTheTimeInTissueWithALivePicture) {
+TEST(Visibility, SharesAreOfTheTimeInTissue) {
   auto recording = straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 10.0);
   for (auto& frame : recording.frames) {
     frame.needle_tip = frame.t_s >= 2.0 && frame.t_s < 4.0;  // 2 of 8 s in tissue
@@ -360,7 +378,8 @@ TEST(Visibility, SharesAreOfTheTimeInTissueWithALivePicture) {
   EXPECT_NEAR(number(recording, "vis_target"), 0.625, 1e-9);
   EXPECT_NEAR(number(recording, "vis_joint"), 0.25, 1e-9);
   for (auto& frame : recording.frames) frame.live = frame.t_s < 6.0;  // a frozen picture shows nothing
-  EXPECT_NEAR(number(recording, "vis_needle"), 0.5, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_needle"), 0.25, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_target"), 0.5, 1e-9);
 }
 
 TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
@@ -374,7 +393,7 @@ TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
 
 TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {
   EXPECT_EQ(value(straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 2.9), "vis_needle").reason,
-            "under_1_s_in_tissue_with_a_live_picture");
+            "under_1_s_in_tissue");
   AttemptSetting s = setting();
   s.approach = cases::Approach::out_of_plane;
   const auto recording = straight([](double) { return 30.0; }, 5.0);
@@ -411,21 +430,22 @@ TEST(Visibility, TheNeedlesLengthIsAMeanOverTheTime) {
 }
 
 TEST(Visibility, OfTheSessionCountsWhatIsOutsideTissueToo) {
-  auto recording = straight([](double t) { return t < 5.0 ? -5.0 : 30.0; }, 10.0);
+  auto recording = straight(in_turn({{5.0, -5.0}, {99.0, 30.0}}), 10.0);
   for (auto& frame : recording.frames) frame.target = frame.t_s < 7.0;
   EXPECT_NEAR(number(recording, "vis_joint_session"), 0.7, 1e-9);
-  EXPECT_NEAR(number(recording, "vis_joint"), 0.4, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_joint"), 0.4, 0.003);
   for (auto& frame : recording.frames) frame.needle_length_mm = frame.t_s < 6.0 ? 3.0 : 0.0;
-  EXPECT_NEAR(number(recording, "vis_shaft"), 0.2, 1e-9);
+  EXPECT_NEAR(number(recording, "vis_shaft"), 0.2, 0.004);
 }
 
 TEST(BlindAdvance, IsWhatNobodySaw) {
-  // 10 mm/s from the skin: seen from 1 to 2 s, and by one picture at 4 s.
+  // 10 mm/s from the skin: seen from 1 to 2 s, and by one picture at 4 s, which is no sight (in version 1 it was
+  // one).
   auto recording = straight([](double t) { return 10.0 * t; }, 6.0);
   for (auto& frame : recording.frames)
     frame.needle_tip = (frame.t_s >= 1.0 && frame.t_s < 2.0) || std::abs(frame.t_s - 4.0) < 0.005;
   EXPECT_NEAR(number(recording, "blind_advance"), 50.0 - 0.1, 1e-6);
-  EXPECT_NEAR(number(recording, "blind_advance_max"), 20.0, 1e-6);
+  EXPECT_NEAR(number(recording, "blind_advance_max"), 40.0 - 0.1, 1e-6);
   EXPECT_NEAR(number(recording, "advance_visible_share"), 10.1 / 60.0, 1e-6);
   for (auto& frame : recording.frames) frame.live = false;
   EXPECT_NEAR(number(recording, "blind_advance_max"), 60.0, 1e-6) << "a frozen picture shows nothing";
@@ -467,15 +487,6 @@ TEST(AdvanceBeyondPlane, CountsFromThreeMillimetresOnTheFarSide) {
   EXPECT_EQ(value(recording, "advance_beyond_plane").reason, "not_meaningful_in_plane");
   EXPECT_EQ(value(recording, "blind_advance", s).reason, "not_meaningful_out_of_plane");
   EXPECT_EQ(value(recording, "probe_drift_advancing", s).reason, "not_meaningful_out_of_plane");
-}
-
-TEST(ProbeDrift, CountsWhileTheNeedleAdvances) {
-  // The probe slides by 2 mm/s from 1 to 6 s; the needle advances from 3 s on.
-  auto recording = straight([](double t) { return t < 3.0 ? 5.0 : 5.0 + 10.0 * (t - 3.0); }, 6.0);
-  for (auto& pose : recording.poses) pose.probe_origin_lps_mm.z = 2.0 * std::clamp(pose.t_s - 1.0, 0.0, 5.0);
-  EXPECT_NEAR(number(recording, "probe_drift_advancing"), 6.0 - 1.0, 0.1) << "less 1 mm of play";
-  for (auto& pose : recording.poses) pose.probe_origin_lps_mm.z = 0.45 * std::sin(5.0 * pose.t_s);
-  EXPECT_EQ(number(recording, "probe_drift_advancing"), 0.0) << "a probe that breathes with the skin";
 }
 
 TEST(Entry, IsHeldAgainstThePlan) {

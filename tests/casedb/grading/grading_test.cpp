@@ -1,5 +1,6 @@
 // Grades of stored attempts: by the version that the rule names, against people who were consultants then.
 #include "casedb/grading/grading.h"
+#include "assessment/registry.h"
 
 #include <algorithm>
 
@@ -205,6 +206,36 @@ TEST_F(GradingTest, SideBySideNeverMixesPeopleAndSimulatedOperators) {
   EXPECT_EQ(compare_attempts(library_, case_id_, {}, cases::Modality::ultrasound).error().code, "no_attempt");
   EXPECT_EQ(compare_attempts(library_, case_id_, {}, cases::Modality::xray).value().groups.size(), 1U);
   EXPECT_EQ(compare_attempts(library_, std::string(36, '0')).error().code, "no_case");
+}
+
+// Before: an attempt in which nobody did anything had the best of all values, and giving up was left out.
+TEST_F(GradingTest, SideBySideIsAmongThoseWhoPerformedTheProcedure) {
+  rule({"hit >= 1"});
+  const std::string person = user("T", Role::trainee);
+  const auto add = [&](double performed, std::optional<double> hit, double punctures) {
+    NewAttempt made = new_attempt(person, hit, 20.0);
+    made.metrics[3].version = assessment::find_metric("hit")->version;
+    made.metrics.push_back({"procedure_performed", 1, performed, "bool", ""});
+    made.metrics.push_back({"skin_punctures", 1, punctures, "count", ""});
+    static_cast<void>(add_attempt(library_, made).value());
+  };
+  add(1.0, 1.0, 1.0);
+  add(1.0, std::nullopt, 1.0);  // gave up
+  add(0.0, std::nullopt, 0.0);  // parked
+  const Comparison side = compare_attempts(library_, case_id_).value();
+  ASSERT_EQ(side.groups.size(), 1U);
+  const ComparedGroup& group = side.groups[0];
+  EXPECT_EQ(group.attempts.size(), 3U);
+  EXPECT_EQ(group.not_performed, 1U);
+  EXPECT_EQ(group.gradable, 2U);
+  for (std::size_t i = 0; i < side.metrics.size(); ++i) {
+    if (std::string(side.metrics[i]->id) != "hit") continue;
+    EXPECT_EQ(group.of_metrics[i].n, 1U);
+    EXPECT_EQ(group.of_metrics[i].one.failures, 1U);
+    EXPECT_EQ(group.of_metrics[i].one.estimate, 0.5);  // of the values alone: 1
+    return;
+  }
+  ADD_FAILURE() << "hit is not compared";
 }
 
 }  // namespace

@@ -74,6 +74,23 @@ TEST(RawTables, DictionaryAndHeadersSayTheSame) {
   }
 }
 
+TEST(RawTables, TheDictionarySaysHowAMetricIsCompared) {
+  const auto dictionary = csv_table(data_dictionary());
+  int metrics = 0;
+  for (std::size_t i = 0; i < dictionary.rows.size(); ++i) {
+    const bool metric = !dictionary.cell(i, "version").empty();
+    metrics += metric ? 1 : 0;
+    for (const char* column : {"better", "scale", "without_endpoint", "of_a_person"})
+      EXPECT_EQ(dictionary.cell(i, column).empty(), !metric) << dictionary.cell(i, "column");
+    if (dictionary.cell(i, "column") != "hit") continue;
+    EXPECT_EQ(dictionary.cell(i, "better"), "higher");
+    EXPECT_EQ(dictionary.cell(i, "scale"), "yes or no");
+    EXPECT_EQ(dictionary.cell(i, "without_endpoint"), "failure");
+    EXPECT_EQ(dictionary.cell(i, "of_a_person"), "proportion");
+  }
+  EXPECT_EQ(metrics, static_cast<int>(assessment::registry().size()));
+}
+
 TEST(RawTables, AMetricOfAnOlderVersionIsNotMixedIn) {
   AttemptView view = sample_attempt();
   const int now = assessment::find_metric("hit")->version;

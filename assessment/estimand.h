@@ -1,0 +1,38 @@
+// What one attempt's metric says when people are compared, and what a person's attempts say together: the rows'
+// estimands, applied (ICH E9(R1), 2019).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "assessment/metrics/metric.h"
+
+namespace seldinger::assessment {
+
+// Whether an attempt counts among those that are compared: it was performed, or nobody measured whether (stored
+// before procedure_performed was).
+bool compared(std::span<const MetricValue> attempt);
+
+enum class Counted : std::uint8_t {
+  left_out,  // it says nothing
+  value,
+  failure,   // the worst there is: neither fired nor deferred, or what is measured was never reached
+  censored,  // it was still running: longer than any that ended
+};
+struct Contribution {
+  Counted counted = Counted::left_out;
+  double value = 0.0;  // of Counted::value
+};
+// Of the metric as it is measured now, among all that is stored of one attempt.
+Contribution contribution_of(const MetricInfo& info, std::span<const MetricValue> attempt);
+
+// A person's attempts as one value.
+struct OnePerson {
+  std::size_t values = 0, failures = 0, censored = 0;
+  std::optional<double> estimate;  // nothing: there is no value, or it lies among the failures
+  bool worst = false;              // it lies among the failures or the censored: worse than any value
+};
+OnePerson of_one_person(const MetricInfo& info, std::span<const Contribution> attempts);
+
+}  // namespace seldinger::assessment

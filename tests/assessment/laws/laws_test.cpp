@@ -1,0 +1,237 @@
+// Each metric is held to the laws that its row states, over attempts drawn by chance. With
+// SELDINGER_LAWS_TABLE=FILE it writes which laws hold for which metric, stated or not.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "assessment/registry.h"
+#include "tests/assessment/laws/changes.h"
+
+namespace seldinger::assessment {
+namespace {
+
+constexpr std::uint64_t kAttempts = 500;
+constexpr int kFewValues = 10;  // under so many attempts with a value, a law says little
+
+// Of one metric and one law, or another change.
+struct Held {
+  int values = 0, broken = 0;  // attempts in which it had a value before or after; in which it moved
+  double worst = 0.0;          // of what is allowed
+  std::string first;           // attempt, before, after
+};
+
+std::string text_of(const MetricValue& metric) {
+  std::ostringstream text;
+  text.precision(10);
+  if (metric.value)
+    text << *metric.value << " " << metric.unit;
+  else
+    text << "null (" << metric.reason << ")";
+  return text.str();
+}
+
+std::vector<MetricValue> measured(const RandomAttempt& attempt) {
+  const auto signals = attempt.signals();
+  if (!signals) {
+    ADD_FAILURE() << attempt.words() << ": " << signals.error().text;
+    return std::vector<MetricValue>(registry().size());
+  }
+  return measure_all(*signals);
+}
+
+void hold(const Changed& changed, const std::vector<MetricValue>& before, std::vector<Held>& held) {
+  const std::vector<MetricValue> after = measured(changed.after);
+  for (std::size_t m = 0; m < registry().size(); ++m) {
+    if (!before[m].value && !after[m].value) continue;
+    Held& one = held[m];
+    ++one.values;
+    double over = std::numeric_limits<double>::infinity();
+    if (before[m].value && after[m].value) {
+      const double off = std::abs(*after[m].value - *before[m].value);
+      const double allowed = changed.slack.allowed(registry()[m], *before[m].value);
+      over = off <= allowed ? (off > 0.0 ? off / allowed : 0.0) : (allowed > 0.0 ? off / allowed : over);
+    }
+    one.worst = std::max(one.worst, over);
+    if (over <= 1.0) continue;
+    if (++one.broken == 1)
+      one.first = changed.before.words() + ", before " + text_of(before[m]) + ", after " + text_of(after[m]);
+  }
+}
+
+std::optional<Changed> sliding(const RandomAttempt& attempt, Draw& draw) {
+  Changed changed{attempt, attempt, {0.01, 0.01, 0.2}};
+  changed.before = changed.after = random_attempt_at_rest(attempt.seed);
+  slide_under_hands(changed.after, draw.in(4.0, 14.0));
+  return changed;
+}
+
+struct Findings {
+  std::vector<std::vector<Held>> of_law;  // one per law, each one per metric
+  std::vector<Held> slid;                 // hands in the room as they were, over tissue that slides
+  std::vector<int> values;                // attempts in which a metric had one
+  std::vector<double> best, worst;        // of each metric, over all attempts
+  std::vector<Held> nothing;              // values where nothing was done
+  std::vector<double> nothing_best;       // the best of them
+};
+
+Findings found() {
+  const std::size_t metrics = registry().size();
+  Findings all;
+  all.of_law.assign(laws().size(), std::vector<Held>(metrics));
+  all.slid.resize(metrics);
+  all.nothing.resize(metrics);
+  all.values.assign(metrics, 0);
+  const double far = std::numeric_limits<double>::infinity();
+  all.best.assign(metrics, -far), all.nothing_best.assign(metrics, -far);
+  const auto goodness = [](const MetricInfo& info, double value) {
+    return info.direction == Direction::lower_is_better ? -value : value;
+  };
+  for (std::uint64_t seed = 1; seed <= kAttempts; ++seed) {
+    const RandomAttempt attempt = random_attempt(seed);
+    const std::vector<MetricValue> values = measured(attempt);
+    for (std::size_t m = 0; m < metrics; ++m)
+      if (values[m].value) {
+        ++all.values[m];
+        all.best[m] = std::max(all.best[m], goodness(registry()[m], *values[m].value));
+      }
+    for (std::size_t l = 0; l < laws().size(); ++l) {
+      Draw draw(base::hash_combine(seed, l));
+      const auto changed = laws()[l].change(attempt, draw);
+      if (!changed) continue;
+      const bool other = laws()[l].law == kInAnyBreath;
+      hold(*changed, other ? measured(changed->before) : values, all.of_law[l]);
+    }
+    Draw draw(base::hash_combine(seed, laws().size()));
+    const auto slid = sliding(attempt, draw);
+    hold(*slid, measured(slid->before), all.slid);
+    const std::vector<MetricValue> nothing = measured(nothing_done(seed));
+    for (std::size_t m = 0; m < metrics; ++m) {
+      if (!nothing[m].value) continue;
+      Held& one = all.nothing[m];
+      if (++one.values == 1) one.first = "seed " + std::to_string(seed) + ": " + text_of(nothing[m]);
+      all.nothing_best[m] = std::max(all.nothing_best[m], goodness(registry()[m], *nothing[m].value));
+    }
+  }
+  return all;
+}
+
+std::string cell(const Held& held) {
+  if (held.values == 0) return "none";
+  if (held.broken == 0) return held.values < kFewValues ? "few" : "holds";
+  return std::to_string(held.broken) + "/" + std::to_string(held.values);
+}
+
+// Whoever does nothing has the best value that anybody has.
+bool flatters_nothing(const Findings& all, std::size_t m) {
+  return registry()[m].direction != Direction::none && all.nothing[m].values > 0 &&
+         all.nothing_best[m] >= all.best[m];
+}
+
+std::string table_of(const Findings& all) {
+  std::ostringstream text;
+  const auto column = [&](const std::string& word, std::size_t width) {
+    text << word << std::string(word.size() < width ? width - word.size() : 1, ' ');
+  };
+  text << "holds: in every attempt with a value (few: under " << kFewValues
+       << "); broken/with a value; none: never a "
+       << "value.\nnothing: null where nobody does anything, else in how many of " << kAttempts
+       << " it has a value (!: the best that there is). slide: hands in the room as they were, tissue slid under "
+       << "them; no law.\n* before a cell: its row states the law.\n\n";
+  column("metric", 36), column("values", 8);
+  for (const LawInfo& law : laws()) column(law.column, 11);
+  column("nothing", 11), text << "slide\n";
+  for (std::size_t m = 0; m < registry().size(); ++m) {
+    const MetricInfo& info = registry()[m];
+    column(std::string(info.id) + " " + std::to_string(info.version), 36), column(std::to_string(all.values[m]), 8);
+    for (std::size_t l = 0; l < laws().size(); ++l)
+      column(((info.laws & laws()[l].law) != 0 ? "*" : "") + cell(all.of_law[l][m]), 11);
+    const std::string nothing = all.nothing[m].values == 0
+                                    ? "null"
+                                    : std::to_string(all.nothing[m].values) + (flatters_nothing(all, m) ? "!" : "");
+    column(((info.laws & kNothingIsNothing) != 0 ? "*" : "") + nothing, 11);
+    text << cell(all.slid[m]) << "\n";
+  }
+  text << "\nThe first attempt that breaks a law:\n";
+  for (std::size_t m = 0; m < registry().size(); ++m)
+    for (std::size_t l = 0; l < laws().size(); ++l)
+      if (all.of_law[l][m].broken > 0)
+        text << registry()[m].id << ", " << laws()[l].name << ": " << all.of_law[l][m].first << "\n";
+  return text.str();
+}
+
+const Findings& findings() {
+  static const Findings all = [] {
+    Findings made = found();
+    if (const char* path = std::getenv("SELDINGER_LAWS_TABLE")) std::ofstream(path) << table_of(made);
+    return made;
+  }();
+  return all;
+}
+
+TEST(Laws, HoldForEveryMetricThatStatesThem) {
+  for (std::size_t l = 0; l < laws().size(); ++l)
+    for (std::size_t m = 0; m < registry().size(); ++m) {
+      const MetricInfo& info = registry()[m];
+      if ((info.laws & laws()[l].law) == 0) continue;
+      const Held& held = findings().of_law[l][m];
+      EXPECT_EQ(held.broken, 0) << info.id << ", " << laws()[l].name << ": " << held.broken << " of " << held.values
+                                << " attempts, first " << held.first;
+    }
+}
+
+// What every metric must be: the same wherever the patient lies, and for the left hand as for the right.
+TEST(Laws, OfSpaceAreEveryMetrics) {
+  for (const MetricInfo& info : registry())
+    for (const LawInfo& law : laws())
+      if (law.law == kInAnyFrame || law.law == kMirrored) {
+        EXPECT_NE(info.laws & law.law, 0U) << info.id << ": " << law.name;
+      }
+}
+
+// The changes are such: what they must change, they do.
+TEST(Laws, ChangeWhatTheyMay) {
+  const auto broken = [](Law law, const char* id) {
+    for (std::size_t l = 0; l < laws().size(); ++l)
+      for (std::size_t m = 0; m < registry().size(); ++m)
+        if (laws()[l].law == law && id == std::string(registry()[m].id)) return findings().of_law[l][m];
+    return Held{};
+  };
+  EXPECT_GT(broken(kAtAnySpeed, "time_total").broken, 400);
+  EXPECT_EQ(broken(kIdleBefore, "time_total").broken, static_cast<int>(kAttempts));
+  EXPECT_GT(broken(kIdleAfter, "time_total").broken, 100);
+  EXPECT_GT(broken(kInAnyFrame, "tip_target_dist").worst, 0.0);
+  EXPECT_GT(broken(kInAnyBreath, "closest_approach").values, 200);
+  EXPECT_GT(broken(kOneDarkFrame, "vis_needle").worst, 0.1);
+  EXPECT_GT(broken(kLostSamples, "path_tip").worst, 0.0);
+}
+
+TEST(Laws, SpeakOfEveryMetricInManyAttempts) {
+  for (std::size_t m = 0; m < registry().size(); ++m)
+    EXPECT_GE(findings().values[m], kFewValues) << registry()[m].id;
+}
+
+TEST(Laws, OfNothingDoneIsNothing) {
+  std::string flattered;
+  for (std::size_t m = 0; m < registry().size(); ++m) {
+    const MetricInfo& info = registry()[m];
+    const Held& nothing = findings().nothing[m];
+    if ((info.laws & kNothingIsNothing) != 0) {
+      EXPECT_EQ(nothing.values, 0) << info.id << ", nothing done, first " << nothing.first;
+    } else if (info.id == std::string("procedure_performed")) {
+      EXPECT_EQ(nothing.values, static_cast<int>(kAttempts));
+      EXPECT_EQ(findings().nothing_best[m], 0.0) << "comparisons are among those who did something";
+    } else if (flatters_nothing(findings(), m)) {
+      flattered += std::string(flattered.empty() ? "" : ", ") + info.id;
+    }
+  }
+  std::printf("Best for who does nothing, and compared only among those who did something: %s\n",
+              flattered.c_str());
+}
+
+}  // namespace
+}  // namespace seldinger::assessment
