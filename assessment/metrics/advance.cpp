@@ -158,6 +158,9 @@ Measured probe_drift_advancing(const Signals& signals) {
 }
 
 constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
+// Under a needle guide the angle to the plane is the guide's, and the guide holds the probe: kFreehand. What a
+// picture showed of the advance stays the trainee's, who may still look away, freeze it or leave the field, and
+// would else be spared a blind advance by taking up the guide.
 
 constexpr MetricInfo kAdvanceMetrics[] = {
     {"advance_visible_share", 1, "share", "Advance visible", Group::picture, Direction::higher_is_better,
@@ -173,13 +176,13 @@ constexpr MetricInfo kAdvanceMetrics[] = {
     {"blind_advance_max", 1, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Longest part of blind_advance from one sight of the tip to the next.", kSites, &blind_advance_max},
-    {"plane_angle_mean", 1, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion,
+    {"plane_angle_mean", 2, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
+     kUnderProbe | kInPlane | kMotion | kFreehand,
      "Angle between needle and picture plane, averaged over the way that the tip advanced in tissue. Null: "
      "under_1_mm_of_advance, no_picture_plane.",
      "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean},
-    {"plane_angle_max", 1, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
+    {"plane_angle_max", 2, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
+     kUnderProbe | kInPlane | kMotion | kFreehand, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
      "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max},
     {"advance_beyond_plane", 1, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kOutOfPlane | kMotion | kTissue,
@@ -188,8 +191,8 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "which the needle points: out of plane, the probe goes first and the tip follows into the picture. Null: "
      "no_picture_plane.",
      "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321", &advance_beyond_plane},
-    {"probe_drift_advancing", 1, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion | kTissue,
+    {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,
+     kUnderProbe | kInPlane | kMotion | kTissue | kFreehand,
      "Way of the probe, filtered as path_tip, while the needle in tissue advanced at more than 2 mm/s; to and fro "
      "by "
      "under 1 mm is no drift.",
