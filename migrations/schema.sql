@@ -39,6 +39,15 @@ CREATE TABLE attempt (
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
+CREATE TABLE attempt_condition (
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  condition_id TEXT NOT NULL,
+  number REAL,
+  words TEXT,
+  PRIMARY KEY (attempt_id, condition_id),
+  CHECK ((number IS NULL) <> (words IS NULL))
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE attempt_step (
   attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
   step_id TEXT NOT NULL,
@@ -178,6 +187,15 @@ CREATE TABLE open_attempt (
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
+CREATE TABLE open_attempt_condition (
+  attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
+  condition_id TEXT NOT NULL,
+  number REAL,
+  words TEXT,
+  PRIMARY KEY (attempt_id, condition_id),
+  CHECK ((number IS NULL) <> (words IS NULL))
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE open_chunk (
   attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
   sequence INTEGER NOT NULL CHECK (sequence >= 0),
@@ -206,6 +224,13 @@ CREATE TABLE recording_chunk (
   data BLOB NOT NULL, -- compressed
   PRIMARY KEY (attempt_id, sequence)
 ) STRICT;
+
+CREATE TABLE replay_watched (
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  watched_us INTEGER NOT NULL,
+  PRIMARY KEY (person_id, attempt_id, watched_us)
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE servo_record (
   attempt_id TEXT NOT NULL PRIMARY KEY REFERENCES attempt (attempt_id),
@@ -311,6 +336,16 @@ WHERE operator_name = 'expert' OR operator_name = 'person' AND person_id IS NOT 
   SELECT level FROM person_level
   WHERE person_level.person_id = attempt.person_id AND since_us <= attempt.started_us
   ORDER BY since_us DESC LIMIT 1);
+
+CREATE TRIGGER attempt_condition_is_immutable BEFORE UPDATE ON attempt_condition
+BEGIN
+  SELECT RAISE(ABORT, 'a condition of an attempt cannot be changed');
+END;
+
+CREATE TRIGGER attempt_condition_is_kept BEFORE DELETE ON attempt_condition
+BEGIN
+  SELECT RAISE(ABORT, 'a condition of an attempt cannot be deleted');
+END;
 
 CREATE TRIGGER attempt_is_immutable BEFORE UPDATE ON attempt
 BEGIN

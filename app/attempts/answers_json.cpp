@@ -151,6 +151,8 @@ std::string json_of_attempt(const casedb::AttemptRow& attempt, const casedb::Att
   casedb::add_grade(grade, json);
   json["experts"] = casedb::json_of_experts(grade.experts);
   json["servo"] = servo ? json_of_servo_record(*servo) : Json(nullptr);
+  json["away_s"] = maybe(attempt.away_s);
+  json["conditions"] = json_of_conditions(attempt.conditions);
   json["steps"] = json_of_steps(course.steps);
   json["events"] = json_of_events(course.events);
   return text(json);

@@ -7,6 +7,7 @@
 #include "app/cli/command.h"
 #include "app/hands/servo_answer.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 #include "session/attempt/interrupted_attempt.h"
@@ -88,6 +89,8 @@ int run_attempt_show(const Arguments& arguments) {
               attempt->case_title.c_str(), attempt->lesion_id.c_str(),
               casedb::name_of(attempt->picture.modality).c_str(), who(*attempt).c_str(),
               static_cast<unsigned long long>(attempt->seed));
+  if (const std::string made = reports::conditions_text(attempt->conditions, attempt->away_s); !made.empty())
+    std::printf("made     %s\n", made.c_str());
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
   std::fputs(text_of_grade(grade).c_str(), stdout);
   print_metrics(attempt->metrics);

@@ -213,7 +213,7 @@ void Desk::frame() {
   const bool keeps = window_.keys().pressed(kF12);
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
-  if (screen == "attempt") attempt_.shown();
+  if (screen == "attempt") attempt_.shown(trainer_, window_.width_px(), window_.height_px());
   if (keeps) keep("seldinger", pixels, window_.width_px(), window_.height_px());
   keep_guidance(attempt_.guidance());
   keep_guidance(watch_.guidance());

@@ -62,6 +62,14 @@ void insert_steps(Sqlite& database, const std::string& attempt_id,
         .run();
 }
 
+// `told`: by whoever ran it.
+void keep_conditions(Sqlite& database, const std::string& attempt_id, const NewAttempt& attempt,
+                     const Conditions& told) {
+  Conditions known = attempt.synthetic() ? joined(simulated_conditions(), told) : told;
+  add_recorded(attempt.recording, known);
+  insert_conditions(database, "add_attempt_condition", attempt_id, known);
+}
+
 AttemptRow read_attempt(const Statement& from) {
   AttemptRow row;
   static_cast<AttemptHead&>(row) = read_head(from);
@@ -140,6 +148,7 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   insert_metrics(database, attempt_id, attempt.metrics);
   insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
+  keep_conditions(database, attempt_id, attempt, attempt.conditions);
   transaction.commit();
   assets.keep();
   return attempt_id;
@@ -172,6 +181,9 @@ base::Result<void> close_attempt(Library& library, const std::string& attempt_id
   insert_metrics(database, attempt_id, attempt.metrics);
   insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
+  keep_conditions(
+      database, attempt_id, attempt,
+      joined(read_conditions(question(database, "conditions_of_open_attempt"), attempt_id), attempt.conditions));
   question(database, "remove_open_attempt").bind("attempt_id", attempt_id).run();
   transaction.commit();
   assets.keep();
@@ -290,6 +302,7 @@ base::Result<AttemptRow> find_attempt(Library& library, const std::string& attem
   metrics.bind("attempt_id", attempt_id);
   std::vector<AttemptRow> rows = read_attempts(std::move(attempt), std::move(metrics));
   if (rows.empty()) return base::Error{"no_attempt", "there is no such attempt in the library"};
+  rows.front().conditions = find_conditions(library, attempt_id);
   return std::move(rows.front());
 }
 

@@ -70,7 +70,8 @@ struct EventFact {
   RecordedEvent event;
 };
 
-const std::vector<Column<AttemptFacts>>& attempt_columns();  // without the metrics, which are attempt_metrics()
+// Without the conditions and the metrics, which are attempt_conditions() and attempt_metrics().
+const std::vector<Column<AttemptFacts>>& attempt_columns();
 const std::vector<Column<MetricFact>>& metric_columns();
 const std::vector<Column<StepFact>>& step_columns();
 // After `attempt`: contracts.md's poses.csv, kPoseFileColumns, and what a patient who moves has beside.
@@ -79,6 +80,8 @@ const std::vector<Column<PoseFact>>& pose_columns();
 const std::vector<Column<ForceFact>>& force_columns();
 const std::vector<Column<FrameFact>>& frame_columns();
 const std::vector<Column<EventFact>>& event_columns();
+// A column for each row of casedb/attempts/condition_table.h, behind those.
+const std::vector<ColumnInfo>& attempt_conditions();
 // A column for each metric of the registry, behind the others of attempts.csv: its value in today's version.
 const std::vector<ColumnInfo>& attempt_metrics();
 

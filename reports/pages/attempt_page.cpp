@@ -8,6 +8,7 @@
 #include "reports/charts/time_chart.h"
 #include "reports/pages/beam_table.h"
 #include "reports/pages/grade_section.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -185,6 +186,24 @@ void add_detail(Html& html, std::string_view name, std::string_view value) {
   html.raw("<div><dt>").text(name).raw("</dt><dd>").name(value).raw("</dd></div>\n");
 }
 
+// Those that are known, each with what it means.
+void add_conditions(Html& html, const casedb::AttemptRow& row) {
+  const std::string line = conditions_text(row.conditions, row.away_s);
+  if (line.empty()) {
+    html.raw("<p class=\"note\">Its conditions were not recorded.</p>\n");
+    return;
+  }
+  html.raw("<p class=\"conditions\">Conditions: ")
+      .text(line)
+      .raw(".</p>\n<details><summary>All conditions</summary>\n<dl class=\"definitions\">\n");
+  for (const casedb::ConditionRow& condition : casedb::condition_rows()) {
+    if (std::holds_alternative<std::monostate>(condition.read(row.conditions))) continue;
+    html.raw("<dt>").text(condition.words).raw("</dt><dd>").text(condition_text(condition, row.conditions));
+    html.raw(" <span class=\"why\">").text(condition.about).raw("</span></dd>\n");
+  }
+  html.raw("</dl>\n</details>\n");
+}
+
 void add_details(Html& html, const AttemptView& attempt) {
   const casedb::AttemptRow& row = attempt.row;
   html.raw(
@@ -200,11 +219,17 @@ void add_details(Html& html, const AttemptView& attempt) {
   add_detail(html, "Target", lesion_text(row.lesion));
   add_detail(html, "Picture", picture_text(row.picture));
   add_detail(html, "Started", utc_text(row.started_us));
-  add_detail(html, "Recorded for", number_text(row.duration_s, 1) + " s");
+  std::string recorded = number_text(row.duration_s, 1) + " s";
+  if (row.conditions.paused_s.value_or(0.0) > 0.0)
+    recorded += ", without " + number_text(*row.conditions.paused_s, 1) + " s of pauses";
+  add_detail(html, "Recorded for", recorded);
+  if (row.away_s) add_detail(html, "Interrupted for", number_text(*row.away_s, 0) + " s, then gone on with");
   add_detail(html, "Step version", std::to_string(row.step_version));
   add_detail(html, "Program version", row.program_version);
   add_detail(html, "Attempt", row.attempt_id);
-  html.raw("</dl>\n</section>\n");
+  html.raw("</dl>\n");
+  add_conditions(html, row);
+  html.raw("</section>\n");
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // What happens at a moment of an attempt, beside what hands do: what the trainee says or asks for, what a mentor
-// makes happen, how the patient reacts, and where the workstation failed and the attempt went on.
+// makes happen, how the patient reacts, and what became of hands and clock at the workstation.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace seldinger::cases {
 
@@ -35,6 +36,20 @@ enum class EventKind : std::uint8_t {
   breath_lost = 67,
   // The workstation's.
   resumed = 96,
+  paused = 97,
+  guide_on = 98,
+  guide_reached = 99,
+  guide_off = 100,
+  return_begun = 101,
+  return_ended = 102,
+  needle_by_mouse = 112,
+  needle_by_gamepad = 113,
+  needle_by_space_mouse = 114,
+  needle_by_arm = 115,
+  probe_by_mouse = 116,
+  probe_by_gamepad = 117,
+  probe_by_space_mouse = 118,
+  probe_by_arm = 119,
 };
 
 enum class EventSource : std::uint8_t { trainee, mentor, patient, workstation };
@@ -45,6 +60,10 @@ struct EventInfo {
   const char* name;   // as answers and exports write it: "sign_in"
   const char* words;  // for pages: "signed in"
   const char* about;  // what it means, one sentence
+  // Kept by the recorder beside the inputs: it changes nothing of the attempt, and a replay makes none of it.
+  bool noted = false;
+  // The program may itself have moved a tool at that moment, however far: no tracker lost it.
+  bool snaps = false;
 };
 
 // All but `none`.
@@ -56,7 +75,18 @@ std::string_view name_of(EventSource source) noexcept;
 struct Event {
   double t_s = 0.0;
   EventKind kind = EventKind::none;
+  double wall_s = 0.0;  // paused: for how long, by the wall's clock; else 0
   bool operator==(const Event&) const = default;
 };
+
+// From one event to another; what has no end in the events lasts to infinity.
+struct EventSpan {
+  double from_s = 0.0, to_s = 0.0;
+};
+// When the program may itself have moved a tool, by rising begin: at a moment (both the same), and as long as it
+// brings the needle to its guide or both tools back to where they began. `events` by rising time, here and below.
+std::vector<EventSpan> program_moves(std::span<const Event> events);
+// As long as the needle guide was taken up; nothing: it never was, or it was not noted.
+std::vector<EventSpan> guided_times(std::span<const Event> events);
 
 }  // namespace seldinger::cases

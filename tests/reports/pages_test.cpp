@@ -102,6 +102,25 @@ TEST(AttemptPage, LeadsWithHitAndDistance) {
   EXPECT_THAT(html, HasSubstr("time_total v2"));
 }
 
+TEST(AttemptPage, SaysUnderWhichConditionsItWasMade) {
+  AttemptView view = sample_attempt();
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Its conditions were not recorded."));
+  view.row.conditions = casedb::simulated_conditions();
+  view.row.conditions.paused_s = 41.25;
+  view.row.conditions.pauses = 2;
+  view.row.conditions.picture_method = "<scatterers>";
+  view.row.away_s = 90.0;
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html,
+              HasSubstr("Conditions: simulated hands; no needle guide; 2 pauses, 41 s; interrupted for 90 s."));
+  EXPECT_THAT(html, HasSubstr("34.6 s, without 41.2 s of pauses"));
+  EXPECT_THAT(html, HasSubstr("90 s, then gone on with"));
+  EXPECT_THAT(html, HasSubstr("<dt>Needle guide used</dt><dd>no"));
+  EXPECT_THAT(html, HasSubstr("&lt;scatterers&gt;"));
+  EXPECT_THAT(html, Not(HasSubstr("Window&#39;s width"))) << "what is not known is not listed";
+  EXPECT_EQ(first_unbalanced_tag(html), "");
+}
+
 TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
   AttemptView view = sample_attempt();
   for (casedb::MetricValue& metric : view.row.metrics) metric.value = std::nullopt, metric.reason = "no_endpoint";

@@ -90,6 +90,7 @@ void AttemptPanel::set_up(Trainer& trainer) {
   method_ = trainer.attempt()->monitor().method();
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
+  watch_.begin(scene.picture.modality);
   decided_ = scene.subject == cases::Subject::phantom;  // nobody is asked
   fired_ = leaving_ = false;
   said_.clear();
@@ -225,23 +226,43 @@ void AttemptPanel::tell(TraceLine& line) {
       line.arms.emplace_back(seen_.arms.lost[side] ? "lost" : seen_.arms.late[side] ? "late" : "ok");
 }
 
-void AttemptPanel::shown() noexcept {
-  const double now_s = session::clock_s();
+void AttemptPanel::shown(Trainer& trainer, int width_px, int height_px) {
+  ConditionWatch::Frame frame;
+  frame.now_s = session::clock_s();
   const auto lately = [](double& lag_s, double newest_s) {
     lag_s = lag_s > 0.0 ? kLagOver * lag_s + (1.0 - kLagOver) * newest_s : newest_s;
   };
   hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
   if (seen_.moment.told_s > room_told_s_) {
     room_told_s_ = seen_.moment.told_s;
-    lately(room_lag_s_, now_s - room_told_s_);
-    hand_to_room_s_ = std::max(hand_to_room_s_, now_s - room_told_s_);
+    frame.force_lag_s = seen_.hand_to_force_s;
+    frame.room_lag_s = frame.now_s - room_told_s_;
+    lately(room_lag_s_, *frame.room_lag_s);
+    hand_to_room_s_ = std::max(hand_to_room_s_, *frame.room_lag_s);
   }
   const session::ShownPicture& shown = monitor_.shown();
-  if (shown.number == 0 || shown.number == pictures_) return;
-  pictures_ = shown.number;
-  if (!shown.live || shown.told_s <= 0.0) return;
-  lately(picture_lag_s_, now_s - shown.told_s);
-  hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
+  frame.new_picture = shown.number != 0 && shown.number != pictures_;
+  if (frame.new_picture) {
+    pictures_ = shown.number;
+    if (shown.live && shown.told_s > 0.0) {
+      frame.picture_lag_s = frame.now_s - shown.told_s;
+      lately(picture_lag_s_, *frame.picture_lag_s);
+      hand_to_picture_s_ = std::max(hand_to_picture_s_, *frame.picture_lag_s);
+    }
+  }
+  frame.sound = !speaker_.muted() && speaker_.volume() > 0.0 && speaker_.state() != Speaker::State::none;
+  frame.stereo = room_.stereo();
+  frame.width_px = width_px;
+  frame.height_px = height_px;
+  tell_conditions(*trainer.attempt(), frame);
+}
+
+void AttemptPanel::tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame& frame) {
+  frame.paused = attempt.paused();
+  watch_.shown(frame);
+  watch_.made_by(method_);
+  if (watch_.due(frame.now_s))
+    attempt.know([this](casedb::Conditions& conditions) { watch_.put_into(conditions); });
 }
 
 void AttemptPanel::draw_arms() {
@@ -322,7 +343,7 @@ void AttemptPanel::read_hands(PersonAttempt& attempt, const Keys& keys, const Po
                               const OtherHands& other) {
   const double now_s = session::clock_s(), elapsed_s = now_s - told_s_;
   devices::HandIntent sum = told_.sum;
-  room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum);
+  told_.by = room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum).value_or(told_.by);
   told_s_ = now_s;
   if (attempt.phase() != PersonAttempt::Phase::running || attempt.paused()) return;
   told_.sum = sum;

@@ -6,6 +6,7 @@
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/procedure/steps.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -111,6 +112,8 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::SetWindowFontScale(1.0F);
   if (debrief.grade.provisional)
     quiet("Provisional: fewer than eight consultants have set the standard for this case.");
+  const std::string made = reports::conditions_text(debrief.attempt.conditions, debrief.attempt.away_s);
+  if (!made.empty()) quiet(("Made with " + made + ".").c_str());
   ImGui::Spacing();
   for (const assessment::Sentence& sentence : debrief.grade.debrief) {
     ImGui::Bullet();

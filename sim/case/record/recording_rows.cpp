@@ -1,6 +1,7 @@
 #include "sim/case/record/recording_rows.h"
 
 #include <bit>
+#include <cmath>
 
 namespace seldinger::cases {
 namespace {
@@ -159,6 +160,10 @@ std::size_t ChunkLayout::frame_columns() const noexcept {
   return fluoroscope ? 11 : 3;
 }
 
+std::size_t ChunkLayout::event_columns() const noexcept {
+  return pauses ? 3 : 2;
+}
+
 void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out) {
   std::vector<std::uint64_t> words(rows.count() * layout.input_columns());
   std::uint64_t* at = words.data();
@@ -221,14 +226,15 @@ void append_frames(const Recording& recording, Rows rows, const ChunkLayout& lay
   append_table(out, words, layout.frame_columns());
 }
 
-void append_events(const Recording& recording, Rows rows, std::vector<std::byte>& out) {
-  std::vector<std::uint64_t> words(rows.count() * kEventColumns);
+void append_events(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out) {
+  std::vector<std::uint64_t> words(rows.count() * layout.event_columns());
   std::uint64_t* at = words.data();
   for (std::size_t i = rows.first; i < rows.end; ++i) {
     put(at, (*recording.events)[i].t_s);
     *at++ = static_cast<std::uint8_t>((*recording.events)[i].kind);
+    if (layout.pauses) put(at, (*recording.events)[i].wall_s);
   }
-  append_table(out, words, kEventColumns);
+  append_table(out, words, layout.event_columns());
 }
 
 void append_endpoint_at_rest(const Recording& recording, std::vector<std::byte>& out) {
@@ -312,8 +318,9 @@ void read_frames(const std::byte*& from, std::size_t count, const ChunkLayout& l
   }
 }
 
-base::Result<void> read_events(const std::byte*& from, std::size_t count, Recording& recording) {
-  const auto words = table_at(from, count, kEventColumns);
+base::Result<void> read_events(const std::byte*& from, std::size_t count, const ChunkLayout& layout,
+                               Recording& recording) {
+  const auto words = table_at(from, count, layout.event_columns());
   const std::uint64_t* at = words.data();
   for (std::size_t row = 0; row < count; ++row) {
     Event& event = recording.events->emplace_back();
@@ -321,6 +328,9 @@ base::Result<void> read_events(const std::byte*& from, std::size_t count, Record
     const std::uint64_t kind = *at++;
     event.kind = static_cast<EventKind>(kind);
     if (kind > 0xffU || find_event(event.kind) == nullptr) return unknown_event();
+    if (layout.pauses) event.wall_s = get(at);
+    if (!(event.wall_s >= 0.0 && std::isfinite(event.wall_s)))
+      return base::Error{"damaged", "holds a pause without a sound length"};
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <functional>
@@ -230,6 +231,28 @@ TEST(Recording, OfAConsoleThatIsTurnedComesBackBitForBit) {
 TEST(Recording, AConsoleThatIsNotTurnedTakesNoRoom) {
   const std::size_t without = bytes_of(random_recording(4000, 5));
   EXPECT_EQ(bytes_of(random_console_recording(4000, 5, 3000)), without + 8 * 2000 * 4) << "in the second chunk";
+}
+
+TEST(Recording, HowLongAPauseWasComesBackAndOtherEventsTakeNoRoomForIt) {
+  Recording recording = random_recording(6500, 8);
+  const std::size_t without = bytes_of(recording);
+  const std::size_t events = recording.events->size();
+  const auto second = std::find_if(recording.events->begin(), recording.events->end(),
+                                   [](const Event& event) { return event.t_s >= 2.0; });
+  const Event pause{2.5, EventKind::paused, 12.25};
+  const auto place =
+      std::find_if(second, recording.events->end(), [&](const Event& event) { return event.t_s > 2.5; });
+  recording.events->insert(place, pause);
+  const auto in_second = std::count_if(recording.events->begin(), recording.events->end(),
+                                       [](const Event& event) { return event.t_s >= 2.0 && event.t_s < 4.0; });
+  EXPECT_EQ(bytes_of(recording), without + 8 * (2 + static_cast<std::size_t>(in_second))) << "in its chunk alone";
+  const auto back = recording_from_chunks(chunks_from_recording(recording));
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+  EXPECT_EQ(back->events->size(), events + 1);
+  for (Event& event : *recording.events)
+    if (event.kind == EventKind::paused) event.wall_s = -1.0;
+  EXPECT_EQ(recording_from_chunks(chunks_from_recording(recording)).error().code, "damaged");
 }
 
 TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
