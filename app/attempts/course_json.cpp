@@ -11,7 +11,8 @@ Json json_of_steps(const std::vector<assessment::StepResult>& steps) {
                     {"version", step.version},
                     {"state", assessment::name_of(step.state)},
                     {"t_s", step.t_s ? Json(*step.t_s) : Json(nullptr)},
-                    {"reason", step.reason}});
+                    {"reason", step.reason},
+                    {"how", step.how ? Json(assessment::name_of(*step.how)) : Json(nullptr)}});
   return list;
 }
 
@@ -20,8 +21,9 @@ Json json_of_events(const std::optional<std::vector<cases::Event>>& events) {
   Json list = Json::array();
   for (const cases::Event& event : *events) {
     const cases::EventInfo* info = cases::find_event(event.kind);
-    if (info != nullptr)
-      list.push_back({{"t_s", event.t_s}, {"kind", info->name}, {"source", cases::name_of(info->source)}});
+    if (info == nullptr) continue;
+    list.push_back({{"t_s", event.t_s}, {"kind", info->name}, {"source", cases::name_of(info->source)}});
+    if (const auto length_mm = event.length_mm()) list.back()["length_mm"] = *length_mm;
   }
   return list;
 }

@@ -69,6 +69,7 @@ class ScriptedOperator {
   bool stops_for_breath();
   bool looked() const noexcept;
   void enter_or_redirect(Phase next, const cases::State& state);
+  void show_deeds(const cases::State& state, cases::Inputs& inputs);
   void decide_in_advance();
   void decide_at_target(const cases::State& state);
   void decide_in_held_breath();
@@ -99,6 +100,8 @@ class ScriptedOperator {
   double withdraw_to_mm_ = 0.0;
   int redirections_ = 0;
   bool checked_ = false;
+  bool begun_ = false;
+  bool tests_side_ = false, measures_ = false;  // by deed; else he only says so
   // Of a patient who breathes: what he does about it, and what is seen of the belly.
   bool breathes_ = false, asks_early_ = false, waits_ = false;
   bool still_ = false, seen_still_ = false, pauses_ = false;

@@ -14,7 +14,7 @@ struct Signals;
 
 enum class Evidence : std::uint8_t {
   none,  // never asked
-  // Said or asked for.
+  // Said or asked for: is_said().
   signed_in,
   decided,  // to proceed or to defer
   deferred,
@@ -31,10 +31,13 @@ enum class Evidence : std::uint8_t {
   breath_granted,
   // Of the hands.
   probe_on_skin,
+  orientation_tested,
   needle_at_skin,
   punctured,
+  angle_kept,
   jiggled,
   at_target,
+  at_planned_depth,
   fired,
   needle_out,
   went_on_in_trouble,
@@ -44,12 +47,17 @@ enum class Evidence : std::uint8_t {
   fired_in_breath,
   // Of the pictures.
   target_seen,
+  depth_measured,
   tip_seen,
   both_seen,
   blind_run,
   beyond_plane,
   fired_unseen,
   seen_in_breath_hold,
+  on_unchecked,
+  unseen_in_breath_hold,
+  found_again,
+  on_unfound,
   scanned_after,
   // Of the beam.
   target_under_beam,
@@ -57,6 +65,11 @@ enum class Evidence : std::uint8_t {
   looked_across_needle,
   hand_in_beam,
 };
+
+// Nobody knows whether what was said was also done; everything else was done, or answered by the patient.
+constexpr bool is_said(Evidence evidence) noexcept {
+  return evidence >= Evidence::signed_in && evidence <= Evidence::signed_out;
+}
 
 struct EvidenceInfo {
   Evidence evidence;

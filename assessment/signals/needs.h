@@ -52,6 +52,8 @@ enum Need : std::uint32_t {
   kBreathes = 1U << 26U,
   kYields = 1U << 27U,
   kPatient = 1U << 28U,
+  // Of the recording.
+  kCalipers = 1U << 29U,
 };
 
 struct NeedInfo {

@@ -20,6 +20,8 @@ constexpr EventInfo kKinds[] = {
     {breath_hold_request, trainee, "breath_hold_request", "asked to hold the breath",
      "the patient is asked to hold the breath"},
     {breathe_again, trainee, "breathe_again", "let breathe again", "the patient may breathe again"},
+    {depth_measured, trainee, "depth_measured", "measured a depth",
+     "calipers were set in the picture from the skin down, and tell how deep they end"},
     {sign_out, trainee, "sign_out", "signed out", "what was done, counted and to be watched is told"},
     {cough, mentor, "cough", "the patient coughs", "a mentor lets the patient cough"},
     {bleeding, mentor, "bleeding", "bleeding", "a mentor lets the puncture bleed"},
@@ -30,6 +32,8 @@ constexpr EventInfo kKinds[] = {
     {breath_lost, patient, "breath_lost", "breathes again", "the patient could hold the breath no longer"},
     {resumed, workstation, "resumed", "went on after an interruption",
      "the program had ended too early, and the attempt goes on from what was stored of it"},
+    {calipers_recorded, workstation, "calipers_recorded", "records what is measured",
+     "from here on depths that are measured or planned are recorded; before, none of them is known"},
 };
 
 }  // namespace

@@ -252,6 +252,7 @@ bool Trainer::begin(bool left_handed) {
   if (interrupted_ && !trying_) session::close_interrupted_attempt(library_, *interrupted_);
   interrupted_.reset();
   attempt_->begin(left_handed);
+  attempt_->say(cases::EventKind::calipers_recorded);
   if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
