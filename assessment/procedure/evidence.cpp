@@ -163,8 +163,9 @@ When pushed_on(const Signals& signals, const Counts& counts) {
     return sum_mm > kPushMm;
   });
 }
-When last_way_begun(const Signals& signals) {
-  return pushed_on(signals, [](double) { return true; });
+When pushed_in_hold(const Signals& signals) {
+  const std::vector<BreathHold> holds = breath_holds(signals);
+  return pushed_on(signals, [&](double t_s) { return held_at(holds, t_s, kLossNoticedSeconds); });
 }
 When pushed_in_breath(const Signals& signals) {
   const std::vector<BreathHold> holds = breath_holds(signals);
@@ -261,7 +262,6 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
     {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
     {Evidence::bone_pain, "the needle met bone", kSaid, &event<EventKind::pain_bone>},
-    {Evidence::breath_granted, "the patient held the breath", kSaid, &event<EventKind::breath_held>},
     {Evidence::probe_on_skin, "the middle of the probe's face was within 15 mm of the skin", kSkin, &probe_on_skin},
     {Evidence::orientation_tested,
      "on the skin, the picture live, the probe was slid along its marker's axis by 10 mm and back, or rocked so by "
@@ -288,9 +288,10 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::stopped_in_trouble,
      "from 1 to 4 s after a cough, bleeding or drop of pressure the needle came at most 2 mm deeper", kSaid | kSkin,
      &in_trouble<false>},
-    {Evidence::last_way_begun,
-     "the tip was pushed on by over 2 mm in the target's organ (none marked: at most 20 mm from the target)",
-     kTarget | kSkin, &last_way_begun},
+    {Evidence::pushed_in_hold,
+     "the tip was pushed on by over 2 mm in the target's organ (none marked: at most 20 mm from the target) while "
+     "breath was held",
+     kSaid | kTarget | kSkin, &pushed_in_hold},
     {Evidence::pushed_in_breath,
      "it was pushed on so by over 2 mm while breath moved, the second after a hold was lost left out",
      kSaid | kTarget | kSkin, &pushed_in_breath},

@@ -28,7 +28,6 @@ enum class Evidence : std::uint8_t {
   // Answered by the patient.
   skin_pain,
   bone_pain,
-  breath_granted,
   // Of the hands.
   probe_on_skin,
   orientation_tested,
@@ -42,7 +41,7 @@ enum class Evidence : std::uint8_t {
   needle_out,
   went_on_in_trouble,
   stopped_in_trouble,
-  last_way_begun,
+  pushed_in_hold,
   pushed_in_breath,
   fired_in_breath,
   // Of the pictures.

@@ -72,7 +72,7 @@ constexpr StepInfo kSteps[] = {
     {"ask_breath_hold", "Ask the patient to hold the breath", kPatient | kEvents, breath_hold_asked, fired, none,
      kBreathes, kTask(11)},
     {"hold_before_organ", "Have the breath held before the organ is entered, and on the way in it",
-     kEvents | kBreathes | kTarget | kSkin, breath_granted, last_way_begun, pushed_in_breath, kAlways, kTask(11)},
+     kEvents | kBreathes | kTarget | kSkin, pushed_in_hold, none, pushed_in_breath, kAlways, kTask(11)},
     {"check_in_breath_hold", "Check needle and target while the breath is held",
      kPatient | kEvents | kPicturePlane | kPictures | kTarget | kSkin, seen_in_breath_hold, fired, on_unchecked,
      kBreathes, kTask(12)},
@@ -155,6 +155,11 @@ std::string_view name_of(StepHow how) noexcept {
 
 std::optional<StepHow> step_how_from(std::string_view name) noexcept {
   return base::from_name(kHows, name);
+}
+
+const char* how_text(const StepResult& step) noexcept {
+  if (step.how != StepHow::said) return "";
+  return step.state == StepState::done ? " (said)" : " (said, not shown)";
 }
 
 std::vector<StepResult> walk_steps(const Signals& signals) {

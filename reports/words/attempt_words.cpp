@@ -56,11 +56,6 @@ std::string person_text(const std::string& person_id) {
   return "Person " + person_id.substr(person_id.size() < 6 ? 0 : person_id.size() - 6);
 }
 
-std::string how_text(const assessment::StepResult& step) {
-  if (step.how != assessment::StepHow::said) return "";
-  return step.state == assessment::StepState::done ? " (said)" : " (said, not shown)";
-}
-
 std::string simulated_operator_text(const std::string& operator_name) {
   return operator_name.empty() ? "Simulated operator" : "Simulated " + operator_name;
 }

@@ -22,7 +22,6 @@ std::string picture_text(const cases::Picture& picture);     // "MPR, 150 mm wid
 std::string approach_text(cases::Approach approach);         // "In plane"
 std::string position_text(cases::PatientPosition position);  // "on the left side"
 std::string person_text(const std::string& person_id);       // "Person 3f20ab": no name
-std::string how_text(const assessment::StepResult& step);    // "", " (said)", " (said, not shown)"
 std::string simulated_operator_text(const std::string& operator_name);  // "Simulated expert"
 
 }  // namespace seldinger::reports

@@ -6,7 +6,6 @@
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/procedure/steps.h"
-#include "reports/words/attempt_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -96,7 +95,7 @@ void draw_steps(const Debrief& debrief) {
                                                                       : "✗";
     ImGui::Text("%s", mark);
     ImGui::SameLine(28.0F);
-    ImGui::TextWrapped("%s%s", info != nullptr ? info->words : step.id.c_str(), reports::how_text(step).c_str());
+    ImGui::TextWrapped("%s%s", info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
   }
 }
 
