@@ -66,7 +66,7 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   waits_ = breath.uniform() < profile.waits_for_breath_share;
   base::Rng deeds(base::hash_combine(seed, kDeedStream));
   tests_side_ = deeds.uniform() < profile.shows_share;
-  measures_ = deeds.uniform() < profile.shows_share;
+  measures_ = looks_over_target_ = deeds.uniform() < profile.shows_share;
   inserted_mm_ = -kStartMm;
   plane_at_mm_ = plane_now_mm_ = plan.tip_shows_from_mm + kPlaneStepMm;
   aim();
@@ -351,19 +351,22 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
         phase_ == Phase::sign_in || phase_ == Phase::scan || phase_ == Phase::prepare || phase_ == Phase::approach;
     plane_now_mm_ += ((before ? plane_at_mm_ : wanted_mm) - plane_now_mm_) * share;
     if (searching) plane_error_mm_ -= plane_error_mm_ * share;
-    probe = probe_over(as_held, plane_now_mm_);
+    // Who measures looks over the target first, and comes back to where the tip will be.
+    const double over_share = phase_ == Phase::scan && looks_over_target_
+                                  ? 0.5 - 0.5 * base::exact_cos(2.0 * std::numbers::pi * scanned_share())
+                                  : 0.0;
+    probe = probe_over(as_held, plane_now_mm_ + over_share * (plan_.depth_mm - plane_now_mm_));
     probe.position_lps_mm += plane_normal(probe) * plane_error_mm_;
   } else {
     const double tip_off_mm = glm::dot(hands_tip() - plan_.target_lps_mm, plane_normal(plan_.probe));
     follow_mm_ += ((searching ? tip_off_mm : 0.0) - follow_mm_) * (searching ? share : back);
   }
   const glm::dvec3 normal = plane_normal(probe);
-  const double sweep = phase_ == Phase::scan
-                           ? kSweepMm * (1.0 - (t_s_ - phase_since_s_) / scan_s_) * base::exact_sin(2.5 * t_s_)
+  const double sweep = phase_ == Phase::scan && !(across_ && looks_over_target_)
+                           ? kSweepMm * (1.0 - scanned_share()) * base::exact_sin(2.5 * t_s_)
                            : 0.0;
   if (phase_ == Phase::scan && tests_side_)
-    probe.position_lps_mm +=
-        probe.side * (kSideMm * base::exact_sin(2.0 * std::numbers::pi * (t_s_ - phase_since_s_) / scan_s_));
+    probe.position_lps_mm += probe.side * (kSideMm * base::exact_sin(2.0 * std::numbers::pi * scanned_share()));
   probe.position_lps_mm += normal * (sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_);
   // A drifting hand also tilts: about 1° for each millimetre.
   const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;

@@ -82,6 +82,7 @@ class ScriptedOperator {
   void move(double dt_s);
   void hold_probe(cases::ToolPose& probe, double dt_s);
   double goal_mm() const noexcept;
+  double scanned_share() const noexcept { return (t_s_ - phase_since_s_) / scan_s_; }
   double jiggle_mm() const noexcept;
   bool chance(double share) { return rng_.uniform() < share; }
 
@@ -102,6 +103,7 @@ class ScriptedOperator {
   bool checked_ = false;
   bool begun_ = false;
   bool tests_side_ = false, measures_ = false;  // by deed; else he only says so
+  bool looks_over_target_ = false;
   // Of a patient who breathes: what he does about it, and what is seen of the belly.
   bool breathes_ = false, asks_early_ = false, waits_ = false;
   bool still_ = false, seen_still_ = false, pauses_ = false;
