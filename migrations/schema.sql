@@ -55,7 +55,7 @@ CREATE TABLE attempt_step (
   position INTEGER NOT NULL CHECK (position >= 0), -- the order in which they are to be done
   state TEXT NOT NULL CHECK (state IN ('done', 'skipped', 'violated', 'not_asked')),
   t_s REAL, -- when it was done, too late or violated; null: never
-  reason TEXT NOT NULL, -- why it was not asked for; else empty
+  reason TEXT NOT NULL, how TEXT CHECK (how IN ('shown', 'said')), -- why it was not asked for; else empty
   PRIMARY KEY (attempt_id, step_id, version),
   CHECK ((state = 'not_asked') = (reason <> ''))
 ) STRICT, WITHOUT ROWID;

@@ -35,8 +35,8 @@ void print_course(const Course& course) {
     if (step.state == assessment::StepState::not_asked) continue;
     char when[16] = "       –";
     if (step.t_s) std::snprintf(when, sizeof when, "%6.1f s", *step.t_s);
-    std::printf("  %-8s %s  %s\n", std::string(assessment::name_of(step.state)).c_str(), when,
-                info != nullptr ? info->words : step.id.c_str());
+    std::printf("  %-8s %s  %s%s\n", std::string(assessment::name_of(step.state)).c_str(), when,
+                info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
   }
   for (const cases::Event& event : course.events.value_or(std::vector<cases::Event>{}))
     if (const cases::EventInfo* info = cases::find_event(event.kind))

@@ -13,7 +13,8 @@ Json json_of_steps(const std::vector<assessment::StepResult>& steps) {
                     {"version", step.version},
                     {"state", assessment::name_of(step.state)},
                     {"t_s", step.t_s ? Json(*step.t_s) : Json(nullptr)},
-                    {"reason", step.reason}});
+                    {"reason", step.reason},
+                    {"how", step.how ? Json(assessment::name_of(*step.how)) : Json(nullptr)}});
   return list;
 }
 
@@ -38,6 +39,7 @@ Json json_of_events(const std::optional<std::vector<cases::Event>>& events) {
     if (info == nullptr) continue;
     list.push_back({{"t_s", event.t_s}, {"kind", info->name}, {"source", cases::name_of(info->source)}});
     if (event.kind == cases::EventKind::paused) list.back()["wall_s"] = event.wall_s;
+    if (const auto length_mm = event.length_mm()) list.back()["length_mm"] = *length_mm;
   }
   return list;
 }

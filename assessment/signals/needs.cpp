@@ -53,6 +53,12 @@ bool in_tissue(const Signals& signals) {
                      [](const cases::SkinPassage& passage) { return passage.in_body; });
 }
 
+bool calipers_recorded(const Signals& signals) {
+  return signals.events &&
+         std::any_of(signals.events->begin(), signals.events->end(),
+                     [](const cases::Event& event) { return event.kind == cases::EventKind::calipers_recorded; });
+}
+
 bool trouble_made(const Signals& signals) {
   return signals.events &&
          std::any_of(signals.events->begin(), signals.events->end(), [](const cases::Event& event) {
@@ -123,6 +129,7 @@ constexpr NeedInfo kNeeds[] = {
     {kMotion, "more than gaps", "only_gaps", [](const Signals& s) { return !s.only_gaps(); }},
     {kTissue, "the tip in tissue", "never_in_tissue", &in_tissue},
     {kEvents, "what was said", "events_not_recorded", [](const Signals& s) { return s.events.has_value(); }},
+    {kCalipers, "what calipers measured", "calipers_not_recorded", &calipers_recorded},
     {kTrouble, "a mentor's event", "no_such_event", &trouble_made},
     {kDecision, "the right decision", "no_right_decision",
      [](const Signals& s) { return s.setting.defer_is_right.has_value(); }},

@@ -55,6 +55,8 @@ enum Need : std::uint32_t {
   // Of the hands: an attempt whose recorder noted nothing of them (cases::EventInfo::noted) meets both.
   kFreehand = 1U << 29U,
   kArmLed = 1U << 30U,
+  // Of the recording.
+  kCalipers = 1U << 31U,
 };
 
 struct NeedInfo {

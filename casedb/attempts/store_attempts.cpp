@@ -59,6 +59,7 @@ void insert_steps(Sqlite& database, const std::string& attempt_id,
         .bind("state", std::string(assessment::name_of(steps[i].state)))
         .bind("t_s", steps[i].t_s)
         .bind("reason", steps[i].reason)
+        .bind("how", steps[i].how ? std::optional(std::string(assessment::name_of(*steps[i].how))) : std::nullopt)
         .run();
 }
 
@@ -241,6 +242,7 @@ std::vector<assessment::StepResult> list_steps(Library& library, const std::stri
     step.state = *state;
     if (!rows.is_null("t_s")) step.t_s = rows.real("t_s");
     step.reason = rows.text("reason");
+    if (!rows.is_null("how")) step.how = assessment::step_how_from(rows.text("how"));
   }
   return steps;
 }

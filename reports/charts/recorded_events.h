@@ -21,6 +21,7 @@ struct RecordedEvent {
   double t_s = 0.0;
   const RecordedEventInfo* info = nullptr;  // one of these
   std::optional<double> wall_s{};           // how long by the wall's clock, of a pause
+  std::optional<double> length_mm{};        // that was told with it
 };
 std::vector<RecordedEvent> recorded_events(const cases::Recording& recording);  // by time
 

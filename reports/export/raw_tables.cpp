@@ -196,6 +196,11 @@ const std::vector<Column<StepFact>>& step_columns() {
        [](CsvLine& line, const Fact& f) { line.number(f.step->t_s); }},
       {{"reason", "text", "", "it was asked", "why it was not"},
        [](CsvLine& line, const Fact& f) { line.text(f.step->reason); }},
+      {{"how", "text", "", "it was neither, or stored before this was kept",
+        "of done: shown (by a deed) or said; of skipped: said, where only a deed counts"},
+       [](CsvLine& line, const Fact& f) {
+         f.step->how ? line.text(assessment::name_of(*f.step->how)) : line.nothing();
+       }},
   };
   return columns;
 }
@@ -357,6 +362,8 @@ const std::vector<Column<EventFact>>& event_columns() {
       {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
       {{"wall_s", "number", "s", "no pause", "how long the pause was, by the wall's clock: no time of the attempt"},
        [](CsvLine& line, const Fact& f) { line.number(f.event.wall_s); }},
+      {{"length_mm", "number", "mm", "none was told with it", "the depth that was measured or planned"},
+       [](CsvLine& line, const Fact& f) { line.number(f.event.length_mm); }},
   };
   return columns;
 }

@@ -2,6 +2,8 @@
 // makes happen, how the patient reacts, and what became of hands and clock at the workstation.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -18,13 +20,14 @@ enum class EventKind : std::uint8_t {
   proceed = 2,
   defer = 3,
   probe_checked = 4,
-  note_plan = 5,
+  note_plan = 5,  // with a length since there are depths that are measured, where one was planned
   aspirate = 6,
   anaesthetic = 7,
   nick = 8,
   breath_hold_request = 9,
   breathe_again = 10,
   sign_out = 11,
+  depth_measured = 16,  // with a length
   // The mentor's.
   cough = 32,
   bleeding = 33,
@@ -42,6 +45,7 @@ enum class EventKind : std::uint8_t {
   guide_off = 100,
   return_begun = 101,
   return_ended = 102,
+  calipers_recorded = 103,
   needle_by_mouse = 112,
   needle_by_gamepad = 113,
   needle_by_space_mouse = 114,
@@ -72,10 +76,19 @@ const EventInfo* find_event(EventKind kind) noexcept;  // nullptr: none, or no s
 std::optional<EventKind> event_from(std::string_view name) noexcept;
 std::string_view name_of(EventSource source) noexcept;
 
+// A length that is told with an event, as it is recorded: in 0.1 mm, at most 6553.5 mm; 0: none.
+inline std::uint16_t tenths_of(double mm) noexcept {
+  return mm > 0.0 ? static_cast<std::uint16_t>(std::lround(std::min(10.0 * mm, 65535.0))) : std::uint16_t{0};
+}
+
 struct Event {
   double t_s = 0.0;
   EventKind kind = EventKind::none;
   double wall_s = 0.0;  // paused: for how long, by the wall's clock; else 0
+  std::uint16_t tenths_mm = 0;
+  std::optional<double> length_mm() const noexcept {
+    return tenths_mm > 0 ? std::optional(0.1 * tenths_mm) : std::nullopt;
+  }
   bool operator==(const Event&) const = default;
 };
 

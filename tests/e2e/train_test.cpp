@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+#include <string>
 
 #include "casedb/cases/cases.h"
 #include "casedb/people/people.h"
@@ -92,6 +93,8 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   trainee_->prepare();
   ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
   const auto picture = trainee_->place_of("picture"), room = trainee_->place_of("room");
+  trainee_->test_side();
+  ASSERT_NO_FATAL_FAILURE(trainee_->measure_depth(depth_mm_));
   const auto scanning = look();
   EXPECT_GT(share(scanning, picture, grey), 0.20) << "speckle on the monitor";
   EXPECT_GT(share(scanning, room, skin), 0.10) << "a patient in the room";
@@ -115,11 +118,12 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   EXPECT_EQ(fixtures::metric(shown, "hit"), 1.0);
   EXPECT_EQ(fixtures::metric(shown, "skin_punctures"), 1.0);
   EXPECT_EQ(shown["grade"]["verdict"], "passed") << shown["grade"];
-  std::set<std::string> done_steps;
+  std::map<std::string, Json> how;  // those that were done
   for (const Json& step : shown["steps"])
-    if (step["state"] == "done") done_steps.insert(step["id"].get<std::string>());
-  for (const char* step : {"sign_in", "decide", "check_probe", "note_depth", "anaesthetise", "insert", "sign_out"})
-    EXPECT_TRUE(done_steps.contains(step)) << step;
+    if (step["state"] == "done") how[step["id"].get<std::string>()] = step["how"];
+  for (const char* step : {"sign_in", "decide", "anaesthetise", "sign_out"}) EXPECT_EQ(how[step], "said") << step;
+  for (const char* step : {"check_probe", "note_depth", "insert", "insert_to_depth"})
+    EXPECT_EQ(how[step], "shown") << step << ": " << shown["steps"];
   EXPECT_EQ(library_->ask("replay " + mine + " --verify")["verified"], true);
 }
 

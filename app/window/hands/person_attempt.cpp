@@ -120,10 +120,10 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
   return session::LiveAttempt(library, wanted_.program, std::move(*interrupted), task_->scene);
 }
 
-bool PersonAttempt::say(cases::EventKind kind) noexcept {
+bool PersonAttempt::say(cases::EventKind kind, double length_mm) noexcept {
   const std::uint64_t said = said_count_.load(std::memory_order_relaxed);
   if (said - heard_count_.load(std::memory_order_acquire) >= kMostSaid) return false;
-  said_[said % kMostSaid].store(kind, std::memory_order_relaxed);
+  said_[said % kMostSaid].store({kind, cases::tenths_of(length_mm)}, std::memory_order_relaxed);
   said_count_.store(said + 1, std::memory_order_release);
   return true;
 }
@@ -159,7 +159,9 @@ cases::Inputs PersonAttempt::hands(const cases::State& state) {
   inputs.console = console_;
   const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
   if (said_count_.load(std::memory_order_acquire) != heard) {
-    inputs.event = said_[heard % kMostSaid].load(std::memory_order_relaxed);
+    const Said next = said_[heard % kMostSaid].load(std::memory_order_relaxed);
+    inputs.event = next.kind;
+    inputs.event_tenths_mm = next.tenths_mm;
     heard_count_.store(heard + 1, std::memory_order_release);
   }
   return inputs;

@@ -83,8 +83,9 @@ class PersonAttempt {
   // interrupted, with hands where they were. `refused` where that cannot be.
   void resume(std::string attempt_id, bool left_handed);
   void tell(const HandsTold& told) noexcept { told_.put(told); }
-  // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
-  bool say(cases::EventKind kind) noexcept;
+  // Into the next tick in which nothing else is said, with a length or (0) without; false: too much was said at
+  // once, and this is not.
+  bool say(cases::EventKind kind, double length_mm = 0.0) noexcept;
   // No time goes by, and hands are still.
   void pause(bool paused) noexcept { paused_ = paused; }
   bool paused() const noexcept { return paused_; }
@@ -141,7 +142,11 @@ class PersonAttempt {
   cases::FluoroscopeInputs fluoroscope_;
   cases::ConsoleSetting console_;
   static constexpr std::uint64_t kMostSaid = 32;
-  std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo
+  struct Said {
+    cases::EventKind kind = cases::EventKind::none;
+    std::uint16_t tenths_mm = 0;
+  };
+  std::array<std::atomic<Said>, kMostSaid> said_{};  // … a ring between window and servo
   alignas(64) std::atomic<std::uint64_t> said_count_{0};
   alignas(64) std::atomic<std::uint64_t> heard_count_{0};
   std::atomic<bool> ending_{false}, paused_{false}, again_{false};

@@ -62,6 +62,8 @@ class AttemptPanel {
   void draw_arms();
   void draw_arms_live(PersonAttempt& attempt);
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
+  void note_measured(PersonAttempt& attempt);
+  void draw_planned_depth(const cases::Case& scene);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
   void keep_picture();
@@ -91,7 +93,8 @@ class AttemptPanel {
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   double room_told_s_ = 0.0;
   std::string method_;
-  std::string said_;  // the last thing that was said, for the screen
+  std::string said_;         // the last thing that was said, for the screen
+  double planned_mm_ = 0.0;  // how far the needle is to go in, as it is noted; 0: not planned
 };
 
 }  // namespace seldinger::app

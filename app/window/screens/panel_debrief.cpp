@@ -96,7 +96,7 @@ void draw_steps(const Debrief& debrief) {
                                                                       : "✗";
     ImGui::Text("%s", mark);
     ImGui::SameLine(28.0F);
-    ImGui::TextWrapped("%s", info != nullptr ? info->words : step.id.c_str());
+    ImGui::TextWrapped("%s%s", info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
   }
 }
 

@@ -254,6 +254,7 @@ bool Trainer::begin(bool left_handed) {
   interrupted_.reset();
   tell_conditions();
   attempt_->begin(left_handed);
+  attempt_->say(cases::EventKind::calipers_recorded);
   if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
