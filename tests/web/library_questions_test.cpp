@@ -99,8 +99,8 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
   attempt.metrics = {{"gap_share", 2, 0.0, "share", ""},
                      {"sample_rate_p5", 1, 1000.0, "Hz", ""},
                      {"tracking_jumps", 1, 0.0, "count", ""},
-                     {"hit", 1, 1.0, "bool", ""},
-                     {"skin_punctures", 1, 3.0, "count", ""}};
+                     {"hit", setting.rule.criteria[0].version, 1.0, "bool", ""},
+                     {"skin_punctures", setting.rule.criteria[1].version, 3.0, "count", ""}};
   const std::string attempt_id = casedb::add_attempt(library, attempt).value();
   RealSite real(std::move(library));
   FakeBrowser browser(real.site);
