@@ -2,10 +2,11 @@
 // SELDINGER_LAWS_TABLE=FILE it writes which laws hold for which metric, stated or not.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <future>
 #include <limits>
 #include <sstream>
 
@@ -15,8 +16,12 @@
 namespace seldinger::assessment {
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::uint64_t kAttempts = 100;  // it takes ten times as long
+#else
 constexpr std::uint64_t kAttempts = 500;
-constexpr int kFewValues = 10;  // under so many attempts with a value, a law says little
+#endif
+constexpr int kFewValues = kAttempts / 50;  // under so many attempts with a value, a law says little
 
 // Of one metric and one law, or another change.
 struct Held {
@@ -64,7 +69,7 @@ void hold(const Changed& changed, const std::vector<MetricValue>& before, std::v
 }
 
 std::optional<Changed> sliding(const RandomAttempt& attempt, Draw& draw) {
-  Changed changed{attempt, attempt, {0.01, 0.01, 0.2}};
+  Changed changed{attempt, attempt, {0.01, 0.01, 0.25}};
   changed.before = changed.after = random_attempt_at_rest(attempt.seed);
   slide_under_hands(changed.after, draw.in(4.0, 14.0));
   return changed;
@@ -74,12 +79,12 @@ struct Findings {
   std::vector<std::vector<Held>> of_law;  // one per law, each one per metric
   std::vector<Held> slid;                 // hands in the room as they were, over tissue that slides
   std::vector<int> values;                // attempts in which a metric had one
-  std::vector<double> best, worst;        // of each metric, over all attempts
+  std::vector<double> best;               // of each metric, over all attempts
   std::vector<Held> nothing;              // values where nothing was done
   std::vector<double> nothing_best;       // the best of them
 };
 
-Findings found() {
+Findings found(std::uint64_t first_seed, std::uint64_t last_seed) {
   const std::size_t metrics = registry().size();
   Findings all;
   all.of_law.assign(laws().size(), std::vector<Held>(metrics));
@@ -91,7 +96,7 @@ Findings found() {
   const auto goodness = [](const MetricInfo& info, double value) {
     return info.direction == Direction::lower_is_better ? -value : value;
   };
-  for (std::uint64_t seed = 1; seed <= kAttempts; ++seed) {
+  for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
     const RandomAttempt attempt = random_attempt(seed);
     const std::vector<MetricValue> values = measured(attempt);
     for (std::size_t m = 0; m < metrics; ++m)
@@ -116,6 +121,28 @@ Findings found() {
       if (++one.values == 1) one.first = "seed " + std::to_string(seed) + ": " + text_of(nothing[m]);
       all.nothing_best[m] = std::max(all.nothing_best[m], goodness(registry()[m], *nothing[m].value));
     }
+  }
+  return all;
+}
+
+void add(Held& sum, const Held& later) {
+  if (sum.first.empty()) sum.first = later.first;
+  sum.values += later.values, sum.broken += later.broken;
+  sum.worst = std::max(sum.worst, later.worst);
+}
+
+// By two threads, each with half of the seeds.
+Findings found() {
+  constexpr std::uint64_t kHalf = kAttempts / 2;
+  auto second = std::async(std::launch::async, [] { return found(kHalf + 1, kAttempts); });
+  Findings all = found(1, kHalf);
+  const Findings other = second.get();
+  for (std::size_t m = 0; m < registry().size(); ++m) {
+    for (std::size_t l = 0; l < laws().size(); ++l) add(all.of_law[l][m], other.of_law[l][m]);
+    add(all.slid[m], other.slid[m]), add(all.nothing[m], other.nothing[m]);
+    all.values[m] += other.values[m];
+    all.best[m] = std::max(all.best[m], other.best[m]);
+    all.nothing_best[m] = std::max(all.nothing_best[m], other.nothing_best[m]);
   }
   return all;
 }
@@ -161,6 +188,8 @@ std::string table_of(const Findings& all) {
     for (std::size_t l = 0; l < laws().size(); ++l)
       if (all.of_law[l][m].broken > 0)
         text << registry()[m].id << ", " << laws()[l].name << ": " << all.of_law[l][m].first << "\n";
+  for (std::size_t m = 0; m < registry().size(); ++m)
+    if (all.slid[m].broken > 0) text << registry()[m].id << ", slide: " << all.slid[m].first << "\n";
   return text.str();
 }
 
@@ -201,11 +230,11 @@ TEST(Laws, ChangeWhatTheyMay) {
         if (laws()[l].law == law && id == std::string(registry()[m].id)) return findings().of_law[l][m];
     return Held{};
   };
-  EXPECT_GT(broken(kAtAnySpeed, "time_total").broken, 400);
+  EXPECT_GT(broken(kAtAnySpeed, "time_total").broken, static_cast<int>(kAttempts) * 3 / 4);
   EXPECT_EQ(broken(kIdleBefore, "time_total").broken, static_cast<int>(kAttempts));
-  EXPECT_GT(broken(kIdleAfter, "time_total").broken, 100);
+  EXPECT_GT(broken(kIdleAfter, "time_total").broken, static_cast<int>(kAttempts) / 5);
   EXPECT_GT(broken(kInAnyFrame, "tip_target_dist").worst, 0.0);
-  EXPECT_GT(broken(kInAnyBreath, "closest_approach").values, 200);
+  EXPECT_GT(broken(kInAnyBreath, "closest_approach").values, static_cast<int>(kAttempts) / 3);
   EXPECT_GT(broken(kOneDarkFrame, "vis_needle").worst, 0.1);
   EXPECT_GT(broken(kLostSamples, "path_tip").worst, 0.0);
 }
