@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "assessment/grading/reason_words.h"
+
 namespace seldinger::app {
 
 void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
@@ -13,7 +15,8 @@ void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
     if (metric.value)
       std::printf("  %-*s %10.3f %s\n", width, metric.id.c_str(), *metric.value, metric.unit.c_str());
     else
-      std::printf("  %-*s          – (%s)\n", width, metric.id.c_str(), metric.reason.c_str());
+      std::printf("  %-*s          – (%s)\n", width, metric.id.c_str(),
+                  assessment::reason_words(metric.reason).c_str());
   }
 }
 
