@@ -20,7 +20,7 @@ void line(const std::string& words) {
 }
 
 void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
-  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not told"));
+  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not recorded"));
 }
 
 void fact(const char* what, const std::string& value) {
@@ -67,7 +67,7 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   heading("Sign-in");
   laboratory("INR", row.clinic.inr, "", 1);
   laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
-  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
+  fact("Allergy", row.clinic.allergy.empty() ? "none recorded" : row.clinic.allergy);
   ImGui::Spacing();
   bool all = true;
   for (std::size_t i = 0; i < kSignIn.size(); ++i) {
