@@ -9,12 +9,12 @@ namespace {
 
 constexpr ReasonWords kReasons[] = {
     // How the attempt was made (needs.cpp).
-    {"not_xray", "this is measured under fluoroscopy only"},
-    {"not_ultrasound", "this is measured under ultrasound only"},
-    {"not_meaningful_under_xray", "a fluoroscopic picture is a projection and has no plane"},
-    {"not_meaningful_out_of_plane", "it means nothing when the needle is led out of plane"},
-    {"not_meaningful_in_plane", "it means nothing when the needle is led in plane"},
-    {"not_a_core_needle", "this is measured with a core needle only"},
+    {"not_xray", "the guidance is not fluoroscopy"},
+    {"not_ultrasound", "the guidance is not ultrasound"},
+    {"not_meaningful_under_xray", "the guidance is fluoroscopy, whose picture has no plane"},
+    {"not_meaningful_out_of_plane", "the needle is led out of plane"},
+    {"not_meaningful_in_plane", "the needle is led in plane"},
+    {"not_a_core_needle", "the needle is not a core needle"},
     // What the case or the desk does not have (needs.cpp).
     {"no_target", "the case has no target"},
     {"no_plan", "the case has no planned entry"},
@@ -26,7 +26,7 @@ constexpr ReasonWords kReasons[] = {
     {"no_must_cross_structure", "the case has no structure that must be crossed"},
     {"no_organ_structure", "the target’s organ is not marked in this case"},
     {"no_target_structure", "no lumen to be reached is marked in this case"},
-    {"no_patient", "there is a phantom on the table, no patient"},
+    {"no_patient", "a phantom is on the table, not a patient"},
     {"patient_lies_still", "the patient does not breathe in this case"},
     {"tissue_lies_still", "the tissue does not give way in this case"},
     {"no_skin", "the case has no skin surface"},

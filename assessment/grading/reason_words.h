@@ -1,5 +1,6 @@
 // Why something has no value, or is not graded, in a trainee's words: one table of every reason code that a metric,
-// a criterion or a grade can give. Each reads on after "no value: " and has neither capital nor full stop.
+// a criterion or a grade can give. Each reads on after "no value, as" and after "no value if", and has neither
+// capital nor full stop.
 #pragma once
 
 #include <span>

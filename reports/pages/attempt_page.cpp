@@ -35,7 +35,7 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
     const std::string value = value_text(metric);
     html.raw("<div class=\"");
     html.text(id == "hit" && value == "Yes" ? "good" : id == "hit" && value == "No" ? "bad" : "plain");
-    html.raw("\"><dt>").text(metric_label(id)).raw("</dt><dd>");
+    html.raw("\"><dt>").add(metric_details(id, metric.version)).raw("</dt><dd>");
     add_value(html, metric);
     html.raw("</dd></div>\n");
   }
@@ -190,7 +190,7 @@ void add_details(Html& html, const AttemptView& attempt) {
   add_detail(html, "Target", lesion_text(row.lesion));
   add_detail(html, "Picture", picture_text(row.picture));
   add_detail(html, "Started", utc_text(row.started_us));
-  if (const std::string away = away_text(row); !away.empty()) add_detail(html, "Interrupted", away);
+  if (const std::string away = away_text(row); !away.empty()) add_detail(html, "Interruption", away);
   add_detail(html, "Recorded for", number_text(row.duration_s, 1) + " s");
   add_detail(html, "Step version", std::to_string(row.step_version));
   add_detail(html, "Program version", row.program_version);

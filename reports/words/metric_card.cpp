@@ -112,9 +112,9 @@ MetricCard metric_card(std::string_view id, int version) {
   card.lines.push_back({"Better", direction_words(info->direction)});
   const std::string nulls = null_words(*info, null_at == all.npos ? "" : all.substr(null_at + kNull.size()));
   card.lines.push_back({"No value if", nulls.empty() ? "never: it always has one" : nulls});
-  std::string versions = "definition " + std::to_string(info->version) + " of " + card.id;
+  std::string versions = std::to_string(info->version) + " (" + card.id + ")";
   if (version > 0 && version != info->version)
-    versions += "; this value was measured by definition " + std::to_string(version);
+    versions += "; this value was measured by version " + std::to_string(version);
   card.lines.push_back({"Version", versions});
   if (*info->history != '\0') card.lines.push_back({"Before", with_codes_in_words(info->history, label_in_quotes)});
   card.lines.push_back({"Source", info->source});

@@ -93,7 +93,7 @@ TEST(GradeOnPage, EachSentenceAndCriterionOpensWhatItMeasures) {
   const std::string table = html.substr(at, html.find("</table>", at) - at);
   for (const char* label : {"Way through critical", "Core in target", "Target hit"})
     EXPECT_THAT(table, HasSubstr("<th scope=\"row\"><details class=\"metric\"><summary>" + std::string(label)));
-  EXPECT_THAT(table, HasSubstr("of hit; this value was measured by definition 7"));
+  EXPECT_THAT(table, HasSubstr("(hit); this value was measured by version 7"));
 }
 
 TEST(GradeOnPage, NamesWhoseBandItIs) {

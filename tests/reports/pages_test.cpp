@@ -100,6 +100,7 @@ TEST(AttemptPage, EveryValueOpensItsDefinition) {
   for (const assessment::MetricInfo& info : assessment::registry())
     view.row.metrics.push_back({info.id, info.version, std::nullopt, info.unit, "no_endpoint"});
   const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<dt><details class=\"metric\"><summary>Target hit</summary>")) << "what leads, too";
   const std::size_t from = html.find("id=\"metrics\"");
   std::size_t rows = 0;
   const std::string row = "<th scope=\"row\">", opens = "<details class=\"metric\"><summary>";
@@ -113,9 +114,9 @@ TEST(AttemptPage, EveryValueOpensItsDefinition) {
 TEST(AttemptPage, AValueOfAnOlderDefinitionSaysSo) {
   AttemptView view = sample_attempt();
   view.row.metrics = {{"path_tip", 1, 80.0, "mm", ""}};
-  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("this value was measured by definition 1"));
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("this value was measured by version 1"));
   view.row.metrics[0].version = assessment::find_metric("path_tip")->version;
-  EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("this value was measured by definition")));
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("this value was measured by version")));
 }
 
 TEST(AttemptPage, TellsForHowLongItLayInterrupted) {

@@ -56,6 +56,13 @@ void draw_hands(const casedb::CaseRow& row) {
   if (xray) line(kBeam);
 }
 
+// Of whole pieces: what came after the last of them is lost.
+std::string interrupted_words(const casedb::OpenAttempt& attempt) {
+  return "Your attempt at this case was interrupted after " +
+         reports::number_text(cases::kChunkSeconds * attempt.chunks, 0) +
+         " s. Go on with it, or enter the room for a new one: the interrupted one is then stored as it is.";
+}
+
 std::string unit_of(const std::string& metric_id) {
   const assessment::MetricInfo* info = assessment::find_metric(metric_id);
   return info != nullptr ? info->unit : "";
@@ -96,7 +103,9 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   quiet(kTrainingOnly);
   ImGui::Spacing();
   const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
-  const float high = ImGui::GetContentRegionAvail().y - 60.0F;
+  const bool left = trainer.interrupted() && !trainer.resuming();
+  const float high =
+      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   heading("The task");
   if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
@@ -128,6 +137,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     end_screen();
     return false;
   }
+  if (left) quiet(interrupted_words(*trainer.interrupted()).c_str());
   if (noted_button("Back")) {
     trainer.back();
     end_screen();
@@ -146,8 +156,6 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::BeginDisabled(!ready);
     if (noted_button("Go on with the interrupted attempt (R)") || (ready && keys.pressed('R'))) resume_ = true;
     ImGui::EndDisabled();
-    ImGui::SameLine();
-    quiet("A new one closes it as it is.");
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);

@@ -171,12 +171,14 @@ void DebriefPanel::draw_sentences(const Debrief& debrief) {
 void DebriefPanel::draw_criteria(const Debrief& debrief) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   if (debrief.grade.grade.criteria.empty()) return;
-  if (!ImGui::BeginTable("criteria", 5, kTable)) return;
+  const assessment::ExpertSet& experts = debrief.grade.experts;
+  const bool banded = !experts.bands.empty();
+  if (!ImGui::BeginTable("criteria", banded ? 5 : 4, kTable)) return;
   ImGui::TableSetupColumn("To pass", ImGuiTableColumnFlags_WidthStretch, 2.6F);
-  ImGui::TableSetupColumn("asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
-  ImGui::TableSetupColumn("yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-  ImGui::TableSetupColumn("experts", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("Asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
+  ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  if (banded) ImGui::TableSetupColumn("Experts", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("Result", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableHeadersRow();
   for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
     const assessment::Criterion& criterion = result.criterion;
@@ -190,22 +192,20 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
     ImGui::TextWrapped("%s", assessment::limit_text(criterion, result.unit).c_str());
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(own.c_str());
-    ImGui::TableNextColumn();
-    const std::string band = reports::band_text(debrief.grade.experts, criterion.metric, criterion.version);
+    if (banded) ImGui::TableNextColumn();
+    const std::string band = reports::band_text(experts, criterion.metric, criterion.version);
     if (!band.empty()) {
       ImGui::TextWrapped("%s", band.c_str());
-      if (result.value)
-        draw_band(*debrief.grade.experts.find(criterion.metric, criterion.version), *result.value, result);
+      if (result.value) draw_band(*experts.find(criterion.metric, criterion.version), *result.value, result);
     }
     ImGui::TableNextColumn();
     wrapped(colour_of(result), mark_of(result));
   }
   ImGui::EndTable();
-  const assessment::ExpertSet& experts = debrief.grade.experts;
-  quiet(experts.bands.empty() ? "No band of experts yet: it takes five of them on this case."
-                              : ("Experts: " + reports::experts_text(experts) +
-                                 ". Bar: 10th to 90th percentile; dot: yours; stroke: asked.")
-                                    .c_str());
+  quiet(!banded ? "No band of experts yet: it takes five of them on this case."
+                : ("Experts: " + reports::experts_text(experts) +
+                   ". Bar: 10th to 90th percentile; dot: yours; stroke: asked.")
+                      .c_str());
 }
 
 void DebriefPanel::draw_values(const Debrief& debrief) {
@@ -214,7 +214,7 @@ void DebriefPanel::draw_values(const Debrief& debrief) {
     const auto metrics = reports::shown_metrics(debrief.attempt, group);
     if (metrics.empty() || !ImGui::BeginTable(group.c_str(), 2, kTable)) continue;
     ImGui::TableSetupColumn(group.c_str(), ImGuiTableColumnFlags_WidthStretch, 1.0F);
-    ImGui::TableSetupColumn("yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
     ImGui::TableHeadersRow();
     for (const casedb::MetricValue* metric : metrics) {
       const std::string label = reports::metric_label(metric->id), why = reports::reason_text(*metric);

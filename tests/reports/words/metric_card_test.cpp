@@ -55,7 +55,7 @@ TEST(MetricCardTest, SaysWhenAValueIsNullAndWhichDefinitionItIsOf) {
   EXPECT_NE(nulls.find("the skin was never punctured"), std::string::npos) << nulls;
   EXPECT_EQ(line_of(card, "Version").find("this value"), std::string::npos);
   card = metric_card("time_puncture_to_target", now + 1);
-  EXPECT_NE(line_of(card, "Version").find("this value was measured by definition " + std::to_string(now + 1)),
+  EXPECT_NE(line_of(card, "Version").find("this value was measured by version " + std::to_string(now + 1)),
             std::string::npos);
 }
 
