@@ -19,6 +19,7 @@ constexpr ReasonWords kReasons[] = {
     {"no_target", "the case has no target"},
     {"no_plan", "the case has no planned entry"},
     {"no_device", "no forces were recorded"},
+    {"no_arm", "no force-feedback arm led the needle"},
     {"no_nogo_structure", "the case has no structure to stay out of"},
     {"no_critical_structure", "the case has no critical structure"},
     {"no_major_structure", "the case has no major structure"},
@@ -36,11 +37,17 @@ constexpr ReasonWords kReasons[] = {
     {"no_picture", "no picture was recorded"},
     {"beam_not_recorded", "the recording does not say what the beam did"},
     {"near_plane_not_recorded", "the recording does not say what lay near the picture’s plane"},
+    {"calipers_not_recorded", "the recording does not say what the calipers measured"},
+    {"field_not_known", "the X-ray field of a pulse is not known"},
     {"events_not_recorded", "the recording does not say what was said and done"},
     {"only_gaps", "tracking was lost throughout"},
     {"never_in_tissue", "the tip was never in tissue"},
     {"no_such_event", "nothing went wrong that had to be answered"},
     // What was done, or left undone (the metrics' own).
+    {"needle_guide_was_on", "the needle was in the probe’s guide, which holds it in the picture’s plane"},
+    {"no_view_shows_target", "no picture of this case can show the target"},
+    {"nothing_done", "nothing was done that could be judged"},
+    {"no_movement", "the tip did not move"},
     {"never_punctured", "the skin was never punctured"},
     {"nothing_decided", "nothing was decided: neither said nor punctured"},
     {"no_step_asked_for", "the case asks for none of the graded steps"},
@@ -67,6 +74,7 @@ constexpr ReasonWords kReasons[] = {
     {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
     {"tracking_slow", "tracking was slower than 60 Hz"},
     {"tracking_jumps", "tracking jumped further than a hand can move"},
+    {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
     {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"},
 };
 

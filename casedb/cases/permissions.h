@@ -22,7 +22,7 @@ enum class Action {
   cause_event,        // let something happen to the patient during an attempt
   // Cases.
   see_case,      // what it holds, also what is right: more than to practise it
-  work_on_case,  // in the workstation's case editor
+  work_on_case,  // on the workstation's bench
   confirm_no_burned_in_text,
   submit_case,
   approve_case,  // "own": one's own submission

@@ -57,7 +57,7 @@ constexpr const char kStyle[] =
     "padding:.2rem 0}th,td{text-align:left;font-weight:400;padding:.18rem .5rem .18rem 0;"
     "border-bottom:1px solid "
     "var(--line);vertical-align:top}td{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}"
-    ".events{columns:18rem;column-gap:1.6rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
+    ".events{columns:18rem;column-gap:2.4rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
     "td .soft{white-space:normal}summary{cursor:pointer}.card{color:var(--soft);font-size:.875rem;"
     "margin:.2rem 0 .5rem}.card p{margin:0 0 .3rem}.card dl{margin:0}.card dt{font-weight:600}.card dd{margin:0}"
     "@media print{body{background:#fff}.strip li,.planes figure,table{break-inside:avoid}}"
@@ -289,6 +289,8 @@ std::string replay_sheet(const ReplaySheet& sheet) {
       .raw("</p>\n<p class=\"notice\">")
       .text(kTrainingOnly)
       .raw("</p>\n");
+  if (const std::string away = away_text(row); !away.empty())
+    html.raw("<p class=\"soft\">").text(away).raw("</p>\n");
   if (!sheet.note.empty()) html.raw("<p class=\"notice\">").text(sheet.note).raw("</p>\n");
   add_strip(html, sheet);
   add_planes(html, sheet);

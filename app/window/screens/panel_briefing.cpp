@@ -5,6 +5,7 @@
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::app {
@@ -60,7 +61,17 @@ void draw_hands(const casedb::CaseRow& row) {
 std::string interrupted_words(const casedb::OpenAttempt& attempt) {
   return "Your attempt at this case was interrupted after " +
          reports::number_text(cases::kChunkSeconds * attempt.chunks, 0) +
-         " s. Go on with it, or enter the room for a new one: the interrupted one is then stored as it is.";
+         " s. If you begin a new one, it is stored as it stands.";
+}
+
+// What the line before asks for, while the mouse is on it.
+void explain(const std::string& metric_id) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(30.0F * ImGui::GetFontSize());
+  ImGui::TextUnformatted(reports::metric_card(metric_id).definition.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
 }
 
 std::string unit_of(const std::string& metric_id) {
@@ -122,9 +133,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::Spacing();
   heading("To pass");
   if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
-  for (const assessment::Criterion& criterion : row.rule.criteria)
+  for (const assessment::Criterion& criterion : row.rule.criteria) {
     line(reports::metric_label(criterion.metric) + ": " +
          assessment::limit_text(criterion, unit_of(criterion.metric)) + (criterion.critical ? " (critical)" : ""));
+    explain(criterion.metric);
+  }
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
