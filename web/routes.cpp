@@ -8,6 +8,7 @@
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/case_page.h"
 #include "reports/pages/login_page.h"
+#include "reports/pages/metrics_page.h"
 #include "reports/pages/style_sheet.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
@@ -240,6 +241,10 @@ Response show_checks(Site& site, const Call& call) {
   return {.content_type = "application/json", .body = checks_json(parts->row.case_id, *check)};
 }
 
+Response list_metrics(Site&, const Call& call) {
+  return html_response(200, reports::metrics_page(call.reader->visitor()));
+}
+
 Response list_curricula(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
   const bool own = casedb::may(account.role, casedb::Action::see_own_progress);
@@ -270,6 +275,7 @@ constexpr Route kRoutes[] = {
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", kAttemptReaders, false, kOwn,
      "its grade, score and sentences as `score` prints them", show_grade},
+    {"GET", "/metrics", kEveryRole, true, "", "what each metric measures; #metric-ID", list_metrics},
     {"GET", "/curricula", kCurriculumReaders, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},
     {"GET", "/cases", kCaseReaders, true, kCases, "the list, oldest first", list_cases},

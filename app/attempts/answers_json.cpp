@@ -89,6 +89,7 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"approach", base::name_of(cases::kApproachNames, attempt.approach)},
           {"started_us", attempt.started_us},
           {"duration_s", attempt.duration_s},
+          {"away_s", maybe(attempt.away_s)},
           {"end", attempt.end ? Json(casedb::name_of(*attempt.end)) : Json(nullptr)},
           {"program_version", attempt.program_version},
           {"step_version", attempt.step_version},

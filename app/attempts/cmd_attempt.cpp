@@ -92,8 +92,11 @@ int run_attempt_show(const Arguments& arguments) {
   if (const std::string made = reports::conditions_text(attempt->conditions, attempt->away_s); !made.empty())
     std::printf("made     %s\n", made.c_str());
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
+  if (const std::string away = reports::away_text(*attempt); !away.empty())
+    std::printf("         %s\n", away.c_str());
   std::fputs(text_of_grade(grade).c_str(), stdout);
   print_metrics(attempt->metrics);
+  std::puts("  (what each of them measures: seldinger help --metrics)");
   print_course(course);
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
     std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());

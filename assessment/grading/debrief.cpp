@@ -6,6 +6,7 @@
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
+#include "assessment/grading/reason_words.h"
 #include "assessment/registry.h"
 
 namespace seldinger::assessment {
@@ -92,7 +93,7 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
   const std::string label = info == nullptr ? one.criterion.metric : info->label;
   made.sentence.text = one.reason == "no_endpoint"
                            ? "The needle was never fired, so the end of the way cannot be judged."
-                           : "“" + label + "” has no value (" + plain_code(one.reason) + "), so it is not met.";
+                           : "“" + label + "” has no value (" + reason_words(one.reason) + "), so it is not met.";
   if (one.criterion.critical) made.by_how_much = 1.0;
   return made;
 }
@@ -209,18 +210,7 @@ std::string limit_text(const Criterion& criterion, std::string_view unit) {
 }
 
 std::string not_gradable_text(std::string_view reason) {
-  constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
-      {"interrupted", "the program was gone before the attempt had ended"},
-      {"device_lost", "a device was lost on the way"},
-      {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
-      {"tracking_slow", "tracking was slower than 60 Hz"},
-      {"tracking_jumps", "tracking jumped further than a hand can move"},
-      {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
-      {"too_short", "it was over before it began"},
-      {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"}};
-  for (const auto& [code, words] : kTexts)
-    if (code == reason) return "This attempt is not graded: " + std::string(words) + ".";
-  return "This attempt is not graded: " + plain_code(reason) + ".";
+  return "This attempt is not graded: " + reason_words(reason) + ".";
 }
 
 std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& experts) {

@@ -169,6 +169,7 @@ TEST_F(LiveTest, WhatAKillInterruptedGoesOn) {
   const Json shown = ask("attempt show " + id);
   EXPECT_NE(shown["end"], "interrupted");
   EXPECT_GT(shown["duration_s"], 4.0);
+  EXPECT_GT(shown["away_s"], 0.0);
   int marks = 0;
   for (const Json& event : shown["events"])
     if (event["kind"] == "resumed") {

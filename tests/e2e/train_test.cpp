@@ -54,6 +54,28 @@ class TrainTest : public testing::Test {
     ASSERT_FALSE(HasFailure());
   }
   Json now() const { return trainee_->now(); }
+  // In the debrief: what a number means is one click away, or one key.
+  void ask_what_was_measured() {
+    const auto shows = [&](const char* name) { return fixtures::until([&] { return trainee_->shows(name); }); };
+    trainee_->click("Skin punctures");
+    EXPECT_TRUE(shows("Definition of Skin punctures")) << now();
+    look();
+    trainee_->screen().press("Escape");
+    EXPECT_TRUE(fixtures::until([&] { return !trainee_->shows("Definition of Skin punctures"); }));
+    EXPECT_EQ(now()["screen"], "debrief") << "Escape closes the definition first";
+    trainee_->click("Sentence 1");
+    EXPECT_TRUE(shows("Back to the steps (Esc)"));
+    trainee_->screen().press("a");
+    EXPECT_TRUE(shows("To pass (A)"));
+    EXPECT_FALSE(trainee_->shows("Back to the steps (Esc)"));
+    look();
+    for (std::size_t i = 0; i < 4; ++i) trainee_->screen().press("Down");  // past the sentences
+    EXPECT_TRUE(shows("Definition of Target hit")) << now();
+    look();
+    trainee_->screen().press("Escape");
+    trainee_->click("To pass (A)");
+    EXPECT_TRUE(shows("All values (A)"));
+  }
   fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
   static inline std::optional<fixtures::CommandLibrary> library_;
@@ -104,6 +126,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->fire());
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
+  ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
   trainee_->screen().press("w");
   ASSERT_TRUE(trainee_->reaches("watch"));
   const auto again = trainee_->place_of("picture");

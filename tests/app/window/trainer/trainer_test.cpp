@@ -102,7 +102,7 @@ TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
   trainer.log_out();
   EXPECT_TRUE(trainer.drafts().empty());
   trainer.log_in("mona", kPassword);
-  EXPECT_TRUE(trainer.choices().empty()) << "a draft is for the bench";
+  EXPECT_TRUE(trainer.choices().empty()) << "a draft is for the case editor";
   ASSERT_EQ(trainer.drafts().size(), 1U);
   EXPECT_EQ(trainer.drafts()[0].title, "Ball");
 }
@@ -113,7 +113,7 @@ TEST_F(TrainerTest, ADraftIsTriedAndStaysADraft) {
   trainer.log_in("tina", kPassword);
   trainer.open_editor(case_id_);
   trainer.new_version(case_id_);
-  EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "no bench for a trainee";
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "no case editor for a trainee";
   EXPECT_EQ(trainer.editor(), nullptr);
   trainer.log_out();
   trainer.log_in("mona", kPassword);
