@@ -41,6 +41,7 @@ constexpr Row kMatrix[] = {
     {"publish_curriculum",        "",      "",     "",         "all",    ""},
     {"remove_draft_curriculum",   "",      "all",  "",         "",       ""},
     {"retire_curriculum",         "",      "",     "",         "all",    ""},
+    {"set_standard",              "",      "",     "",         "others'", ""},
 };
 // clang-format on
 
