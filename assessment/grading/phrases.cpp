@@ -91,6 +91,8 @@ constexpr Phrase kPhrases[] = {
     {"advance_joint_visible_last_20_mm", "seen", "Had tip and target in one picture for only {} of the last 20 mm",
      "Had tip and target in one picture for {} of the last 20 mm",
      "Never had tip and target in one picture over the last 20 mm"},
+    {"longest_advance_between_sights", "unseen advance", "Advanced {} without a sight of the tip",
+     "Advanced at most {} without a sight of the tip", "Never advanced without a sight of the tip"},
     {"blind_advance", "unseen advance", "Advanced {} with the tip out of the picture",
      "Advanced only {} with the tip out of the picture", "Never advanced with the tip out of the picture"},
     {"blind_advance_max", "unseen advance", "Advanced {} in one go with the tip out of the picture",

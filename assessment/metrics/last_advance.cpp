@@ -1,4 +1,5 @@
-// How the target was come to: what of the last of the way showed tip and target at once.
+// How the target was come to: what of the last of the way showed tip and target at once; and out of plane, how far
+// the needle went between two sights of its tip.
 #include <algorithm>
 
 #include "assessment/metrics/tables.h"
@@ -49,6 +50,28 @@ Measured joint_visible_last(const Signals& signals) {
   return Measured::of(joint_mm / advance_mm);
 }
 
+// Out of plane the tip is seen in passing: one picture ends a run. A gap neither adds nor ends one.
+Measured longest_between_sights(const Signals& signals) {
+  double advance_mm = 0.0, run_mm = 0.0, longest_mm = 0.0;
+  bool visible = false;
+  std::size_t next_frame = 0;
+  for (std::size_t i = 1; i < signals.poses.size(); ++i) {
+    bool shown = visible;  // by any picture since the step before
+    for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= signals.poses[i - 1].t_s;
+         ++next_frame) {
+      visible = signals.frames[next_frame].live && signals.frames[next_frame].needle_tip;
+      shown = shown || visible;
+    }
+    if (shown || !signals.passages[i].in_body) run_mm = 0.0;
+    advance_mm += signals.advance_mm[i];
+    if (visible) continue;
+    run_mm += signals.advance_mm[i];
+    longest_mm = std::max(longest_mm, run_mm);
+  }
+  if (!(advance_mm >= kJiggleMm)) return Measured::none("under_1_mm_of_advance");
+  return Measured::of(longest_mm);
+}
+
 constexpr MetricInfo kLastAdvanceMetrics[] = {
     {"advance_joint_visible_last_20_mm",
      1,
@@ -64,6 +87,22 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
      kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
+     "1: the first"},
+    {"longest_advance_between_sights",
+     1,
+     "mm",
+     "Advance between sights",
+     Group::picture,
+     Direction::lower_is_better,
+     kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
+     "Longest way that the tip was pushed in tissue from one live picture that showed it to the next, from the "
+     "skin "
+     "to the first, or from the last to the endpoint: out of plane the tip is seen in passing, each time the probe "
+     "goes ahead and the needle follows. Null: under_1_mm_of_advance.",
+     "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321",
+     &longest_between_sights,
+     {Scale::ratio, WithoutEndpoint::left_out, Aggregation::median},
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: the first"},
 };
 

@@ -33,8 +33,10 @@ cases::Recording straight(const std::function<double(double)>& depth_mm, double 
   return recording;
 }
 
-MetricValue value(const cases::Recording& recording, const std::string& id = "advance_joint_visible_last_20_mm") {
+MetricValue value(const cases::Recording& recording, const std::string& id = "advance_joint_visible_last_20_mm",
+                  cases::Approach approach = cases::Approach::in_plane) {
   AttemptSetting setting;
+  setting.approach = approach;
   setting.skin = &body();
   setting.target = cases::Lesion{{0.0, 60.0, 0.0}, 6.0, 20.0};
   const auto signals = make_signals(setting, recording);
@@ -96,6 +98,23 @@ TEST(AdvanceJointVisibleLast, WithoutAnEndpointOrAnAdvanceThereIsNone) {
             "never_in_tissue");
   EXPECT_EQ(value(straight([](double) { return 30.0; }, 3.0, [](double) { return true; })).reason,
             "under_1_mm_of_advance");
+}
+
+TEST(AdvanceBetweenSights, OfAProbeThatWaitsAtTheTargetIsTheWholeWay) {
+  const auto longest = [](const std::function<bool(double)>& seen) {
+    return *value(straight([](double t) { return std::min(40.0, 10.0 * t); }, 8.0, seen),
+                  "longest_advance_between_sights", cases::Approach::out_of_plane)
+                .value;
+  };
+  // Drill 3 was passed so: 40 mm unseen, nothing beyond a plane that the tip comes to last.
+  EXPECT_NEAR(longest([](double t) { return t >= 4.0; }), 40.0, 0.2);
+  // A glimpse every 5 mm.
+  EXPECT_NEAR(longest([](double t) { return std::fmod(t + 1e-9, 0.5) < 0.035; }), 5.0, 0.4);
+  EXPECT_EQ(longest([](double) { return true; }), 0.0);
+  EXPECT_EQ(value(straight([](double t) { return 10.0 * t; }, 2.0, [](double) { return true; }),
+                  "longest_advance_between_sights")
+                .reason,
+            "not_meaningful_in_plane");
 }
 
 }  // namespace
