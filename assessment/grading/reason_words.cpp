@@ -65,7 +65,10 @@ constexpr ReasonWords kReasons[] = {
     {"too_short", "it was over before it began"},
     {"not_finite", "the calculation gave no finite number"},
     // What the library holds of it (grade.cpp).
-    {"other_version", "only another version of the metric is stored; `seldinger recompute` adds this one"},
+    {"other_version",
+     "its pass rule names another version of the metric than was measured; `seldinger recompute` adds the versions "
+     "in "
+     "force, and a new version of the case names them"},
     {"not_stored", "it was not stored with the attempt; `seldinger recompute` adds it"},
     {"not_measured", "it was not measured"},
     // Why an attempt is not graded (grade.cpp).

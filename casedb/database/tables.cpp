@@ -22,7 +22,7 @@ constexpr std::string_view kStaying[] = {
     "metric_value",    "open_attempt",    "open_chunk",        "servo_record",
     "case_decision",   "attempt_step",    "person_level",      "curriculum",
     "curriculum_item", "curriculum_gate", "attempt_condition", "open_attempt_condition",
-    "replay_watched"};
+    "replay_watched",  "standard",        "standard_attempt",  "standard_band"};
 
 }  // namespace
 

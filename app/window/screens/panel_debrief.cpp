@@ -173,12 +173,12 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   if (debrief.grade.grade.criteria.empty()) return;
   const assessment::ExpertSet& experts = debrief.grade.experts;
-  const bool banded = !experts.bands.empty();
+  const bool banded = experts.standard();
   if (!ImGui::BeginTable("criteria", banded ? 5 : 4, kTable)) return;
   ImGui::TableSetupColumn("To pass", ImGuiTableColumnFlags_WidthStretch, 2.6F);
   ImGui::TableSetupColumn("Asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
   ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-  if (banded) ImGui::TableSetupColumn("Experts", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  if (banded) ImGui::TableSetupColumn("Consultants", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("Result", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableHeadersRow();
   for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
@@ -197,16 +197,16 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
     const std::string band = reports::band_text(experts, criterion.metric, criterion.version);
     if (!band.empty()) {
       ImGui::TextWrapped("%s", band.c_str());
+      quiet(reports::tolerance_text(experts, criterion.metric, criterion.version).c_str());
       if (result.value) draw_band(*experts.find(criterion.metric, criterion.version), *result.value, result);
     }
     ImGui::TableNextColumn();
     wrapped(colour_of(result), mark_of(result));
   }
   ImGui::EndTable();
-  quiet(!banded ? "No band of experts yet: it takes five of them on this case."
-                : ("Experts: " + reports::experts_text(experts) +
-                   ". Bar: 10th to 90th percentile; dot: yours; stroke: asked.")
-                      .c_str());
+  quiet((reports::experts_text(experts) +
+         (experts.standard() ? " Bar: 10th to 90th percentile; dot: yours; stroke: asked." : ""))
+            .c_str());
 }
 
 void DebriefPanel::draw_values(const Debrief& debrief) {
@@ -281,8 +281,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
                      reports::verdict_text(debrief.grade.grade).c_str());
   ImGui::SetWindowFontScale(1.0F);
-  if (debrief.grade.provisional)
-    quiet("Provisional: fewer than eight consultants have set the standard for this case.");
+  if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
   if (const std::string away = reports::away_text(debrief.attempt); !away.empty()) quiet(away.c_str());
   const std::string made = reports::conditions_text(debrief.attempt.conditions, std::nullopt);
   if (!made.empty()) quiet(("Made with " + made + ".").c_str());
