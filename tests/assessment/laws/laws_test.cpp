@@ -8,6 +8,8 @@
 #include <fstream>
 #include <future>
 #include <limits>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 #include "assessment/registry.h"
@@ -75,9 +77,38 @@ std::optional<Changed> sliding(const RandomAttempt& attempt, Draw& draw) {
   return changed;
 }
 
+// The needle is left in the patient, held still in the room, while breath slides the tissue along it.
+std::optional<Changed> held_in_breath(const RandomAttempt& attempt, Draw& draw) {
+  const auto signals = attempt.signals();
+  if (attempt.recording.endpoint || !signals || signals->passages.back().depth_mm < 10.0) return std::nullopt;
+  Changed changed{attempt, attempt, {0.001, 0.002, kTraceMm}};
+  auto& poses = changed.after.recording.poses;
+  const cases::PoseSample last = poses.back();
+  const double amplitude_mm = draw.in(3.0, 9.0), period_s = draw.in(3.0, 5.0);
+  for (int i = 1; i <= static_cast<int>(15.0 * attempt.pose_hz); ++i) {
+    const double since_s = i / attempt.pose_hz;
+    const double level = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * since_s / period_s);
+    poses.push_back(last);
+    poses.back().t_s = last.t_s + since_s;
+    poses.back().rest_tip_lps_mm = last.tip_at_rest_lps_mm() - last.needle_direction * (amplitude_mm * level);
+  }
+  return changed;
+}
+
+// What hands do, told apart from what breath does.
+bool of_the_hand(const MetricInfo& info) {
+  static const std::set<std::string> kOfTheHand = {
+      "skin_punctures",       "withdrawals_partial", "withdrawals_full",      "advance_visible_share",
+      "blind_advance",        "blind_advance_max",   "plane_angle_mean",      "plane_angle_max",
+      "advance_beyond_plane", "advance_in_breath",   "probe_drift_advancing", "probe_shift_advancing",
+      "probe_turn_advancing"};
+  return kOfTheHand.contains(info.id);
+}
+
 struct Findings {
   std::vector<std::vector<Held>> of_law;  // one per law, each one per metric
   std::vector<Held> slid;                 // hands in the room as they were, over tissue that slides
+  std::vector<Held> held;                 // hands at rest in the room for a while, breath slides the tissue
   std::vector<int> values;                // attempts in which a metric had one
   std::vector<double> best;               // of each metric, over all attempts
   std::vector<Held> nothing;              // values where nothing was done
@@ -88,7 +119,7 @@ Findings found(std::uint64_t first_seed, std::uint64_t last_seed) {
   const std::size_t metrics = registry().size();
   Findings all;
   all.of_law.assign(laws().size(), std::vector<Held>(metrics));
-  all.slid.resize(metrics);
+  all.slid.resize(metrics), all.held.resize(metrics);
   all.nothing.resize(metrics);
   all.values.assign(metrics, 0);
   const double far = std::numeric_limits<double>::infinity();
@@ -114,6 +145,7 @@ Findings found(std::uint64_t first_seed, std::uint64_t last_seed) {
     Draw draw(base::hash_combine(seed, laws().size()));
     const auto slid = sliding(attempt, draw);
     hold(*slid, measured(slid->before), all.slid);
+    if (const auto held = held_in_breath(attempt, draw)) hold(*held, values, all.held);
     const std::vector<MetricValue> nothing = measured(nothing_done(seed));
     for (std::size_t m = 0; m < metrics; ++m) {
       if (!nothing[m].value) continue;
@@ -139,7 +171,8 @@ Findings found() {
   const Findings other = second.get();
   for (std::size_t m = 0; m < registry().size(); ++m) {
     for (std::size_t l = 0; l < laws().size(); ++l) add(all.of_law[l][m], other.of_law[l][m]);
-    add(all.slid[m], other.slid[m]), add(all.nothing[m], other.nothing[m]);
+    add(all.slid[m], other.slid[m]), add(all.held[m], other.held[m]);
+    add(all.nothing[m], other.nothing[m]);
     all.values[m] += other.values[m];
     all.best[m] = std::max(all.best[m], other.best[m]);
     all.nothing_best[m] = std::max(all.nothing_best[m], other.nothing_best[m]);
@@ -168,10 +201,11 @@ std::string table_of(const Findings& all) {
        << "); broken/with a value; none: never a "
        << "value.\nnothing: null where nobody does anything, else in how many of " << kAttempts
        << " it has a value (!: the best that there is). slide: hands in the room as they were, tissue slid under "
-       << "them; no law.\n* before a cell: its row states the law.\n\n";
+       << "them; held: needle left in the patient, held still in the room for 15 s of breath; both no law.\n* "
+          "before a cell: its row states the law.\n\n";
   column("metric", 36), column("values", 8);
   for (const LawInfo& law : laws()) column(law.column, 11);
-  column("nothing", 11), text << "slide\n";
+  column("nothing", 11), column("slide", 11), text << "held\n";
   for (std::size_t m = 0; m < registry().size(); ++m) {
     const MetricInfo& info = registry()[m];
     column(std::string(info.id) + " " + std::to_string(info.version), 36), column(std::to_string(all.values[m]), 8);
@@ -181,7 +215,7 @@ std::string table_of(const Findings& all) {
                                     ? "null"
                                     : std::to_string(all.nothing[m].values) + (flatters_nothing(all, m) ? "!" : "");
     column(((info.laws & kNothingIsNothing) != 0 ? "*" : "") + nothing, 11);
-    text << cell(all.slid[m]) << "\n";
+    column(cell(all.slid[m]), 11), text << cell(all.held[m]) << "\n";
   }
   text << "\nThe first attempt that breaks a law:\n";
   for (std::size_t m = 0; m < registry().size(); ++m)
@@ -189,7 +223,8 @@ std::string table_of(const Findings& all) {
       if (all.of_law[l][m].broken > 0)
         text << registry()[m].id << ", " << laws()[l].name << ": " << all.of_law[l][m].first << "\n";
   for (std::size_t m = 0; m < registry().size(); ++m)
-    if (all.slid[m].broken > 0) text << registry()[m].id << ", slide: " << all.slid[m].first << "\n";
+    for (const auto& [name, held] : {std::pair("slide", &all.slid[m]), std::pair("held", &all.held[m])})
+      if (held->broken > 0) text << registry()[m].id << ", " << name << ": " << held->first << "\n";
   return text.str();
 }
 
@@ -237,6 +272,18 @@ TEST(Laws, ChangeWhatTheyMay) {
   EXPECT_GT(broken(kInAnyBreath, "closest_approach").values, static_cast<int>(kAttempts) / 3);
   EXPECT_GT(broken(kOneDarkFrame, "vis_needle").worst, 0.1);
   EXPECT_GT(broken(kLostSamples, "path_tip").worst, 0.0);
+}
+
+// Breath that slides past a hand at rest is neither a withdrawal nor an advance, however deep the needle is.
+TEST(Laws, HandsAtRestDoNothingWhateverBreathDoes) {
+  for (std::size_t m = 0; m < registry().size(); ++m) {
+    const MetricInfo& info = registry()[m];
+    if (!of_the_hand(info)) continue;
+    const Held& held = findings().held[m];
+    EXPECT_GE(held.values, kFewValues) << info.id;
+    EXPECT_EQ(held.broken, 0) << info.id << ": " << held.broken << " of " << held.values << ", first "
+                              << held.first;
+  }
 }
 
 TEST(Laws, SpeakOfEveryMetricInManyAttempts) {
