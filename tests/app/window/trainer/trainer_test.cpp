@@ -455,6 +455,8 @@ TEST_F(TrainerTest, TheConditionsOfAnAttemptAreKept) {
   told.sum.turn_lps_rad.x += 0.01;
   tell();
   ASSERT_TRUE(until_seen([&] { return !seen.guided; }));
+  const double turned_s = seen.moment.state.t_s;  // a hand that still turns ends the way back
+  ASSERT_TRUE(until_seen([&] { return seen.moment.state.t_s > turned_s + 0.2; }));
   told.sum.resets = 1;
   tell();
   const double back_s = seen.moment.state.t_s;
