@@ -4,6 +4,7 @@
 #include "app/cli/command.h"
 #include "app/library/acting.h"
 #include "app/library/people_json.h"
+#include "casedb/attempts/attempts.h"
 
 namespace seldinger::app {
 namespace {

@@ -3,6 +3,7 @@
 #include "casedb/keeping/erase.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "casedb/cases/authoring.h"
@@ -132,6 +133,40 @@ TEST_F(EraseTest, NothingOfAPersonIsLeftInAnyFile) {
   for (const char* table : {"person_fact", "enrolment", "erasing"})
     EXPECT_EQ(database.integer(std::string("SELECT count(*) FROM ") + table), 0) << table;
   EXPECT_TRUE(add_user(*library_, kName, Role::trainee, "a password")) << "the name is free again";
+}
+
+// A server and a window hold the library open for days: nothing may lie in its log until they close it. Another
+// process looks, since closing a file here would drop SQLite's locks.
+TEST_F(EraseTest, NothingIsLeftWhileOthersHaveTheLibraryOpen) {
+  static_cast<void>(add_attempt(*library_, attempt_by(zebedee_, 19, kValue)).value());
+  ASSERT_TRUE(submit_case(*library_, case_id_, kName, kNote));
+  Library other = open_library(folder_ / "library");
+  EXPECT_EQ(count_attempts(other), 1U);
+  const auto is_found = [&] {
+    const std::string folder = (folder_ / "library").string();
+    return std::system(("grep -rqaF Zebedee '" + folder + "'").c_str()) == 0;
+  };
+  ASSERT_TRUE(is_found());
+  const auto erased = erase_person(*library_, kName, std::nullopt);
+  ASSERT_TRUE(erased);
+  EXPECT_TRUE(erased->overwritten);
+  EXPECT_FALSE(is_found());
+  EXPECT_EQ(count_attempts(other), 0U);
+}
+
+// Who reads all the time holds up the overwriting, not the erasing, and that is told.
+TEST_F(EraseTest, AReaderThatDoesNotEndIsTold) {
+  static_cast<void>(add_attempt(*library_, attempt_by(zebedee_, 20, kValue)).value());
+  Library other = open_library(folder_ / "library");
+  {
+    const Snapshot reading(other.database());
+    EXPECT_EQ(other.database().integer("SELECT count(*) FROM attempt"), 1);
+    library_->database().run("PRAGMA busy_timeout = 50");
+    const auto erased = erase_person(*library_, kName, std::nullopt);
+    ASSERT_TRUE(erased);
+    EXPECT_FALSE(erased->overwritten);
+    EXPECT_EQ(count_attempts(*library_), 0U);
+  }
 }
 
 TEST_F(EraseTest, AnOpenAttemptGoesToo) {
