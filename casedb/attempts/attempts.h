@@ -82,6 +82,14 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first = 0,
                                       std::size_t count = std::numeric_limits<std::size_t>::max());
 std::size_t count_attempts(Library& library);
+// Of some people, and of nobody where that is wanted; as list_attempts.
+struct WhoseAttempts {
+  std::vector<std::string> people;  // person ids
+  bool nobodys = false;
+};
+std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,
+                                      std::size_t count);
+std::size_t count_attempts(Library& library, const WhoseAttempts& whose);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);    // newest first
 // Those on a case whose values may make a band: of people who were consultants when they began, or of the simulated

@@ -247,11 +247,47 @@ std::vector<assessment::StepResult> list_steps(Library& library, const std::stri
   return steps;
 }
 
+namespace {
+
+std::int64_t bounded(std::size_t value) {
+  return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
+}
+
+// Ids are hexadecimal digits and dashes: nothing in them needs to be escaped.
+std::string json_of_ids(const std::vector<std::string>& ids) {
+  std::string json = "[";
+  for (const std::string& id : ids) {
+    CHECK(id.find_first_not_of("0123456789abcdef-") == id.npos);
+    json += (json.size() > 1 ? ",\"" : "\"") + id + "\"";
+  }
+  return json + "]";
+}
+
+}  // namespace
+
+std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,
+                                      std::size_t count) {
+  Sqlite& database = library.database();
+  Statement attempts = question(database, "attempts_of_people"),
+            metrics = question(database, "metric_values_of_people");
+  for (Statement* part : {&attempts, &metrics})
+    part->bind("people", json_of_ids(whose.people))
+        .bind("nobodys", whose.nobodys ? 1 : 0)
+        .bind("first", bounded(first))
+        .bind("count", bounded(count));
+  const Snapshot one_state(database);
+  return read_attempts(std::move(attempts), std::move(metrics));
+}
+
+std::size_t count_attempts(Library& library, const WhoseAttempts& whose) {
+  Statement counted = question(library.database(), "attempt_count_of_people");
+  counted.bind("people", json_of_ids(whose.people)).bind("nobodys", whose.nobodys ? 1 : 0);
+  CHECK(counted.step());
+  return static_cast<std::size_t>(counted.integer("attempts"));
+}
+
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first, std::size_t count) {
   Sqlite& database = library.database();
-  const auto bounded = [](std::size_t value) {
-    return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
-  };
   Statement attempts = question(database, "attempts"), metrics = question(database, "metric_values");
   for (Statement* part : {&attempts, &metrics}) part->bind("first", bounded(first)).bind("count", bounded(count));
   const Snapshot one_state(database);  // both questions mean the same attempts

@@ -400,6 +400,28 @@ const std::vector<ColumnInfo>& attempt_conditions() {
   return columns;
 }
 
+const std::vector<Column<PersonFact>>& fact_columns() {
+  using Fact = PersonFact;
+  static const std::string known = [] {
+    std::string text = "which question: ";
+    for (const casedb::FactInfo& fact : casedb::fact_infos())
+      text += (&fact == casedb::fact_infos().data() ? "" : "; ") + std::string(fact.id) + ": " +
+              std::string(fact.words);
+    return text;
+  }();
+  static const std::vector<Column<Fact>> columns = {
+      {{"person", "text", "", "", "as in attempts.csv"},
+       [](CsvLine& line, const Fact& f) { line.text(*f.person); }},
+      {{"fact", "text", "", "", known}, [](CsvLine& line, const Fact& f) { line.text(f.fact->fact_id); }},
+      {{"answer", "text", "", "", "as it was given; it holds until the next one"},
+       [](CsvLine& line, const Fact& f) { line.text(f.fact->answer); }},
+      {{"days_since_first", "number", "day", "",
+        "from the person's first attempt to the answer; negative: before it"},
+       [](CsvLine& line, const Fact& f) { line.number(f.days_since_first); }},
+  };
+  return columns;
+}
+
 const std::vector<ColumnInfo>& attempt_metrics() {
   static const std::vector<ColumnInfo> columns = [] {
     std::vector<ColumnInfo> all;
@@ -487,6 +509,7 @@ const std::vector<TableInfo>& raw_tables() {
          infos_of(event_columns())},
         {"steps.csv", "one row a step of an attempt's procedure; none of attempts from before it was kept",
          infos_of(step_columns())},
+        {"facts.csv", "one row an answer of a person about their experience", infos_of(fact_columns())},
         {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
          infos_of(pose_columns())},
         {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},

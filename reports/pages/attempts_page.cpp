@@ -100,7 +100,7 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
     return page("Attempts", visitor, html);
   }
   html.raw("<div class=\"wide\">\n<table class=\"list\">\n<caption>");
-  html.text(part.own_only ? "Your attempts" : "All attempts")
+  html.text(part.own_only ? "Your attempts" : "Attempts that you may see")
       .raw(", newest first: ")
       .text(std::to_string(part.total));
   html.raw(

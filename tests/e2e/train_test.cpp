@@ -30,6 +30,9 @@ class TrainTest : public testing::Test {
     const std::string demo = library_->ask("demo --no-serve")["case_id"];
     for (const char* user : {"mona --role mentor", "tina --role trainee"})
       library_->done(std::string("user add ") + user);
+    library_->done("cohort add Autumn --programme Radiology");
+    library_->done("cohort enrol Autumn --user mona --mentor");
+    library_->done("cohort enrol Autumn --user tina");
     case_id_ = library_->ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     // The entry above the target, where straight down leads to it.
     auto library = casedb::Library::open(library_->path());

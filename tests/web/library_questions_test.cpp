@@ -8,6 +8,7 @@
 
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/sound_check.h"
 #include "tests/web/fake_site.h"
@@ -77,6 +78,7 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
   ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
   ASSERT_TRUE(casedb::add_user(library, "Dan", casedb::Role::director, kPassword).has_value());
   const std::string tom = casedb::add_user(library, "Tom", casedb::Role::trainee, kPassword).value();
+  fixtures::make_cohort(library, "Mia", {"Tom"});
   const auto [case_id, lesion_id] = add_small_case(library);
   casedb::CaseSetting setting = casedb::find_case(library, case_id).value();
   setting.rule.criteria = {*assessment::criterion_from("hit >= 1"),

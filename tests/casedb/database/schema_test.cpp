@@ -140,7 +140,7 @@ TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
   refuse("INSERT INTO recording_chunk VALUES ('" + nobody + "', 0, 0, x'00')");
   refuse("UPDATE training_case SET state = 'lost'");
   refuse("DELETE FROM training_case");
-  database_.run("INSERT INTO person VALUES ('" + nobody + "', 'P', 0)");
+  database_.run("INSERT INTO person (person_id, pseudonym, created_us) VALUES ('" + nobody + "', 'P', 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'king', '$argon2id$x', 1, 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', 'secret', 1, 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 2, 0)");

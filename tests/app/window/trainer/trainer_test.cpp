@@ -11,6 +11,7 @@
 #include "casedb/cases/versions.h"
 #include "casedb/grading/curriculum.h"
 #include "session/case/case_check.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/new_ball.h"
 #include "tests/fixtures/until.h"
@@ -43,6 +44,7 @@ class TrainerTest : public testing::Test {
     ASSERT_TRUE(casedb::add_lesion(library, case_id_, fixtures::ball_target(kDepthMm)));
     ASSERT_TRUE(casedb::add_user(library, "mona", casedb::Role::mentor, kPassword));
     ASSERT_TRUE(casedb::add_user(library, "tina", casedb::Role::trainee, kPassword));
+    fixtures::make_cohort(library, "mona", {"tina"});
   }
   void publish() {
     casedb::Library library = open();
