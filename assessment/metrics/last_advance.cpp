@@ -86,8 +86,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "by way instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
-     "1: the first"},
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing},
     {"longest_advance_between_sights",
      1,
      "mm",
@@ -102,8 +101,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321",
      &longest_between_sights,
      {Scale::ratio, WithoutEndpoint::left_out, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
-     "1: the first"},
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing},
 };
 
 }  // namespace
