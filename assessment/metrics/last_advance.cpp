@@ -26,7 +26,7 @@ std::vector<Push> pushes_of(const Signals& signals) {
          ++next_frame)
       joint = signals.frames[next_frame].live && signals.frames[next_frame].joint();
     if (!signals.passages[i].in_body) pushes.clear();
-    const double advance_mm = signals.advance_mm[i], to_mm = signals.inserted_mm(i);
+    const double advance_mm = signals.advance_mm[i], to_mm = signals.pushed_mm[i];
     if (advance_mm > 0.0) pushes.push_back({to_mm - advance_mm, to_mm, joint});
   }
   return pushes;
@@ -36,7 +36,7 @@ std::vector<Push> pushes_of(const Signals& signals) {
 // and who goes back and comes again in view has mended what was not seen.
 Measured joint_visible_last(const Signals& signals) {
   const std::vector<Push> pushes = pushes_of(signals);
-  double above_mm = signals.inserted_mm(signals.poses.size() - 1);  // what is deeper has been counted
+  double above_mm = signals.pushed_mm.back();  // what is deeper has been counted
   const double from_mm = above_mm - kLastMm;
   double advance_mm = 0.0, joint_mm = 0.0;
   for (auto push = pushes.rbegin(); push != pushes.rend(); ++push) {
@@ -86,8 +86,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "by way instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
-     "1: the first"},
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing},
     {"longest_advance_between_sights",
      1,
      "mm",
@@ -102,8 +101,7 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321",
      &longest_between_sights,
      {Scale::ratio, WithoutEndpoint::left_out, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
-     "1: the first"},
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing},
 };
 
 }  // namespace

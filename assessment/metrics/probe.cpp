@@ -137,27 +137,29 @@ Measured measured(const Signals& signals) {
   return probe.no_plane ? Measured::none("no_picture_plane") : Measured::of(probe.*part);
 }
 
-constexpr std::uint32_t kNeeds = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue | kFreehand;
-constexpr std::uint32_t kLaws =
+constexpr std::uint32_t kOfProbe = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue | kFreehand;
+constexpr std::uint32_t kProbeLaws =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 
 constexpr MetricInfo kProbeMetrics[] = {
-    {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better, kNeeds,
+    {"probe_drift_advancing", 2, "mm", "Probe drift advancing", Group::picture, Direction::lower_is_better,
+     kOfProbe,
      "How far the picture's plane went, across itself, at the tip or at the target's centre, whichever is "
      "more, while the needle in tissue advanced; a tilt counts with its depth. To and fro by under 1 mm is no "
      "drift, nor is a probe at rest on a patient who breathes or one that goes along with the skin: what "
      "counts is what both the room and the tissue at the tip say. Null: no_picture_plane.",
-     kSites, &measured<&Probe::drift_mm>, kMedianRatio, kLaws,
+     kSites, &measured<&Probe::drift_mm>, kMedianRatio, kProbeLaws,
      "1: the way of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
      "at more than 2 mm/s."},
-    {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better, kNeeds,
+    {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better,
+     kOfProbe,
      "The part of probe_drift_advancing's motion that slides: way of the middle of the probe's face over the "
      "skin, in any direction, while the needle in tissue advanced; counted as that is. Null: no_picture_plane.",
-     kSites, &measured<&Probe::shift_mm>, kMedianRatio, kLaws},
-    {"probe_turn_advancing", 1, "deg", "Probe turn advancing", Group::picture, Direction::lower_is_better, kNeeds,
+     kSites, &measured<&Probe::shift_mm>, kMedianRatio, kProbeLaws},
+    {"probe_turn_advancing", 1, "deg", "Probe turn advancing", Group::picture, Direction::lower_is_better, kOfProbe,
      "The part that turns: by how much the probe was tilted, rocked or rotated while the needle in tissue "
      "advanced; to and fro by under 1° is none. Null: no_picture_plane.",
-     kSites, &measured<&Probe::turn_deg>, kMedianRatio, kLaws},
+     kSites, &measured<&Probe::turn_deg>, kMedianRatio, kProbeLaws},
 };
 
 }  // namespace
