@@ -4,6 +4,7 @@
 
 #include "app/cli/error_codes.h"
 #include "app/commands.h"
+#include "assessment/grading/worthwhile.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
@@ -16,6 +17,10 @@ namespace {
 int run_help(const Arguments& arguments) {
   if (arguments.has("--metrics")) {
     std::fputs(assessment::metrics_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--differences")) {
+    std::fputs(assessment::worthwhile_markdown().c_str(), stdout);
     return kDone;
   }
   if (arguments.has("--steps")) {
@@ -62,6 +67,7 @@ int run_help(const Arguments& arguments) {
 
 constexpr Option kHelpOptions[] = {
     {"--metrics", nullptr, "print the table of metrics (docs/metrics.md)"},
+    {"--differences", nullptr, "print the smallest worthwhile differences (docs/differences.md)"},
     {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
     {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},

@@ -45,6 +45,8 @@ namespace seldinger::app {
   ROW(attempt_list)             \
   ROW(attempt_show)             \
   ROW(attempt_compare)          \
+  ROW(standard_set)             \
+  ROW(standard_show)            \
   ROW(curriculum_add)           \
   ROW(curriculum_item)          \
   ROW(curriculum_publish)       \

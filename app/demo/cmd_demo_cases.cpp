@@ -11,6 +11,7 @@
 #include "app/cli/command.h"
 #include "app/demo/demo_cases.h"
 #include "app/demo/demo_library.h"
+#include "assessment/grading/rule_json.h"
 #include "assessment/registry.h"
 #include "casedb/cases/versions.h"
 #include "casedb/grading/curriculum.h"
@@ -100,16 +101,47 @@ base::Result<void> publish(casedb::Library& library, const std::string& case_id,
   return casedb::publish_case(library, case_id, check, kAuthor, false);
 }
 
+// The newest version of the case that is in the library; empty: it is not there.
+std::string newest_of(casedb::Library& library, const std::string& title, const std::string& origin) {
+  std::string case_id;
+  int version = 0;
+  for (const casedb::CaseRow& row : casedb::list_cases(library))
+    if (row.title == title && row.origin == origin && row.version > version) {
+      case_id = row.case_id;
+      version = row.version;
+    }
+  return case_id;
+}
+
+// A published case keeps its rule. Where this program's is another one, or names newer versions of metrics, it
+// becomes that of the next version, in which what was passed before counts (docs/decisions/0022).
+base::Result<std::string> with_rule(casedb::Library& library, const std::string& case_id,
+                                    const assessment::PassRule& rule) {
+  auto row = casedb::find_case(library, case_id);
+  if (!row) return row.error();
+  if (assessment::json_of_rule(row->rule) == assessment::json_of_rule(rule)) return case_id;
+  auto next = casedb::new_version(library, case_id, kAuthor);
+  if (!next) return next.error();
+  casedb::CaseSetting setting = *row;
+  setting.rule = rule;
+  if (const auto set = casedb::set_setting(library, *next, setting); !set) return set.error();
+  return next;
+}
+
 base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
                                   const char* hits) {
   DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0};
-  for (const casedb::CaseRow& row : casedb::list_cases(library))
-    if (row.title == wanted.title && row.origin == source.origin) answer.case_id = row.case_id;
-  if (answer.case_id.empty()) {
+  const assessment::PassRule rule = with_versions(wanted.setting.rule);
+  answer.case_id = newest_of(library, wanted.title, source.origin);
+  if (!answer.case_id.empty()) {
+    auto versioned = with_rule(library, answer.case_id, rule);
+    if (!versioned) return titled(versioned.error(), answer.title);
+    answer.case_id = std::move(*versioned);
+  } else {
     progress("stored", wanted.title.c_str());
     casedb::NewCase made = source;
     static_cast<casedb::CaseSetting&>(made) = wanted.setting;
-    made.rule = with_versions(wanted.setting.rule);
+    made.rule = rule;
     made.title = wanted.title;
     made.no_burned_in_text = true;  // its CTs are known ones (source_of), looked through when the table was made
     answer.case_id = casedb::add_case(library, made);

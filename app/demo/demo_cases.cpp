@@ -98,7 +98,8 @@ DemoCase find_the_plane() {
       1, "Drill 1: find the plane",
       "Find the ball of water, turn the probe until the needle's way and the ball lie in one picture, then hit it.",
       DemoSource::gel_plane, volume::GelBlock::find_the_plane, -15.0, 29.0);
-  made.setting.rule = rule({"hit >= 1", "vis_joint >= 0.5", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
+  made.setting.rule = rule(
+      {"hit >= 1", "advance_joint_visible_last_20_mm >= 0.8", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
   return made;
 }
 

@@ -6,6 +6,7 @@
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
+#include "assessment/grading/worthwhile.h"
 #include "assessment/registry.h"
 
 namespace seldinger::assessment {
@@ -54,11 +55,11 @@ bool tells_yes_or_no(std::string_view unit) {
   return unit == "bool";
 }
 
-// "; experts: 0–3 mm". Not beside a sentence that says all there is: a yes or no, or none where there should be
-// none.
-std::string experts_clause(const ExpertSet& experts, const MetricBand* band, bool said_all = false) {
+// "; 9 consultants: 0–3 mm". Not beside a sentence that says all there is: a yes or no, or none where there should
+// be none.
+std::string experts_clause(const MetricBand* band, bool said_all = false) {
   if (band == nullptr || tells_yes_or_no(band->unit) || said_all) return "";
-  return "; " + std::string(name_in_sentences(experts)) + ": " + plain_range(band->low, band->high, band->unit);
+  return "; " + std::to_string(band->n) + " consultants: " + plain_range(band->low, band->high, band->unit);
 }
 
 std::string said_of(const Phrase& phrase, double value, const std::string& unit, double other, bool good) {
@@ -81,7 +82,7 @@ Candidate of_missed(const CriterionResult& one, const Phrase& phrase, const Metr
                  phrase.topic,
                  severity_of(info)};
   made.sentence.text = said_of(phrase, *one.value, one.unit, one.criterion.value, false) + pass_clause(one) +
-                       experts_clause(experts, experts.find(info.id, one.criterion.version)) + ".";
+                       experts_clause(experts.find(info.id, one.criterion.version)) + ".";
   made.by_how_much = std::fabs(*one.value - one.criterion.value) / std::max(std::fabs(one.criterion.value), 1.0);
   return made;
 }
@@ -90,9 +91,12 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
   Candidate made{
       {SentenceKind::not_measured, "", one.criterion.metric}, topic, info == nullptr ? 0 : severity_of(*info)};
   const std::string label = info == nullptr ? one.criterion.metric : info->label;
-  made.sentence.text = one.reason == "no_endpoint"
-                           ? "The needle was never fired, so the end of the way cannot be judged."
-                           : "“" + label + "” has no value (" + plain_code(one.reason) + "), so it is not met.";
+  if (one.reason == kOtherVersion)
+    made.sentence.text = "“" + label + "” was measured by another version than the rule's: not comparable.";
+  else if (one.reason == "no_endpoint")
+    made.sentence.text = "The needle was never fired, so the end of the way cannot be judged.";
+  else
+    made.sentence.text = "“" + label + "” has no value (" + plain_code(one.reason) + "), so it is not met.";
   if (one.criterion.critical) made.by_how_much = 1.0;
   return made;
 }
@@ -100,40 +104,28 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
 Candidate of_met(const CriterionResult& one, const Phrase& phrase, const MetricInfo& info,
                  const ExpertSet& experts) {
   Candidate made{{SentenceKind::well, "", info.id}, phrase.topic, severity_of(info)};
-  made.sentence.text = said_of(phrase, *one.value, one.unit, one.criterion.value, true) +
-                       experts_clause(experts, experts.find(info.id, one.criterion.version),
-                                      *one.value == 0.0 && !phrase.zero.empty()) +
-                       ".";
+  made.sentence.text =
+      said_of(phrase, *one.value, one.unit, one.criterion.value, true) +
+      experts_clause(experts.find(info.id, one.criterion.version), *one.value == 0.0 && !phrase.zero.empty()) + ".";
   made.by_how_much = 2.0;  // before what no criterion asks for
   if (one.criterion.critical) made.by_how_much = 3.0;
   return made;
 }
 
-// A difference that is worth a sentence. A band is taken for no narrower, so that experts who all do the same do
-// not make a trifle the largest shortfall. Judgement.
-double worth_saying(std::string_view unit, double edge) {
-  constexpr std::pair<std::string_view, double> kWorth[] = {
-      {"mm", 2.0}, {"s", 5.0},     {"share", 0.1}, {"%", 10.0},    {"deg", 5.0},
-      {"N", 1.0},  {"count", 1.0}, {"1", 1.0},     {"mm²", 100.0}, {"bool", 1.0}};
-  for (const auto& [known, worth] : kWorth)
-    if (known == unit) return worth;
-  return std::max(0.1 * std::fabs(edge), 1e-9);
-}
-
-// Against a band: how far on the wrong side, in widths of it; 0 inside or better.
-double beyond(double value, const MetricBand& band, Direction direction) {
-  const double far = direction == Direction::lower_is_better ? value - band.high : band.low - value;
+// Against a band: how far on the wrong side, in widths of it; 0 inside or better. A band counts for no narrower
+// than what is worth a word, so that consultants who all do the same do not make a trifle the largest shortfall.
+double beyond(double value, const MetricBand& band, const MetricInfo& info) {
+  const double far = info.direction == Direction::lower_is_better ? value - band.high : band.low - value;
   if (!(far > 0.0)) return 0.0;
-  const double edge = direction == Direction::lower_is_better ? band.high : band.low;
-  return far / std::max(band.high - band.low, worth_saying(band.unit, edge));
+  return far / std::max(band.high - band.low, worthwhile(info).difference);
 }
 
 // What is beside a band by less than this share of its width is neither a shortfall nor praised.
 constexpr double kTrifle = 0.25;
 
-std::optional<Candidate> of_band(double value, const MetricBand& band, const Phrase& phrase, const MetricInfo& info,
-                                 const ExpertSet& experts) {
-  const double far = beyond(value, band, info.direction);
+std::optional<Candidate> of_band(double value, const MetricBand& band, const Phrase& phrase,
+                                 const MetricInfo& info) {
+  const double far = beyond(value, band, info);
   if (far > 0.0 && far < kTrifle) return std::nullopt;
   Candidate made{{far > 0.0 ? SentenceKind::shortfall : SentenceKind::well, "", info.id},
                  phrase.topic,
@@ -142,8 +134,7 @@ std::optional<Candidate> of_band(double value, const MetricBand& band, const Phr
                  far > 0.0 ? far : 1.0};
   const double edge = info.direction == Direction::lower_is_better ? band.high : band.low;
   const bool said_all = far == 0.0 && value == 0.0 && !phrase.zero.empty();
-  made.sentence.text =
-      said_of(phrase, value, band.unit, edge, far == 0.0) + experts_clause(experts, &band, said_all) + ".";
+  made.sentence.text = said_of(phrase, value, band.unit, edge, far == 0.0) + experts_clause(&band, said_all) + ".";
   return made;
 }
 
@@ -167,7 +158,7 @@ std::vector<Candidate> candidates_of(const Grade& grade, const Gradable& attempt
     if (info == nullptr || phrase == nullptr || info->direction == Direction::none || found == nullptr ||
         !found->value || !std::isfinite(*found->value))
       continue;
-    if (auto one = of_band(*found->value, band, *phrase, *info, experts)) all.push_back(std::move(*one));
+    if (auto one = of_band(*found->value, band, *phrase, *info)) all.push_back(std::move(*one));
   }
   for (const std::string_view id : kFacts) {
     const MetricInfo* info = find_metric(std::string(id));
@@ -196,11 +187,6 @@ std::string_view name_of(SentenceKind kind) noexcept {
   return kKinds[static_cast<std::size_t>(kind)];
 }
 
-std::string_view name_in_sentences(const ExpertSet& experts) noexcept {
-  if (experts.kind == SetKind::simulated) return "simulated expert, not a standard";
-  return experts.standard() ? "experts" : "experts so far";
-}
-
 std::string limit_text(const Criterion& criterion, std::string_view unit) {
   constexpr std::string_view kWords[] = {"at most ", "at least ", "exactly "};  // as Comparison
   if (tells_yes_or_no(unit)) return criterion.value != 0.0 ? "yes" : "no";
@@ -217,13 +203,18 @@ std::string not_gradable_text(std::string_view reason) {
       {"tracking_jumps", "tracking jumped further than a hand can move"},
       {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
       {"too_short", "it was over before it began"},
+      {kOtherVersion,
+       "its pass rule names another version of a metric than was measured. `seldinger recompute` adds the versions "
+       "in force; a new version of the case names them"},
       {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"}};
   for (const auto& [code, words] : kTexts)
     if (code == reason) return "This attempt is not graded: " + std::string(words) + ".";
   return "This attempt is not graded: " + plain_code(reason) + ".";
 }
 
-std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& experts) {
+std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& set) {
+  const ExpertSet nobody;
+  const ExpertSet& experts = set.standard() ? set : nobody;
   if (!grade.reason.empty()) return {{SentenceKind::not_gradable, not_gradable_text(grade.reason), ""}};
   const std::vector<Candidate> all = candidates_of(grade, attempt, experts);
   std::vector<std::size_t> chosen;

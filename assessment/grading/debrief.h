@@ -17,21 +17,17 @@ std::string_view name_of(SentenceKind kind) noexcept;
 
 struct Sentence {
   SentenceKind kind = SentenceKind::fact;
-  std::string text;       // "Advanced 14 mm with the tip out of the picture; experts: 0–3 mm."
+  std::string text;       // "Advanced 14 mm with the tip out of the picture; 9 consultants: 0–3 mm."
   std::string metric_id;  // what it is about; empty: the attempt
 };
 
 // At most three, and three where there are three things to say; of what is not gradable the one that says why.
-// Two of one topic only where nothing else is left to say; null is never praised. `experts` may be a simulated set
-// (named so in every sentence) or hold no band: then criteria alone speak.
-std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& experts);
+// Two of one topic only where nothing else is left to say; null is never praised. Only a standard's numbers are
+// told; of any other set none, and criteria alone speak.
+std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& set);
 
 // "at most 5 mm", "at least 80 %", "exactly 1", "none" (at most 0), "yes".
 std::string limit_text(const Criterion& criterion, std::string_view unit);
-
-// How a set is called in front of its band: "experts", "experts so far" (too few for a standard), "simulated
-// expert, not a standard".
-std::string_view name_in_sentences(const ExpertSet& experts) noexcept;
 
 // Why an attempt is not graded, as a sentence; `reason` as of a Grade.
 std::string not_gradable_text(std::string_view reason);

@@ -33,7 +33,7 @@ CriterionResult result_of(const Criterion& criterion, std::span<const MetricValu
   if (found == nullptr) {
     const bool other =
         std::any_of(metrics.begin(), metrics.end(), [&](const auto& m) { return m.id == criterion.metric; });
-    result.reason = other ? "other_version" : "not_stored";
+    result.reason = other ? kOtherVersion : "not_stored";
     return result;
   }
   result.unit = found->unit;
@@ -102,10 +102,15 @@ Grade grade(const PassRule& rule, const Gradable& attempt) {
   }
   std::stable_sort(made.criteria.begin(), made.criteria.end(),
                    [](const auto& a, const auto& b) { return place_of(a) < place_of(b); });
+  // Nothing is told of a criterion of another version; what is not met fails the attempt whatever that would be.
+  const std::size_t not_comparable = static_cast<std::size_t>(std::count_if(
+      made.criteria.begin(), made.criteria.end(), [](const auto& one) { return one.reason == kOtherVersion; }));
+  const bool all_others_met = made.met() + not_comparable == made.criteria.size();
+  if (made.reason.empty() && not_comparable > 0 && all_others_met) made.reason = kOtherVersion;
   if (!made.reason.empty())
     made.verdict = Verdict::not_gradable;
   else
-    made.verdict = made.met() == made.criteria.size() ? Verdict::passed : Verdict::failed;
+    made.verdict = all_others_met ? Verdict::passed : Verdict::failed;
   return made;
 }
 

@@ -15,6 +15,8 @@
 
 namespace seldinger::assessment {
 
+inline constexpr const char* kOtherVersion = "other_version";
+
 enum class Verdict { passed, failed, not_gradable, no_rule };
 std::string_view name_of(Verdict verdict) noexcept;
 
@@ -26,8 +28,8 @@ struct CriterionResult {
   Outcome outcome = Outcome::not_measured;
   std::optional<double> value;  // of the criterion's version of the metric
   std::string unit;             // the metric's; empty for one that is not known
-  // Of not_measured, stable snake_case: the null's own reason, `other_version` (only other versions of the metric
-  // are stored), `not_stored`, `not_finite`.
+  // Of not_measured, stable snake_case: the null's own reason, kOtherVersion (only other versions of the metric are
+  // stored, which are not comparable), `not_stored`, `not_finite`.
   std::string reason;
   bool of_the_time_limit = false;  // the case's limit, not its rule, asks for it
 
@@ -36,7 +38,8 @@ struct CriterionResult {
 
 struct Grade {
   Verdict verdict = Verdict::no_rule;
-  // Why it is not gradable, with a rule or without: as why_not_gradable, or how it was cut off; empty otherwise.
+  // Why it is not gradable, with a rule or without: as why_not_gradable, how it was cut off, or kOtherVersion (all
+  // is met but what is stored in another version than the rule's); empty otherwise.
   std::string reason;
   // Critical errors first, then critical ones without a value, missed ones, ones without a value, and those met;
   // within each as the rule has them. Empty without a rule; told, too, of what is not gradable.

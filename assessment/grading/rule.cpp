@@ -26,6 +26,12 @@ std::string number_text(double value) {
   return {buffer, end};
 }
 
+// What stands in a text that names no version; 1 of a metric that is not known.
+int version_in_force(const std::string& metric) {
+  const MetricInfo* info = find_metric(metric);
+  return info == nullptr ? 1 : info->version;
+}
+
 bool has_rule(std::span<const cases::Structure> structures, cases::StructureRule rule) {
   return std::any_of(structures.begin(), structures.end(),
                      [&](const cases::Structure& one) { return one.rule == rule; });
@@ -47,7 +53,8 @@ std::optional<Comparison> comparison_from(std::string_view sign) noexcept {
 
 std::string text_of(const Criterion& criterion) {
   std::string text = criterion.metric;
-  if (criterion.version != 1) text.append("@").append(std::to_string(criterion.version));
+  if (criterion.version != version_in_force(criterion.metric))
+    text.append("@").append(std::to_string(criterion.version));
   return text.append(" ").append(sign_of(criterion.comparison)).append(" ").append(number_text(criterion.value));
 }
 
@@ -57,13 +64,13 @@ std::optional<Criterion> criterion_from(std::string_view text) {
     if (at == text.npos) continue;
     Criterion criterion;
     criterion.comparison = *comparison_from(sign);
+    std::optional<int> version;
     std::string_view name = trimmed(text.substr(0, at));
     const std::string_view value = trimmed(text.substr(at + sign.size()));
     if (const std::size_t mark = name.find('@'); mark != name.npos) {
-      const std::string_view version = name.substr(mark + 1);
-      const auto read = std::from_chars(version.data(), version.data() + version.size(), criterion.version);
-      if (read.ec != std::errc() || read.ptr != version.data() + version.size() || criterion.version < 1)
-        return std::nullopt;
+      const std::string_view number = name.substr(mark + 1);
+      const auto read = std::from_chars(number.data(), number.data() + number.size(), version.emplace());
+      if (read.ec != std::errc() || read.ptr != number.data() + number.size() || *version < 1) return std::nullopt;
       name = name.substr(0, mark);
     }
     const bool is_id = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
@@ -74,6 +81,7 @@ std::optional<Criterion> criterion_from(std::string_view text) {
         !std::isfinite(criterion.value))
       return std::nullopt;
     criterion.metric = name;
+    criterion.version = version.value_or(version_in_force(criterion.metric));
     return criterion;
   }
   return std::nullopt;

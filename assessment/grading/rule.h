@@ -32,8 +32,8 @@ struct PassRule {
 std::string_view sign_of(Comparison comparison) noexcept;  // "<=", ">=", "="
 std::optional<Comparison> comparison_from(std::string_view sign) noexcept;
 
-// "core_in_target >= 10" (the version is told where it is not 1: "hit@2 >= 1"), and back. Nothing when it is not
-// such a text.
+// "core_in_target >= 10", and back: without a version the one that is in force, any other is told ("hit@2 >= 1").
+// Nothing when it is not such a text. What is stored names every version (rule_json.h).
 std::string text_of(const Criterion& criterion);
 std::optional<Criterion> criterion_from(std::string_view text);
 

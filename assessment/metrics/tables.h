@@ -18,6 +18,7 @@ std::span<const MetricInfo> puncture_metrics();
 std::span<const MetricInfo> visibility_metrics();
 std::span<const MetricInfo> advance_metrics();
 std::span<const MetricInfo> probe_metrics();
+std::span<const MetricInfo> last_advance_metrics();
 std::span<const MetricInfo> path_metrics();
 std::span<const MetricInfo> force_metrics();
 std::span<const MetricInfo> time_metrics();

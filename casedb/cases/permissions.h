@@ -38,6 +38,8 @@ enum class Action {
   release_curriculum,  // publishes it
   remove_draft_curriculum,
   retire_curriculum,
+  // Standards.
+  set_standard,  // "own": made of one's own attempts, too
 };
 
 // A set of roles.
@@ -174,6 +176,11 @@ inline constexpr Permission kPermissions[] = {
     {Action::release_curriculum, "publish_curriculum", "a director publishes a curriculum", {{{Role::director}}}},
     {Action::remove_draft_curriculum, "remove_draft_curriculum", "a mentor takes a draft away", {{{Role::mentor}}}},
     {Action::retire_curriculum, "retire_curriculum", "a director retires a curriculum", {{{Role::director}}}},
+
+    {Action::set_standard,
+     "set_standard",
+     "a director sets a standard that none of their own attempts is part of",
+     {{{Role::director}, {}, Whose::anothers}}},
 };
 
 constexpr bool may(Role role, Action action, const Subject& subject = {}) noexcept {

@@ -17,10 +17,10 @@ constexpr TravellingTable kTravelling[] = {
     {"case_dropped", kOfCase, {}},         {"lesion", kOfCase, {}},         {"structure", kOfCase, {}},
     {"case_label_map", kOfCase, {}},
 };
-constexpr std::string_view kStaying[] = {"person",          "account",        "attempt",      "recording_chunk",
-                                         "metric_value",    "open_attempt",   "open_chunk",   "servo_record",
-                                         "case_decision",   "attempt_step",   "person_level", "curriculum",
-                                         "curriculum_item", "curriculum_gate"};
+constexpr std::string_view kStaying[] = {
+    "person",          "account",         "attempt",       "recording_chunk",  "metric_value", "open_attempt",
+    "open_chunk",      "servo_record",    "case_decision", "attempt_step",     "person_level", "curriculum",
+    "curriculum_item", "curriculum_gate", "standard",      "standard_attempt", "standard_band"};
 
 }  // namespace
 

@@ -86,10 +86,6 @@ void sum_up(ComparedGroup& group, const Comparison& comparison) {
   }
 }
 
-auto task_of(const AttemptRow& row) {
-  return std::tuple(row.lesion_id, row.picture.modality, row.approach, row.instrument.kind);
-}
-
 ComparedGroup& group_of(std::vector<ComparedGroup>& groups, const AttemptRow& row) {
   const bool person = by_a_person(row);
   const auto found = std::find_if(groups.begin(), groups.end(), [&](const ComparedGroup& one) {

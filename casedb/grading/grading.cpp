@@ -1,54 +1,17 @@
 #include "casedb/grading/grading.h"
 
+#include <algorithm>
+
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
-namespace {
-
-using assessment::SetKind;
-
-// The newest versions first, so that whoever looks for one by id alone finds that.
-std::vector<MetricValue> every_version(const AttemptRow& attempt) {
-  std::vector<MetricValue> all = attempt.metrics;
-  all.insert(all.end(), attempt.older_metrics.begin(), attempt.older_metrics.end());
-  return all;
-}
-
-// How an attempt ended through no decision of whoever made it.
-std::string_view cut_off_of(const AttemptRow& attempt) {
-  if (attempt.end == AttemptEnd::interrupted) return "interrupted";
-  if (attempt.end == AttemptEnd::device_lost) return "device_lost";
-  return "";
-}
-
-auto graded_task_of(const AttemptRow& row) {
-  return std::tuple(row.case_id, row.lesion_id, row.picture.modality, row.approach, row.instrument.kind);
-}
-
-assessment::ExpertAttempt expert_attempt(const AttemptRow& row) {
-  return {row.attempt_id, row.person_id.value_or(""), row.started_us, every_version(row)};
-}
-
-assessment::ExpertSet set_of(Library& library, const AttemptRow& attempt, SetKind kind) {
-  std::vector<assessment::ExpertAttempt> experts;
-  for (const AttemptRow& row : list_expert_attempts(library, attempt.case_id, kind))
-    if (graded_task_of(row) == graded_task_of(attempt) && cut_off_of(row).empty())
-      experts.push_back(expert_attempt(row));
-  return assessment::expert_set(kind, std::move(experts));
-}
-
-}  // namespace
 
 bool has_standard(Library& library, const CaseRow& row) {
-  if (row.rule.criteria.empty()) return false;
-  std::map<std::string, std::vector<assessment::ExpertAttempt>> of_lesion;
-  for (const AttemptRow& one : list_expert_attempts(library, row.case_id, SetKind::consultants))
-    if (one.picture.modality == row.modality && one.approach == row.approach &&
-        one.instrument.kind == row.instrument.kind && cut_off_of(one).empty())
-      of_lesion[one.lesion_id].push_back(expert_attempt(one));
-  for (auto& [lesion_id, attempts] : of_lesion)
-    if (assessment::expert_set(SetKind::consultants, std::move(attempts)).standard()) return true;
-  return false;
+  const std::vector<Standard> standards = list_standards(library, row.case_id);
+  return !row.rule.criteria.empty() && std::any_of(standards.begin(), standards.end(), [&](const Standard& one) {
+    return one.modality == name_of(row.modality) && one.approach == name_of(row.approach) &&
+           one.instrument == name_of(row.instrument.kind);
+  });
 }
 
 bool by_a_person(const AttemptHead& attempt) noexcept {
@@ -68,14 +31,16 @@ const CaseSetting& Grader::setting_of(const std::string& case_id) {
   return settings_.emplace(case_id, *row).first->second;
 }
 
-const Grader::Experts& Grader::experts_of(const AttemptRow& attempt) {
-  const Task task = graded_task_of(attempt);
+const assessment::ExpertSet& Grader::experts_of(const AttemptRow& attempt) {
+  const Task task = task_of(attempt);
   const auto known = experts_.find(task);
   if (known != experts_.end()) return known->second;
-  Experts experts;
-  experts.consultants = set_of(*library_, attempt, SetKind::consultants);
-  if (experts.consultants.bands.empty()) experts.simulated = set_of(*library_, attempt, SetKind::simulated);
-  return experts_.emplace(task, std::move(experts)).first->second;
+  auto standard = standard_of(*library_, task);
+  if (!standard) {
+    standard = consultants_of(*library_, task);
+    standard->bands.clear();
+  }
+  return experts_.emplace(task, std::move(*standard)).first->second;
 }
 
 assessment::Grade Grader::grade(const AttemptRow& attempt) {
@@ -86,12 +51,11 @@ AttemptGrade Grader::look_at(const AttemptRow& attempt) {
   const std::vector<MetricValue> metrics = every_version(attempt);
   const CaseSetting& setting = setting_of(attempt.case_id);
   const assessment::Gradable gradable{metrics, cut_off_of(attempt), setting.time_limit_s};
-  const Experts& experts = experts_of(attempt);
   AttemptGrade made;
+  made.experts = experts_of(attempt);
+  made.provisional = !made.experts.standard();
   made.grade = assessment::grade(setting.rule, gradable);
-  made.provisional = !experts.consultants.standard();
-  made.experts = experts.simulated.bands.empty() ? experts.consultants : experts.simulated;
-  made.score = assessment::score(experts.consultants, made.grade, gradable,
+  made.score = assessment::score(made.experts, made.grade, gradable,
                                  by_a_person(attempt) ? std::string_view(*attempt.person_id) : std::string_view());
   made.debrief = assessment::debrief(made.grade, gradable, made.experts);
   return made;

@@ -3,19 +3,19 @@
 
 #include <map>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "assessment/grading/debrief.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
+#include "casedb/grading/standards.h"
 
 namespace seldinger::casedb {
 
 // By the rule of the case that the attempt was made on.
 assessment::Grade grade_of(const AttemptRow& attempt, const CaseSetting& setting);
 
-// Whether consultants have set the standard for a case as it is set: at one of its targets, with its own guidance.
+// Whether there is a standard for a case as it is set: at one of its targets, with its own guidance.
 bool has_standard(Library& library, const CaseRow& row);
 
 // Whether a person made it; what was simulated in a person's name is simulated.
@@ -23,11 +23,10 @@ bool by_a_person(const AttemptHead& attempt) noexcept;
 
 struct AttemptGrade {
   assessment::Grade grade;
-  // Of the same target, guidance, approach and kind of needle: the consultants', and where these have no band, the
-  // simulated expert's, which is no standard.
+  // The standard of its task; where there is none, who has made how many attempts towards one, without a number.
   assessment::ExpertSet experts;
-  bool provisional = true;  // too few consultants have set the standard
-  assessment::Score score;  // against consultants only
+  bool provisional = true;  // nobody has set a standard
+  assessment::Score score;
   std::vector<assessment::Sentence> debrief;
 };
 
@@ -40,16 +39,12 @@ class Grader {
   AttemptGrade look_at(const AttemptRow& attempt);
 
  private:
-  using Task = std::tuple<std::string, std::string, cases::Modality, cases::Approach, cases::InstrumentKind>;
-  struct Experts {
-    assessment::ExpertSet consultants, simulated;
-  };
   const CaseSetting& setting_of(const std::string& case_id);
-  const Experts& experts_of(const AttemptRow& attempt);
+  const assessment::ExpertSet& experts_of(const AttemptRow& attempt);
 
   Library* library_;
   std::map<std::string, CaseSetting> settings_;
-  std::map<Task, Experts> experts_;
+  std::map<Task, assessment::ExpertSet> experts_;
 };
 
 }  // namespace seldinger::casedb

@@ -1,5 +1,7 @@
 #include "casedb/json/grading_json.h"
 
+#include <algorithm>
+
 #include "casedb/database/values_json.h"
 
 namespace seldinger::casedb {
@@ -22,16 +24,16 @@ Json json_of(const assessment::CriterionResult& one) {
 
 Json json_of(const assessment::Score& score) {
   Json parts = Json::array();
-  std::size_t weighed = 0;
-  for (const assessment::ScorePart& part : score.parts) weighed += part.reason == "no_spread" ? 0U : 1U;
+  const double weight = 1.0 / static_cast<double>(std::max<std::size_t>(score.parts.size(), 1));
   for (const assessment::ScorePart& part : score.parts)
     parts.push_back({{"metric", part.id},
                      {"version", part.version},
                      {"unit", part.unit},
-                     {"weight", part.reason == "no_spread" ? 0.0 : 1.0 / static_cast<double>(weighed)},
+                     {"weight", weight},
                      {"value", maybe(part.value)},
                      {"mean", part.mean},
                      {"sd", part.sd},
+                     {"least_sd", part.least_sd},
                      {"z", maybe(part.z)},
                      {"reason", maybe(part.reason)}});
   return {{"value", maybe(score.value)},
@@ -62,18 +64,22 @@ Json json_of_experts(const assessment::ExpertSet& experts) {
   if (experts.id.empty()) return nullptr;
   Json bands = Json::array();
   for (const assessment::MetricBand& band : experts.bands)
-    bands.push_back({{"metric", band.id},
-                     {"version", band.version},
-                     {"unit", band.unit},
-                     {"n", band.n},
-                     {"low", band.low},
-                     {"high", band.high},
-                     {"mean", band.mean},
-                     {"sd", band.sd}});
-  return {{"kind", experts.kind == assessment::SetKind::consultants ? "consultants" : "simulated"},
+    bands.push_back(
+        {{"metric", band.id},
+         {"version", band.version},
+         {"unit", band.unit},
+         {"n", band.n},
+         {"low", band.low},
+         {"high", band.high},
+         {"mean", band.mean},
+         {"sd", band.sd},
+         {"tolerance", band.tolerance ? Json{band.tolerance->low, band.tolerance->high} : Json(nullptr)}});
+  return {{"kind", "consultants"},
           {"standard", experts.standard()},
+          {"standard_id", maybe(experts.standard_id)},
+          {"set_us", experts.standard() ? Json(experts.set_us) : Json(nullptr)},
           {"set_id", experts.id},
-          {"people", experts.kind == assessment::SetKind::consultants ? Json(experts.person_ids.size()) : Json(0)},
+          {"people", experts.people},
           {"newest_us", experts.newest_us},
           {"attempts", experts.attempt_ids},
           {"bands", bands}};

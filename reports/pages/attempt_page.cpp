@@ -68,13 +68,13 @@ void add_definitions(Html& html, const casedb::AttemptRow& row) {
 // As many rows of a group are read at a glance; the others are folded away.
 constexpr std::size_t kLeadingRows = 4;
 
-// What experts do, under the value it belongs to.
+// What consultants do, under the value it belongs to.
 void add_band(Html& html, const casedb::MetricValue& metric, const assessment::ExpertSet& experts) {
   const std::string band = band_text(experts, metric.id, metric.version);
-  if (band.empty()) return;
-  html.raw(" <span class=\"band\">")
-      .text((experts.kind == assessment::SetKind::simulated ? "simulated expert " : "experts ") + band)
-      .raw("</span>");
+  const std::string beside = tolerance_text(experts, metric.id, metric.version);
+  if (band.empty() && beside.empty()) return;
+  html.raw(" <span class=\"band\">").text(band.empty() ? beside : "consultants " + band + " (" + beside + ")");
+  html.raw("</span>");
 }
 
 void add_table(Html& html, const std::string& caption, std::span<const casedb::MetricValue* const> metrics,

@@ -107,10 +107,10 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_table(html, "To pass");
   for (const assessment::Criterion& one : row.rule.criteria)
     add_fact(html, metric_label(one.metric), bound_text(one));
-  // clinical.md, "Passing": eight consultants with three attempts each; until then nobody's standard.
+  // Until a director sets one it is nobody's standard (casedb/grading/standards.h).
   add_fact(html, "Standing",
            row.rule.criteria.empty() ? ""
-           : parts.provisional       ? "provisional: too few consultants have set the standard"
+           : parts.provisional       ? "provisional: no standard of consultants has been set"
                                      : "consultants have set the standard");
   end_table(html);
 

@@ -25,17 +25,17 @@ void add_head(Html& html, const Comparison& comparison, std::string_view first) 
   html.raw("<thead><tr><th scope=\"col\">").text(first).raw("</th>");
   for (const ComparedGroup& group : comparison.groups)
     html.raw("<th scope=\"col\" class=\"number\">").name(group_label(group)).raw("</th>");
-  if (!comparison.experts.bands.empty())
-    html.raw("<th scope=\"col\" class=\"number\">")
-        .text(comparison.experts.kind == assessment::SetKind::simulated ? "Band of simulated expert" : "Experts")
-        .raw("</th>");
+  if (comparison.experts.standard()) html.raw("<th scope=\"col\" class=\"number\">Consultants</th>");
   html.raw("</tr></thead>\n");
 }
 
 void add_band_cell(Html& html, const Comparison& comparison, std::string_view id, int version) {
-  if (comparison.experts.bands.empty()) return;
+  if (!comparison.experts.standard()) return;
   const std::string band = band_text(comparison.experts, id, version);
-  html.raw("<td class=\"number\">").text(band.empty() ? "–" : band).raw("</td>");
+  const std::string beside = tolerance_text(comparison.experts, id, version);
+  html.raw("<td class=\"number\">").text(band.empty() ? "–" : band);
+  if (!beside.empty()) html.raw(" <span class=\"why\">").text(beside).raw("</span>");
+  html.raw("</td>");
 }
 
 void add_count_row(Html& html, const Comparison& comparison, std::string_view label,
@@ -43,7 +43,7 @@ void add_count_row(Html& html, const Comparison& comparison, std::string_view la
   html.raw("<tr><th scope=\"row\">").text(label).raw("</th>");
   for (const ComparedGroup& group : comparison.groups)
     html.raw("<td class=\"number\">").text(cell(group)).raw("</td>");
-  if (!comparison.experts.bands.empty()) html.raw("<td></td>");
+  if (comparison.experts.standard()) html.raw("<td></td>");
   html.raw("</tr>\n");
 }
 
@@ -180,7 +180,9 @@ std::string compare_page(const casedb::Comparison& comparison, std::string_view 
     html.raw(
         "<p class=\"note\">Simulated operators test the software. They set no standard, and that they differ says "
         "nothing about validity.</p>\n");
-  html.raw("<p class=\"note\">").text(experts_text(comparison.experts)).raw("</p>\n");
+  html.raw("<p class=\"note\">").text(experts_text(comparison.experts));
+  if (comparison.experts.standard()) html.text(" " + bands_note());
+  html.raw("</p>\n");
   if (comparison.other_tasks > 0)
     html.raw("<p class=\"note\">Left out: ")
         .text(std::to_string(comparison.other_tasks))

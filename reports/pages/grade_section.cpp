@@ -28,7 +28,7 @@ void add_verdict(Html& html, const casedb::AttemptGrade& grade) {
   const bool judged = grade.grade.verdict == Verdict::passed || grade.grade.verdict == Verdict::failed;
   if (judged && grade.provisional)
     html.raw(
-        " <span class=\"mark\">provisional</span> <span class=\"why\">too few consultants have set the standard "
+        " <span class=\"mark\">provisional</span> <span class=\"why\">no standard of consultants has been set "
         "for this case</span>");
   html.raw("</p>\n");
 }
@@ -49,12 +49,12 @@ void add_criterion(Html& html, const CriterionResult& one, const assessment::Exp
   else
     html.raw("— <span class=\"why\">").text(assessment::plain_code(one.reason)).raw("</span>");
   html.raw("</td><td class=\"number\" data-label=\"To pass\">").text(needed_text(one));
-  if (!experts.bands.empty()) {
-    html.raw("</td><td class=\"number\" data-label=\"")
-        .text(experts.kind == assessment::SetKind::simulated ? "Simulated expert" : "Experts")
-        .raw("\">");
+  if (experts.standard()) {
+    html.raw("</td><td class=\"number\" data-label=\"Consultants\">");
     const std::string band = band_text(experts, one.criterion.metric, one.criterion.version);
+    const std::string beside = tolerance_text(experts, one.criterion.metric, one.criterion.version);
     html.text(band.empty() ? "–" : band);
+    if (!beside.empty()) html.raw(" <span class=\"why\">").text(beside).raw("</span>");
   }
   html.raw("</td><td data-label=\"Result\">");
   switch (one.outcome) {
@@ -73,37 +73,37 @@ void add_criterion(Html& html, const CriterionResult& one, const assessment::Exp
 
 void add_criteria(Html& html, const casedb::AttemptGrade& grade) {
   if (grade.grade.criteria.empty()) return;
-  const bool simulated = grade.experts.kind == assessment::SetKind::simulated;
   html.raw(
       "<table class=\"list criteria\">\n<caption>To pass, every criterion must be met. Nothing makes up for a "
       "critical "
       "error.</caption>\n<thead><tr><th scope=\"col\">Criterion</th><th scope=\"col\" class=\"number\">You</th>"
       "<th scope=\"col\" class=\"number\">To pass</th>");
-  if (!grade.experts.bands.empty()) {
-    html.raw("<th scope=\"col\" class=\"number\">").text(simulated ? "Simulated expert" : "Experts").raw("</th>");
-  }
+  if (grade.experts.standard()) html.raw("<th scope=\"col\" class=\"number\">Consultants</th>");
   html.raw("<th scope=\"col\">Result</th></tr></thead>\n<tbody>\n");
   for (const CriterionResult& one : grade.grade.criteria) add_criterion(html, one, grade.experts);
   html.raw("</tbody>\n</table>\n");
 }
 
 void add_score(Html& html, const casedb::AttemptGrade& grade) {
-  html.raw("<details><summary>Experts and score</summary>\n<p class=\"note\">")
-      .text(experts_text(grade.experts))
-      .raw(" A band runs from the 10th to the 90th percentile of the people's medians.</p>\n<p>Score: ")
+  html.raw("<details><summary>Standard and score</summary>\n<p class=\"note\">").text(experts_text(grade.experts));
+  if (grade.experts.standard()) html.text(" " + bands_note());
+  html.raw("</p>\n<p>Score: ")
       .text(score_text(grade.score))
       .raw(". <span class=\"why\">It stands beside the result and changes nothing of it.</span></p>\n");
   if (grade.score.value) {
     html.raw(
         "<table>\n<caption>What the score is made of</caption>\n<thead><tr><th scope=\"col\">Metric</th><th "
-        "scope=\"col\" class=\"number\">You</th><th scope=\"col\" class=\"number\">Experts’ mean</th><th "
+        "scope=\"col\" class=\"number\">You</th><th scope=\"col\" class=\"number\">Consultants’ mean</th><th "
+        "scope=\"col\" class=\"number\">SD</th><th scope=\"col\" class=\"number\">SD at least</th><th "
         "scope=\"col\" class=\"number\">z</th></tr></thead>\n<tbody>\n");
     for (const assessment::ScorePart& part : grade.score.parts) {
       html.raw("<tr><th scope=\"row\">").text(metric_label(part.id)).raw("</th><td class=\"number\">");
       html.text(part.value ? assessment::plain_value(*part.value, part.unit) : "—");
       html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.mean, part.unit));
+      html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.sd, part.unit));
+      html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.least_sd, part.unit));
       html.raw("</td><td class=\"number\">")
-          .text(part.z ? number_text(*part.z, 1) : "not counted: the experts do not differ")
+          .text(part.z ? number_text(*part.z, 1) : assessment::plain_code(part.reason))
           .raw("</td></tr>\n");
     }
     html.raw("</tbody>\n</table>\n<p class=\"note\">").text(assessment::kScoreFormula).raw("</p>\n");

@@ -46,10 +46,10 @@ std::string score_text(const assessment::Score& score) {
     return text;
   }
   constexpr std::pair<std::string_view, std::string_view> kReasons[] = {
-      {"no_expert_set", "too few consultants have made attempts"},
+      {"no_expert_set", "consultants have set no standard"},
       {"of_the_set", "whose attempts set the standard is not scored against it"},
       {"missing_metric", "a metric that it needs has no value"},
-      {"no_spread", "the consultants do not differ"}};
+      {"other_version", "the standard is of another version of a metric; recompute, or set the standard anew"}};
   for (const auto& [code, words] : kReasons)
     if (code == score.reason) return "none: " + std::string(words);
   return "none: the attempt is not graded";
@@ -57,24 +57,41 @@ std::string score_text(const assessment::Score& score) {
 
 std::string experts_text(const assessment::ExpertSet& set) {
   const std::string needed = std::to_string(assessment::kStandardConsultants) + " consultants with " +
-                             std::to_string(assessment::kStandardAttempts) + " attempts each";
-  if (set.kind == assessment::SetKind::simulated)
-    return "Simulated expert, not a standard: " + counted(set.attempt_ids.size(), "attempt", "attempts") +
-           ". A standard takes " + needed + ".";
-  if (set.id.empty()) return "No expert has set a standard yet; that takes " + needed + ".";
-  std::string text = counted(set.person_ids.size(), "consultant", "consultants") + ", " +
-                     counted(set.attempt_ids.size(), "attempt", "attempts") + ", the last on " +
-                     utc_text(set.newest_us).substr(0, 10) + ", set " + set.id + ".";
-  if (set.bands.empty())
-    text += " Bands are shown from " + std::to_string(assessment::kLeastShown) + " consultants on.";
-  if (!set.standard()) text += " Provisional: a standard takes " + needed + ".";
-  return text;
+                             std::to_string(assessment::kFamiliarAttempts) + " completed attempts each";
+  if (set.standard())
+    return "Standard of " + counted(set.people, "consultant", "consultants") + ", the last " +
+           std::to_string(assessment::kCountedAttempts) + " attempts of each, set on " +
+           utc_text(set.set_us).substr(0, 10) + ", " + set.id + ".";
+  if (set.people == 0) return "No expert has set a standard yet; that takes " + needed + ".";
+  if (set.enough_people())
+    return "Provisional: " + counted(set.people, "consultant has", "consultants have") +
+           " made enough attempts; a director can set the standard.";
+  return "Provisional: " + counted(set.people, "consultant has", "consultants have") +
+         " made enough attempts; a standard takes " + needed + ".";
 }
 
 std::string band_text(const assessment::ExpertSet& set, std::string_view metric_id, int version) {
-  const assessment::MetricBand* band = set.find(metric_id, version);
+  const assessment::MetricBand* band = set.standard() ? set.find(metric_id, version) : nullptr;
   if (band == nullptr || band->unit == "bool") return "";
   return assessment::plain_range(band->low, band->high, band->unit);
+}
+
+std::string tolerance_text(const assessment::ExpertSet& set, std::string_view metric_id, int version) {
+  if (set.standard() && set.only_other_version(metric_id, version))
+    return "not comparable: the standard is of another version of this metric";
+  const assessment::MetricBand* band = set.standard() ? set.find(metric_id, version) : nullptr;
+  if (band == nullptr || !band->tolerance) return "";
+  return "n = " + std::to_string(band->n) + ", tolerance " +
+         assessment::plain_range(band->tolerance->low, band->tolerance->high, band->unit);
+}
+
+std::string bands_note() {
+  const auto percent = [](double share) { return number_text(100.0 * share, 0) + " %"; };
+  return "A band runs from the 10th to the 90th percentile of n consultants, one value each: the median of their "
+         "last " +
+         std::to_string(assessment::kCountedAttempts) + " attempts. Its tolerance interval holds " +
+         percent(assessment::kToleranceShare) + " of all consultants with " +
+         percent(assessment::kToleranceConfidence) + " confidence, were they normally distributed.";
 }
 
 }  // namespace seldinger::reports

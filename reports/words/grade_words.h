@@ -11,10 +11,14 @@ namespace seldinger::reports {
 std::string verdict_text(const assessment::Grade& grade);  // "Passed", "Not passed: a critical error", …
 std::string verdict_word(
     assessment::Verdict verdict);  // for lists: "Passed", "Not passed", "Not graded", "No rule"
-std::string score_text(const assessment::Score& score);      // "63 of 100", "none: no consultants' set"
+std::string score_text(const assessment::Score& score);      // "63 of 100", "none: no standard"
 std::string experts_text(const assessment::ExpertSet& set);  // who they are, how many, since when
 
-// The band of this version of a metric, "0–3 mm"; empty where there is none, or for a yes and no.
+// The standard's band of this version of a metric, "0–3 mm"; empty where there is none, or for a yes and no.
 std::string band_text(const assessment::ExpertSet& set, std::string_view metric_id, int version);
+// Beside it: "n = 9, tolerance 0–5 mm"; that it is not comparable, where the standard has another version of the
+// metric; empty where there is no band.
+std::string tolerance_text(const assessment::ExpertSet& set, std::string_view metric_id, int version);
+std::string bands_note();  // what bands and tolerance intervals are
 
 }  // namespace seldinger::reports

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "assessment/grading/rule.h"
+#include "assessment/registry.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/database/uuid.h"
 #include "casedb/people/people.h"
@@ -27,6 +28,11 @@ class GradedLibrary : public testing::Test {
   std::string user(const std::string& name, Role role) {
     return add_user(library_, name, role, "a long password").value();
   }
+  // As it is measured now.
+  static MetricValue metric(const char* id, std::optional<double> value) {
+    const assessment::MetricInfo* info = assessment::find_metric(id);
+    return {id, info->version, value, info->unit, value ? "" : "no_endpoint"};
+  }
   NewAttempt new_attempt(const std::optional<std::string>& person_id, std::optional<double> hit, double time_s) {
     NewAttempt made = sample_attempt(case_id_, lesion_id_);
     made.recording = sample_recording(20);
@@ -34,11 +40,13 @@ class GradedLibrary : public testing::Test {
     made.person_id = person_id;
     made.operator_name = person_id ? kPersonOperator : "novice";
     made.started_us = now_us();
-    made.metrics = {{"gap_share", 2, 0.0, "share", ""},
-                    {"sample_rate_p5", 1, 1000.0, "Hz", ""},
-                    {"tracking_jumps", 1, 0.0, "count", ""},
-                    {"hit", 1, hit, "bool", hit ? "" : "no_endpoint"},
-                    {"time_total", 1, time_s, "s", ""}};
+    made.end = AttemptEnd::fired;
+    const CaseRow row = find_case(library_, case_id_).value();
+    made.approach = row.approach;
+    made.instrument.kind = row.instrument.kind;
+    made.picture.modality = row.modality;
+    made.metrics = {metric("gap_share", 0.0), metric("sample_rate_p5", 1000.0), metric("tracking_jumps", 0.0),
+                    metric("hit", hit), metric("time_total", time_s)};
     return made;
   }
   std::string attempt(const std::optional<std::string>& person_id, std::optional<double> hit, double time_s) {

@@ -7,6 +7,7 @@
 
 #include "app/cli/error_codes.h"
 #include "app/commands.h"
+#include "assessment/grading/worthwhile.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
@@ -27,6 +28,10 @@ TEST(Docs, CommandsAreTheTable) {
 
 TEST(Docs, MetricsAreTheRegistry) {
   EXPECT_EQ(file("docs/metrics.md"), seldinger::assessment::metrics_markdown());
+}
+
+TEST(Docs, DifferencesAreTheTable) {
+  EXPECT_EQ(file("docs/differences.md"), seldinger::assessment::worthwhile_markdown());
 }
 
 TEST(Docs, StepsAreTheTables) {

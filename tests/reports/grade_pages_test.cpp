@@ -13,7 +13,6 @@
 namespace seldinger::reports {
 namespace {
 
-using assessment::SetKind;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -44,13 +43,15 @@ casedb::AttemptGrade failed_grade() {
   return grade;
 }
 
-void give_band(casedb::AttemptGrade& grade, SetKind kind, std::size_t people) {
-  grade.experts.kind = kind;
+void give_standard(casedb::AttemptGrade& grade, std::size_t people) {
+  grade.experts.standard_id = "s";
   grade.experts.id = "C-0123";
-  grade.experts.newest_us = 1772373909000000;
-  grade.experts.person_ids.resize(people);
-  grade.experts.attempt_ids.resize(3 * people);
-  grade.experts.bands = {{"skin_punctures", "count", 1, people, 1.0, 2.0, 1.2, 0.3}};
+  grade.experts.set_us = 1772373909000000;
+  grade.experts.people = people;
+  grade.experts.attempts = 3 * people;
+  grade.experts.bands = {
+      {"skin_punctures", "count", 1, people, 1.0, 2.0, 1.2, 0.3, assessment::Interval{0.3, 2.1}}};
+  grade.provisional = false;
 }
 
 TEST(GradeOnPage, SentencesComeBeforeEverythingElse) {
@@ -83,37 +84,53 @@ TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
   EXPECT_THAT(table, Not(HasSubstr("Experts"))) << "there are none";
 }
 
-TEST(GradeOnPage, NamesWhoseBandItIs) {
+TEST(GradeOnPage, ABandHasItsNumberOfPeopleAndItsToleranceInterval) {
   AttemptView view = sample_attempt();
   view.grade = failed_grade();
-  give_band(view.grade, SetKind::consultants, 8);
-  view.grade.provisional = false;
-  std::string html = attempt_page(kTrainee, view, nullptr);
-  EXPECT_THAT(html, HasSubstr("<span class=\"band\">experts 1–2</span>"));
-  EXPECT_THAT(html, HasSubstr("8 consultants, 24 attempts, the last on 2026-03-01, set C-0123."));
+  give_standard(view.grade, 8);
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<span class=\"band\">consultants 1–2 (n = 8, tolerance 0–2)</span>"));
+  EXPECT_THAT(html,
+              HasSubstr("Standard of 8 consultants, the last 3 attempts of each, set on 2026-03-01, C-0123."));
+  EXPECT_THAT(html, HasSubstr("90 % of all consultants with 95 % confidence"));
   EXPECT_THAT(html, Not(HasSubstr("rovisional")));
-  EXPECT_THAT(html, Not(HasSubstr("imulated expert,")));
-  give_band(view.grade, SetKind::simulated, 8);
+}
+
+TEST(GradeOnPage, WithoutAStandardThereIsNoNumber) {
+  // Before: "simulated expert 1–2" beside the value, and a column "Simulated expert".
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  give_standard(view.grade, 8);
+  view.grade.experts.standard_id.clear();
   view.grade.provisional = true;
-  html = attempt_page(kTrainee, view, nullptr);
-  EXPECT_THAT(html, HasSubstr("<span class=\"band\">simulated expert 1–2</span>"));
-  EXPECT_THAT(html, HasSubstr("Simulated expert, not a standard"));
-  EXPECT_THAT(html, HasSubstr("data-label=\"Simulated expert\""));
-  EXPECT_THAT(html, Not(HasSubstr("\"Experts\"")));
-  EXPECT_THAT(html, Not(HasSubstr("consultants, 24")));
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, Not(HasSubstr("class=\"band\"")));
+  EXPECT_THAT(html, Not(HasSubstr("data-label=\"Consultants\"")));
+  EXPECT_THAT(html,
+              HasSubstr("Provisional: 8 consultants have made enough attempts; a director can set the standard."));
+}
+
+TEST(GradeOnPage, AnotherVersionThanTheStandardsIsNotComparable) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  give_standard(view.grade, 8);
+  view.grade.experts.bands[0].version = 99;
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("not comparable: the standard is of another version of this metric"));
+  EXPECT_THAT(html, Not(HasSubstr("consultants 1–2")));
 }
 
 TEST(GradeOnPage, AScoreSaysWhatItIsMadeOf) {
   AttemptView view = sample_attempt();
   view.grade = failed_grade();
-  give_band(view.grade, SetKind::consultants, 8);
+  give_standard(view.grade, 8);
   view.grade.score.value = 62.6;
-  view.grade.score.parts = {{"time_total", "s", 1, 20.0, 0.75, "", 30.0, 13.3},
-                            {"withdrawals_partial", "count", 1, 0.0, std::nullopt, "no_spread", 0.0, 0.0}};
+  view.grade.score.parts = {{"blind_advance", "mm", 1, 20.0, -0.75, "", 10.0, 13.3, 2.0},
+                            {"withdrawals_partial", "count", 1, 0.0, 0.0, "", 0.0, 0.0, 1.0}};
   const std::string html = attempt_page(kTrainee, view, nullptr);
   EXPECT_THAT(html, HasSubstr("Score: 63 of 100"));
   EXPECT_THAT(html, HasSubstr("changes nothing of it"));
-  EXPECT_THAT(html, HasSubstr("not counted: the experts do not differ"));
+  EXPECT_THAT(html, HasSubstr("SD at least"));
   EXPECT_THAT(html, HasSubstr("every metric weighs the same"));
 }
 
@@ -198,12 +215,13 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
 TEST(GradeWords, ScoresAndSetsReadAsSentences) {
   assessment::Score score;
   score.reason = "no_expert_set";
-  EXPECT_EQ(score_text(score), "none: too few consultants have made attempts");
+  EXPECT_EQ(score_text(score), "none: consultants have set no standard");
   score.value = 0.0;
   score.reason = "critical_error";
   EXPECT_EQ(score_text(score), "0 of 100, for a critical error");
   assessment::ExpertSet set;
-  EXPECT_EQ(experts_text(set), "No expert has set a standard yet; that takes 8 consultants with 3 attempts each.");
+  EXPECT_EQ(experts_text(set),
+            "No expert has set a standard yet; that takes 8 consultants with 5 completed attempts each.");
   EXPECT_EQ(compared_text({0, 0, 0, 0, 0}, "mm"), "—");
   EXPECT_EQ(compared_text({5, 12.0, 12.0, 9.0, 14.0}, "mm"), "12 mm (9–14 mm)");
   EXPECT_EQ(compared_text({5, 1.0, 0.6, 0.0, 1.0}, "bool"), "3 of 5");

@@ -55,7 +55,7 @@ void draw_criteria(const Debrief& debrief) {
   ImGui::TableSetupColumn("To pass", ImGuiTableColumnFlags_WidthStretch, 2.6F);
   ImGui::TableSetupColumn("asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
   ImGui::TableSetupColumn("yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-  ImGui::TableSetupColumn("experts", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("consultants", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableHeadersRow();
   for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
@@ -72,6 +72,7 @@ void draw_criteria(const Debrief& debrief) {
     const std::string band = reports::band_text(debrief.grade.experts, criterion.metric, criterion.version);
     if (!band.empty()) {
       ImGui::TextUnformatted(band.c_str());
+      quiet(reports::tolerance_text(debrief.grade.experts, criterion.metric, criterion.version).c_str());
       if (value != nullptr && value->value)
         draw_band(*debrief.grade.experts.find(criterion.metric, criterion.version), *value->value, result);
     }
@@ -80,10 +81,9 @@ void draw_criteria(const Debrief& debrief) {
   }
   ImGui::EndTable();
   const assessment::ExpertSet& experts = debrief.grade.experts;
-  quiet(experts.bands.empty() ? "No band of experts yet: it takes five of them on this case."
-                              : ("Experts: " + reports::experts_text(experts) +
-                                 ". Bar: 10th to 90th percentile; dot: yours; stroke: asked.")
-                                    .c_str());
+  quiet((reports::experts_text(experts) +
+         (experts.standard() ? " Bar: 10th to 90th percentile; dot: yours; stroke: asked." : ""))
+            .c_str());
 }
 
 void draw_steps(const Debrief& debrief) {
@@ -109,8 +109,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
                      reports::verdict_text(debrief.grade.grade).c_str());
   ImGui::SetWindowFontScale(1.0F);
-  if (debrief.grade.provisional)
-    quiet("Provisional: fewer than eight consultants have set the standard for this case.");
+  if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
   ImGui::Spacing();
   for (const assessment::Sentence& sentence : debrief.grade.debrief) {
     ImGui::Bullet();

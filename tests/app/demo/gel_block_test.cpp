@@ -48,6 +48,15 @@ TEST(GelBlockCase, NothingOfItIsAPatients) {
 }
 
 // Steps that are done around a patient are not asked of gel.
+// Who waits in view has shown nothing: no shipped rule asks for a share of time. Before: drill 1, "vis_joint >=
+// 0.5".
+TEST(ShippedRules, AskForNoShareOfTime) {
+  for (const std::vector<DemoCase>* all : {&drills(), &demo_cases()})
+    for (const DemoCase& one : *all)
+      for (const assessment::Criterion& criterion : one.setting.rule.criteria)
+        EXPECT_FALSE(criterion.metric.starts_with("vis_")) << one.title << ": " << criterion.metric;
+}
+
 TEST(Drills, AskForOneThingAndAHitThroughOneHole) {
   ASSERT_EQ(drills().size(), 3U);
   for (const DemoCase& drill : drills()) {
@@ -64,7 +73,7 @@ TEST(Drills, AskForOneThingAndAHitThroughOneHole) {
     for (const char* around : {"steps_done", "steps_violated", "pain_reactions", "decision_right",
                                "advance_breath_held_share", "fired_breath_held", "breath_hold_used"})
       EXPECT_FALSE(asks(around)) << around;
-    EXPECT_TRUE(asks(drill.number == 1   ? "vis_joint"
+    EXPECT_TRUE(asks(drill.number == 1   ? "advance_joint_visible_last_20_mm"
                      : drill.number == 2 ? "advance_visible_share"
                                          : "advance_beyond_plane"));
     // The planned way, from the top to the ball, is one that a hand can hold beside a probe.

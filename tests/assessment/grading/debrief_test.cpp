@@ -32,11 +32,11 @@ struct Attempt {
   }
 };
 
-ExpertSet experts(SetKind kind, std::size_t people, std::vector<MetricBand> bands) {
+ExpertSet experts(std::vector<MetricBand> bands) {
   ExpertSet set;
-  set.kind = kind;
   set.id = "x";
-  set.person_ids.resize(people);
+  set.standard_id = "s";
+  set.people = 8;
   set.bands = std::move(bands);
   return set;
 }
@@ -46,25 +46,36 @@ MetricBand band(const char* id, double low, double high) {
 }
 
 TEST(DebriefTest, SaysItAsTheIssueDoes) {
-  const auto said = Attempt()
-                        .with("blind_advance", 14.2)
-                        .debriefed({}, experts(SetKind::consultants, 8, {band("blind_advance", 0.0, 3.0)}));
+  const auto said = Attempt().with("blind_advance", 14.2).debriefed({}, experts({band("blind_advance", 0.0, 3.0)}));
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_EQ(said[0].text, "Advanced 14 mm with the tip out of the picture; experts: 0–3 mm.");
+  EXPECT_EQ(said[0].text, "Advanced 14 mm with the tip out of the picture; 8 consultants: 0–3 mm.");
   EXPECT_EQ(said[0].kind, SentenceKind::shortfall);
 }
 
-TEST(DebriefTest, NamesWhatTheBandIs) {
-  const auto said = [](SetKind kind, std::size_t people) {
-    return Attempt()
-        .with("blind_advance", 14.2)
-        .debriefed({}, experts(kind, people, {band("blind_advance", 0.0, 3.0)}))[0]
-        .text;
-  };
-  EXPECT_EQ(said(SetKind::consultants, 7),
-            "Advanced 14 mm with the tip out of the picture; experts so far: 0–3 mm.");
-  EXPECT_EQ(said(SetKind::simulated, 100),
-            "Advanced 14 mm with the tip out of the picture; simulated expert, not a standard: 0–3 mm.");
+TEST(DebriefTest, TellsNoNumberThatIsNoStandards) {
+  // Before: "; simulated expert, not a standard: 0–3 mm", and "experts so far" of five consultants.
+  ExpertSet set = experts({band("blind_advance", 0.0, 3.0)});
+  set.standard_id.clear();
+  const auto said = Attempt().with("blind_advance", 14.2).debriefed({}, set);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].text, "Advanced 14 mm with the tip out of the picture.");
+  EXPECT_EQ(said[0].kind, SentenceKind::fact);
+  EXPECT_EQ(Attempt().with("blind_advance", 14.2).debriefed(rule_of({"blind_advance <= 5"}, {}), set)[0].text,
+            "Advanced 14 mm with the tip out of the picture; to pass: at most 5 mm.");
+}
+
+TEST(DebriefTest, SaysThatVersionsAreNotComparable) {
+  Attempt attempt;
+  attempt.with("blind_advance", 1.0).with("hit", 1.0);
+  attempt.metrics[3].version += 1;
+  const auto said = attempt.debriefed(rule_of({"hit >= 1", "blind_advance <= 5"}, {}));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].text.find("another version of a metric"), std::string::npos) << said[0].text;
+  attempt.metrics[4].value = 0.0;  // missed: it fails whatever the other would be
+  EXPECT_EQ(texts(attempt.debriefed(rule_of({"hit >= 1", "blind_advance <= 5"}, {}))),
+            (std::vector<std::string>{
+                "Missed the target.",
+                "“Blind advance” was measured by another version than the rule's: not comparable."}));
 }
 
 TEST(DebriefTest, CriticalErrorsThenMissedCriteriaThenShortfallsThenWhatWentWell) {
@@ -74,16 +85,16 @@ TEST(DebriefTest, CriticalErrorsThenMissedCriteriaThenShortfallsThenWhatWentWell
       .with("skin_punctures", 3.0)
       .with("nogo_length_critical", 3.25)
       .with("blind_advance", 14.0);
-  const ExpertSet set = experts(SetKind::consultants, 8, {band("blind_advance", 0.0, 3.0)});
+  const ExpertSet set = experts({band("blind_advance", 0.0, 3.0)});
   EXPECT_EQ(texts(attempt.debriefed(rule, set)),
             (std::vector<std::string>{
                 "Went 3.2 mm through a structure that must never be touched; this alone fails the attempt.",
                 "Punctured the skin 3 times; to pass: at most 1.",
-                "Advanced 14 mm with the tip out of the picture; experts: 0–3 mm."}));
+                "Advanced 14 mm with the tip out of the picture; 8 consultants: 0–3 mm."}));
   attempt.metrics[5].value = 0.0;  // nothing critical
   EXPECT_EQ(texts(attempt.debriefed(rule, set)),
             (std::vector<std::string>{"Punctured the skin 3 times; to pass: at most 1.",
-                                      "Advanced 14 mm with the tip out of the picture; experts: 0–3 mm.",
+                                      "Advanced 14 mm with the tip out of the picture; 8 consultants: 0–3 mm.",
                                       "Kept out of every structure that must never be touched."}));
 }
 
@@ -108,33 +119,31 @@ TEST(DebriefTest, TheLargestShortfallComesFirstAndATrifleIsNotLargeBecauseExpert
                         .with("vis_target", 0.94)
                         .with("probe_drift_advancing", 7.0)
                         .with("blind_advance", 6.0)
-                        .debriefed({}, experts(SetKind::consultants, 8,
-                                               {band("vis_target", 1.0, 1.0), band("blind_advance", 0.0, 3.0),
+                        .debriefed({}, experts({band("vis_target", 1.0, 1.0), band("blind_advance", 0.0, 3.0),
                                                 band("probe_drift_advancing", 0.0, 0.7)}));
   EXPECT_EQ(texts(said),
             (std::vector<std::string>{
-                "Let the probe drift 7 mm while advancing; experts: 0–0.7 mm.",
-                "Advanced 6 mm with the tip out of the picture; experts: 0–3 mm.",
-                "Had the target in the picture for only 94 % of the time in tissue; experts: 100 %."}));
+                "Let the probe drift 7 mm while advancing; 8 consultants: 0–0.7 mm.",
+                "Advanced 6 mm with the tip out of the picture; 8 consultants: 0–3 mm.",
+                "Had the target in the picture for only 94 % of the time in tissue; 8 consultants: 100 %."}));
 }
 
 TEST(DebriefTest, TimeIsTheLastThatIsHeldAgainstSomebody) {
   const auto said = Attempt()
                         .with("time_total", 500.0)
                         .with("blind_advance", 5.0)
-                        .debriefed({}, experts(SetKind::consultants, 8,
-                                               {band("time_total", 10.0, 20.0), band("blind_advance", 0.0, 3.0)}));
+                        .debriefed({}, experts({band("time_total", 10.0, 20.0), band("blind_advance", 0.0, 3.0)}));
   EXPECT_EQ(texts(said),
-            (std::vector<std::string>{"Advanced 5 mm with the tip out of the picture; experts: 0–3 mm.",
-                                      "Took 500 s; experts: 10–20 s."}));
+            (std::vector<std::string>{"Advanced 5 mm with the tip out of the picture; 8 consultants: 0–3 mm.",
+                                      "Took 500 s; 8 consultants: 10–20 s."}));
 }
 
 TEST(DebriefTest, ATrifleBesideTheBandIsNeitherShortfallNorPraise) {
-  const ExpertSet set = experts(SetKind::consultants, 8, {band("blind_advance", 0.0, 3.0)});
+  const ExpertSet set = experts({band("blind_advance", 0.0, 3.0)});
   EXPECT_EQ(Attempt().with("blind_advance", 3.7).debriefed({}, set)[0].kind, SentenceKind::fact);
   EXPECT_EQ(Attempt().with("blind_advance", 4.1).debriefed({}, set)[0].kind, SentenceKind::shortfall);
   const auto good = Attempt().with("blind_advance", 2.0).debriefed({}, set);
-  EXPECT_EQ(good[0].text, "Advanced only 2 mm with the tip out of the picture; experts: 0–3 mm.");
+  EXPECT_EQ(good[0].text, "Advanced only 2 mm with the tip out of the picture; 8 consultants: 0–3 mm.");
   EXPECT_EQ(Attempt().with("blind_advance", 0.0).debriefed({}, set)[0].text,
             "Never advanced with the tip out of the picture.");
 }

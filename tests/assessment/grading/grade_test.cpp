@@ -19,6 +19,10 @@ constexpr Kind kKinds[] = {Kind::met,          Kind::missed,        Kind::null,
 // A metric of three, each with its criterion "at most 1".
 constexpr const char* kIds[] = {"skin_punctures", "blind_advance_max", "nogo_length_critical"};
 
+int in_force(const char* id) {
+  return find_metric(id)->version;
+}
+
 void add(Kind kind, const char* id, std::vector<MetricValue>& metrics) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   switch (kind) {
@@ -51,16 +55,21 @@ TEST(GradeTest, PassesExactlyWhenEveryCriterionIsMetWhateverIsCritical) {
           const Kind kinds[] = {a, b, c};
           std::vector<MetricValue> metrics = good_quality();
           PassRule rule;
-          std::size_t met = 0, errors = 0;
+          std::size_t met = 0, errors = 0, not_comparable = 0;
           for (unsigned i = 0; i < 3; ++i) {
             add(kinds[i], kIds[i], metrics);
             const bool is_critical = (critical & (1U << i)) != 0;
             rule.criteria.push_back({kIds[i], 1, Comparison::at_most, 1.0, is_critical});
             met += kinds[i] == Kind::met ? 1U : 0U;
+            not_comparable += kinds[i] == Kind::other_version ? 1U : 0U;
             errors += is_critical && kinds[i] == Kind::missed ? 1U : 0U;
           }
           const Grade made = grade(rule, {metrics, "", {}});
-          EXPECT_EQ(made.verdict, met == 3 ? Verdict::passed : Verdict::failed);
+          const bool only_not_comparable = not_comparable > 0 && met + not_comparable == 3;
+          EXPECT_EQ(made.verdict, met == 3              ? Verdict::passed
+                                  : only_not_comparable ? Verdict::not_gradable
+                                                        : Verdict::failed);
+          EXPECT_EQ(made.reason, only_not_comparable ? "other_version" : "");
           EXPECT_EQ(made.met(), met);
           EXPECT_EQ(made.critical_errors(), errors);
           ASSERT_EQ(made.criteria.size(), 3U);
@@ -78,8 +87,9 @@ TEST(GradeTest, SaysWhyACriterionHasNoValue) {
   for (const auto& [kind, reason] : reasons) {
     std::vector<MetricValue> metrics = good_quality();
     add(kind, "skin_punctures", metrics);
-    const Grade made = grade(rule_of({"skin_punctures <= 1"}, {}), {metrics, "", {}});
-    EXPECT_EQ(made.verdict, Verdict::failed);
+    const Grade made = grade(rule_of({"skin_punctures@1 <= 1"}, {}), {metrics, "", {}});
+    // Before: failed, so that no new attempt could pass a case published with an older definition.
+    EXPECT_EQ(made.verdict, kind == Kind::other_version ? Verdict::not_gradable : Verdict::failed);
     EXPECT_EQ(made.criteria[0].outcome, Outcome::not_measured);
     EXPECT_EQ(made.criteria[0].reason, reason);
     EXPECT_FALSE(made.criteria[0].value.has_value());
@@ -90,7 +100,7 @@ TEST(GradeTest, SaysWhyACriterionHasNoValue) {
 TEST(GradeTest, ComparesAsTheRuleSays) {
   const auto outcome = [](const char* criterion, double value) {
     std::vector<MetricValue> metrics = good_quality();
-    metrics.push_back({"hit", 1, value, "bool", ""});
+    metrics.push_back({"hit", in_force("hit"), value, "bool", ""});
     return grade(rule_of({criterion}, {}), {metrics, "", {}}).criteria[0].outcome;
   };
   for (const auto& [criterion, low, equal, high] :
@@ -107,17 +117,17 @@ TEST(GradeTest, TakesTheVersionThatTheRuleNames) {
   std::vector<MetricValue> metrics = good_quality();
   metrics.push_back({"path_tip", 1, 400.0, "mm", ""});
   metrics.push_back({"path_tip", 2, 100.0, "mm", ""});
-  EXPECT_EQ(grade(rule_of({"path_tip <= 200"}, {}), {metrics, "", {}}).verdict, Verdict::failed);
+  EXPECT_EQ(grade(rule_of({"path_tip@1 <= 200"}, {}), {metrics, "", {}}).verdict, Verdict::failed);
   EXPECT_EQ(grade(rule_of({"path_tip@2 <= 200"}, {}), {metrics, "", {}}).verdict, Verdict::passed);
-  EXPECT_EQ(grade(rule_of({"path_tip@3 <= 200"}, {}), {metrics, "", {}}).criteria[0].reason, "other_version");
+  EXPECT_EQ(grade(rule_of({"path_tip@99 <= 200"}, {}), {metrics, "", {}}).criteria[0].reason, "other_version");
 }
 
 TEST(GradeTest, CriticalErrorsComeFirstAndWhatWasMetLast) {
   std::vector<MetricValue> metrics = good_quality();
-  metrics.push_back({"hit", 1, 1.0, "bool", ""});
-  metrics.push_back({"skin_punctures", 1, 3.0, "count", ""});
-  metrics.push_back({"blind_advance_max", 1, std::nullopt, "mm", "no_picture"});
-  metrics.push_back({"nogo_length_critical", 1, 2.0, "mm", ""});
+  metrics.push_back({"hit", in_force("hit"), 1.0, "bool", ""});
+  metrics.push_back({"skin_punctures", in_force("skin_punctures"), 3.0, "count", ""});
+  metrics.push_back({"blind_advance_max", in_force("blind_advance_max"), std::nullopt, "mm", "no_picture"});
+  metrics.push_back({"nogo_length_critical", in_force("nogo_length_critical"), 2.0, "mm", ""});
   const Grade made = grade(rule_of({"hit >= 1", "blind_advance_max <= 5", "skin_punctures <= 1"},
                                    {"posterior_wall <= 0", "nogo_length_critical <= 0"}),
                            {metrics, "", {}});
@@ -132,7 +142,7 @@ TEST(GradeTest, ATimeLimitIsACriterionOfItsOwn) {
   const PassRule rule = rule_of({"hit >= 1"}, {});
   for (const auto& [time_s, verdict] : {std::pair{60.0, Verdict::passed}, std::pair{60.001, Verdict::failed}}) {
     std::vector<MetricValue> metrics = good_quality();
-    metrics.push_back({"hit", 1, 1.0, "bool", ""});
+    metrics.push_back({"hit", in_force("hit"), 1.0, "bool", ""});
     metrics.push_back({"time_total", find_metric("time_total")->version, time_s, "s", ""});
     EXPECT_EQ(grade(rule, {metrics, "", 60.0}).verdict, verdict) << time_s;
     EXPECT_EQ(grade(rule, {metrics, "", {}}).verdict, Verdict::passed);
@@ -140,7 +150,7 @@ TEST(GradeTest, ATimeLimitIsACriterionOfItsOwn) {
     EXPECT_EQ(grade(rule, {metrics, "", 60.0}).verdict, Verdict::failed) << "the newest definition that is stored";
   }
   std::vector<MetricValue> metrics = good_quality();
-  metrics.push_back({"hit", 1, 1.0, "bool", ""});
+  metrics.push_back({"hit", in_force("hit"), 1.0, "bool", ""});
   const Grade untimed = grade(rule, {metrics, "", 60.0});
   EXPECT_EQ(untimed.verdict, Verdict::failed) << "a time that is not known is not within the limit";
   EXPECT_TRUE(untimed.criteria[0].of_the_time_limit);
@@ -157,7 +167,7 @@ TEST(GradeTest, WhatIsNotGradableIsNeitherPassedNorFailed) {
   const PassRule rule = rule_of({"hit >= 1"}, {});
   for (const double hit : {0.0, 1.0}) {
     std::vector<MetricValue> metrics = good_quality();
-    metrics.push_back({"hit", 1, hit, "bool", ""});
+    metrics.push_back({"hit", in_force("hit"), hit, "bool", ""});
     for (const char* cut_off : {"interrupted", "device_lost"}) {
       const Grade made = grade(rule, {metrics, cut_off, {}});
       EXPECT_EQ(made.verdict, Verdict::not_gradable);

@@ -20,7 +20,7 @@ std::vector<std::string> codes(const PassRule& rule, const Guidance& guidance) {
 }
 
 TEST(RuleTest, TextsComeBack) {
-  for (const char* text : {"hit >= 1", "tip_target_axial >= -3.5", "skin_punctures@2 <= 1", "gap_share = 0.25"}) {
+  for (const char* text : {"hit >= 1", "tip_target_axial >= -3.5", "skin_punctures@99 <= 1", "gap_share = 0.25"}) {
     const auto criterion = criterion_from(text);
     ASSERT_TRUE(criterion.has_value()) << text;
     EXPECT_EQ(text_of(*criterion), text);
@@ -29,6 +29,20 @@ TEST(RuleTest, TextsComeBack) {
   for (const char* text : {"", "hit", "hit >=", ">= 1", "Hit >= 1", "hit > 1", "hit >= x", "hit >= 1e999",
                            "hit >= nan", "hit@0 >= 1", "hit@x >= 1", "hit >= 1 2", "hit; drop >= 1"})
     EXPECT_FALSE(criterion_from(text).has_value()) << text;
+}
+
+TEST(RuleTest, ATextWithoutAVersionMeansTheOneInForceAndStoredRulesKeepTheirs) {
+  const int in_force = find_metric("path_tip")->version;
+  ASSERT_GT(in_force, 1);
+  EXPECT_EQ(criterion_from("path_tip <= 90")->version, in_force);  // before: 1, which nothing measures any more
+  EXPECT_EQ(criterion_from("path_tip@1 <= 90")->version, 1);
+  EXPECT_EQ(text_of(*criterion_from("path_tip@1 <= 90")), "path_tip@1 <= 90") << "never taken for the one in force";
+  // As rules were stored when version 1 was in force.
+  const auto stored = rule_from_json(
+      R"({"criteria":[{"metric":"path_tip","version":1,"comparison":"<=","value":90,"critical":false}]})");
+  ASSERT_TRUE(stored.has_value());
+  EXPECT_EQ(stored->criteria[0].version, 1);
+  EXPECT_NE(json_of_rule(*stored).find("\"version\":1"), std::string::npos);
 }
 
 TEST(RuleTest, JsonComesBack) {

@@ -1,4 +1,4 @@
-// Expert sets against closed forms: quantiles, medians a person, who enters; scores by hand.
+// Expert sets against closed forms: quantiles, one value a person, who enters; scores by hand.
 #include "assessment/grading/standard.h"
 
 #include <gtest/gtest.h>
@@ -6,35 +6,56 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assessment/grading/worthwhile.h"
+#include "assessment/registry.h"
 #include "tests/assessment/grading/graded_samples.h"
 
 namespace seldinger::assessment {
 namespace {
 
-ExpertAttempt attempt_of(int person, int number, double time_s, double blind_mm) {
+MetricValue of(const char* id, std::optional<double> value) {
+  const MetricInfo* info = find_metric(id);
+  return {id, info->version, value, info->unit, value ? "" : "no_endpoint"};
+}
+
+// Its last metrics are core_in_target and blind_advance.
+ExpertAttempt attempt_of(int person, int number, double core_mm, double blind_mm) {
   ExpertAttempt made;
   made.attempt_id = "a" + std::to_string(person) + "-" + std::to_string(number);
-  made.person_id = "p" + std::to_string(person);
+  made.person_id = "p" + std::to_string(100 + person);
   made.started_us = 1000 * person + number;
   made.metrics = good_quality();
-  made.metrics.push_back({"time_total", 1, time_s, "s", ""});
-  made.metrics.push_back({"blind_advance", 1, blind_mm, "mm", ""});
+  made.metrics.push_back(of("core_in_target", core_mm));
+  made.metrics.push_back(of("blind_advance", blind_mm));
   return made;
 }
 
-// Person i of n does 10 i s, a little less and a good deal more; and always advances 2 mm unseen.
+// Person i of n: two attempts to get used to it, far off; then 10 i mm, a little less and a good deal more. Unseen
+// they always advance 2 mm.
 std::vector<ExpertAttempt> attempts_of(int people) {
   std::vector<ExpertAttempt> all;
   for (int person = 1; person <= people; ++person) {
-    all.push_back(attempt_of(person, 1, 10.0 * person - 1.0, 2.0));
-    all.push_back(attempt_of(person, 2, 10.0 * person, 2.0));
-    all.push_back(attempt_of(person, 3, 10.0 * person + 50.0, 2.0));
+    all.push_back(attempt_of(person, 1, 900.0, 50.0));
+    all.push_back(attempt_of(person, 2, 900.0, 50.0));
+    all.push_back(attempt_of(person, 3, 10.0 * person - 1.0, 2.0));
+    all.push_back(attempt_of(person, 4, 10.0 * person, 2.0));
+    all.push_back(attempt_of(person, 5, 10.0 * person + 50.0, 2.0));
   }
   return all;
 }
 
-std::vector<MetricValue> metrics_with(double time_s, double blind_mm) {
-  return attempt_of(0, 0, time_s, blind_mm).metrics;
+ExpertSet standard_of(std::vector<ExpertAttempt> attempts) {
+  ExpertSet set = expert_set(std::move(attempts));
+  set.standard_id = "s";
+  return set;
+}
+
+std::vector<MetricValue> metrics_with(double core_mm, double blind_mm) {
+  return attempt_of(0, 0, core_mm, blind_mm).metrics;
+}
+
+const MetricBand* find(const ExpertSet& set, const char* id) {
+  return set.find(id, find_metric(id)->version);
 }
 
 TEST(QuantileTest, IsTypeSeven) {
@@ -48,103 +69,166 @@ TEST(QuantileTest, IsTypeSeven) {
   EXPECT_DOUBLE_EQ(quantile(std::vector<double>{3.0}, 0.9), 3.0);
 }
 
-TEST(ExpertSetTest, ABandIsOverEachPersonsMedian) {
-  const ExpertSet set = expert_set(SetKind::consultants, attempts_of(11));
-  const MetricBand* time = set.find("time_total", 1);
-  ASSERT_NE(time, nullptr);
-  // Medians 10, 20, …, 110: the 10th percentile is the second, the 90th the tenth; the tail of 50 s changes
+TEST(ExpertSetTest, ABandIsOverOneValueAPerson) {
+  const ExpertSet set = expert_set(attempts_of(11));
+  const MetricBand* core = find(set, "core_in_target");
+  ASSERT_NE(core, nullptr);
+  // Medians 10, 20, …, 110: the 10th percentile is the second, the 90th the tenth; the tail of 50 mm changes
   // nothing.
-  EXPECT_DOUBLE_EQ(time->low, 20.0);
-  EXPECT_DOUBLE_EQ(time->high, 100.0);
-  EXPECT_DOUBLE_EQ(time->mean, 60.0);
-  EXPECT_DOUBLE_EQ(time->sd, std::sqrt(1100.0));  // Σ (10 k)² for k = −5 … 5 is 11000, over 10
-  EXPECT_EQ(time->n, 11U);
-  EXPECT_EQ(set.newest_us, 11003);
-  EXPECT_EQ(set.attempt_ids.size(), 33U);
-  EXPECT_TRUE(set.standard());
-  EXPECT_EQ(set.find("time_total", 2), nullptr);
-  EXPECT_EQ(set.find("gap_share", 2), nullptr) << "of the recording, not of what was done";
+  EXPECT_DOUBLE_EQ(core->low, 20.0);
+  EXPECT_DOUBLE_EQ(core->high, 100.0);
+  EXPECT_DOUBLE_EQ(core->mean, 60.0);
+  EXPECT_DOUBLE_EQ(core->sd, std::sqrt(1100.0));  // Σ (10 k)² for k = −5 … 5 is 11000, over 10
+  EXPECT_EQ(core->n, 11U);
+  EXPECT_EQ(set.newest_us, 11005);
+  EXPECT_EQ(set.attempts, 33U);
+  EXPECT_EQ(set.people, 11U);
+  EXPECT_FALSE(set.standard()) << "nobody has set it";
+  EXPECT_TRUE(set.enough_people());
+  EXPECT_EQ(set.find("core_in_target", 99), nullptr);
+  EXPECT_TRUE(set.only_other_version("core_in_target", 99));
+  EXPECT_FALSE(set.only_other_version("hit", 1));
+  EXPECT_EQ(find(set, "gap_share"), nullptr) << "of the recording, not of what was done";
 }
 
-TEST(ExpertSetTest, IsProvisionalBelowEightPeopleOfThreeAttempts) {
-  EXPECT_TRUE(expert_set(SetKind::consultants, attempts_of(8)).standard());
-  EXPECT_FALSE(expert_set(SetKind::consultants, attempts_of(7)).standard());
-  auto two_each = attempts_of(8);
-  std::erase_if(two_each,
-                [](const ExpertAttempt& one) { return one.person_id == "p8" && one.started_us % 2 == 0; });
-  const ExpertSet set = expert_set(SetKind::consultants, two_each);
-  EXPECT_FALSE(set.standard());
-  EXPECT_EQ(set.person_ids.size(), 7U) << "who has two attempts is not in it";
-  EXPECT_FALSE(std::binary_search(set.attempt_ids.begin(), set.attempt_ids.end(), "a8-1"));
+TEST(ExpertSetTest, ATolerancIntervalIsMeanAndSdWithinWhatTheMetricCanBe) {
+  const ExpertSet set = expert_set(attempts_of(11));
+  const MetricBand* core = find(set, "core_in_target");
+  ASSERT_TRUE(core->tolerance.has_value());
+  // k = 2.737 of 11 people, 90 % with 95 % (Eisenhart, Hastay and Wallis 1947); no length is below 0.
+  EXPECT_NEAR(core->tolerance->high, 60.0 + 2.737 * std::sqrt(1100.0), 0.1);
+  EXPECT_EQ(core->tolerance->low, 0.0);
 }
 
-TEST(ExpertSetTest, OfFewPeopleShowsNoBand) {
-  EXPECT_TRUE(expert_set(SetKind::consultants, attempts_of(4)).bands.empty());
-  EXPECT_FALSE(expert_set(SetKind::consultants, attempts_of(5)).bands.empty());
-  const ExpertSet nobody = expert_set(SetKind::consultants, {});
+TEST(ExpertSetTest, FamiliarisationIsNotInIt) {
+  // Before: consultants' attempts counted from the first one on; of five attempts here the median was 10 i + 50 mm.
+  EXPECT_DOUBLE_EQ(find(expert_set(attempts_of(8)), "core_in_target")->mean, 45.0);
+  // Who has four attempts is still getting used to it.
+  auto four_each = attempts_of(9);
+  std::erase_if(four_each, [](const ExpertAttempt& one) { return one.attempt_id == "a9-2"; });
+  const ExpertSet set = expert_set(four_each);
+  EXPECT_EQ(set.people, 8U);
+  EXPECT_FALSE(std::binary_search(set.attempt_ids.begin(), set.attempt_ids.end(), "a9-5"));
+  EXPECT_FALSE(std::binary_search(set.attempt_ids.begin(), set.attempt_ids.end(), "a1-1"));
+  EXPECT_TRUE(std::binary_search(set.attempt_ids.begin(), set.attempt_ids.end(), "a1-3"));
+}
+
+TEST(ExpertSetTest, OnlyWhatWasCompletedCounts) {
+  // Before: attempts that were stopped to begin again counted as well.
+  auto all = attempts_of(8);
+  for (ExpertAttempt& one : all)
+    if (one.attempt_id == "a8-1") one.completed = false;
+  EXPECT_EQ(expert_set(all).people, 7U);
+  all.push_back(attempt_of(8, 6, 80.0, 2.0));
+  EXPECT_EQ(expert_set(all).people, 8U);
+}
+
+TEST(ExpertSetTest, OfFewerThanEightPeopleThereIsNoNumber) {
+  const ExpertSet set = expert_set(attempts_of(7));
+  EXPECT_FALSE(set.enough_people());
+  EXPECT_EQ(set.people, 7U);
+  EXPECT_TRUE(set.bands.empty());
+  EXPECT_FALSE(expert_set(attempts_of(8)).bands.empty());
+  const ExpertSet nobody = expert_set({});
   EXPECT_TRUE(nobody.id.empty());
   EXPECT_TRUE(nobody.bands.empty());
 }
 
-TEST(ExpertSetTest, LeavesOutWhatIsNotGradableAndWhatNotAllHave) {
+TEST(ExpertSetTest, LeavesOutWhatIsNotGradableAndBandsOfFewerThanEight) {
+  auto all = attempts_of(10);
+  all[0].metrics[0].value = 0.5;           // gaps: person 1 has four gradable attempts left
+  all[7].metrics[3].value = std::nullopt;  // one null is not in person 2's median
+  for (std::size_t i = 10; i < 15; ++i) all[i].metrics.pop_back();  // person 3 has no blind_advance at all
+  ExpertSet set = expert_set(all);
+  EXPECT_EQ(set.people, 9U);
+  ASSERT_NE(find(set, "blind_advance"), nullptr) << "one without it does not take it from all";
+  EXPECT_EQ(find(set, "blind_advance")->n, 8U);
+  EXPECT_EQ(find(set, "core_in_target")->n, 9U);
+  for (std::size_t i = 15; i < 20; ++i) all[i].metrics.pop_back();
+  EXPECT_EQ(find(expert_set(all), "blind_advance"), nullptr);
+}
+
+TEST(ExpertSetTest, VersionsAreNotMixed) {
   auto all = attempts_of(8);
-  all[0].metrics[0].value = 0.5;                                  // gaps: person 1 has two gradable attempts left
-  all[3].metrics[4].value = std::nullopt;                         // one null is not in person 2's median
-  for (std::size_t i = 6; i < 9; ++i) all[i].metrics.pop_back();  // person 3 has no blind_advance at all
-  const ExpertSet set = expert_set(SetKind::consultants, all);
-  EXPECT_EQ(set.person_ids.size(), 7U);
-  EXPECT_EQ(set.find("blind_advance", 1), nullptr);
-  ASSERT_NE(set.find("time_total", 1), nullptr);
+  for (std::size_t i = 0; i < 5; ++i) all[i].metrics.back().version = 99;  // person 1 was measured otherwise
+  EXPECT_EQ(find(expert_set(all), "blind_advance"), nullptr) << "seven people have the version in force";
 }
 
 TEST(ExpertSetTest, ItsNameTellsItsAttemptsInAnyOrder) {
   auto all = attempts_of(8);
-  const std::string id = expert_set(SetKind::consultants, all).id;
+  const std::string id = expert_set(all).id;
   std::reverse(all.begin(), all.end());
-  EXPECT_EQ(expert_set(SetKind::consultants, all).id, id);
-  all.push_back(attempt_of(3, 4, 30.0, 2.0));
-  EXPECT_NE(expert_set(SetKind::consultants, all).id, id);
-}
-
-TEST(ExpertSetTest, ASimulatedOneIsNeverAStandard) {
-  const ExpertSet set = expert_set(SetKind::simulated, attempts_of(20));
-  EXPECT_FALSE(set.standard());
-  EXPECT_FALSE(set.bands.empty());
-  EXPECT_EQ(set.person_ids.size(), 60U) << "each seed is one";
-  const auto metrics = metrics_with(60.0, 2.0);
-  const Score none = score(set, {}, {metrics, "", {}}, "");
-  EXPECT_FALSE(none.value.has_value());
-  EXPECT_EQ(none.reason, "no_expert_set");
+  EXPECT_EQ(expert_set(all).id, id);
+  all.push_back(attempt_of(3, 6, 30.0, 2.0));
+  EXPECT_NE(expert_set(all).id, id);
 }
 
 TEST(ScoreTest, IsTheMeanOfZByHand) {
   auto all = attempts_of(11);
   // Unseen advance 0, 1, …, 10 mm a person: mean 5, variance 11.
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].metrics[4].value = static_cast<double>(i / 3);
-  const ExpertSet set = expert_set(SetKind::consultants, all);
-  const auto of = [&](double time_s, double blind_mm) {
-    const auto metrics = metrics_with(time_s, blind_mm);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].metrics.back().value = static_cast<double>(i / 5);
+  const ExpertSet set = standard_of(all);
+  const auto scored = [&](double core_mm, double blind_mm) {
+    const auto metrics = metrics_with(core_mm, blind_mm);
     return *score(set, {}, {metrics, "", {}}, "").value;
   };
-  EXPECT_DOUBLE_EQ(of(60.0, 5.0), 50.0);
-  // Less is better in both: one sd faster, two sd more unseen.
-  EXPECT_NEAR(of(60.0 - std::sqrt(1100.0), 5.0 + 2.0 * std::sqrt(11.0)), 50.0 + 50.0 / 3.0 * (1.0 - 2.0) / 2.0,
+  EXPECT_DOUBLE_EQ(scored(60.0, 5.0), 50.0);
+  // One sd more in the core, two sd more unseen.
+  EXPECT_NEAR(scored(60.0 + std::sqrt(1100.0), 5.0 + 2.0 * std::sqrt(11.0)), 50.0 + 50.0 / 3.0 * (1.0 - 2.0) / 2.0,
               1e-9);
-  EXPECT_NEAR(of(-1e9, -1e9), 100.0, 1e-9);
-  EXPECT_NEAR(of(1e9, 1e9), 0.0, 1e-9);
-  EXPECT_NEAR(of(-1e9, 1e9), 50.0, 1e-9) << "no metric outweighs another by more than three sd";
+  EXPECT_NEAR(scored(1e9, -1e9), 100.0, 1e-9);
+  EXPECT_NEAR(scored(-1e9, 1e9), 0.0, 1e-9);
+  EXPECT_NEAR(scored(1e9, 1e9), 50.0, 1e-9) << "no metric outweighs another by more than three sd";
+}
+
+TEST(ScoreTest, SpeedNeverBuysBackABlindAdvance) {
+  auto all = attempts_of(11);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].metrics.back().value = static_cast<double>(i / 5);
+    all[i].metrics.push_back(of("time_total", 30.0 + static_cast<double>(i / 5)));
+  }
+  const ExpertSet set = standard_of(all);
+  ASSERT_NE(find(set, "time_total"), nullptr) << "a band it has";
+  const auto scored = [&](double time_s) {
+    auto metrics = metrics_with(60.0, 15.0);
+    metrics.push_back(of("time_total", time_s));
+    return score(set, {}, {metrics, "", {}}, "");
+  };
+  // Before: 58 of 100 at 1 s, 42 at 36 s: z of time was one of three.
+  EXPECT_EQ(scored(1.0).value, scored(36.0).value);
+  EXPECT_LT(*scored(1.0).value, 50.0);
+  for (const std::string_view id : scored_metrics()) EXPECT_EQ(id.find("time_total"), id.npos);
+}
+
+TEST(ScoreTest, WhatAllConsultantsDoAlikeStillCosts) {
+  // All advance 2 mm unseen. Before: sd 0, so the metric was left out, and 60 mm more cost nothing: 50 of 100.
+  const ExpertSet set = standard_of(attempts_of(8));
+  EXPECT_EQ(find(set, "blind_advance")->sd, 0.0);
+  const auto scored = [&](double blind_mm) {
+    const auto metrics = metrics_with(45.0, blind_mm);
+    return score(set, {}, {metrics, "", {}}, "");
+  };
+  const double least_mm = worthwhile(*find_metric("blind_advance")).difference;
+  EXPECT_DOUBLE_EQ(*scored(2.0).value, 50.0);
+  EXPECT_DOUBLE_EQ(*scored(2.0 + least_mm).value, 50.0 - 50.0 / 3.0 / 2.0);
+  EXPECT_DOUBLE_EQ(*scored(62.0).value, 25.0);
+  const Score made = scored(62.0);
+  const auto part = std::find_if(made.parts.begin(), made.parts.end(),
+                                 [](const ScorePart& one) { return one.id == "blind_advance"; });
+  ASSERT_NE(part, made.parts.end());
+  EXPECT_DOUBLE_EQ(part->least_sd, least_mm);
+  EXPECT_DOUBLE_EQ(*part->z, -3.0);
 }
 
 TEST(ScoreTest, NeverWeighsAnewAndNeverBuysACriticalErrorBack) {
-  const ExpertSet set = expert_set(SetKind::consultants, attempts_of(8));
+  const ExpertSet set = standard_of(attempts_of(8));
   auto metrics = metrics_with(20.0, 2.0);
   const Gradable attempt{metrics, "", {}};
   const Score whole = score(set, {}, attempt, "p0");
   ASSERT_TRUE(whole.value.has_value());
   EXPECT_EQ(whole.set_id, set.id);
   ASSERT_EQ(whole.parts.size(), 2U);
-  EXPECT_EQ(whole.parts[0].reason, "no_spread") << "all advance 2 mm unseen";
-  EXPECT_EQ(score(set, {}, attempt, "p3").reason, "of_the_set");
+  EXPECT_EQ(score(set, {}, attempt, "p103").reason, "of_the_set");
 
   Grade failed;
   failed.verdict = Verdict::failed;
@@ -154,8 +238,7 @@ TEST(ScoreTest, NeverWeighsAnewAndNeverBuysACriticalErrorBack) {
   EXPECT_EQ(score(set, failed, attempt, "").value, 0.0);
   EXPECT_EQ(score(set, failed, attempt, "").reason, "critical_error");
 
-  metrics[3].value = std::nullopt;
-  metrics[3].reason = "no_endpoint";
+  metrics[3] = of("core_in_target", std::nullopt);
   const Score missing = score(set, {}, {metrics, "", {}}, "");
   EXPECT_FALSE(missing.value.has_value());
   EXPECT_EQ(missing.reason, "missing_metric");
@@ -164,13 +247,23 @@ TEST(ScoreTest, NeverWeighsAnewAndNeverBuysACriticalErrorBack) {
   EXPECT_EQ(score(set, gaps, attempt, "").reason, "tracking_gaps");
 }
 
-TEST(ScoreTest, HasNoValueWhereTheSetDoesNotDiffer) {
-  auto all = attempts_of(8);
-  for (ExpertAttempt& one : all) one.metrics[3].value = 30.0;
+TEST(ScoreTest, ANewerVersionIsNotHeldAgainstAnOlderStandard) {
+  const ExpertSet set = standard_of(attempts_of(8));
+  auto metrics = metrics_with(20.0, 2.0);
+  metrics.back().version += 1;
+  const Score made = score(set, {}, {metrics, "", {}}, "");
+  EXPECT_FALSE(made.value.has_value());
+  EXPECT_EQ(made.reason, "other_version");
+}
+
+TEST(ScoreTest, WithoutAStandardThereIsNone) {
+  // Before: five consultants were enough for a score.
   const auto metrics = metrics_with(20.0, 2.0);
-  const Score none = score(expert_set(SetKind::consultants, all), {}, {metrics, "", {}}, "");
-  EXPECT_FALSE(none.value.has_value());
-  EXPECT_EQ(none.reason, "no_spread");
+  for (const int people : {5, 7, 8}) {
+    const Score none = score(expert_set(attempts_of(people)), {}, {metrics, "", {}}, "");
+    EXPECT_FALSE(none.value.has_value()) << people;
+    EXPECT_EQ(none.reason, "no_expert_set") << people << ", and nobody has set it";
+  }
 }
 
 }  // namespace

@@ -18,13 +18,26 @@ class GradingTest : public GradedLibrary {
   AttemptGrade looked_at(const std::string& attempt_id) {
     return Grader(library_).look_at(find_attempt(library_, attempt_id).value());
   }
+  std::string consultant(const std::string& name, Role role = Role::trainee) {
+    std::string person = user(name, role);
+    EXPECT_TRUE(set_level(library_, name, Level::consultant).has_value());
+    return person;
+  }
+  // Each takes 10 s, 11 s, ...; the first two attempts 90 s.
   void consultants(int people, int attempts_each) {
     for (int i = 0; i < people; ++i) {
-      const std::string name = "Consultant " + std::to_string(i);
-      const std::string person = user(name, Role::trainee);
-      ASSERT_TRUE(set_level(library_, name, Level::consultant).has_value());
-      for (int k = 0; k < attempts_each; ++k) attempt(person, 1.0, 10.0 + i);
+      const std::string person = consultant("Consultant " + std::to_string(i));
+      for (int k = 0; k < attempts_each; ++k) attempt_blind(person, k < 2 ? 90.0 : 10.0 + i, 2.0);
     }
+  }
+  std::string attempt_blind(const std::optional<std::string>& person, double time_s, double blind_mm) {
+    NewAttempt made = new_attempt(person, 1.0, time_s);
+    made.metrics.push_back(metric("blind_advance", blind_mm));
+    return add_attempt(library_, made).value();
+  }
+  Task task() { return task_of(find_attempt(library_, list_attempts(library_)[0].attempt_id).value()); }
+  base::Result<std::string> set_one(const std::string& by = "Dora") {
+    return set_standard(library_, case_id_, {}, {}, by);
   }
 };
 
@@ -38,12 +51,14 @@ TEST_F(GradingTest, IsByTheRuleOfTheCase) {
 TEST_F(GradingTest, TakesTheVersionThatTheRuleNamesAmongSeveral) {
   rule({"hit >= 1"});
   const std::string attempt_id = attempt(std::nullopt, 1.0, 30.0);
-  ASSERT_TRUE(add_metrics(library_, attempt_id, {{"hit", 2, 0.0, "bool", ""}, {"hit", 3, 0.0, "bool", ""}}));
+  const int hit = metric("hit", {}).version;
+  ASSERT_TRUE(
+      add_metrics(library_, attempt_id, {{"hit", hit + 1, 0.0, "bool", ""}, {"hit", hit + 2, 0.0, "bool", ""}}));
   const AttemptRow row = find_attempt(library_, attempt_id).value();
   ASSERT_EQ(row.older_metrics.size(), 2U);
   const auto newest =
       std::find_if(row.metrics.begin(), row.metrics.end(), [](const auto& m) { return m.id == "hit"; });
-  EXPECT_EQ(newest->version, 3);
+  EXPECT_EQ(newest->version, hit + 2);
   EXPECT_EQ(looked_at(attempt_id).grade.verdict, Verdict::passed);
   for (const AttemptRow& one : list_attempts(library_)) EXPECT_EQ(one.older_metrics.size(), 2U);
 }
@@ -66,33 +81,112 @@ TEST_F(GradingTest, WhatWasCutOffIsNotGradable) {
   }
 }
 
-TEST_F(GradingTest, EightConsultantsOfThreeAttemptsSetTheStandard) {
+TEST_F(GradingTest, EightConsultantsOfFiveAttemptsMakeAStandardThatADirectorSets) {
   rule({"hit >= 1"});
-  const std::string one = attempt(user("T", Role::trainee), 1.0, 13.5);
+  user("Dora", Role::director);
+  const std::string one = attempt_blind(user("T", Role::trainee), 13.5, 2.0);
   EXPECT_TRUE(looked_at(one).provisional);
   EXPECT_EQ(looked_at(one).score.reason, "no_expert_set");
-  consultants(7, 3);
-  EXPECT_TRUE(looked_at(one).provisional);
-  EXPECT_FALSE(has_standard(library_, find_case(library_, case_id_).value()));
-  EXPECT_EQ(looked_at(one).experts.person_ids.size(), 7U);
-  const std::string person = user("Consultant 8", Role::mentor);
-  ASSERT_TRUE(set_level(library_, "Consultant 8", Level::consultant).has_value());
-  for (int k = 0; k < 3; ++k) attempt(person, 1.0, 17.0);
+  consultants(7, 5);
+  const std::string person = consultant("Consultant 8");
+  for (int k = 0; k < 4; ++k) attempt_blind(person, 17.0, 2.0);
+  EXPECT_EQ(looked_at(one).experts.people, 7U);
+  EXPECT_TRUE(looked_at(one).experts.bands.empty()) << "before: a band of five people and more";
+  EXPECT_EQ(set_one().error().code, "too_few_consultants");
+  attempt_blind(person, 17.0, 2.0);
+  EXPECT_TRUE(looked_at(one).provisional) << "nobody has set it";
+  EXPECT_TRUE(looked_at(one).experts.bands.empty());
+  EXPECT_EQ(looked_at(one).experts.people, 8U);
+  CaseRow row = find_case(library_, case_id_).value();
+  EXPECT_FALSE(has_standard(library_, row));
+
+  const std::string standard_id = set_one().value();
   const AttemptGrade grade = looked_at(one);
   EXPECT_FALSE(grade.provisional);
-  CaseRow row = find_case(library_, case_id_).value();
-  row.approach = find_attempt(library_, one).value().approach;  // as the sample attempts are made
-  row.modality = find_attempt(library_, one).value().picture.modality;
-  row.instrument.kind = find_attempt(library_, one).value().instrument.kind;
+  EXPECT_EQ(grade.experts.standard_id, standard_id);
   EXPECT_TRUE(has_standard(library_, row));
   row.approach =
       row.approach == cases::Approach::in_plane ? cases::Approach::out_of_plane : cases::Approach::in_plane;
   EXPECT_FALSE(has_standard(library_, row));
-  const assessment::MetricBand* time = grade.experts.find("time_total", 1);
+  const assessment::MetricBand* time = grade.experts.find("time_total", metric("time_total", {}).version);
   ASSERT_NE(time, nullptr);
-  EXPECT_DOUBLE_EQ(time->mean, 13.5);  // 10 … 17 s
+  EXPECT_DOUBLE_EQ(time->mean, 13.5);  // 10 … 17 s; with what was spent on getting used to it, before, more
+  EXPECT_EQ(time->n, 8U);
+  EXPECT_TRUE(time->tolerance.has_value());
   EXPECT_NEAR(grade.score.value.value(), 50.0, 1e-9);
   EXPECT_EQ(looked_at(list_attempts_of(library_, person)[0].attempt_id).score.reason, "of_the_set");
+}
+
+TEST_F(GradingTest, AStandardStaysAsItWasSet) {
+  rule({"hit >= 1"});
+  user("Dora", Role::director);
+  consultants(8, 5);
+  const std::string one = attempt_blind(user("T", Role::trainee), 20.0, 12.0);
+  const std::string standard_id = set_one().value();
+  EXPECT_EQ(set_one().error().code, "same_standard");
+  const AttemptGrade then = looked_at(one);
+  ASSERT_TRUE(then.score.value.has_value());
+  // More attempts of the same people and of another, and a new version of a metric for all: before, each of these
+  // moved bands and scores.
+  const std::string late = consultant("Late");
+  for (int k = 0; k < 5; ++k) attempt_blind(late, 200.0, 60.0);
+  for (const AttemptRow& row : list_attempts(library_)) {
+    MetricValue next = metric("blind_advance", 0.0);
+    next.version += 1;
+    ASSERT_TRUE(add_metrics(library_, row.attempt_id, {next}));
+  }
+  const AttemptGrade now = looked_at(one);
+  EXPECT_EQ(now.experts.standard_id, standard_id);
+  EXPECT_EQ(now.score.value, then.score.value);
+  ASSERT_EQ(now.experts.bands.size(), then.experts.bands.size());
+  for (std::size_t i = 0; i < now.experts.bands.size(); ++i) {
+    EXPECT_EQ(now.experts.bands[i].version, then.experts.bands[i].version);
+    EXPECT_EQ(now.experts.bands[i].low, then.experts.bands[i].low);
+    EXPECT_EQ(now.experts.bands[i].high, then.experts.bands[i].high);
+    EXPECT_EQ(now.experts.bands[i].mean, then.experts.bands[i].mean);
+  }
+  for (const char* sql :
+       {"UPDATE standard SET people = 9", "DELETE FROM standard", "UPDATE standard_band SET mean = 0",
+        "DELETE FROM standard_band", "UPDATE standard_attempt SET attempt_id = ''"})
+    EXPECT_THROW(library_.database().run(sql), DatabaseFailure) << sql;
+  // Another may be set; the old one stays beside it.
+  const std::string next_id = set_one().value();
+  EXPECT_EQ(looked_at(one).experts.standard_id, next_id);
+  EXPECT_NE(looked_at(one).score.value, then.score.value);
+  const auto all = list_standards(library_, case_id_);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].set.standard_id, next_id);
+  EXPECT_EQ(all[1].set.bands[0].mean, then.experts.bands[0].mean);
+}
+
+TEST_F(GradingTest, NobodySetsAStandardThatGradesThem) {
+  rule({"hit >= 1"});
+  consultants(7, 5);
+  const std::string director = consultant("Dora", Role::director);
+  for (int k = 0; k < 5; ++k) attempt_blind(director, 20.0, 2.0);
+  user("Mia", Role::mentor);
+  user("Dean", Role::director);
+  EXPECT_EQ(set_one("Dora").error().code, "not_allowed");
+  EXPECT_EQ(set_one("Mia").error().code, "not_allowed");
+  EXPECT_EQ(set_one("Nobody").error().code, "no_user");
+  EXPECT_TRUE(list_standards(library_, case_id_).empty());
+  EXPECT_TRUE(set_one("Dean").has_value());
+}
+
+TEST_F(GradingTest, WhatWasStoppedIsNotCompleted) {
+  rule({"hit >= 1"});
+  const std::string person = consultant("C");
+  for (int k = 0; k < 5; ++k) {
+    NewAttempt made = new_attempt(person, std::nullopt, 5.0);
+    made.end = AttemptEnd::stopped;  // to begin again
+    static_cast<void>(add_attempt(library_, made).value());
+  }
+  EXPECT_EQ(consultants_of(library_, task()).people, 0U);
+  for (int k = 0; k < 5; ++k) attempt(person, 1.0, 20.0);
+  EXPECT_EQ(consultants_of(library_, task()).people, 1U);
+  CaseSetting defer;
+  defer.clinic.defer = true;
+  EXPECT_TRUE(completed(list_attempts(library_).back(), defer)) << "deferring is how such a case is completed";
 }
 
 TEST_F(GradingTest, WhoIsAConsultantLaterWasNoneThen) {
@@ -123,22 +217,26 @@ TEST_F(GradingTest, SimulatedOperatorsNeverSetAStandard) {
   }
   EXPECT_TRUE(list_expert_attempts(library_, case_id_, SetKind::consultants).empty());
   const AttemptGrade grade = looked_at(attempt(user("T", Role::trainee), 1.0, 90.0));
-  EXPECT_EQ(grade.experts.kind, SetKind::simulated);
-  EXPECT_FALSE(grade.experts.bands.empty());
+  // Before: the simulated set's bands, and "simulated expert, not a standard: 14–45 s" in the debrief.
+  EXPECT_EQ(grade.experts.people, 0U);
+  EXPECT_TRUE(grade.experts.bands.empty());
   EXPECT_TRUE(grade.provisional);
   EXPECT_FALSE(grade.score.value.has_value());
   ASSERT_FALSE(grade.debrief.empty());
-  EXPECT_NE(grade.debrief[0].text.find("simulated expert, not a standard"), std::string::npos)
-      << grade.debrief[0].text;
-  consultants(5, 3);
-  EXPECT_EQ(looked_at(attempt(user("U", Role::trainee), 1.0, 90.0)).experts.kind, SetKind::consultants)
-      << "never mixed";
+  for (const assessment::Sentence& one : grade.debrief) {
+    EXPECT_EQ(one.text.find("simulated"), std::string::npos) << one.text;
+    EXPECT_EQ(one.text.find("consultants"), std::string::npos) << one.text;
+  }
+  user("Dora", Role::director);
+  EXPECT_EQ(set_one().error().code, "too_few_consultants");
 }
 
 TEST_F(GradingTest, ExpertsAreThoseOfTheSameTask) {
   rule({"hit >= 1"});
   const std::string second_lesion = add_lesion(library_, case_id_, sample_lesion()).value();
-  consultants(8, 3);
+  consultants(8, 5);
+  user("Dora", Role::director);
+  ASSERT_TRUE(set_one().has_value());
   NewAttempt other = new_attempt(std::nullopt, 1.0, 20.0);
   EXPECT_FALSE(looked_at(add_attempt(library_, other).value()).provisional);
   other.picture.modality = cases::Modality::xray;

@@ -1,0 +1,85 @@
+// standard set, show.
+#include <cstdio>
+
+#include "app/cli/command.h"
+#include "app/library/standard_json.h"
+#include "assessment/grading/plain_words.h"
+#include "reports/words/grade_words.h"
+
+namespace seldinger::app {
+namespace {
+
+int run_standard_set(const Arguments& arguments) {
+  const std::string by = arguments.required("--by");
+  std::optional<cases::Modality> modality;
+  if (arguments.has("--modality")) {
+    modality = casedb::modality_from(arguments.text("--modality"));
+    if (!modality) throw UsageError("--modality is " + casedb::modality_names());
+  }
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto made =
+      casedb::set_standard(*library, arguments.positional(0), arguments.text("--lesion"), modality, by);
+  if (!made) return refuse(made.error());
+  std::fputs(arguments.has("--json") ? json_of_standard_id(*made).c_str() : (*made + "\n").c_str(), stdout);
+  return kDone;
+}
+
+void print(const casedb::Standard& standard) {
+  std::printf("%s  %s, %s, %s\n%s\n", standard.set.standard_id.c_str(), standard.modality.c_str(),
+              standard.approach.c_str(), standard.instrument.c_str(), reports::experts_text(standard.set).c_str());
+  for (const assessment::MetricBand& band : standard.set.bands)
+    std::printf("  %-34s version %d: %s%s\n", band.id.c_str(), band.version,
+                assessment::plain_range(band.low, band.high, band.unit).c_str(),
+                band.tolerance ? (", " + reports::tolerance_text(standard.set, band.id, band.version)).c_str()
+                               : (", n = " + std::to_string(band.n)).c_str());
+}
+
+int run_standard_show(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto row = casedb::find_case(*library, arguments.positional(0));
+  if (!row) return refuse(row.error());
+  const auto standards = casedb::list_standards(*library, row->case_id);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_standards(standards).c_str(), stdout);
+    return kDone;
+  }
+  if (standards.empty()) std::puts(reports::experts_text({}).c_str());
+  for (const casedb::Standard& one : standards) print(one);
+  if (!standards.empty()) std::puts(reports::bands_note().c_str());
+  return kDone;
+}
+
+constexpr Option kStandardSetOptions[] = {
+    kLibrary,
+    {"--lesion", "ID", "of attempts at this target; default the case's first"},
+    {"--modality", "mpr|xray|ultrasound", "of attempts with it; default the case's"},
+    {"--by", "NAME", "the account that decides"},
+    kJson};
+
+constexpr Option kStandardShowOptions[] = {kLibrary, kJson};
+
+}  // namespace
+
+Command standard_set_command() {
+  return {.name = "standard set",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kStandardSetOptions,
+          .summary = "Sets the standard of a case: what its consultants did so far, frozen; by a director.",
+          .run = &run_standard_set};
+}
+
+Command standard_show_command() {
+  return {.name = "standard show",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kStandardShowOptions,
+          .summary = "Prints the standards of a case, the newest first: of each task that is the one in force.",
+          .run = &run_standard_show};
+}
+
+}  // namespace seldinger::app
