@@ -22,7 +22,8 @@ enum class Glance {
 
 // From where the one before ended.
 struct Stage {
-  // Of the tip: where it goes along the planned way, from the entry to `at_target` 0 mm; negative is short of it.
+  // How deep the tip goes along the planned way, told from the entry or from where the trigger is to fall;
+  // negative: short of it.
   enum class From { entry, target };
   From from = From::entry;
   double depth_mm = -30.0;
