@@ -69,6 +69,8 @@ constexpr Phrase kPhrases[] = {
      "Decided wrongly whether to go ahead"},
     {"steps_done", "steps", "Did only {} of the steps that were asked for",
      "Did {} of the steps that were asked for", "Did none of the steps that were asked for"},
+    {"steps_shown", "steps", "Showed only {} of the steps that a deed can show",
+     "Showed {} of the steps that a deed can show", "Showed none of the steps that a deed can show"},
     {"steps_violated", "steps violated", "Violated a step of the procedure {times}",
      "Violated a step of the procedure only {times}", "Violated no step of the procedure"},
     {"pain_reactions", "pain", "Hurt the patient {times}", "Hurt the patient only {times}",

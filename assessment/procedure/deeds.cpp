@@ -137,7 +137,7 @@ std::optional<double> orientation_tested_s(const Signals& signals, double on_ski
       asked_s = pose.t_s;
       const cases::Closest near = skin.closest(pose.probe_origin_lps_mm, hint);
       hint = near.triangle;
-      on_skin = std::abs(near.distance_mm) <= on_skin_mm;
+      on_skin = near.distance_mm <= on_skin_mm;  // however far a hand presses it in
     }
     const bool looked = picture != nullptr && picture->live && pose.t_s - picture->t_s <= kPictureSeconds;
     if (!on_skin || !looked || (i > 0 && signals.gap(i - 1))) {
