@@ -128,6 +128,15 @@ base::Result<std::string> with_rule(casedb::Library& library, const std::string&
   return next;
 }
 
+// What has a newer version is no longer practised: its rule may be one that waiting in view passes.
+base::Result<void> retire_older(casedb::Library& library, const casedb::CaseRow& newest) {
+  for (const casedb::CaseRow& row : casedb::list_cases(library))
+    if (row.family_id == newest.family_id && row.version < newest.version &&
+        row.state == casedb::CaseState::published)
+      if (const auto done = casedb::retire_case(library, row.case_id, kAuthor); !done) return done.error();
+  return {};
+}
+
 base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
                                   const char* hits) {
   DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0};
@@ -163,6 +172,7 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
   if (check)
     if (const auto done = publish(library, answer.case_id, *check); !done)
       return titled(done.error(), answer.title);
+  if (const auto done = retire_older(library, *row); !done) return titled(done.error(), answer.title);
   const auto now = casedb::find_case(library, answer.case_id);
   if (!now) return now.error();
   answer.state = now->state;

@@ -119,7 +119,8 @@ DemoCase depth_out_of_plane() {
                         "and so on down to the ball at 30 mm.",
                         DemoSource::gel_across, volume::GelBlock::out_of_plane, 8.0, 29.0);
   made.setting.approach = cases::Approach::out_of_plane;
-  made.setting.rule = rule({"hit >= 1", "advance_beyond_plane <= 0", "longest_advance_between_sights <= 12", "skin_punctures <= 1"}, {});
+  made.setting.rule = rule(
+      {"hit >= 1", "advance_beyond_plane <= 0", "longest_advance_between_sights <= 12", "skin_punctures <= 1"}, {});
   return made;
 }
 
@@ -189,7 +190,8 @@ DemoCase kidney_cortex() {
   made.setting.position = cases::PatientPosition::prone;
   made.setting.instrument = core();
   made.setting.clinic = {1.0, 240.0, "", "proteinuria, native kidney biopsy", false};
-  made.setting.rule = rule({"core_in_target >= 10", "capsule_punctures <= 1", "skin_punctures <= 1"},
+  made.setting.rule = rule({"core_in_target >= 10", "capsule_punctures <= 1", "skin_punctures <= 1",
+                            "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                            {"nogo_length_critical <= 0"});
   cases::LesionForm cortex;  // no lesion: where the sample comes from, as the CT shows it
   cortex.kind = cases::LesionKind::ellipsoid;
@@ -213,8 +215,9 @@ DemoCase jugular_vein() {
   made.setting.approach = cases::Approach::out_of_plane;
   made.setting.instrument = access(18);
   made.setting.clinic = {1.2, 150.0, "", "central venous access", false};
-  made.setting.rule = rule({"hit >= 1", "back_wall_dist >= 2", "skin_punctures <= 1"},
-                           {"nogo_length_critical <= 0", "posterior_wall <= 0"});
+  made.setting.rule =
+      rule({"hit >= 1", "back_wall_dist >= 2", "longest_advance_between_sights <= 8", "skin_punctures <= 1"},
+           {"nogo_length_critical <= 0", "posterior_wall <= 0"});
   // The lumen where it is entered.
   made.lesions = {sphere({-22.1, -210.2, 83.0}, 6.0, 12.0)};
   made.structures = {
@@ -248,7 +251,8 @@ DemoCase opacified_calyx() {
   made.setting.instrument = access(18);
   made.setting.clinic = {1.0, 230.0, "", "stone, access for nephrolithotomy", false};
   made.setting.rule =
-      rule({"tip_target_axial >= -3", "tip_target_axial <= 3", "view_angle_max >= 30", "fluoroscopy_time <= 60",
+      rule({"hit >= 1", "tip_target_axial >= -3", "tip_target_axial <= 3",
+            "longest_advance_between_exposures <= 20", "view_angle_max >= 30", "fluoroscopy_time <= 60",
             "pulse_rate_max <= 7.5", "must_cross_length >= 10", "skin_punctures <= 1"},
            {"nogo_length_critical <= 0", "posterior_wall <= 0", "hand_in_beam <= 0"});
   made.lesions = {sphere(kCalyx, 4.0, 600.0)};

@@ -139,6 +139,31 @@ TEST_F(FirstHour, IsMadeOnce) {
   EXPECT_EQ(run(kProgram + " demo --drills --ct x --library '" + library_ + "'", scratch_).exit_code, 2);
 }
 
+// A published case keeps its rule: a library of a program with other rules gets the next version of the case.
+TEST_F(FirstHour, ADrillWhoseRuleHasChangedGetsItsNextVersion) {
+  const std::string library = (scratch_ / "older").string();
+  std::filesystem::copy(library_, library, std::filesystem::copy_options::recursive);
+  const auto answer = [&](const std::string& words) {
+    const auto ran = run(kProgram + " " + words + " --json --library '" + library + "'", scratch_);
+    EXPECT_EQ(ran.exit_code, 0) << words << "\n" << ran.err;
+    return Json::parse(ran.out, nullptr, false);
+  };
+  const std::string first = made_.at("drills")[0].at("case_id");
+  const std::string older = answer("case version " + first + " --by mentor").at("case_id");
+  ASSERT_EQ(
+      run(kProgram + " case setting " + older + " --pass 'vis_joint >= 0.5' --library '" + library + "'", scratch_)
+          .exit_code,
+      0);
+  const Json again = answer("demo --drills");
+  const std::string now = again.at("drills")[0].at("case_id");
+  const Json shown = answer("case show " + now);
+  EXPECT_EQ(shown.at("version"), 3);
+  EXPECT_EQ(shown.at("rule"), ask("case show " + first).at("rule"));
+  EXPECT_EQ(again.at("drills")[1], made_.at("drills")[1]);
+  EXPECT_EQ(again.at("curricula"), made_.at("curricula")) << "what was passed counts on";
+  EXPECT_EQ(answer("case show " + first).at("state"), "retired");
+}
+
 TEST_F(FirstHour, ThePagesCommandsRunAsTheyStand) {
   const std::string library = (scratch_ / "page").string();
   const auto commands = commands_of_the_page();

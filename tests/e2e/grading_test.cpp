@@ -79,8 +79,9 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
   EXPECT_GT(groups[0].at("passed").get<int>(), groups[1].at("passed").get<int>())
       << "the simulated expert is built to do better";
   const std::string page = fixtures::whole_file(library_.folder() / "side.html");
-  for (const char* text : {"Simulated expert", "Simulated novice", "What each attempt was told",
-                           "Training only, not for planning a patient&#39;s procedure.", "No expert has set a standard yet"})
+  for (const char* text :
+       {"Simulated expert", "Simulated novice", "What each attempt was told",
+        "Training only, not for planning a patient&#39;s procedure.", "No expert has set a standard yet"})
     EXPECT_NE(page.find(text), page.npos) << text;
 
   // The same grade wherever it is asked.
