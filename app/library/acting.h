@@ -12,6 +12,8 @@ namespace seldinger::app {
 inline constexpr Option kActing{"--by", "NAME",
                                 "the account that decides; left out: whoever has the library's files"};
 
+inline constexpr Option kWhose{"--user", "NAME", "whose account"};
+
 // The person of --by, when the account may; none without --by. `no_user`, `not_allowed`.
 inline base::Result<std::optional<std::string>> acting(casedb::Library& library, const Arguments& arguments,
                                                        casedb::Action action, casedb::Subject subject = {}) {

@@ -30,8 +30,8 @@ int run_cohort_list(const Arguments& arguments) {
   }
   if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
   for (const casedb::Cohort& one : cohorts)
-    std::printf("%s  %-24s %-16s %d learners\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
-                one.learners);
+    std::printf("%s  %-24s %-16s %d learner%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
+                one.learners, one.learners == 1 ? "" : "s");
   return kDone;
 }
 
@@ -87,18 +87,17 @@ int run_cohort_direct(const Arguments& arguments) {
   return done ? kDone : refuse(done.error());
 }
 
-constexpr Option kUserOption{"--user", "NAME", "whose account"};
-constexpr Option kAddOptions[] = {kLibrary,
-                                  {"--programme", "TEXT", "the programme to which it belongs"},
-                                  {"--site", "TEXT", "where; may be left out"},
-                                  kActing,
-                                  kJson};
-constexpr Option kEnrolOptions[] = {kLibrary,
-                                    kUserOption,
-                                    {"--mentor", nullptr, "as a mentor; else as a learner"},
-                                    {"--end", nullptr, "from now on no longer"},
-                                    kActing};
-constexpr Option kDirectOptions[] = {kLibrary, kUserOption, {"--end", nullptr, "from now on no longer"}, kActing};
+constexpr Option kCohortAddOptions[] = {kLibrary,
+                                        {"--programme", "TEXT", "the programme to which it belongs"},
+                                        {"--site", "TEXT", "where; may be left out"},
+                                        kActing,
+                                        kJson};
+constexpr Option kCohortEnrolOptions[] = {kLibrary,
+                                          kWhose,
+                                          {"--mentor", nullptr, "as a mentor; else as a learner"},
+                                          {"--end", nullptr, "from now on no longer"},
+                                          kActing};
+constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}, kActing};
 
 }  // namespace
 
@@ -107,7 +106,7 @@ Command cohort_add_command() {
           .positionals = "TITLE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kAddOptions,
+          .options = kCohortAddOptions,
           .summary = "Adds a cohort of learners.",
           .run = &run_cohort_add};
 }
@@ -131,7 +130,7 @@ Command cohort_enrol_command() {
           .positionals = "COHORT",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kEnrolOptions,
+          .options = kCohortEnrolOptions,
           .summary = "Enrols a learner or a mentor from now on; mentors see the learners of their cohorts by name.",
           .run = &run_cohort_enrol};
 }
@@ -141,7 +140,7 @@ Command cohort_direct_command() {
           .positionals = "PROGRAMME",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kDirectOptions,
+          .options = kCohortDirectOptions,
           .summary = "Makes somebody director of a programme, who sees the learners of its cohorts by name.",
           .run = &run_cohort_direct};
 }

@@ -129,15 +129,14 @@ int run_user_fact(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kUserOption{"--user", "NAME", "whose account"};
-constexpr Option kNewOptions[] = {kLibrary, kActing, kJson};
-constexpr Option kResearcherOptions[] = {kLibrary, kUserOption, kActing};
-constexpr Option kTextOptions[] = {
+constexpr Option kStudyNewOptions[] = {kLibrary, kActing, kJson};
+constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, kActing};
+constexpr Option kConsentTextOptions[] = {
     kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}, kActing};
-constexpr Option kListOptions[] = {kLibrary, kUserOption, kJson};
-constexpr Option kGiveOptions[] = {kLibrary, kUserOption};
-constexpr Option kWithdrawOptions[] = {
-    kLibrary, kUserOption, {"--delete", nullptr, "also erase this person's recordings and results"}};
+constexpr Option kConsentListOptions[] = {kLibrary, kWhose, kJson};
+constexpr Option kConsentGiveOptions[] = {kLibrary, kWhose};
+constexpr Option kConsentWithdrawOptions[] = {
+    kLibrary, kWhose, {"--delete", nullptr, "also erase this person's recordings and results"}};
 
 }  // namespace
 
@@ -146,7 +145,7 @@ Command study_new_command() {
           .positionals = "TITLE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kNewOptions,
+          .options = kStudyNewOptions,
           .summary = "Makes a study, to which people can consent.",
           .run = &run_study_new};
 }
@@ -160,7 +159,7 @@ Command study_researcher_command() {
           .positionals = "STUDY",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kResearcherOptions,
+          .options = kStudyResearcherOptions,
           .summary = "Lets a researcher see, as pseudonyms, those who consent to a study.",
           .run = &run_study_researcher};
 }
@@ -170,14 +169,14 @@ Command consent_text_command() {
           .positionals = "FILE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kTextOptions,
+          .options = kConsentTextOptions,
           .summary = "Adds the next version of a text that people are asked to consent to.",
           .run = &run_consent_text};
 }
 
 Command consent_list_command() {
   return {.name = "consent list",
-          .options = kListOptions,
+          .options = kConsentListOptions,
           .summary = "Lists what somebody is asked to consent to, and the answers.",
           .run = &run_consent_list};
 }
@@ -187,7 +186,7 @@ Command consent_give_command() {
           .positionals = "TEXT",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kGiveOptions,
+          .options = kConsentGiveOptions,
           .summary = "Notes that somebody consents, given on paper; on the dashboard people answer themselves.",
           .run = [](const Arguments& arguments) { return run_consent_answer(arguments, true); }};
 }
@@ -197,7 +196,7 @@ Command consent_withdraw_command() {
           .positionals = "TEXT",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kWithdrawOptions,
+          .options = kConsentWithdrawOptions,
           .summary = "Notes that somebody no longer consents.",
           .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
 }

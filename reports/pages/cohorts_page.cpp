@@ -5,7 +5,7 @@ namespace {
 
 // −1: withheld.
 std::string count_text(int count) {
-  return count < 0 ? "fewer than " + std::to_string(casedb::kSmallestCell) + " people" : std::to_string(count);
+  return count < 0 ? "withheld" : std::to_string(count);
 }
 
 void add_row(Html& html, const CohortView& view) {
@@ -15,14 +15,16 @@ void add_row(Html& html, const CohortView& view) {
       .raw("</th><td data-label=\"Programme\">")
       .name(cohort.programme);
   if (!cohort.site.empty()) html.raw(" <span class=\"why\">").name(cohort.site).raw("</span>");
-  html.raw("</td><td data-label=\"Learners\">").text(count_text(cohort.learners));
+  html.raw("</td><td data-label=\"Learners\">")
+      .text(cohort.learners < 0 ? "fewer than " + std::to_string(casedb::kSmallestCell)
+                                : std::to_string(cohort.learners));
   for (std::size_t i = 0; i < view.learners.size(); ++i) html.raw(i == 0 ? ": " : ", ").name(view.learners[i]);
   html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(count_text(cohort.attempts));
   html.raw("</td><td class=\"number\" data-label=\"Hits\">");
   if (cohort.hits < 0)
     html.text(count_text(cohort.hits));
   else
-    html.text(std::to_string(cohort.hits) + " of " + std::to_string(cohort.with_hit));
+    html.text(cohort.with_hit == 0 ? "—" : std::to_string(cohort.hits) + " of " + std::to_string(cohort.with_hit));
   html.raw("</td></tr>\n");
 }
 
@@ -42,8 +44,9 @@ std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> coh
   html.raw(
       "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did, and how often they "
       "hit</caption>\n<thead><tr><th scope=\"col\">Cohort</th><th "
-      "scope=\"col\">Programme</th><th scope=\"col\">Learners</th><th scope=\"col\">Attempts</th><th "
-      "scope=\"col\">Hits</th></tr></thead>\n<tbody>\n");
+      "scope=\"col\">Programme</th><th scope=\"col\">Learners</th><th scope=\"col\" "
+      "class=\"number\">Attempts</th><th "
+      "scope=\"col\" class=\"number\">Hits</th></tr></thead>\n<tbody>\n");
   for (const CohortView& view : cohorts) add_row(html, view);
   html.raw("</tbody>\n</table>\n</div>\n");
   return page("Cohorts", visitor, html);

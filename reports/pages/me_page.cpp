@@ -51,7 +51,6 @@ void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one)
 void add_fact(Html& html, const casedb::FactInfo& fact, const casedb::FactGiven* last) {
   const std::string value = last == nullptr ? "" : last->answer;
   html.raw("<p><label for=\"").text(fact.id).raw("\">").text(fact.words);
-  if (fact.unit == "years") html.raw(" <span class=\"why\">years</span>");
   html.raw("</label>\n");
   if (fact.is_choice()) {
     html.raw("<select id=\"").text(fact.id).raw("\" name=\"").text(fact.id).raw("\"><option value=\"\"></option>");

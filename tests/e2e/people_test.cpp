@@ -32,7 +32,9 @@ class PeopleCommands : public testing::Test {
     std::string person_id;
     for (const casedb::Account& one : casedb::list_users(*library))
       if (one.login_name == name) person_id = one.person_id;
-    const casedb::AttemptRow row = casedb::list_attempts(*library, 0, 1).at(0);
+    const auto rows = casedb::list_attempts(*library);
+    const auto simulated = std::find_if(rows.begin(), rows.end(), [](const auto& one) { return one.synthetic(); });
+    const casedb::AttemptRow& row = *simulated;
     casedb::NewAttempt made;
     static_cast<casedb::AttemptHead&>(made) = row;
     made.person_id = person_id;

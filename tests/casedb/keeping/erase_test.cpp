@@ -233,6 +233,26 @@ TEST_F(EraseTest, EveryReferenceToAPersonIsRemovedOrKept) {
   EXPECT_EQ(told, there);
 }
 
+// And one that keeps what belongs to an attempt, a case or a person lets an erasure through.
+TEST_F(EraseTest, EveryTriggerAgainstDeletingLetsAnErasureThrough) {
+  Sqlite& database = library_->database();
+  int seen = 0;
+  for (const char* parent : {"attempt", "open_attempt", "training_case"}) {
+    std::set<std::string> tables = {parent};
+    for (const Reference& one : references_to(database, parent)) tables.insert(one.table);
+    for (const std::string& table : tables) {
+      Statement rows = database.prepare(
+          "SELECT name, sql FROM sqlite_schema WHERE type = 'trigger' AND tbl_name = :name AND sql LIKE '%BEFORE "
+          "DELETE%'");
+      for (rows.bind("name", table); rows.step(); ++seen)
+        EXPECT_TRUE(rows.text("sql").find("erasing") != std::string::npos ||
+                    rows.text("name") == "training_case_published_is_kept")
+            << rows.text("name") << " would stop the erasing of what refers to " << parent;
+    }
+  }
+  EXPECT_GT(seen, 7);
+}
+
 TEST_F(EraseTest, OutsideOfAnErasureNothingCanBeDeleted) {
   const std::string attempt_id = add_attempt(*library_, attempt_by(tim_, 18, 0.5)).value();
   static_cast<void>(erase_person(*library_, kName, std::nullopt));
