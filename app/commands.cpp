@@ -27,6 +27,7 @@ namespace seldinger::app {
   ROW(case_publish)             \
   ROW(case_retire)              \
   ROW(case_version)             \
+  ROW(case_delete)              \
   ROW(deidentify)               \
   ROW(case_bundle)              \
   ROW(bundle_export)            \
@@ -45,6 +46,7 @@ namespace seldinger::app {
   ROW(attempt_list)             \
   ROW(attempt_show)             \
   ROW(attempt_compare)          \
+  ROW(attempt_delete)           \
   ROW(standard_set)             \
   ROW(standard_show)            \
   ROW(curriculum_add)           \
@@ -58,6 +60,20 @@ namespace seldinger::app {
   ROW(user_passwd)              \
   ROW(user_level)               \
   ROW(user_disable)             \
+  ROW(user_fact)                \
+  ROW(user_erase)               \
+  ROW(cohort_add)               \
+  ROW(cohort_list)              \
+  ROW(cohort_show)              \
+  ROW(cohort_enrol)             \
+  ROW(cohort_direct)            \
+  ROW(study_new)                \
+  ROW(study_list)               \
+  ROW(study_researcher)         \
+  ROW(consent_text)             \
+  ROW(consent_list)             \
+  ROW(consent_give)             \
+  ROW(consent_withdraw)         \
   ROW(haptics_insert)           \
   ROW(haptics_fit)              \
   ROW(haptics_calibrate)        \

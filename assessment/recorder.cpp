@@ -48,6 +48,11 @@ void Recorder::frame(const cases::FrameTruth& frame) {
   frames_.push_back(frame);
 }
 
+void Recorder::note(const cases::Event& event) {
+  const std::lock_guard lock(frames_mutex_);
+  noted_.push_back(event);
+}
+
 base::Result<std::uint32_t> Recorder::finish() {
   stopping_.store(true);
   if (thread_.joinable()) thread_.join();
@@ -69,11 +74,12 @@ void Recorder::run() {
     }
     if (!last) std::this_thread::sleep_for(kNap);
   }
-  const bool frames_left = [&] {
+  const bool rows_left = [&] {
     const std::lock_guard lock(frames_mutex_);
-    return !frames_.empty();
+    piece_.events->insert(piece_.events->end(), noted_.begin(), noted_.end());
+    return !frames_.empty() || !noted_.empty();
   }();
-  if (!piece_.inputs.empty() || frames_left || chunks_ == 0) store_piece(std::numeric_limits<double>::infinity());
+  if (!piece_.inputs.empty() || rows_left || chunks_ == 0) store_piece(std::numeric_limits<double>::infinity());
 }
 
 void Recorder::take(std::size_t ticks) {

@@ -40,6 +40,9 @@ class Recorder {
   // What a picture showed, by rising time; by any thread but the servo's.
   void frame(const cases::FrameTruth& frame);
 
+  // What was noted (cases::EventInfo::noted) after the last tick; by any thread once no tick comes any more.
+  void note(const cases::Event& event);
+
   // Stores what is left. How many chunks there are, at least one; the first error of `store`. Again: the same.
   base::Result<std::uint32_t> finish();
 
@@ -64,6 +67,7 @@ class Recorder {
 
   std::mutex frames_mutex_;
   std::vector<cases::FrameTruth> frames_;  // not yet in a chunk
+  std::vector<cases::Event> noted_;        // for the last; frames_mutex_'s, too
 
   cases::Recording piece_;  // from here on: the recorder's thread only
   std::uint64_t ticks_ = 0;

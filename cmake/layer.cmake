@@ -15,3 +15,12 @@ function(seldinger_layer NAME)
   endforeach()
   target_link_libraries(seldinger_${NAME} PUBLIC seldinger_options ${links} PRIVATE ${ARG_PRIVATE_LINKS})
 endfunction()
+
+# seldinger_unhurried(): what this folder and the folders added after this line compile is seldom waited for in a
+# loop (commands, windows, pages, rows): -O1 takes a quarter off the time of a build (docs/decisions/0039).
+# g++ 12 then takes the text inside a std::string or std::optional for something else (gcc.gnu.org/PR105329, PR80635).
+macro(seldinger_unhurried)
+  if(CMAKE_BUILD_TYPE STREQUAL Release)
+    add_compile_options(-O1 -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict -Wno-maybe-uninitialized)
+  endif()
+endmacro()

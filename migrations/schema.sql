@@ -39,6 +39,15 @@ CREATE TABLE attempt (
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
+CREATE TABLE attempt_condition (
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  condition_id TEXT NOT NULL,
+  number REAL,
+  words TEXT,
+  PRIMARY KEY (attempt_id, condition_id),
+  CHECK ((number IS NULL) <> (words IS NULL))
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE attempt_step (
   attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
   step_id TEXT NOT NULL,
@@ -46,7 +55,7 @@ CREATE TABLE attempt_step (
   position INTEGER NOT NULL CHECK (position >= 0), -- the order in which they are to be done
   state TEXT NOT NULL CHECK (state IN ('done', 'skipped', 'violated', 'not_asked')),
   t_s REAL, -- when it was done, too late or violated; null: never
-  reason TEXT NOT NULL, -- why it was not asked for; else empty
+  reason TEXT NOT NULL, how TEXT CHECK (how IN ('shown', 'said')), -- why it was not asked for; else empty
   PRIMARY KEY (attempt_id, step_id, version),
   CHECK ((state = 'not_asked') = (reason <> ''))
 ) STRICT, WITHOUT ROWID;
@@ -58,6 +67,12 @@ CREATE TABLE case_attribute (
   value TEXT NOT NULL,
   PRIMARY KEY (case_id, position),
   UNIQUE (case_id, name)
+) STRICT;
+
+CREATE TABLE case_cohort (
+  case_id TEXT NOT NULL REFERENCES training_case (case_id) ON DELETE CASCADE,
+  cohort_id TEXT NOT NULL REFERENCES cohort (cohort_id),
+  PRIMARY KEY (case_id, cohort_id)
 ) STRICT;
 
 CREATE TABLE case_decision (
@@ -97,6 +112,31 @@ CREATE TABLE case_warning (
   PRIMARY KEY (case_id, position)
 ) STRICT;
 
+CREATE TABLE cohort (
+  cohort_id TEXT NOT NULL PRIMARY KEY CHECK (length(cohort_id) = 36),
+  title TEXT NOT NULL UNIQUE CHECK (title <> ''),
+  programme TEXT NOT NULL CHECK (programme <> ''),
+  site TEXT NOT NULL, -- empty: not said
+  created_us INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE consent (
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  text_id TEXT NOT NULL REFERENCES consent_text (text_id),
+  given_us INTEGER NOT NULL,
+  withdrawn_us INTEGER CHECK (withdrawn_us >= given_us), -- null: it stands
+  PRIMARY KEY (person_id, text_id, given_us)
+) STRICT;
+
+CREATE TABLE consent_text (
+  text_id TEXT NOT NULL PRIMARY KEY CHECK (length(text_id) = 36),
+  study_id TEXT REFERENCES study (study_id), -- null: research with this library, whatever the study
+  version INTEGER NOT NULL CHECK (version > 0),
+  body TEXT NOT NULL CHECK (body <> ''),
+  body_hash TEXT NOT NULL CHECK (length(body_hash) = 64), -- SHA-256 of body
+  created_us INTEGER NOT NULL
+) STRICT;
+
 CREATE TABLE curriculum (
   curriculum_id TEXT NOT NULL PRIMARY KEY CHECK (length(curriculum_id) = 36),
   title TEXT NOT NULL CHECK (title <> ''),
@@ -125,6 +165,33 @@ CREATE TABLE curriculum_item (
   attempt_limit INTEGER CHECK (attempt_limit BETWEEN 1 AND 1000), -- null: the case's own
   PRIMARY KEY (curriculum_id, position),
   UNIQUE (curriculum_id, family_id)
+) STRICT;
+
+CREATE TABLE enrolment (
+  cohort_id TEXT NOT NULL REFERENCES cohort (cohort_id),
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  post TEXT NOT NULL CHECK (post IN ('learner', 'mentor')),
+  from_us INTEGER NOT NULL,
+  to_us INTEGER CHECK (to_us >= from_us), -- null: still
+  PRIMARY KEY (cohort_id, person_id, post, from_us)
+) STRICT;
+
+CREATE TABLE erased_attempt (
+  erasure_id TEXT NOT NULL REFERENCES erasure (erasure_id),
+  position INTEGER NOT NULL CHECK (position >= 0),
+  case_id TEXT NOT NULL, -- may be gone by now
+  PRIMARY KEY (erasure_id, position)
+) STRICT;
+
+CREATE TABLE erasing (
+  id TEXT NOT NULL PRIMARY KEY -- of an attempt, a case or a person
+) STRICT;
+
+CREATE TABLE erasure (
+  erasure_id TEXT NOT NULL PRIMARY KEY CHECK (length(erasure_id) = 36),
+  what TEXT NOT NULL CHECK (what IN ('person', 'attempts', 'case')), -- attempts: of a person who stays, or one
+  erased_us INTEGER NOT NULL,
+  by_person_id TEXT REFERENCES person (person_id) -- null: whoever has the library's files
 ) STRICT;
 
 CREATE TABLE lesion (
@@ -178,6 +245,15 @@ CREATE TABLE open_attempt (
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
+CREATE TABLE open_attempt_condition (
+  attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
+  condition_id TEXT NOT NULL,
+  number REAL,
+  words TEXT,
+  PRIMARY KEY (attempt_id, condition_id),
+  CHECK ((number IS NULL) <> (words IS NULL))
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE open_chunk (
   attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
   sequence INTEGER NOT NULL CHECK (sequence >= 0),
@@ -190,6 +266,14 @@ CREATE TABLE person (
   person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),
   pseudonym TEXT NOT NULL UNIQUE, -- random; what others than mentors see
   created_us INTEGER NOT NULL
+, erased_us INTEGER) STRICT;
+
+CREATE TABLE person_fact (
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  fact_id TEXT NOT NULL,
+  given_us INTEGER NOT NULL,
+  answer TEXT NOT NULL CHECK (answer <> ''),
+  PRIMARY KEY (person_id, fact_id, given_us)
 ) STRICT;
 
 CREATE TABLE person_level (
@@ -199,6 +283,14 @@ CREATE TABLE person_level (
   PRIMARY KEY (person_id, since_us)
 ) STRICT;
 
+CREATE TABLE programme_director (
+  programme TEXT NOT NULL CHECK (programme <> ''), -- as cohort.programme
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  from_us INTEGER NOT NULL,
+  to_us INTEGER CHECK (to_us >= from_us),
+  PRIMARY KEY (programme, person_id, from_us)
+) STRICT;
+
 CREATE TABLE recording_chunk (
   attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
   sequence INTEGER NOT NULL CHECK (sequence >= 0),
@@ -206,6 +298,13 @@ CREATE TABLE recording_chunk (
   data BLOB NOT NULL, -- compressed
   PRIMARY KEY (attempt_id, sequence)
 ) STRICT;
+
+CREATE TABLE replay_watched (
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  watched_us INTEGER NOT NULL,
+  PRIMARY KEY (person_id, attempt_id, watched_us)
+) STRICT, WITHOUT ROWID;
 
 CREATE TABLE servo_record (
   attempt_id TEXT NOT NULL PRIMARY KEY REFERENCES attempt (attempt_id),
@@ -277,6 +376,20 @@ CREATE TABLE structure (
   CHECK ((kind = 'label') = (labels_sha256 IS NOT NULL) AND (kind = 'label') = (label IS NOT NULL))
 ) STRICT;
 
+CREATE TABLE study (
+  study_id TEXT NOT NULL PRIMARY KEY CHECK (length(study_id) = 36),
+  title TEXT NOT NULL UNIQUE CHECK (title <> ''),
+  created_us INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE study_researcher (
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  from_us INTEGER NOT NULL,
+  to_us INTEGER CHECK (to_us >= from_us),
+  PRIMARY KEY (study_id, person_id, from_us)
+) STRICT;
+
 CREATE TABLE training_case (
   case_id TEXT NOT NULL PRIMARY KEY CHECK (length(case_id) = 36),
   title TEXT NOT NULL, -- given by a person, never by the source
@@ -332,6 +445,12 @@ CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
 
 CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
 
+CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
+
+CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
+
+CREATE INDEX enrolment_by_person ON enrolment (person_id);
+
 CREATE INDEX lesion_by_case ON lesion (case_id);
 
 CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
@@ -343,6 +462,17 @@ FROM attempt
 JOIN training_case ON training_case.case_id = attempt.case_id
 JOIN lesion ON lesion.lesion_id = attempt.lesion_id;
 
+CREATE VIEW consenting AS
+SELECT study.study_id, person.person_id
+FROM study CROSS JOIN person
+WHERE person.erased_us IS NULL AND (
+  EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
+    WHERE consent.person_id = person.person_id AND consent_text.study_id = study.study_id AND withdrawn_us IS NULL)
+  OR EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
+    WHERE consent.person_id = person.person_id AND consent_text.study_id IS NULL AND withdrawn_us IS NULL)
+  AND NOT EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
+    WHERE consent.person_id = person.person_id AND consent_text.study_id = study.study_id));
+
 CREATE VIEW expert_attempt AS
 SELECT attempt_id, case_id, CASE operator_name WHEN 'person' THEN 'consultants' ELSE 'simulated' END AS kind
 FROM attempt
@@ -351,12 +481,23 @@ WHERE operator_name = 'expert' OR operator_name = 'person' AND person_id IS NOT 
   WHERE person_level.person_id = attempt.person_id AND since_us <= attempt.started_us
   ORDER BY since_us DESC LIMIT 1);
 
+CREATE TRIGGER attempt_condition_is_immutable BEFORE UPDATE ON attempt_condition
+BEGIN
+  SELECT RAISE(ABORT, 'a condition of an attempt cannot be changed');
+END;
+
+CREATE TRIGGER attempt_condition_is_kept BEFORE DELETE ON attempt_condition
+BEGIN
+  SELECT RAISE(ABORT, 'a condition of an attempt cannot be deleted');
+END;
+
 CREATE TRIGGER attempt_is_immutable BEFORE UPDATE ON attempt
 BEGIN
   SELECT RAISE(ABORT, 'an attempt cannot be changed');
 END;
 
 CREATE TRIGGER attempt_is_kept BEFORE DELETE ON attempt
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'an attempt cannot be deleted');
 END;
@@ -367,18 +508,45 @@ BEGIN
 END;
 
 CREATE TRIGGER attempt_step_is_kept BEFORE DELETE ON attempt_step
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a step of an attempt cannot be deleted');
 END;
 
 CREATE TRIGGER case_decision_is_immutable BEFORE UPDATE ON case_decision
+WHEN OLD.person_id NOT IN (SELECT id FROM erasing) OR NEW.note <> '' OR OLD.case_id <> NEW.case_id
+  OR OLD.position <> NEW.position OR OLD.decision <> NEW.decision OR OLD.person_id <> NEW.person_id
+  OR OLD.decided_us <> NEW.decided_us
 BEGIN
   SELECT RAISE(ABORT, 'a decision cannot be changed');
 END;
 
 CREATE TRIGGER case_decision_is_kept BEFORE DELETE ON case_decision
+WHEN OLD.case_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a decision cannot be deleted');
+END;
+
+CREATE TRIGGER consent_is_kept BEFORE DELETE ON consent
+BEGIN
+  SELECT RAISE(ABORT, 'a consent cannot be deleted');
+END;
+
+CREATE TRIGGER consent_is_only_withdrawn BEFORE UPDATE ON consent
+WHEN OLD.withdrawn_us IS NOT NULL OR NEW.withdrawn_us IS NULL OR OLD.person_id <> NEW.person_id
+  OR OLD.text_id <> NEW.text_id OR OLD.given_us <> NEW.given_us
+BEGIN
+  SELECT RAISE(ABORT, 'a consent is withdrawn once and not changed otherwise');
+END;
+
+CREATE TRIGGER consent_text_is_immutable BEFORE UPDATE ON consent_text
+BEGIN
+  SELECT RAISE(ABORT, 'a consent text cannot be changed: make a new version');
+END;
+
+CREATE TRIGGER consent_text_is_kept BEFORE DELETE ON consent_text
+BEGIN
+  SELECT RAISE(ABORT, 'a consent text cannot be deleted');
 END;
 
 CREATE TRIGGER curriculum_gate_comes_to_a_draft BEFORE INSERT ON curriculum_gate
@@ -431,6 +599,26 @@ BEGIN
   SELECT RAISE(ABORT, 'a published curriculum is not changed: make another');
 END;
 
+CREATE TRIGGER erased_attempt_is_immutable BEFORE UPDATE ON erased_attempt
+BEGIN
+  SELECT RAISE(ABORT, 'an erasure cannot be changed');
+END;
+
+CREATE TRIGGER erased_attempt_is_kept BEFORE DELETE ON erased_attempt
+BEGIN
+  SELECT RAISE(ABORT, 'an erasure cannot be taken back');
+END;
+
+CREATE TRIGGER erasure_is_immutable BEFORE UPDATE ON erasure
+BEGIN
+  SELECT RAISE(ABORT, 'an erasure cannot be changed');
+END;
+
+CREATE TRIGGER erasure_is_kept BEFORE DELETE ON erasure
+BEGIN
+  SELECT RAISE(ABORT, 'an erasure cannot be taken back');
+END;
+
 CREATE TRIGGER lesion_comes_to_a_draft BEFORE INSERT ON lesion
 WHEN (SELECT state FROM training_case WHERE training_case.case_id = NEW.case_id) <> 'draft'
 BEGIN
@@ -444,6 +632,7 @@ END;
 
 CREATE TRIGGER lesion_leaves_a_draft BEFORE DELETE ON lesion
 WHEN (SELECT state FROM training_case WHERE training_case.case_id = OLD.case_id) <> 'draft'
+  AND OLD.case_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'only a draft is changed: make a new version');
 END;
@@ -454,8 +643,14 @@ BEGIN
 END;
 
 CREATE TRIGGER metric_value_is_kept BEFORE DELETE ON metric_value
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a score cannot be deleted');
+END;
+
+CREATE TRIGGER person_fact_is_immutable BEFORE UPDATE ON person_fact
+BEGIN
+  SELECT RAISE(ABORT, 'an answer cannot be changed: give another');
 END;
 
 CREATE TRIGGER person_level_is_immutable BEFORE UPDATE ON person_level
@@ -469,6 +664,7 @@ BEGIN
 END;
 
 CREATE TRIGGER recording_chunk_is_kept BEFORE DELETE ON recording_chunk
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a recording cannot be deleted');
 END;
@@ -479,6 +675,7 @@ BEGIN
 END;
 
 CREATE TRIGGER servo_record_is_kept BEFORE DELETE ON servo_record
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a servo record cannot be deleted');
 END;
@@ -524,9 +721,10 @@ BEGIN
 END;
 
 CREATE TRIGGER structure_leaves_a_draft BEFORE DELETE ON structure
-WHEN (SELECT state FROM training_case WHERE training_case.case_id = OLD.case_id) <> 'draft'
+WHEN OLD.case_id NOT IN (SELECT id FROM erasing) AND (
+  (SELECT state FROM training_case WHERE training_case.case_id = OLD.case_id) <> 'draft'
   OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
-  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id))
 BEGIN
   SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
 END;

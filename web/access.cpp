@@ -1,21 +1,33 @@
 #include "web/access.h"
 
-#include "casedb/cases/permissions.h"
+#include <algorithm>
+
 #include "reports/words/attempt_words.h"
 
 namespace seldinger::web {
 
 using casedb::Action;
 using casedb::may;
-using casedb::Subject;
 
-AttemptScope attempt_scope(casedb::Role role) noexcept {
-  if (may(role, Action::see_attempt, Subject::whose(false))) return AttemptScope::all;
-  return may(role, Action::see_attempt, Subject::whose(true)) ? AttemptScope::own : AttemptScope::none;
+casedb::Relation relation_to(const Relations& relations, const std::optional<std::string>& person_id) {
+  casedb::Relation relation;
+  relation.nobodys = !person_id.has_value();
+  if (relation.nobodys) return relation;
+  const auto found = relations.find(*person_id);
+  return found == relations.end() ? relation : found->second;
 }
 
-bool may_see_attempt(const casedb::Account& reader, const casedb::AttemptRow& row) {
-  return may(reader.role, Action::see_attempt, Subject::whose(row.person_id == reader.person_id));
+casedb::WhoseAttempts attempts_seen(casedb::Role role, const Relations& relations) {
+  casedb::WhoseAttempts seen;
+  seen.nobodys = may(role, Action::see_attempt, relation_to(relations, std::nullopt));
+  for (const auto& [person_id, relation] : relations)
+    if (may(role, Action::see_attempt, relation)) seen.people.push_back(person_id);
+  std::sort(seen.people.begin(), seen.people.end());
+  return seen;
+}
+
+bool may_see_attempt(casedb::Role role, const Relations& relations, const casedb::AttemptRow& row) {
+  return may(role, Action::see_attempt, relation_to(relations, row.person_id));
 }
 
 bool may_see_case(casedb::Role role, const casedb::CaseRow& row) noexcept {
@@ -27,14 +39,14 @@ bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum)
 }
 
 bool may_see_experts(casedb::Role role) noexcept {
-  return attempt_scope(role) == AttemptScope::all;
+  return may(role, Action::see_standard_attempts);
 }
 
-std::string operator_label(const casedb::Account& reader, const casedb::AttemptRow& row,
+std::string operator_label(casedb::Role role, const Relations& relations, const casedb::AttemptRow& row,
                            const AccountOf& account_of) {
   if (row.synthetic()) return reports::simulated_operator_text(row.operator_name);
   if (!row.person_id.has_value()) return "Unknown person";
-  if (may(reader.role, Action::see_operator_name)) {
+  if (may(role, Action::see_operator_name, relation_to(relations, row.person_id))) {
     if (const auto account = account_of(*row.person_id); account.has_value()) return account->login_name;
   }
   return reports::person_text(*row.person_id);

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "casedb/database/credentials.h"
+#include "casedb/keeping/erase.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {
@@ -43,19 +44,62 @@ class LibraryQuestions final : public Questions {
     return casedb::list_users(pages_.library);
   }
 
-  std::size_t count_attempts() override {
+  std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::count_attempts(pages_.library);
+    return casedb::relations_of(pages_.library, reader_id);
   }
 
-  std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) override {
+  std::vector<casedb::Cohort> list_cohorts() override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_attempts(pages_.library, first, count);
+    return casedb::list_cohorts(pages_.library);
   }
 
-  std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {
+  std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_attempts_of(pages_.library, person_id);
+    return casedb::list_enrolments(pages_.library, cohort_id);
+  }
+
+  reports::AboutMe about(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return {casedb::list_facts(pages_.library, person_id), casedb::list_consents(pages_.library, person_id)};
+  }
+
+  base::Result<void> give_facts(const std::string& person_id,
+                                const std::map<std::string, std::string>& answers) override {
+    const std::lock_guard lock(pages_.mutex);
+    for (const auto& [fact_id, answer] : answers)
+      if (const auto fit = casedb::checked_answer(fact_id, answer); !fit) return fit.error();
+    for (const auto& [fact_id, answer] : answers)
+      if (const auto done = casedb::give_fact(pages_.library, person_id, fact_id, answer); !done) return done;
+    return {};
+  }
+
+  base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::give_consent(pages_.library, person_id, text_id);
+  }
+
+  base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::withdraw_consent(pages_.library, person_id, text_id);
+  }
+
+  base::Result<void> erase_attempts_of(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    const auto erased = casedb::erase_attempts_of(pages_.library, person_id, person_id);
+    if (!erased) return erased.error();
+    return {};
+  }
+
+  std::size_t count_attempts(const casedb::WhoseAttempts& whose) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::count_attempts(pages_.library, whose);
+  }
+
+  std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
+                                                std::size_t count) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_attempts(pages_.library, whose, first, count);
   }
 
   base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) override {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "casedb/attempts/attempts.h"
@@ -11,8 +13,11 @@
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
 #include "casedb/json/case_json.h"
+#include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
+#include "casedb/people/relations.h"
 #include "reports/pages/curricula_page.h"
+#include "reports/pages/me_page.h"
 
 namespace seldinger::web {
 
@@ -24,10 +29,23 @@ class Questions {
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
 
-  virtual std::size_t count_attempts() = 0;
-  virtual std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) = 0;  // newest first
-  virtual std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) = 0;       // newest first
-  virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;         // `no_attempt`
+  // What everybody is to the reader; who is missing is nothing to them.
+  virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
+  virtual std::vector<casedb::Cohort> list_cohorts() = 0;  // by programme and title
+  virtual std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) = 0;
+
+  virtual reports::AboutMe about(const std::string& person_id) = 0;
+  // All of them or none: as casedb::give_fact refuses.
+  virtual base::Result<void> give_facts(const std::string& person_id,
+                                        const std::map<std::string, std::string>& answers) = 0;
+  virtual base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) = 0;
+  virtual base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) = 0;
+  virtual base::Result<void> erase_attempts_of(const std::string& person_id) = 0;  // on their own wish
+
+  virtual std::size_t count_attempts(const casedb::WhoseAttempts& whose) = 0;
+  virtual std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
+                                                        std::size_t count) = 0;              // newest first
+  virtual base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) = 0;  // `no_attempt`
   virtual casedb::AttemptGrade look_at(const casedb::AttemptRow& row) = 0;
   virtual std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) = 0;  // in order
   virtual std::vector<casedb::CaseRow> list_cases() = 0;                              // oldest first

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cstring>
+#include <set>
 
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/case_page.h"
+#include "reports/pages/cohorts_page.h"
 #include "reports/pages/login_page.h"
+#include "reports/pages/metrics_page.h"
+#include "reports/pages/me_page.h"
 #include "reports/pages/style_sheet.h"
 #include "web/access.h"
 #include "web/attempt_json.h"
@@ -119,17 +124,14 @@ std::size_t wanted_page(const Request& request, std::size_t pages) {
 
 Response list_attempts(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
-  const AttemptScope scope = attempt_scope(account.role);
-  if (scope == AttemptScope::none) {
+  if (!casedb::roles_that_may(casedb::Action::see_attempt).has(account.role))
     return html_response(200, reports::no_attempts_page(call.reader->visitor()));
-  }
-  const bool own_only = scope == AttemptScope::own;
-  auto rows = own_only ? site.questions.list_attempts_of(account.person_id) : std::vector<casedb::AttemptRow>();
-  const std::size_t total = own_only ? rows.size() : site.questions.count_attempts();
+  const Relations relations = site.questions.relations_of(account.person_id);
+  const casedb::WhoseAttempts seen = attempts_seen(account.role, relations);
+  const std::size_t total = site.questions.count_attempts(seen);
   const std::size_t pages = std::max<std::size_t>(1, (total + kRowsOfAPage - 1) / kRowsOfAPage);
   const std::size_t page = wanted_page(call.request, pages);
-  const std::size_t first = (page - 1) * kRowsOfAPage;
-  if (!own_only) rows = site.questions.list_attempts(first, kRowsOfAPage);
+  auto rows = site.questions.list_attempts(seen, (page - 1) * kRowsOfAPage, kRowsOfAPage);
 
   std::map<std::string, casedb::Account> accounts;
   for (casedb::Account& one : site.questions.list_accounts()) accounts.emplace(one.person_id, one);
@@ -137,23 +139,23 @@ Response list_attempts(Site& site, const Call& call) {
     const auto found = accounts.find(person_id);
     return found == accounts.end() ? std::nullopt : std::optional(found->second);
   };
-  if (own_only)
-    rows = {rows.begin() + std::min(first, rows.size()),
-            rows.begin() + std::min(first + kRowsOfAPage, rows.size())};
   // The question was right already; this holds it to the table.
-  std::erase_if(rows, [&](const casedb::AttemptRow& row) { return !may_see_attempt(account, row); });
+  std::erase_if(rows,
+                [&](const casedb::AttemptRow& row) { return !may_see_attempt(account.role, relations, row); });
   std::vector<reports::AttemptView> views;
-  for (casedb::AttemptRow& row : rows) views.push_back({row, operator_label(account, row, account_of)});
+  for (casedb::AttemptRow& row : rows)
+    views.push_back({row, operator_label(account.role, relations, row, account_of)});
   const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
   for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
-  const reports::ListPart part{page, pages, total, own_only};
+  const reports::ListPart part{page, pages, total, account.role == casedb::Role::trainee};
   return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
 }
 
 // The attempt when it exists and this reader may see it. Both are asked before either is answered.
 std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) {
   auto row = site.questions.find_attempt(call.id);
-  if (!row.has_value() || !may_see_attempt(call.reader->account, *row)) return std::nullopt;
+  const Relations relations = site.questions.relations_of(call.reader->account.person_id);
+  if (!row.has_value() || !may_see_attempt(call.reader->account.role, relations, *row)) return std::nullopt;
   return std::move(*row);
 }
 
@@ -162,7 +164,8 @@ Response show_attempt(Site& site, const Call& call) {
   if (!row.has_value()) return refusal(404, call.reader);
   const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
   const auto recording = site.questions.load_recording(row->attempt_id);
-  const reports::AttemptView view{*row, operator_label(call.reader->account, *row, account_of),
+  const Relations relations = site.questions.relations_of(call.reader->account.person_id);
+  const reports::AttemptView view{*row, operator_label(call.reader->account.role, relations, *row, account_of),
                                   site.questions.look_at(*row)};
   return html_response(200, reports::attempt_page(call.reader->visitor(), view,
                                                   recording.has_value() ? &recording.value() : nullptr));
@@ -214,6 +217,8 @@ Response list_cases(Site& site, const Call& call) {
 std::optional<casedb::CaseParts> visible_case(Site& site, const Call& call) {
   auto parts = site.questions.find_case(call.id);
   if (!parts.has_value() || !may_see_case(call.reader->account.role, parts->row)) return std::nullopt;
+  if (!casedb::may(call.reader->account.role, casedb::Action::see_case_notes))
+    for (casedb::Decision& one : parts->decisions) one.note.clear();
   return std::move(*parts);
 }
 
@@ -240,6 +245,10 @@ Response show_checks(Site& site, const Call& call) {
   return {.content_type = "application/json", .body = checks_json(parts->row.case_id, *check)};
 }
 
+Response list_metrics(Site&, const Call& call) {
+  return html_response(200, reports::metrics_page(call.reader->visitor()));
+}
+
 Response list_curricula(Site& site, const Call& call) {
   const casedb::Account& account = call.reader->account;
   const bool own = casedb::may(account.role, casedb::Action::see_own_progress);
@@ -248,11 +257,94 @@ Response list_curricula(Site& site, const Call& call) {
   return html_response(200, reports::curricula_page(call.reader->visitor(), views));
 }
 
+// --- people
+// -----------------------------------------------------------------------------------------------------
+
+Response list_cohorts(Site& site, const Call& call) {
+  const casedb::Role role = call.reader->account.role;
+  const Relations relations = site.questions.relations_of(call.reader->account.person_id);
+  std::map<std::string, std::string> names;
+  for (const casedb::Account& one : site.questions.list_accounts()) names.emplace(one.person_id, one.login_name);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const std::int64_t now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  std::vector<reports::CohortView> views;
+  for (casedb::Cohort& cohort : site.questions.list_cohorts()) {
+    reports::CohortView view{cohort, false, {}};
+    int seen = 0;
+    std::set<std::string> learners;
+    for (const casedb::Enrolment& one : site.questions.list_enrolments(cohort.cohort_id))
+      if (one.post == casedb::Post::learner && one.to_us.value_or(now_us + 1) > now_us)
+        learners.insert(one.person_id);
+    for (const std::string& person_id : learners) {
+      const casedb::Relation relation = relation_to(relations, person_id);
+      if (!casedb::may(role, casedb::Action::see_cohort, relation)) continue;
+      ++seen;
+      const auto name = names.find(person_id);
+      const bool named = name != names.end() && casedb::may(role, casedb::Action::see_operator_name, relation);
+      view.learners.push_back(named ? name->second : reports::person_text(person_id));
+    }
+    // By name only where every learner may be seen: who is in two cohorts tells nothing of the other.
+    view.named = !learners.empty() && seen == static_cast<int>(learners.size());
+    if (!view.named) {
+      if (!casedb::may(role, casedb::Action::see_cohort_cells)) continue;
+      view.learners.clear();
+      view.cohort = casedb::suppressed(view.cohort);
+    }
+    views.push_back(std::move(view));
+  }
+  return html_response(200, reports::cohorts_page(call.reader->visitor(), views));
+}
+
+Response me(Site& site, const Call& call, int status, std::string_view problem) {
+  const auto about = site.questions.about(call.reader->account.person_id);
+  return html_response(status, reports::me_page(call.reader->visitor(), about, problem));
+}
+
+Response show_me(Site& site, const Call& call) {
+  return me(site, call, 200, "");
+}
+
+Response after(Site& site, const Call& call, const base::Result<void>& done) {
+  return done ? redirect("/me") : me(site, call, 400, done.error().text);
+}
+
+Response answer_consent(Site& site, const Call& call) {
+  const std::string& person_id = call.reader->account.person_id;
+  const std::string text_id = field(call, "text"), answer = field(call, "answer");
+  if (answer == "give") return after(site, call, site.questions.give_consent(person_id, text_id));
+  if (answer != "withdraw") return me(site, call, 400, "Choose to consent or to withdraw.");
+  const auto withdrawn = site.questions.withdraw_consent(person_id, text_id);
+  if (!withdrawn || field(call, "delete") != "yes") return after(site, call, withdrawn);
+  return after(site, call, site.questions.erase_attempts_of(person_id));
+}
+
+Response give_facts(Site& site, const Call& call) {
+  const auto given = casedb::newest_facts(site.questions.about(call.reader->account.person_id).facts);
+  std::map<std::string, std::string> answers;
+  for (const casedb::FactInfo& fact : casedb::fact_infos()) {
+    const std::string id(fact.id), answer = field(call, id);
+    const auto last = given.find(id);
+    if (!answer.empty() && (last == given.end() || last->second.answer != answer)) answers.emplace(id, answer);
+  }
+  return after(site, call, site.questions.give_facts(call.reader->account.person_id, answers));
+}
+
+Response erase_own(Site& site, const Call& call) {
+  if (field(call, "sure") != "yes") return me(site, call, 400, "Tick the box if you are sure.");
+  return after(site, call, site.questions.erase_attempts_of(call.reader->account.person_id));
+}
+
+using casedb::Action;
 constexpr std::string_view kCurricula =
     "trainee: published, own states; mentor, director: all; researcher: no drafts";
-constexpr std::string_view kCases = "mentor: all; director: no drafts; researcher, admin: published and retired";
-constexpr std::string_view kOwn = "trainee: own";
-constexpr std::string_view kOwnOrNone = "trainee: own; director, admin: none, the page says so";
+constexpr std::string_view kCases =
+    "mentor: all; director: no drafts; researcher, admin: published and retired, without reviewers' notes";
+constexpr std::string_view kSeen =
+    "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: consenting people of "
+    "own "
+    "studies as pseudonyms, simulated";
+constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says so";
+constexpr std::string_view kSelf = "of oneself";
 
 constexpr Route kRoutes[] = {
     {"GET", "/healthz", kOpen, false, "", "that the server answers, and its version, as JSON", healthz},
@@ -260,24 +352,35 @@ constexpr Route kRoutes[] = {
     {"GET", "/", kOpen, true, "", "goes on to /attempts or /login", start},
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
     {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in},
-    {"POST", "/logout", kEveryRole, true, "", "ends the session: token", log_out},
-    {"GET", "/attempts", kEveryRole, true, kOwnOrNone, "the list, newest first; ?page=N", list_attempts},
-    {"GET", "/attempts/{attempt_id}", kAttemptReaders, true, kOwn,
+    {"POST", "/logout", kAnyRole, true, "", "ends the session: token", log_out},
+    {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
+    {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
-    {"GET", "/attempts/{attempt_id}/picture.png", kAttemptReaders, false, kOwn,
+    {"GET", "/attempts/{attempt_id}/picture.png", Action::see_attempt, false, kSeen,
      "the picture at the moment of firing", show_picture},
-    {"GET", "/attempts/{attempt_id}/metrics.json", kAttemptReaders, false, kOwn,
+    {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
-    {"GET", "/attempts/{attempt_id}/grade.json", kAttemptReaders, false, kOwn,
+    {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,
      "its grade, score and sentences as `score` prints them", show_grade},
-    {"GET", "/curricula", kCurriculumReaders, true, kCurricula, "items, gates, and how far the trainee is",
+    {"GET", "/metrics", kAnyRole, true, "", "what each metric measures; #metric-ID", list_metrics},
+    {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},
-    {"GET", "/cases", kCaseReaders, true, kCases, "the list, oldest first", list_cases},
-    {"GET", "/cases/{case_id}", kCaseReaders, true, kCases,
+    {"GET", "/cases", Action::see_case, true, kCases, "the list, oldest first", list_cases},
+    {"GET", "/cases/{case_id}", Action::see_case, true, kCases,
      "one case: state, version, who reviewed it, needle, patient, structures, rule", show_case},
-    {"GET", "/cases/{case_id}/case.json", kCaseReaders, false, kCases, "as `case show` prints it", show_case_json},
-    {"GET", "/cases/{case_id}/checks.json", kCaseReaders, false, kCases, "its checks as `case check` prints them",
-     show_checks},
+    {"GET", "/cases/{case_id}/case.json", Action::see_case, false, kCases, "as `case show` prints it",
+     show_case_json},
+    {"GET", "/cases/{case_id}/checks.json", Action::see_case, false, kCases,
+     "its checks as `case check` prints them", show_checks},
+    {"GET", "/cohorts", Action::see_cohort, true,
+     "mentor: own cohorts by name; director: own programmes by name, of others counts of at least 5 people",
+     "who is in which cohort, and what they did together", list_cohorts},
+    {"GET", "/me", Action::answer_consent, true, kSelf, "consent, facts, deletion", show_me},
+    {"POST", "/me/consent", Action::answer_consent, true, kSelf, "gives or withdraws: text, answer, delete, token",
+     answer_consent},
+    {"POST", "/me/facts", Action::answer_consent, true, kSelf, "gives facts: one field each, token", give_facts},
+    {"POST", "/me/erase", Action::erase_attempts, true, kSelf, "erases what one has recorded: sure, token",
+     erase_own},
 };
 
 bool is_uuid(std::string_view text) {
@@ -322,12 +425,12 @@ std::string routes_markdown() {
   for (const Route& route : routes()) {
     std::string who;
     for (const casedb::Role role : casedb::kAllRoles) {
-      if (!route.roles.has(role)) continue;
+      if (!route.who.roles.has(role)) continue;
       if (!who.empty()) who += ", ";
       who += casedb::name_of(role);
     }
-    if (route.roles == kOpen) who = "anyone";
-    if (route.roles == kEveryRole) who = "any role";
+    if (route.who.roles == kOpen.roles) who = "anyone";
+    if (route.who.roles == kEveryRole) who = "any role";
     text.append("| ").append(route.method).append(" | `").append(route.pattern).append("` | ").append(who);
     text.append(" | ").append(route.scope).append(" | ").append(route.summary).append(" |\n");
   }

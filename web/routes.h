@@ -11,13 +11,20 @@
 
 namespace seldinger::web {
 
-// A route without any role is open to whoever is not logged in.
 using casedb::kEveryRole;
 using casedb::Roles;
-inline constexpr Roles kOpen = {};
-inline constexpr Roles kAttemptReaders = casedb::roles_that_may(casedb::Action::see_attempt);
-inline constexpr Roles kCaseReaders = casedb::roles_that_may(casedb::Action::see_case);
-inline constexpr Roles kCurriculumReaders = casedb::roles_that_may(casedb::Action::see_curriculum);
+
+// Who a route is for: whoever may do an action to something of this kind, whosever it is, so that nobody else
+// learns that there is such a route; the handler asks the table again about the thing itself. Or some roles.
+// Without any it is open to whoever is not logged in.
+struct Who {
+  constexpr Who(casedb::Action its) : action(its), roles(casedb::roles_that_may(its)) {}  // NOLINT
+  constexpr Who(Roles some) : roles(some) {}                                              // NOLINT
+  std::optional<casedb::Action> action{};
+  Roles roles{};
+};
+inline constexpr Who kOpen = Roles{};
+inline constexpr Who kAnyRole = kEveryRole;
 
 struct Call {
   const Request& request;
@@ -29,7 +36,7 @@ struct Call {
 struct Route {
   std::string_view method;   // GET (which also answers HEAD) or POST
   std::string_view pattern;  // "{attempt_id}" or "{case_id}" stands for one UUID
-  Roles roles = kOpen;
+  Who who = kOpen;
   bool is_page = true;     // whoever is not logged in is sent to the log-in page; else 401
   std::string_view scope;  // what the roles leave open, for docs/routes.md
   std::string_view summary;

@@ -108,10 +108,10 @@ Response Site::route(const Request& request) {
     if (!form.has_value()) return refusal(400, who);
     call.form = std::move(*form);
   }
-  if (found->roles != kOpen) {
+  if (found->who.roles != kOpen.roles) {
     if (who == nullptr) return found->is_page ? redirect("/login") : refusal(401, nullptr);
     if (is_change && !equal_in_constant_time(call.form["token"], who->form_token)) return refusal(403, who);
-    if (!found->roles.has(who->account.role)) return refusal(404, who);
+    if (!found->who.roles.has(who->account.role)) return refusal(404, who);
   }
   return found->handle(*this, call);
 }

@@ -89,6 +89,7 @@ Json attempt_json(const casedb::AttemptRow& attempt) {
           {"approach", base::name_of(cases::kApproachNames, attempt.approach)},
           {"started_us", attempt.started_us},
           {"duration_s", attempt.duration_s},
+          {"away_s", maybe(attempt.away_s)},
           {"end", attempt.end ? Json(casedb::name_of(*attempt.end)) : Json(nullptr)},
           {"program_version", attempt.program_version},
           {"step_version", attempt.step_version},
@@ -151,6 +152,8 @@ std::string json_of_attempt(const casedb::AttemptRow& attempt, const casedb::Att
   casedb::add_grade(grade, json);
   json["experts"] = casedb::json_of_experts(grade.experts);
   json["servo"] = servo ? json_of_servo_record(*servo) : Json(nullptr);
+  json["away_s"] = maybe(attempt.away_s);
+  json["conditions"] = json_of_conditions(attempt.conditions);
   json["steps"] = json_of_steps(course.steps);
   json["events"] = json_of_events(course.events);
   return text(json);

@@ -7,6 +7,7 @@
 #include "app/cli/command.h"
 #include "app/hands/servo_answer.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 #include "session/attempt/interrupted_attempt.h"
@@ -34,8 +35,8 @@ void print_course(const Course& course) {
     if (step.state == assessment::StepState::not_asked) continue;
     char when[16] = "       –";
     if (step.t_s) std::snprintf(when, sizeof when, "%6.1f s", *step.t_s);
-    std::printf("  %-8s %s  %s\n", std::string(assessment::name_of(step.state)).c_str(), when,
-                info != nullptr ? info->words : step.id.c_str());
+    std::printf("  %-8s %s  %s%s\n", std::string(assessment::name_of(step.state)).c_str(), when,
+                info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
   }
   for (const cases::Event& event : course.events.value_or(std::vector<cases::Event>{}))
     if (const cases::EventInfo* info = cases::find_event(event.kind))
@@ -88,9 +89,14 @@ int run_attempt_show(const Arguments& arguments) {
               attempt->case_title.c_str(), attempt->lesion_id.c_str(),
               casedb::name_of(attempt->picture.modality).c_str(), who(*attempt).c_str(),
               static_cast<unsigned long long>(attempt->seed));
+  if (const std::string made = reports::conditions_text(attempt->conditions, attempt->away_s); !made.empty())
+    std::printf("made     %s\n", made.c_str());
   if (attempt->end) std::printf("ended    %s\n", casedb::name_of(*attempt->end).c_str());
+  if (const std::string away = reports::away_text(*attempt); !away.empty())
+    std::printf("         %s\n", away.c_str());
   std::fputs(text_of_grade(grade).c_str(), stdout);
   print_metrics(attempt->metrics);
+  std::puts("  (what each of them measures: seldinger help --metrics)");
   print_course(course);
   if (const auto servo = casedb::find_servo_record(*library, attempt->attempt_id))
     std::printf("how the servo kept time\n%s", text_of_servo_record(*servo).c_str());

@@ -6,6 +6,8 @@
 #include "app/attempts/export_json.h"
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
+#include "casedb/cases/permissions.h"
+#include "casedb/people/consent.h"
 #include "reports/export/raw_export.h"
 
 namespace seldinger::app {
@@ -36,6 +38,21 @@ int run_export(const Arguments& arguments) {
   if (arguments.has("--case")) choice.case_id = arguments.text("--case");
   auto library = casedb::Library::open(folder);
   if (!library) return refuse(library.error());
+  if (arguments.has("--study")) {
+    const auto study = casedb::find_study(*library, arguments.text("--study"));
+    if (!study) return refuse(study.error());
+    choice.study_id = study->study_id;
+  }
+  if (arguments.has("--by")) {
+    // Of a study that is somebody's own; consent is asked of each person.
+    if (!choice.study_id) throw UsageError("--by needs --study");
+    const auto account = casedb::open_account(*library, arguments.text("--by"));
+    if (!account) return refuse(account.error());
+    casedb::Relation relation;
+    relation.own_study = casedb::is_researcher_of(*library, *choice.study_id, account->person_id);
+    if (const auto allowed = casedb::allow(account->role, casedb::Action::export_study, relation); !allowed)
+      return refuse(allowed.error());
+  }
   const std::string key_file = arguments.text("--key");
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
   auto key = key_from_file(key_file);
@@ -59,6 +76,8 @@ constexpr Option kExportOptions[] = {
     kLibrary,
     {"--out", "DIR", "the new folder"},
     {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
+    {"--by", "NAME", "the researcher for whom it is made; left out: whoever has the library's files"},
     {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
     {"--key", "FILE",
      "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
@@ -68,12 +87,13 @@ constexpr Option kExportOptions[] = {
 }  // namespace
 
 Command export_command() {
-  return {
-      .name = "export",
-      .options = kExportOptions,
-      .summary =
-          "Writes attempts as CSV with a data dictionary into a new folder: no names, no dates (docs/export.md).",
-      .run = &run_export};
+  return {.name = "export",
+          .options = kExportOptions,
+          .summary =
+              "Writes attempts of those who consent, and simulated ones, as CSV with a data dictionary into a new "
+              "folder: no "
+              "names, no dates (docs/export.md).",
+          .run = &run_export};
 }
 
 }  // namespace seldinger::app

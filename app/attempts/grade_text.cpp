@@ -1,6 +1,7 @@
 #include "app/attempts/grade_text.h"
 
 #include "assessment/grading/plain_words.h"
+#include "assessment/grading/reason_words.h"
 #include "reports/words/grade_words.h"
 
 namespace seldinger::app {
@@ -15,7 +16,7 @@ std::string text_of_grade(const casedb::AttemptGrade& grade) {
             assessment::text_of(one.criterion) + (one.criterion.critical ? ", critical" : "") +
             (one.of_the_time_limit ? ", the time limit" : "") + ": ";
     text += one.value ? assessment::plain_apart(*one.value, one.criterion.value, one.unit).first
-                      : "no value (" + assessment::plain_code(one.reason) + ")";
+                      : "no value (" + assessment::reason_words(one.reason) + ")";
     text += "\n";
   }
   if (grade.grade.verdict != assessment::Verdict::no_rule)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "assessment/grading/reason_words.h"
+
 namespace seldinger::app {
 
 void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
@@ -11,9 +13,11 @@ void print_metrics(const std::vector<assessment::MetricValue>& metrics) {
   const int width = static_cast<int>(longest);
   for (const assessment::MetricValue& metric : metrics) {
     if (metric.value)
-      std::printf("  %-*s %10.3f %s\n", width, metric.id.c_str(), *metric.value, metric.unit.c_str());
+      std::printf("  %-*s v%d %10.3f %s\n", width, metric.id.c_str(), metric.version, *metric.value,
+                  metric.unit.c_str());
     else
-      std::printf("  %-*s          – (%s)\n", width, metric.id.c_str(), metric.reason.c_str());
+      std::printf("  %-*s v%d          – (%s)\n", width, metric.id.c_str(), metric.version,
+                  assessment::reason_words(metric.reason).c_str());
   }
 }
 

@@ -187,12 +187,14 @@ int run_demo(const Arguments& arguments) {
   answer.lesion_rule = assessment::describe(assessment::lesion_rule(answer.found.modality, answer.found.position));
   if (const auto skin = casedb::load_skin(*library, answer.found))
     answer.lesion_depth_mm = -cases::MeshIndex(*skin).closest_skin(answer.lesion.lesion.center_lps_mm).distance_mm;
-  auto passwords = add_missing_accounts(*library, {{"mentor", casedb::Role::mentor},
-                                                   {"novice", casedb::Role::trainee},
-                                                   {"intermediate", casedb::Role::trainee},
-                                                   {"expert", casedb::Role::trainee}});
+  const std::vector<std::pair<const char*, casedb::Role>> accounts = {{"mentor", casedb::Role::mentor},
+                                                                      {"novice", casedb::Role::trainee},
+                                                                      {"intermediate", casedb::Role::trainee},
+                                                                      {"expert", casedb::Role::trainee}};
+  auto passwords = add_missing_accounts(*library, accounts);
   if (!passwords) return refuse(passwords.error());
   answer.passwords = std::move(*passwords);
+  if (const auto made = make_demo_cohort(*library, accounts); !made) return refuse(made.error());
   if (const auto made = demo_attempts(*library, answer); !made) return refuse(made.error());
   const bool json = arguments.has("--json"), serving = !arguments.has("--no-serve");
   if (!json) print_answer(answer, folder);

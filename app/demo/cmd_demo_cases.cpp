@@ -98,7 +98,7 @@ base::Result<void> pass(casedb::Library& library, const casedb::CaseRow& row, co
 base::Result<void> publish(casedb::Library& library, const std::string& case_id, const casedb::CaseCheck& check) {
   if (const auto done = casedb::submit_case(library, case_id, kAuthor); !done) return done.error();
   if (const auto done = casedb::judge_case(library, case_id, kReviewer, true); !done) return done.error();
-  return casedb::publish_case(library, case_id, check, kAuthor, false);
+  return casedb::publish_case(library, case_id, check, kReviewer, false);
 }
 
 // The newest version of the case that is in the library; empty: it is not there.

@@ -99,7 +99,7 @@ DemoCase find_the_plane() {
       "Find the ball of water, turn the probe until the needle's way and the ball lie in one picture, then hit it.",
       DemoSource::gel_plane, volume::GelBlock::find_the_plane, -15.0, 29.0);
   made.setting.rule = rule(
-      {"hit >= 1", "advance_joint_visible_last_20_mm >= 0.8", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
+      {"hit >= 1", "advance_joint_visible_last_20_mm >= 0.5", "plane_angle_mean <= 8", "skin_punctures <= 1"}, {});
   return made;
 }
 
@@ -119,7 +119,7 @@ DemoCase depth_out_of_plane() {
                         "and so on down to the ball at 30 mm.",
                         DemoSource::gel_across, volume::GelBlock::out_of_plane, 8.0, 29.0);
   made.setting.approach = cases::Approach::out_of_plane;
-  made.setting.rule = rule({"hit >= 1", "advance_beyond_plane <= 0", "skin_punctures <= 1"}, {});
+  made.setting.rule = rule({"hit >= 1", "advance_beyond_plane <= 0", "longest_advance_between_sights <= 12", "skin_punctures <= 1"}, {});
   return made;
 }
 

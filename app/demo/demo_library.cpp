@@ -6,6 +6,8 @@
 #include "casedb/database/credentials.h"
 #include "sim/base/failure.h"
 
+#include "casedb/people/cohorts.h"
+
 namespace seldinger::app {
 
 std::filesystem::path demo_library() {
@@ -30,6 +32,22 @@ base::Result<Passwords> add_missing_accounts(casedb::Library& library,
     passwords.emplace_back(name, password);
   }
   return passwords;
+}
+
+base::Result<void> make_demo_cohort(casedb::Library& library,
+                                    const std::vector<std::pair<const char*, casedb::Role>>& accounts) {
+  constexpr const char* kTitle = "Demonstration";
+  if (!casedb::find_cohort(library, kTitle))
+    if (const auto made = casedb::add_cohort(library, kTitle, kTitle, ""); !made) return made.error();
+  const auto cohort = casedb::find_cohort(library, kTitle);
+  if (!cohort) return cohort.error();
+  for (const casedb::Account& one : casedb::list_users(library))
+    for (const auto& [name, role] : accounts) {
+      if (one.login_name != name) continue;
+      const auto post = role == casedb::Role::mentor ? casedb::Post::mentor : casedb::Post::learner;
+      if (const auto done = casedb::enrol(library, cohort->cohort_id, one.person_id, post); !done) return done;
+    }
+  return {};
 }
 
 }  // namespace seldinger::app

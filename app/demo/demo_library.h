@@ -18,4 +18,9 @@ using Passwords = std::vector<std::pair<std::string, std::string>>;
 base::Result<Passwords> add_missing_accounts(casedb::Library& library,
                                              const std::vector<std::pair<const char*, casedb::Role>>& wanted);
 
+// One cohort of the mentors and trainees among them, so that who leads it sees what the others did; made when there
+// is none.
+base::Result<void> make_demo_cohort(casedb::Library& library,
+                                    const std::vector<std::pair<const char*, casedb::Role>>& accounts);
+
 }  // namespace seldinger::app

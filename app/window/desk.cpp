@@ -44,7 +44,7 @@ std::string name_of(Trainer& trainer) {
     case TrainerScreen::watch:
       return "watch";
     case TrainerScreen::editor:
-      return "bench";
+      return "editor";
     case TrainerScreen::devices:
       return "devices";
   }
@@ -133,7 +133,7 @@ void Desk::tell(const std::string& screen) {
     line.heap_mib = heap_mib();
   }
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
-  if (screen == "bench" && trainer_.editor() != nullptr) EditorPanel::tell(*trainer_.editor(), line);
+  if (screen == "editor" && trainer_.editor() != nullptr) EditorPanel::tell(*trainer_.editor(), line);
   if (screen == "devices" && trainer_.device_page() != nullptr) devices_.tell(*trainer_.device_page(), line);
   line.items = noted_items();
   trace_.write(line);
@@ -213,7 +213,7 @@ void Desk::frame() {
   const bool keeps = window_.keys().pressed(kF12);
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
-  if (screen == "attempt") attempt_.shown();
+  if (screen == "attempt") attempt_.shown(trainer_, window_.width_px(), window_.height_px());
   if (keeps) keep("seldinger", pixels, window_.width_px(), window_.height_px());
   keep_guidance(attempt_.guidance());
   keep_guidance(watch_.guidance());

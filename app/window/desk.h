@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/window/screens/panel_attempt.h"
+#include "app/window/screens/panel_debrief.h"
 #include "app/window/screens/panel_device.h"
 #include "app/window/screens/panel_editor.h"
 #include "app/window/screens/panel_watch.h"

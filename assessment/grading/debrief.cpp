@@ -6,6 +6,7 @@
 
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
+#include "assessment/grading/reason_words.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/registry.h"
 
@@ -96,7 +97,7 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
   else if (one.reason == "no_endpoint")
     made.sentence.text = "The needle was never fired, so the end of the way cannot be judged.";
   else
-    made.sentence.text = "“" + label + "” has no value (" + plain_code(one.reason) + "), so it is not met.";
+    made.sentence.text = "“" + label + "” has no value (" + reason_words(one.reason) + "), so it is not met.";
   if (one.criterion.critical) made.by_how_much = 1.0;
   return made;
 }
@@ -195,21 +196,7 @@ std::string limit_text(const Criterion& criterion, std::string_view unit) {
 }
 
 std::string not_gradable_text(std::string_view reason) {
-  constexpr std::pair<std::string_view, std::string_view> kTexts[] = {
-      {"interrupted", "the program was gone before the attempt had ended"},
-      {"device_lost", "a device was lost on the way"},
-      {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
-      {"tracking_slow", "tracking was slower than 60 Hz"},
-      {"tracking_jumps", "tracking jumped further than a hand can move"},
-      {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
-      {"too_short", "it was over before it began"},
-      {kOtherVersion,
-       "its pass rule names another version of a metric than was measured. `seldinger recompute` adds the versions "
-       "in force; a new version of the case names them"},
-      {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"}};
-  for (const auto& [code, words] : kTexts)
-    if (code == reason) return "This attempt is not graded: " + std::string(words) + ".";
-  return "This attempt is not graded: " + plain_code(reason) + ".";
+  return "This attempt is not graded: " + reason_words(reason) + ".";
 }
 
 std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& set) {

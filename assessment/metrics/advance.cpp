@@ -154,6 +154,9 @@ Measured advance_beyond_plane(const Signals& signals) {
 }
 
 constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
+// Under a needle guide the angle to the plane is the guide's, and the guide holds the probe: kFreehand. What a
+// picture showed of the advance stays the trainee's, who may still look away, freeze it or leave the field, and
+// would else be spared a blind advance by taking up the guide.
 constexpr std::uint32_t kSame =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
 constexpr const char* kByTissue =
@@ -180,13 +183,13 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
      "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it."},
     {"plane_angle_mean", 2, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion,
+     kUnderProbe | kInPlane | kMotion | kFreehand,
      "Angle between needle and picture plane, averaged over the way that the hand advanced the tip in tissue. "
      "Null: under_1_mm_of_advance, no_picture_plane.",
      "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean, kMedianInterval,
      kSame | kNothingIsNothing, kByTissue},
     {"plane_angle_max", 2, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
-     kUnderProbe | kInPlane | kMotion, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
+     kUnderProbe | kInPlane | kMotion | kFreehand, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
      "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max, kMedianInterval, kSame | kNothingIsNothing,
      kByTissue},
     {"advance_beyond_plane", 2, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,

@@ -137,7 +137,7 @@ Measured measured(const Signals& signals) {
   return probe.no_plane ? Measured::none("no_picture_plane") : Measured::of(probe.*part);
 }
 
-constexpr std::uint32_t kOfProbe = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue;
+constexpr std::uint32_t kOfProbe = kPicturePlane | kSkin | kPictures | kInPlane | kMotion | kTissue | kFreehand;
 constexpr std::uint32_t kProbeLaws =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing;
 

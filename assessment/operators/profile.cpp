@@ -80,6 +80,9 @@ constexpr SkillField kFields[] = {
     {"waits_for_breath_share", "share", 0, 1, 0.2, 0.7, 1, true,
      "probability of going on only while breath is held, and of asking again when it is lost",
      &S::waits_for_breath_share},
+    {"shows_share", "share", 0, 1, 0.4, 0.8, 1, true,
+     "probability of testing the probe's side, and of measuring the depth, rather than only saying so",
+     &S::shows_share},
 };
 static_assert(sizeof(Skills) == std::size(kFields) * sizeof(double), "every skill has its row");
 

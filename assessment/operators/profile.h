@@ -26,6 +26,8 @@ struct Skills {
   double step_s, skip_step_share, misses_contraindication_share, stops_in_trouble_share;
   // At a patient who breathes.
   double holds_breath_early_share, waits_for_breath_share;
+  // What a deed can show.
+  double shows_share;
 };
 
 struct SkillField {

@@ -16,6 +16,7 @@ namespace {
 constexpr double kStartMm = 60.0;  // the needle waits this far outside the entry
 constexpr double kDriftLowHz = 0.03, kDriftHighHz = 0.15;
 constexpr double kSweepMm = 15.0;         // the probe's first search, out of plane
+constexpr double kSideMm = 14.0;          // … and along the picture, to and fro, to see which side is which
 constexpr double kBackTimes = 10.0;       // slower back to the planned plane than to the tip
 constexpr double kOutsideMm = 8.0;        // a full withdrawal ends this far outside
 constexpr double kLostMm = 1.0;           // the tip counts as lost this far beyond where it should have appeared
@@ -32,6 +33,7 @@ constexpr double kBreatherSeconds = 3.0;  // before a patient who had to breathe
 constexpr double kPauseLevel = 0.15;      // of a breath: a level below it is the pause between two
 constexpr double kPauseMm = 20.0;         // outside, where the needle waits: the skin moves, too
 constexpr std::uint64_t kBreathStream = 0x627265617468ULL;  // apart from what the hands draw
+constexpr std::uint64_t kDeedStream = 0x6465656473ULL;      // the same
 
 }  // namespace
 
@@ -62,6 +64,9 @@ ScriptedOperator::ScriptedOperator(const OperatorProfile& profile, const Punctur
   base::Rng breath(base::hash_combine(seed, kBreathStream));
   asks_early_ = breath.uniform() < profile.holds_breath_early_share;
   waits_ = breath.uniform() < profile.waits_for_breath_share;
+  base::Rng deeds(base::hash_combine(seed, kDeedStream));
+  tests_side_ = deeds.uniform() < profile.shows_share;
+  measures_ = looks_over_target_ = deeds.uniform() < profile.shows_share;
   inserted_mm_ = -kStartMm;
   plane_at_mm_ = plane_now_mm_ = plan.tip_shows_from_mm + kPlaneStepMm;
   aim();
@@ -346,20 +351,42 @@ void ScriptedOperator::hold_probe(cases::ToolPose& probe, double dt_s) {
         phase_ == Phase::sign_in || phase_ == Phase::scan || phase_ == Phase::prepare || phase_ == Phase::approach;
     plane_now_mm_ += ((before ? plane_at_mm_ : wanted_mm) - plane_now_mm_) * share;
     if (searching) plane_error_mm_ -= plane_error_mm_ * share;
-    probe = probe_over(as_held, plane_now_mm_);
+    // Who measures looks over the target first, and comes back to where the tip will be.
+    const double over_share = phase_ == Phase::scan && looks_over_target_
+                                  ? 0.5 - 0.5 * base::exact_cos(2.0 * std::numbers::pi * scanned_share())
+                                  : 0.0;
+    probe = probe_over(as_held, plane_now_mm_ + over_share * (plan_.depth_mm - plane_now_mm_));
     probe.position_lps_mm += plane_normal(probe) * plane_error_mm_;
   } else {
     const double tip_off_mm = glm::dot(hands_tip() - plan_.target_lps_mm, plane_normal(plan_.probe));
     follow_mm_ += ((searching ? tip_off_mm : 0.0) - follow_mm_) * (searching ? share : back);
   }
   const glm::dvec3 normal = plane_normal(probe);
-  const double sweep = phase_ == Phase::scan
-                           ? kSweepMm * (1.0 - (t_s_ - phase_since_s_) / scan_s_) * base::exact_sin(2.5 * t_s_)
+  const double sweep = phase_ == Phase::scan && !(across_ && looks_over_target_)
+                           ? kSweepMm * (1.0 - scanned_share()) * base::exact_sin(2.5 * t_s_)
                            : 0.0;
+  if (phase_ == Phase::scan && tests_side_)
+    probe.position_lps_mm += probe.side * (kSideMm * base::exact_sin(2.0 * std::numbers::pi * scanned_share()));
   probe.position_lps_mm += normal * (sweep + follow_mm_ + drift_.at(t_s_) * profile_.probe_drift_mm * alignment_);
   // A drifting hand also tilts: about 1° for each millimetre.
   const double tilt_rad = tilt_.at(t_s_) * profile_.probe_drift_mm * alignment_ * std::numbers::pi / 180.0;
   probe.axis = glm::normalize(probe.axis + normal * tilt_rad);
+}
+
+// Before the puncture: how deep the target lies, off the first picture that shows it; and how far the needle is to
+// go in. What is measured is recorded from the first tick on.
+void ScriptedOperator::show_deeds(const cases::State& state, cases::Inputs& inputs) {
+  if (inputs.event == cases::EventKind::note_plan) inputs.event_tenths_mm = cases::tenths_of(goal_mm());
+  if (inputs.event != cases::EventKind::none) return;
+  if (!begun_) {
+    begun_ = true;
+    inputs.event = cases::EventKind::calipers_recorded;
+  } else if (phase_ == Phase::scan && measures_ && picture() != nullptr && picture()->live && picture()->target) {
+    measures_ = false;
+    inputs.event = cases::EventKind::depth_measured;
+    inputs.event_tenths_mm =
+        cases::tenths_of(glm::dot(target_now() - state.probe.origin_lps_mm, state.probe.axial));
+  }
 }
 
 cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::FrameTruth* frame, double dt_s,
@@ -373,6 +400,7 @@ cases::Inputs ScriptedOperator::act(const cases::State& state, const cases::Fram
   cases::Inputs inputs;
   // The skin is marked and numbed between two breaths.
   if (!(phase_ == Phase::prepare && waits_ && !pauses_)) inputs.event = conduct_.advance(dt_s);
+  show_deeds(state, inputs);
   decide(state);
   judge_sight();
   if (!conduct_.stopped() || phase_ == Phase::leave) move(dt_s);

@@ -69,6 +69,7 @@ class ScriptedOperator {
   bool stops_for_breath();
   bool looked() const noexcept;
   void enter_or_redirect(Phase next, const cases::State& state);
+  void show_deeds(const cases::State& state, cases::Inputs& inputs);
   void decide_in_advance();
   void decide_at_target(const cases::State& state);
   void decide_in_held_breath();
@@ -81,6 +82,7 @@ class ScriptedOperator {
   void move(double dt_s);
   void hold_probe(cases::ToolPose& probe, double dt_s);
   double goal_mm() const noexcept;
+  double scanned_share() const noexcept { return (t_s_ - phase_since_s_) / scan_s_; }
   double jiggle_mm() const noexcept;
   bool chance(double share) { return rng_.uniform() < share; }
 
@@ -99,6 +101,9 @@ class ScriptedOperator {
   double withdraw_to_mm_ = 0.0;
   int redirections_ = 0;
   bool checked_ = false;
+  bool begun_ = false;
+  bool tests_side_ = false, measures_ = false;  // by deed; else he only says so
+  bool looks_over_target_ = false;
   // Of a patient who breathes: what he does about it, and what is seen of the belly.
   bool breathes_ = false, asks_early_ = false, waits_ = false;
   bool still_ = false, seen_still_ = false, pauses_ = false;

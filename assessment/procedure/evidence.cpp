@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "assessment/metrics/tables.h"
+#include "assessment/procedure/deeds.h"
 #include "assessment/signals/breath_holds.h"
 #include "assessment/signals/signals.h"
 #include "sim/base/check.h"
@@ -162,8 +163,9 @@ When pushed_on(const Signals& signals, const Counts& counts) {
     return sum_mm > kPushMm;
   });
 }
-When last_way_begun(const Signals& signals) {
-  return pushed_on(signals, [](double) { return true; });
+When pushed_in_hold(const Signals& signals) {
+  const std::vector<BreathHold> holds = breath_holds(signals);
+  return pushed_on(signals, [&](double t_s) { return held_at(holds, t_s, kLossNoticedSeconds); });
 }
 When pushed_in_breath(const Signals& signals) {
   const std::vector<BreathHold> holds = breath_holds(signals);
@@ -205,14 +207,14 @@ When fired_unseen(const Signals& signals) {
 }
 
 When seen_in_breath_hold(const Signals& signals) {
-  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t) {
+  return first_frame(signals, [&](const cases::FrameTruth& frame, std::size_t pose) {
     bool held = false;
     for (const cases::Event& one : *signals.events) {
       if (one.t_s > frame.t_s) break;
       if (one.kind == EventKind::breath_held) held = true;
       if (one.kind == EventKind::breath_lost || one.kind == EventKind::breathe_again) held = false;
     }
-    return held && frame.joint();
+    return held && frame.joint() && signals.passages[pose].in_body;
   });
 }
 
@@ -260,14 +262,23 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::signed_out, "the sign-out was said", kSaid, &event<EventKind::sign_out>},
     {Evidence::skin_pain, "skin that was not numb was punctured", kSaid, &event<EventKind::pain_skin>},
     {Evidence::bone_pain, "the needle met bone", kSaid, &event<EventKind::pain_bone>},
-    {Evidence::breath_granted, "the patient held the breath", kSaid, &event<EventKind::breath_held>},
     {Evidence::probe_on_skin, "the middle of the probe's face was within 15 mm of the skin", kSkin, &probe_on_skin},
+    {Evidence::orientation_tested,
+     "on the skin, the picture live, the probe was slid along its marker's axis by 10 mm and back, or rocked so by "
+     "10°, within 10 s",
+     kSeen | kPicturePlane | kSkin,
+     [](const Signals& signals) { return orientation_tested_s(signals, kProbeOnSkinMm); }},
     {Evidence::needle_at_skin, "the tip was within 5 mm of the skin, or in it", kSkin, &needle_at_skin},
     {Evidence::punctured, "the first puncture that skin_punctures counts", kSkin, &punctured},
+    {Evidence::angle_kept, "at the first puncture the needle stood to the skin within 15° of the planned angle",
+     kSkin | kPlan, &angle_kept_s},
     {Evidence::jiggled, "in tissue the tip went to and fro along the shaft, by 1 to 5 mm and within 2 s", kSkin,
      &jiggled},
     {Evidence::at_target, "the tip was in the target; a core needle's: at most 5 mm from its edge", kTarget | kSkin,
      &at_target},
+    {Evidence::at_planned_depth,
+     "at the trigger the needle was in by the depth that was noted before the first puncture, give or take 10 mm",
+     kSaid | kSkin | kCalipers, &planned_depth_kept_s},
     {Evidence::fired, "the trigger fell", 0, &fired},
     {Evidence::needle_out, "after the trigger the tip left the skin", kSkin,
      [](const Signals& signals) { return signals.after.needle_out_s; }},
@@ -277,14 +288,20 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::stopped_in_trouble,
      "from 1 to 4 s after a cough, bleeding or drop of pressure the needle came at most 2 mm deeper", kSaid | kSkin,
      &in_trouble<false>},
-    {Evidence::last_way_begun,
-     "the tip was pushed on by over 2 mm in the target's organ (none marked: at most 20 mm from the target)",
-     kTarget | kSkin, &last_way_begun},
+    {Evidence::pushed_in_hold,
+     "the tip was pushed on by over 2 mm in the target's organ (none marked: at most 20 mm from the target) while "
+     "breath was held",
+     kSaid | kTarget | kSkin, &pushed_in_hold},
     {Evidence::pushed_in_breath,
      "it was pushed on so by over 2 mm while breath moved, the second after a hold was lost left out",
      kSaid | kTarget | kSkin, &pushed_in_breath},
     {Evidence::fired_in_breath, "the trigger fell while breath moved", kSaid, &fired_in_breath},
     {Evidence::target_seen, "a live picture showed the target", kSeen | kTarget, &target_seen},
+    {Evidence::depth_measured,
+     "calipers measured how deep it lies in a picture that showed it, give or take 5 mm beyond its edges, 15 mm "
+     "where "
+     "tissue moves",
+     kSaid | kSeen | kPicturePlane | kTarget | kCalipers, &depth_measured_s},
     {Evidence::tip_seen, "a live picture showed the tip in tissue", kSeen | kSkin, &tip_seen},
     {Evidence::both_seen, "a live picture showed target and tip in tissue at once", kSeen | kTarget | kSkin,
      &both_seen},
@@ -295,8 +312,20 @@ constexpr EvidenceInfo kEvidence[] = {
      kPicturePlane | kSkin | kOutOfPlane, &beyond_plane},
     {Evidence::fired_unseen, "the picture before the trigger was not live or did not show the tip", kSeen,
      &fired_unseen},
-    {Evidence::seen_in_breath_hold, "a live picture showed tip and target while the breath was held",
-     kSaid | kSeen | kTarget, &seen_in_breath_hold},
+    {Evidence::seen_in_breath_hold, "a live picture showed target and tip in tissue while the breath was held",
+     kSaid | kSeen | kTarget | kSkin, &seen_in_breath_hold},
+    {Evidence::on_unchecked,
+     "with the needle in tissue the breath was held, and the needle was pushed on by over 2 mm or the trigger fell "
+     "before a picture of that hold had shown the tip",
+     kSaid | kSeen | kSkin, [](const Signals& signals) { return breath_checks(signals).on_unchecked_s; }},
+    {Evidence::unseen_in_breath_hold,
+     "with the needle at rest in tissue the breath was held for 1 s or more, and no live picture showed the tip",
+     kSaid | kSeen | kSkin, [](const Signals& signals) { return breath_checks(signals).unseen_s; }},
+    {Evidence::found_again, "after that a live picture showed the tip in tissue before the needle went on",
+     kSaid | kSeen | kSkin, [](const Signals& signals) { return breath_checks(signals).found_again_s; }},
+    {Evidence::on_unfound,
+     "after that the needle was pushed on by over 2 mm, or the trigger fell, before a live picture showed the tip",
+     kSaid | kSeen | kSkin, [](const Signals& signals) { return breath_checks(signals).on_unfound_s; }},
     {Evidence::scanned_after, "with the needle out a live picture showed the target", kSeen | kTarget | kSkin,
      [](const Signals& signals) { return signals.after.scanned_s; }},
     {Evidence::target_under_beam, "a pulse showed the target", kSeen | kTarget | kXray, &target_under_beam},

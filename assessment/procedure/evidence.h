@@ -14,7 +14,7 @@ struct Signals;
 
 enum class Evidence : std::uint8_t {
   none,  // never asked
-  // Said or asked for.
+  // Said or asked for: is_said().
   signed_in,
   decided,  // to proceed or to defer
   deferred,
@@ -28,28 +28,35 @@ enum class Evidence : std::uint8_t {
   // Answered by the patient.
   skin_pain,
   bone_pain,
-  breath_granted,
   // Of the hands.
   probe_on_skin,
+  orientation_tested,
   needle_at_skin,
   punctured,
+  angle_kept,
   jiggled,
   at_target,
+  at_planned_depth,
   fired,
   needle_out,
   went_on_in_trouble,
   stopped_in_trouble,
-  last_way_begun,
+  pushed_in_hold,
   pushed_in_breath,
   fired_in_breath,
   // Of the pictures.
   target_seen,
+  depth_measured,
   tip_seen,
   both_seen,
   blind_run,
   beyond_plane,
   fired_unseen,
   seen_in_breath_hold,
+  on_unchecked,
+  unseen_in_breath_hold,
+  found_again,
+  on_unfound,
   scanned_after,
   // Of the beam.
   target_under_beam,
@@ -57,6 +64,11 @@ enum class Evidence : std::uint8_t {
   looked_across_needle,
   hand_in_beam,
 };
+
+// Nobody knows whether what was said was also done; everything else was done, or answered by the patient.
+constexpr bool is_said(Evidence evidence) noexcept {
+  return evidence >= Evidence::signed_in && evidence <= Evidence::signed_out;
+}
 
 struct EvidenceInfo {
   Evidence evidence;

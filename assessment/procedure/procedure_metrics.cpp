@@ -24,8 +24,17 @@ Measured steps_done(const Signals& signals) {
   return Measured::of(static_cast<double>(counts.done) / counts.asked());
 }
 
+Measured steps_shown(const Signals& signals) {
+  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
+  if (counts.to_be_shown == 0) return Measured::none("no_step_asked_for");
+  return Measured::of(static_cast<double>(counts.shown) / counts.to_be_shown);
+}
+
 Measured steps_violated(const Signals& signals) {
-  return Measured::of(count_steps(walk_steps(signals), unmet_needs(signals)).violated);
+  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
+  if (counts.violated == 0 && count_punctures(signals).punctures == 0 && !first_s(Evidence::deferred, signals))
+    return Measured::none("nothing_done");
+  return Measured::of(counts.violated);
 }
 
 Measured pain_reactions(const Signals& signals) {
@@ -36,6 +45,15 @@ Measured pain_reactions(const Signals& signals) {
 }
 
 constexpr const char* kStepSources = "thesis, appendix A; clinical.md: steps around the puncture";
+
+constexpr Estimand kDecisionEstimand{Scale::yes_no, WithoutEndpoint::left_out, Aggregation::proportion},
+    kShareEstimand{Scale::share, WithoutEndpoint::left_out, Aggregation::median},
+    kCountEstimand{Scale::count, WithoutEndpoint::left_out, Aggregation::mean};
+
+// A step may end within seconds of another, count with a patient who breathes only, and ask what one picture
+// showed.
+constexpr std::uint32_t kOfSteps = kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter;
+constexpr std::uint32_t kOfEvents = kOfSteps | kAtAnySpeed | kInAnyBreath | kOneDarkFrame | kLostSamples;
 
 constexpr MetricInfo kProcedureMetrics[] = {
     {"procedure_performed", 1, "bool", "Procedure performed", Group::procedure, Direction::none, kSkin,
@@ -48,17 +66,31 @@ constexpr MetricInfo kProcedureMetrics[] = {
      kEvents | kDecision | kSkin,
      "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
      "nothing_decided (neither said nor punctured).",
-     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfTheWay | kNothingIsNothing},
-    {"steps_done", 2, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
-     "Share done of the graded steps (steps.md) that were asked for. Null: no_step_asked_for.", kStepSources,
-     &steps_done, kMedianShare, kAnyPlace | kIdleBefore,
-     "1: a held breath and a jiggle counted also where no tissue moves."},
-    {"steps_violated", 2, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
-     "Graded steps (steps.md) that were violated.", kStepSources, &steps_violated, kMeanCount,
-     kAnyPlace | kIdleBefore, "1: a held breath and a jiggle counted also where no tissue moves."},
-    {"pain_reactions", 1, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
-     kPatient | kEvents | kSkin, "How often the patient felt pain: skin punctured where it was not numb, bone met.",
-     kStepSources, &pain_reactions, kMeanCount, kOfTheWay},
+     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand, kOfEvents | kNothingIsNothing},
+    {"steps_done", 3, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
+     "Share done of the graded steps (steps.md) that were asked for; a step that a deed can show, by the deed "
+     "only. "
+     "Null: no_step_asked_for.",
+     kStepSources, &steps_done, kShareEstimand, kOfSteps,
+     "1: steps of breath and the jiggle counted nowhere; 2: said was as good as done, and depth by the needle's "
+     "marks, "
+     "the angle at the skin and the way back from the check in the held breath were no steps"},
+    {"steps_shown", 1, "share", "Steps shown", Group::procedure, Direction::higher_is_better, kEvents,
+     "As steps_done, of the steps that a deed can show: what was said neither counts nor is asked for. Null: "
+     "no_step_asked_for.",
+     kStepSources, &steps_shown, kShareEstimand, kOfSteps},
+    {"steps_violated", 3, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
+     "Graded steps (steps.md) that were violated. Null: nothing_done (none was, and there was neither a skin "
+     "puncture "
+     "nor a deferral).",
+     kStepSources, &steps_violated, kCountEstimand, kOfSteps | kNothingIsNothing,
+     "1: steps of breath counted nowhere; 2: who did nothing had 0, and going on unchecked in the held breath was "
+     "no "
+     "violation"},
+    {"pain_reactions", 2, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
+     kPatient | kEvents | kSkin | kTissue,
+     "How often the patient felt pain: skin punctured where it was not numb, bone met.", kStepSources,
+     &pain_reactions, kCountEstimand, kOfEvents | kNothingIsNothing, "1: who did nothing had 0"},
 };
 
 }  // namespace

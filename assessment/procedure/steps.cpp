@@ -27,16 +27,19 @@ constexpr StepInfo kSteps[] = {
     {"sign_in", "Sign in: identity, consent, imaging, allergy, INR, platelets", kPatient | kEvents, signed_in,
      punctured, none, kAlways, kAround},
     {"decide", "Decide to proceed or to defer", kPatient | kEvents, decided, punctured, none, kAlways, kAround},
-    {"check_probe", "Choose the probe and check its orientation", kEvents | kUltrasound, probe_checked, punctured,
-     none, kAlways, kAround},
+    {"check_probe", "Choose the probe and check its orientation: move it and look", kUltrasound | kPictures | kSkin,
+     orientation_tested, punctured, none, kAlways, kAround, probe_checked},
     {"place_probe", "Place the probe on the skin at the entry", kPicturePlane | kSkin, probe_on_skin, punctured,
      none, kAlways, kTask(1)},
     {"find_target", "Find the target in the picture", kPicturePlane | kPictures | kTarget, target_seen, punctured,
      none, kAlways, kTask(2)},
     {"find_target_under_beam", "Find the target under fluoroscopy", kXray | kPictures | kTarget, target_under_beam,
      punctured, none, kAlways, kBullsEye},
-    {"note_depth", "Note planned entry and depth, and the needle's markings", kEvents, plan_noted, punctured, none,
-     kAlways, kTask(3)},
+    {"note_depth", "Measure the target's depth in the picture, with calipers",
+     kEvents | kPicturePlane | kPictures | kTarget | kCalipers, depth_measured, punctured, none, kAlways, kTask(3),
+     plan_noted},
+    {"note_depth_under_beam", "Note planned entry and depth, and the needle's markings", kEvents | kXray,
+     plan_noted, punctured, none, kAlways, kTask(3)},
     {"anaesthetise", "Give local anaesthetic, after aspiration", kPatient | kEvents, anaesthetised, punctured,
      anaesthetised_unaspirated, kAlways, kAround},
     {"nick", "Nick the skin", kPatient | kEvents | kCoreNeedle, nicked, punctured, none, kAlways, kAround},
@@ -44,6 +47,8 @@ constexpr StepInfo kSteps[] = {
     {"aim_along_beam", "Aim along the beam: bull's-eye view", kXray | kPictures | kBeam, looked_along_needle,
      at_target, hand_in_beam, kAlways, kBullsEye},
     {"insert", "Insert the needle, through skin that is numb", kSkin, punctured, none, skin_pain, kAlways,
+     kTask(6)},
+    {"enter_at_angle", "Enter the skin at the planned angle", kSkin | kPlan, angle_kept, none, none, kAlways,
      kTask(6)},
     {"needle_in_plane", "Bring needle and picture together: see the tip in tissue",
      kPicturePlane | kPictures | kSkin | kInPlane, tip_seen, fired, none, kAlways, kTask(7)},
@@ -60,15 +65,20 @@ constexpr StepInfo kSteps[] = {
      looked_across_needle, fired, none, kAlways, kBullsEye},
     {"reach_target", "Reach the target; with a core needle, its edge", kTarget | kSkin, at_target, fired, none,
      kAlways, kTask(10)},
+    {"insert_to_depth", "Insert to the planned depth, by the needle's marks",
+     kEvents | kPicturePlane | kSkin | kCalipers, at_planned_depth, fired, none, kAlways, kTask(4)},
     {"stop_in_trouble", "Stop when the patient coughs, bleeds or loses pressure",
      kPatient | kEvents | kTrouble | kSkin, stopped_in_trouble, none, went_on_in_trouble, kAlways, kAround},
     {"ask_breath_hold", "Ask the patient to hold the breath", kPatient | kEvents, breath_hold_asked, fired, none,
      kBreathes, kTask(11)},
     {"hold_before_organ", "Have the breath held before the organ is entered, and on the way in it",
-     kEvents | kBreathes | kTarget | kSkin, breath_granted, last_way_begun, pushed_in_breath, kAlways, kTask(11)},
+     kEvents | kBreathes | kTarget | kSkin, pushed_in_hold, none, pushed_in_breath, kAlways, kTask(11)},
     {"check_in_breath_hold", "Check needle and target while the breath is held",
-     kPatient | kEvents | kPicturePlane | kPictures | kTarget, seen_in_breath_hold, fired, none, kBreathes,
-     kTask(12)},
+     kPatient | kEvents | kPicturePlane | kPictures | kTarget | kSkin, seen_in_breath_hold, fired, on_unchecked,
+     kBreathes, kTask(12)},
+    {"find_again", "Where the check does not show the tip, go back: find it before going on",
+     kPatient | kEvents | kPicturePlane | kPictures | kSkin, found_again, none, on_unfound, kBreathes, kTask(12),
+     none, unseen_in_breath_hold},
     {"fire_in_breath_hold", "Take the sample, or declare access, with the breath held", kEvents | kBreathes, fired,
      none, fired_in_breath, kAlways, kTask(12)},
     {"sample", "Take the sample, or declare access, with the tip in the picture",
@@ -87,6 +97,8 @@ constexpr auto kStates = base::names<StepState>({{StepState::done, "done"},
                                                  {StepState::violated, "violated"},
                                                  {StepState::not_asked, "not_asked"}});
 
+constexpr auto kHows = base::names<StepHow>({{StepHow::shown, "shown"}, {StepHow::said, "said"}});
+
 StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unmet, bool stopped_by_defer) {
   StepResult result;
   result.id = step.id;
@@ -102,12 +114,18 @@ StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unme
     result.reason = "deferred";
     return result;
   }
+  if (step.asked_when != none && !first_s(step.asked_when, signals)) {
+    result.reason = "no_such_event";
+    return result;
+  }
   const auto violated_s = first_s(step.violates, signals), done_s = first_s(step.completes, signals),
              by_s = first_s(step.by, signals);
   result.t_s = violated_s ? violated_s : done_s;
   result.state = violated_s                             ? StepState::violated
                  : done_s && !(by_s && *done_s > *by_s) ? StepState::done
                                                         : StepState::skipped;
+  if (result.state == StepState::done) result.how = step.shown() ? StepHow::shown : StepHow::said;
+  if (result.state == StepState::skipped && first_s(step.said, signals)) result.how = StepHow::said;
   return result;
 }
 
@@ -131,6 +149,19 @@ std::optional<StepState> step_state_from(std::string_view name) noexcept {
   return base::from_name(kStates, name);
 }
 
+std::string_view name_of(StepHow how) noexcept {
+  return base::name_of(kHows, how);
+}
+
+std::optional<StepHow> step_how_from(std::string_view name) noexcept {
+  return base::from_name(kHows, name);
+}
+
+const char* how_text(const StepResult& step) noexcept {
+  if (step.how != StepHow::said) return "";
+  return step.state == StepState::done ? " (said)" : " (said, not shown)";
+}
+
 std::vector<StepResult> walk_steps(const Signals& signals) {
   const std::uint32_t unmet = unmet_needs(signals);
   const bool stopped_by_defer = first_s(deferred, signals) && !first_s(punctured, signals);
@@ -147,6 +178,9 @@ StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet)
     counts.done += result.state == StepState::done ? 1 : 0;
     counts.skipped += result.state == StepState::skipped ? 1 : 0;
     counts.violated += result.state == StepState::violated ? 1 : 0;
+    if (!step->shown() || result.state == StepState::not_asked) continue;
+    ++counts.to_be_shown;
+    counts.shown += result.state == StepState::done ? 1 : 0;
   }
   return counts;
 }
@@ -173,13 +207,20 @@ std::string steps_markdown() {
       "lacks what\nit needs. Steps that are graded with something count in cases that have it, else they are told "
       "and do not count "
       "(clinical.md).\n\n"
-      "| id | step | asked for with | done when | before | violated when | graded | source |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "A step is *shown* where a deed completes it: what hands, pictures and patient tell. What is said about it "
+      "is "
+      "told\nand does not count. Where no deed can show it, the step is *said*: the trainee is taken at his word. "
+      "`steps_shown`\nis the share done of the former.\n\n"
+      "| id | step | by | asked for with | done when | before | violated when | graded | source |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const StepInfo& step : kSteps) {
     const std::string needs = words_of_needs(step.needs), graded_with = words_of_needs(step.graded_with);
-    text += "| `" + std::string(step.id) + "` | " + step.words + " | " + (needs.empty() ? "–" : needs) + " | " +
-            words(step.completes) + " | " + words(step.by) + " | " + words(step.violates) + " | " +
-            (graded_with.empty() ? "yes" : "with " + graded_with) + " | " + step.source + " |\n";
+    const std::string when = step.asked_when == none ? "" : "; where " + words(step.asked_when);
+    text += "| `" + std::string(step.id) + "` | " + step.words + " | " +
+            std::string(name_of(step.shown() ? StepHow::shown : StepHow::said)) + " | " +
+            (needs.empty() ? "–" : needs) + when + " | " + words(step.completes) + " | " + words(step.by) + " | " +
+            words(step.violates) + " | " + (graded_with.empty() ? "yes" : "with " + graded_with) + " | " +
+            step.source + " |\n";
   }
   return text;
 }

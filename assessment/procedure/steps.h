@@ -13,8 +13,8 @@
 namespace seldinger::assessment {
 
 // Higher when a row below changes its meaning: stored results keep theirs. 2: a held breath and a jiggle count
-// where tissue moves.
-constexpr int kStepsVersion = 2;
+// where tissue moves. 3: what a deed can show is done by the deed, not by being said.
+constexpr int kStepsVersion = 3;
 
 struct StepInfo {
   const char* id;
@@ -26,6 +26,10 @@ struct StepInfo {
   // Counts in steps_done and steps_violated where these Needs, or-ed, are met; 0: everywhere.
   std::uint32_t graded_with;
   const char* source;
+  Evidence said = Evidence::none;        // of a step that a deed shows: what is said about it, told and not counted
+  Evidence asked_when = Evidence::none;  // it was there, else the step is not asked for; none: always
+  // Whether a deed completes it; else it is taken at its word.
+  constexpr bool shown() const noexcept { return !is_said(completes); }
 };
 
 // In the order in which they are to be done.
@@ -33,6 +37,7 @@ std::span<const StepInfo> procedure_steps();
 const StepInfo* find_step(std::string_view id);
 
 enum class StepState : std::uint8_t { done, skipped, violated, not_asked };
+enum class StepHow : std::uint8_t { shown, said };
 
 struct StepResult {
   std::string id;
@@ -40,11 +45,18 @@ struct StepResult {
   StepState state = StepState::not_asked;
   std::optional<double> t_s;  // when it was done (skipped: too late) or violated
   std::string reason;         // of not_asked: a need's reason, `deferred` or `no_such_event`; else empty
+  // Of done: by deed, or said. Of skipped: said, where a deed would have shown it. Else nothing, and of what was
+  // stored before version 3.
+  std::optional<StepHow> how{};
   bool operator==(const StepResult&) const = default;
 };
 
 std::string_view name_of(StepState state) noexcept;
 std::optional<StepState> step_state_from(std::string_view name) noexcept;
+std::string_view name_of(StepHow how) noexcept;
+std::optional<StepHow> step_how_from(std::string_view name) noexcept;
+// Behind a step's words: "", " (said)", " (said, not shown)".
+const char* how_text(const StepResult& step) noexcept;
 
 // Every step, in order.
 std::vector<StepResult> walk_steps(const Signals& signals);
@@ -52,6 +64,7 @@ std::vector<StepResult> walk_steps(const Signals& signals);
 // Of those that are graded and were asked for; `unmet` as unmet_needs() says.
 struct StepCounts {
   int done = 0, skipped = 0, violated = 0;
+  int shown = 0, to_be_shown = 0;  // of those that a deed can show: done, and asked for
   int asked() const noexcept { return done + skipped + violated; }
 };
 StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet);

@@ -1,8 +1,11 @@
 #include "assessment/signals/needs.h"
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "assessment/signals/signals.h"
+#include "sim/case/hand_kind.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -50,12 +53,45 @@ bool in_tissue(const Signals& signals) {
                      [](const cases::SkinPassage& passage) { return passage.in_body; });
 }
 
+bool calipers_recorded(const Signals& signals) {
+  return signals.events &&
+         std::any_of(signals.events->begin(), signals.events->end(),
+                     [](const cases::Event& event) { return event.kind == cases::EventKind::calipers_recorded; });
+}
+
 bool trouble_made(const Signals& signals) {
   return signals.events &&
          std::any_of(signals.events->begin(), signals.events->end(), [](const cases::Event& event) {
            const cases::EventInfo* info = cases::find_event(event.kind);
            return info != nullptr && info->source == cases::EventSource::mentor;
          });
+}
+
+// Under a guide the needle's line is the guide's. Taken up in the air and put aside again it led nothing.
+bool freehand(const Signals& signals) {
+  if (!signals.events) return true;
+  const std::vector<cases::EventSpan> guided = cases::guided_times(*signals.events);
+  for (std::size_t i = 0; i < signals.poses.size(); ++i)
+    if (signals.passages[i].in_body &&
+        std::any_of(guided.begin(), guided.end(), [t_s = signals.poses[i].t_s](const cases::EventSpan& span) {
+          return span.from_s <= t_s && t_s < span.to_s;
+        }))
+      return false;
+  return true;
+}
+
+// Whether an arm led the needle whenever it was in tissue; a force that a mouse cannot give is felt by nobody, and
+// a simulated operator leads a virtual arm.
+bool arm_led(const Signals& signals) {
+  if (!signals.events) return true;
+  std::optional<cases::HandKind> hand;
+  auto event = signals.events->begin();
+  for (std::size_t i = 0; i < signals.poses.size(); ++i) {
+    for (; event != signals.events->end() && event->t_s <= signals.poses[i].t_s; ++event)
+      if (const auto by = cases::led_by(event->kind); by && by->tool == cases::LedTool::needle) hand = by->hand;
+    if (signals.passages[i].in_body && hand && *hand != cases::HandKind::arm) return false;
+  }
+  return !hand || *hand == cases::HandKind::arm;
 }
 
 constexpr NeedInfo kNeeds[] = {
@@ -69,6 +105,8 @@ constexpr NeedInfo kNeeds[] = {
     {kTarget, "a target", "no_target", [](const Signals& s) { return s.setting.target.has_value(); }},
     {kPlan, "a planned entry", "no_plan", [](const Signals& s) { return s.setting.plan.has_value(); }},
     {kForces, "recorded forces", "no_device", [](const Signals& s) { return !s.forces.empty(); }},
+    {kArmLed, "an arm that leads the needle", "no_arm", &arm_led},
+    {kFreehand, "no needle guide in tissue", "needle_guide_was_on", &freehand},
     {kNoGo, "a structure to stay out of", "no_nogo_structure",
      [](const Signals& s) {
        return has(s, StructureRule::critical) || has(s, StructureRule::major) || has(s, StructureRule::advisory);
@@ -91,6 +129,7 @@ constexpr NeedInfo kNeeds[] = {
     {kMotion, "more than gaps", "only_gaps", [](const Signals& s) { return !s.only_gaps(); }},
     {kTissue, "the tip in tissue", "never_in_tissue", &in_tissue},
     {kEvents, "what was said", "events_not_recorded", [](const Signals& s) { return s.events.has_value(); }},
+    {kCalipers, "what calipers measured", "calipers_not_recorded", &calipers_recorded},
     {kTrouble, "a mentor's event", "no_such_event", &trouble_made},
     {kDecision, "the right decision", "no_right_decision",
      [](const Signals& s) { return s.setting.defer_is_right.has_value(); }},
@@ -115,8 +154,8 @@ bool applies(std::uint32_t needs, const Manner& manner) {
 
 bool absent_from_case(std::string_view reason) {
   constexpr std::uint32_t of_case = kTarget | kPlan | kNoGo | kNoGoCritical | kNoGoMajor | kNoGoAdvisory |
-                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kDecision | kBreathes |
-                                    kYields | kPatient;
+                                    kMustCross | kOrgan | kLumen | kSkin | kForces | kArmLed | kDecision |
+                                    kBreathes | kYields | kPatient;
   return std::any_of(std::begin(kNeeds), std::end(kNeeds),
                      [&](const NeedInfo& info) { return (info.need & of_case) != 0 && reason == info.reason; });
 }

@@ -52,6 +52,11 @@ enum Need : std::uint32_t {
   kBreathes = 1U << 26U,
   kYields = 1U << 27U,
   kPatient = 1U << 28U,
+  // Of the hands: an attempt whose recorder noted nothing of them (cases::EventInfo::noted) meets both.
+  kFreehand = 1U << 29U,
+  kArmLed = 1U << 30U,
+  // Of the recording.
+  kCalipers = 1U << 31U,
 };
 
 struct NeedInfo {

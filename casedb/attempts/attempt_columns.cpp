@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstring>
 
+#include "casedb/attempts/condition_table.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/database/question.h"
 #include "sim/base/check.h"
@@ -146,6 +147,46 @@ void insert_servo_record(Sqlite& database, const std::string& attempt_id, const 
       .bind("latency", std::span(latency))
       .bind("compute", std::span(compute))
       .run();
+}
+
+void insert_conditions(Sqlite& database, const char* into, const std::string& attempt_id,
+                       const Conditions& conditions) {
+  Statement insert = question(database, into);
+  for (const ConditionRow& row : condition_rows()) {
+    const ConditionValue value = row.read(conditions);
+    if (std::holds_alternative<std::monostate>(value)) continue;
+    std::optional<double> number;
+    std::optional<std::string> words;
+    if (const bool* flag = std::get_if<bool>(&value)) number = *flag ? 1.0 : 0.0;
+    if (const double* held = std::get_if<double>(&value)) number = *held;
+    if (const std::string* held = std::get_if<std::string>(&value)) words = *held;
+    insert.bind("attempt_id", attempt_id)
+        .bind("condition_id", row.id)
+        .bind("number", number)
+        .bind("words", words)
+        .run();
+  }
+}
+
+Conditions read_conditions(Statement rows, const std::string& attempt_id) {
+  Conditions conditions;
+  for (rows.bind("attempt_id", attempt_id); rows.step();) {
+    const ConditionRow* row = find_condition(rows.view("condition_id"));
+    if (row == nullptr) continue;
+    ConditionValue value;
+    if (!rows.is_null("words"))
+      value = rows.text("words");
+    else if (row->kind == ConditionKind::flag)
+      value = rows.real("number") != 0.0;
+    else
+      value = rows.real("number");
+    row->write(conditions, value);
+  }
+  return conditions;
+}
+
+Conditions find_conditions(Library& library, const std::string& attempt_id) {
+  return read_conditions(question(library.database(), "conditions_of_attempt"), attempt_id);
 }
 
 MetricValue read_metric(const Statement& from) {

@@ -20,6 +20,12 @@ std::vector<cases::RecordingChunk> read_chunks(Statement rows, const std::string
 
 void insert_servo_record(Sqlite& database, const std::string& attempt_id, const cases::ServoRecord& record);
 
+// Those that are known, into a table by its question; and back, from one attempt's rows. What today's table does
+// not have, or not so, is left out.
+void insert_conditions(Sqlite& database, const char* into, const std::string& attempt_id,
+                       const Conditions& conditions);
+Conditions read_conditions(Statement rows, const std::string& attempt_id);
+
 MetricValue read_metric(const Statement& from);
 
 AttemptEnd end_from(const std::string& name);  // CHECKs that there is one of that name

@@ -8,7 +8,8 @@ namespace seldinger::casedb {
 std::vector<AttemptKey> list_attempt_keys(Library& library) {
   std::vector<AttemptKey> keys;
   for (Statement rows = question(library.database(), "attempt_keys"); rows.step();) {
-    keys.push_back({rows.text("attempt_id"), rows.text("case_id"), std::nullopt, rows.integer("started_us")});
+    keys.push_back({rows.text("attempt_id"), rows.text("case_id"), std::nullopt, rows.integer("started_us"),
+                    rows.integer("synthetic") != 0});
     if (!rows.is_null("person_id")) keys.back().person_id = rows.text("person_id");
   }
   return keys;

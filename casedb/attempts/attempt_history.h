@@ -16,6 +16,7 @@ struct AttemptKey {
   std::string attempt_id, case_id;
   std::optional<std::string> person_id;
   std::int64_t started_us = 0;
+  bool synthetic = false;  // a simulated operator's, also in a person's name
 };
 std::vector<AttemptKey> list_attempt_keys(Library& library);  // oldest first
 

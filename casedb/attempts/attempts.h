@@ -14,6 +14,7 @@
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/person_operator.h"
 #include "assessment/procedure/steps.h"
+#include "casedb/attempts/conditions.h"
 #include "casedb/database/library.h"
 #include "sim/base/result.h"
 #include "sim/case/case.h"
@@ -54,6 +55,8 @@ struct AttemptOutcome {
   std::vector<assessment::StepResult> steps{};
   std::vector<std::byte> picture_png;         // the picture at the moment of firing; may be empty
   std::optional<cases::ServoRecord> servo{};  // none: it ran in virtual time
+  // What the recording does not say by itself (add_recorded); of simulated operators' nothing is asked for.
+  Conditions conditions{};
 };
 
 struct NewAttempt : AttemptHead, AttemptOutcome {
@@ -69,6 +72,7 @@ struct AttemptRow : AttemptHead {
   std::optional<AttemptEnd> end{};           // none: stored before schema 5
   std::vector<MetricValue> metrics;          // newest version of each
   std::vector<MetricValue> older_metrics{};  // what was stored by older versions
+  Conditions conditions{};                   // by find_attempt; lists are without
 };
 
 // `no_case`, `no_lesion`, `no_person`, `no_attempts_left` (a person has begun as many as the case allows). Durable
@@ -78,6 +82,14 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first = 0,
                                       std::size_t count = std::numeric_limits<std::size_t>::max());
 std::size_t count_attempts(Library& library);
+// Of some people, and of nobody where that is wanted; as list_attempts.
+struct WhoseAttempts {
+  std::vector<std::string> people;  // person ids
+  bool nobodys = false;
+};
+std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,
+                                      std::size_t count);
+std::size_t count_attempts(Library& library, const WhoseAttempts& whose);
 std::vector<AttemptRow> list_attempts_of(Library& library, const std::string& person_id);  // newest first
 std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& case_id);    // newest first
 // Those on a case whose values may make a band: of people who were consultants when they began, or of the simulated
@@ -88,6 +100,8 @@ base::Result<AttemptRow> find_attempt(Library& library, const std::string& attem
 base::Result<cases::Recording> load_recording(Library& library, const std::string& attempt_id);
 // Its steps, newest version of each, in order; none: stored before schema 8, and not recomputed since.
 std::vector<assessment::StepResult> list_steps(Library& library, const std::string& attempt_id);
+// Nothing of it is known of attempts from before schema 13.
+Conditions find_conditions(Library& library, const std::string& attempt_id);
 std::optional<cases::ServoRecord> find_servo_record(Library& library, const std::string& attempt_id);
 // Those whose version is not there yet: older values are kept. How many; `no_attempt`.
 base::Result<std::size_t> add_metrics(Library& library, const std::string& attempt_id,
@@ -109,8 +123,20 @@ base::Result<cases::Recording> load_open_recording(Library& library, const std::
 // Somebody goes on with one that a program left behind: for how long nobody was at it, since the last piece was
 // stored and by the wall's clock, is kept with it as far as that is known. `no_attempt`.
 base::Result<void> note_resumption(Library& library, const std::string& attempt_id);
+// What is known by now of the conditions under which it is made, beside what is known already; close_attempt keeps
+// them. `no_attempt`.
+base::Result<void> note_conditions(Library& library, const std::string& attempt_id, const Conditions& conditions);
 std::vector<OpenAttempt> list_open_attempts(Library& library);  // oldest first; running ones too
 // Makes it an attempt like any other. Refused: `no_attempt`, and as recording_from_chunks.
 base::Result<void> close_attempt(Library& library, const std::string& attempt_id, const AttemptOutcome& outcome);
+
+// Somebody watches a stored attempt now. `no_attempt`, `no_person`.
+base::Result<void> note_replay_watched(Library& library, const std::string& person_id,
+                                       const std::string& attempt_id);
+// How often a person has watched attempts at any version of a case so far.
+struct ReplaysWatched {
+  int others = 0, own = 0;
+};
+ReplaysWatched count_replays_watched(Library& library, const std::string& person_id, const std::string& case_id);
 
 }  // namespace seldinger::casedb

@@ -59,7 +59,16 @@ void insert_steps(Sqlite& database, const std::string& attempt_id,
         .bind("state", std::string(assessment::name_of(steps[i].state)))
         .bind("t_s", steps[i].t_s)
         .bind("reason", steps[i].reason)
+        .bind("how", steps[i].how ? std::optional(std::string(assessment::name_of(*steps[i].how))) : std::nullopt)
         .run();
+}
+
+// `told`: by whoever ran it.
+void keep_conditions(Sqlite& database, const std::string& attempt_id, const NewAttempt& attempt,
+                     const Conditions& told) {
+  Conditions known = attempt.synthetic() ? joined(simulated_conditions(), told) : told;
+  add_recorded(attempt.recording, known);
+  insert_conditions(database, "add_attempt_condition", attempt_id, known);
 }
 
 AttemptRow read_attempt(const Statement& from) {
@@ -140,6 +149,7 @@ base::Result<std::string> add_attempt(Library& library, const NewAttempt& attemp
   insert_metrics(database, attempt_id, attempt.metrics);
   insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
+  keep_conditions(database, attempt_id, attempt, attempt.conditions);
   transaction.commit();
   assets.keep();
   return attempt_id;
@@ -172,6 +182,9 @@ base::Result<void> close_attempt(Library& library, const std::string& attempt_id
   insert_metrics(database, attempt_id, attempt.metrics);
   insert_steps(database, attempt_id, attempt.steps);
   if (attempt.servo) insert_servo_record(database, attempt_id, *attempt.servo);
+  keep_conditions(
+      database, attempt_id, attempt,
+      joined(read_conditions(question(database, "conditions_of_open_attempt"), attempt_id), attempt.conditions));
   question(database, "remove_open_attempt").bind("attempt_id", attempt_id).run();
   transaction.commit();
   assets.keep();
@@ -229,15 +242,52 @@ std::vector<assessment::StepResult> list_steps(Library& library, const std::stri
     step.state = *state;
     if (!rows.is_null("t_s")) step.t_s = rows.real("t_s");
     step.reason = rows.text("reason");
+    if (!rows.is_null("how")) step.how = assessment::step_how_from(rows.text("how"));
   }
   return steps;
 }
 
+namespace {
+
+std::int64_t bounded(std::size_t value) {
+  return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
+}
+
+// Ids are hexadecimal digits and dashes: nothing in them needs to be escaped.
+std::string json_of_ids(const std::vector<std::string>& ids) {
+  std::string json = "[";
+  for (const std::string& id : ids) {
+    CHECK(id.find_first_not_of("0123456789abcdef-") == id.npos);
+    json += (json.size() > 1 ? ",\"" : "\"") + id + "\"";
+  }
+  return json + "]";
+}
+
+}  // namespace
+
+std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,
+                                      std::size_t count) {
+  Sqlite& database = library.database();
+  Statement attempts = question(database, "attempts_of_people"),
+            metrics = question(database, "metric_values_of_people");
+  for (Statement* part : {&attempts, &metrics})
+    part->bind("people", json_of_ids(whose.people))
+        .bind("nobodys", whose.nobodys ? 1 : 0)
+        .bind("first", bounded(first))
+        .bind("count", bounded(count));
+  const Snapshot one_state(database);
+  return read_attempts(std::move(attempts), std::move(metrics));
+}
+
+std::size_t count_attempts(Library& library, const WhoseAttempts& whose) {
+  Statement counted = question(library.database(), "attempt_count_of_people");
+  counted.bind("people", json_of_ids(whose.people)).bind("nobodys", whose.nobodys ? 1 : 0);
+  CHECK(counted.step());
+  return static_cast<std::size_t>(counted.integer("attempts"));
+}
+
 std::vector<AttemptRow> list_attempts(Library& library, std::size_t first, std::size_t count) {
   Sqlite& database = library.database();
-  const auto bounded = [](std::size_t value) {
-    return static_cast<std::int64_t>(std::min<std::size_t>(value, std::numeric_limits<std::int64_t>::max()));
-  };
   Statement attempts = question(database, "attempts"), metrics = question(database, "metric_values");
   for (Statement* part : {&attempts, &metrics}) part->bind("first", bounded(first)).bind("count", bounded(count));
   const Snapshot one_state(database);  // both questions mean the same attempts
@@ -290,6 +340,7 @@ base::Result<AttemptRow> find_attempt(Library& library, const std::string& attem
   metrics.bind("attempt_id", attempt_id);
   std::vector<AttemptRow> rows = read_attempts(std::move(attempt), std::move(metrics));
   if (rows.empty()) return base::Error{"no_attempt", "there is no such attempt in the library"};
+  rows.front().conditions = find_conditions(library, attempt_id);
   return std::move(rows.front());
 }
 

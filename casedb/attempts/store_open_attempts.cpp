@@ -49,6 +49,18 @@ base::Result<void> note_resumption(Library& library, const std::string& attempt_
   return {};
 }
 
+base::Result<void> note_conditions(Library& library, const std::string& attempt_id, const Conditions& conditions) {
+  Sqlite& database = library.database();
+  Transaction transaction(database);
+  Statement open = question(database, "open_recording_size");
+  if (!open.bind("attempt_id", attempt_id).step())
+    return base::Error{"no_attempt", "there is no such open attempt in the library"};
+  open.rewind();
+  insert_conditions(database, "set_open_attempt_condition", attempt_id, conditions);
+  transaction.commit();
+  return {};
+}
+
 base::Result<cases::Recording> load_open_recording(Library& library, const std::string& attempt_id) {
   auto chunks = read_chunks(question(library.database(), "open_chunks"), attempt_id);
   if (chunks.empty()) {

@@ -8,7 +8,7 @@ namespace {
 constexpr bool rows_are_in_the_order_of_the_actions() {
   for (std::size_t i = 0; i < std::size(kPermissions); ++i)
     if (kPermissions[i].action != static_cast<Action>(i)) return false;
-  return kPermissions[std::size(kPermissions) - 1].action == Action::set_standard;  // the last
+  return kPermissions[std::size(kPermissions) - 1].action == Action::erase_case;  // the last
 }
 static_assert(rows_are_in_the_order_of_the_actions());
 

@@ -1,5 +1,5 @@
-// Who may do what: one table, which commands, the workstation's window and the dashboard ask. Deny by default. A
-// library knows neither cohorts nor studies, so a mentor and a researcher see everybody's attempts.
+// Who may do what: one table, which commands, the workstation's window and the dashboard ask. Deny by default.
+// Whose something is (one's own, one's cohort's, …) is asked of casedb/people/relations.h.
 #pragma once
 
 #include <initializer_list>
@@ -9,6 +9,7 @@
 #include "casedb/cases/case_state.h"
 #include "casedb/cases/cases.h"
 #include "casedb/people/people.h"
+#include "casedb/people/relations.h"
 #include "sim/base/result.h"
 
 namespace seldinger::casedb {
@@ -21,13 +22,14 @@ enum class Action {
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
   // Cases.
-  see_case,      // what it holds, also what is right: more than to practise it
-  work_on_case,  // on the workstation's bench
+  see_case,        // what it holds, also what is right: more than to practise it
+  see_case_notes,  // what people wrote beside their decisions
+  work_on_case,    // on the workstation's bench
   confirm_no_burned_in_text,
   submit_case,
   approve_case,  // "own": one's own submission
   return_case,
-  publish_reviewed_case,
+  publish_reviewed_case,  // "own": made or submitted by oneself
   publish_unreviewed_case,
   retire_case,  // "own": published by oneself
   make_case_version,
@@ -38,8 +40,19 @@ enum class Action {
   release_curriculum,  // publishes it
   remove_draft_curriculum,
   retire_curriculum,
-  // Standards.
-  set_standard,  // "own": made of one's own attempts, too
+  // Standards. "own": one that grades oneself.
+  see_standard_attempts,  // which attempts made it
+  set_standard,
+  // People.
+  see_cohort,        // who is in it, by name
+  see_cohort_cells,  // how many are in it and what they did together, from kSmallestCell people upwards
+  manage_cohorts,
+  manage_studies,  // what they ask, who works on them
+  export_study,    // attempts of those who consent, without names
+  answer_consent,  // give and withdraw, and state facts of oneself
+  erase_attempts,
+  erase_person,
+  erase_case,
 };
 
 // A set of roles.
@@ -62,19 +75,19 @@ class Roles {
 inline constexpr Role kAllRoles[] = {Role::trainee, Role::mentor, Role::researcher, Role::director, Role::admin};
 inline constexpr Roles kEveryRole = {Role::trainee, Role::mentor, Role::researcher, Role::director, Role::admin};
 
-// What something is done to: the state it is in, where the action depends on it, and whether it is one's own. A
-// case's state never stands for a curriculum's.
-struct Subject {
+// What something is done to: the state it is in, where the action depends on it, and whose it is. A case's state
+// never stands for a curriculum's.
+struct Subject : Relation {
   constexpr Subject() = default;
   constexpr Subject(CaseState its) : state_bit(1U << static_cast<unsigned>(its)) {}           // NOLINT
   constexpr Subject(CurriculumState its) : state_bit(0x10U << static_cast<unsigned>(its)) {}  // NOLINT
+  constexpr Subject(const Relation& whose) : Relation(whose) {}                               // NOLINT
   static constexpr Subject whose(bool own) {
     Subject subject;
     subject.own = own;
     return subject;
   }
   unsigned state_bit = 0x100;  // of no state
-  bool own = false;
 };
 
 // A set of states.
@@ -90,7 +103,28 @@ class States {
   unsigned bits_ = 0;
 };
 
-enum class Whose { anybodys, own, anothers };
+enum class Whose { anybodys, own, anothers, own_cohorts, own_programmes, own_studies, nobodys, reaching };
+constexpr bool is(Whose whose, const Relation& relation) noexcept {
+  switch (whose) {
+    case Whose::anybodys:
+      return true;
+    case Whose::own:
+      return relation.own;
+    case Whose::anothers:
+      return !relation.own;
+    case Whose::own_cohorts:
+      return relation.own_cohort;
+    case Whose::own_programmes:
+      return relation.own_programme;
+    case Whose::own_studies:
+      return relation.own_study;
+    case Whose::nobodys:
+      return relation.nobodys;
+    case Whose::reaching:
+      return relation.reached;
+  }
+  return false;
+}
 
 // Roles that may do something to what is in one of the states, and whose it must be.
 struct Grant {
@@ -98,8 +132,7 @@ struct Grant {
   States states{};
   Whose whose = Whose::anybodys;
   constexpr bool covers(Role role, const Subject& subject) const noexcept {
-    return who.has(role) && states.has(subject) &&
-           (whose == Whose::anybodys || (whose == Whose::own) == subject.own);
+    return who.has(role) && states.has(subject) && is(whose, subject);
   }
 };
 
@@ -107,23 +140,30 @@ struct Permission {
   Action action;
   std::string_view name;
   std::string_view rule;  // in words, as a refusal gives them
-  Grant grants[3] = {};   // any of them is enough
+  Grant grants[5] = {};   // any of them is enough
 };
 
 // One row for each action, in their order.
 inline constexpr Permission kPermissions[] = {
     {Action::see_attempt,
      "see_attempt",
-     "a mentor or a researcher sees every attempt, a trainee their own",
-     {{{Role::mentor, Role::researcher}}, {{Role::trainee}, {}, Whose::own}}},
+     "a trainee sees their own attempts, a mentor also those of the own cohort, a director those of the own "
+     "programmes, a researcher those of consenting people in own studies; simulated ones a mentor or a researcher",
+     {{{Role::trainee, Role::mentor}, {}, Whose::own},
+      {{Role::mentor}, {}, Whose::own_cohorts},
+      {{Role::director}, {}, Whose::own_programmes},
+      {{Role::researcher}, {}, Whose::own_studies},
+      {{Role::mentor, Role::researcher}, {}, Whose::nobodys}}},
     {Action::see_operator_name,
      "see_operator_name",
-     "a researcher reads pseudonyms",
-     {{{Role::trainee, Role::mentor, Role::director, Role::admin}}}},
+     "names are read in the own cohort and the own programmes; a researcher reads pseudonyms",
+     {{{Role::trainee, Role::mentor}, {}, Whose::own},
+      {{Role::mentor}, {}, Whose::own_cohorts},
+      {{Role::director}, {}, Whose::own_programmes}}},
     {Action::practise_case,
      "practise_case",
-     "everybody practises what is published, a mentor also a frozen draft",
-     {{kEveryRole, {CaseState::published}}, {{Role::mentor}, {CaseState::draft}}}},
+     "everybody practises what is published for them, a mentor also a frozen draft",
+     {{kEveryRole, {CaseState::published}, Whose::reaching}, {{Role::mentor}, {CaseState::draft}}}},
     {Action::look_inside, "look_inside", "the others have to find the way by the pictures", {{{Role::mentor}}}},
     {Action::cause_event, "cause_event", "a mentor lets things happen to the patient", {{{Role::mentor}}}},
 
@@ -133,6 +173,10 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::mentor}, {CaseState::draft, CaseState::review, CaseState::published, CaseState::retired}},
       {{Role::director}, {CaseState::review, CaseState::published, CaseState::retired}},
       {{Role::researcher, Role::admin}, {CaseState::published, CaseState::retired}}}},
+    {Action::see_case_notes,
+     "see_case_notes",
+     "a mentor or a director reads what reviewers wrote",
+     {{{Role::mentor, Role::director}}}},
     {Action::work_on_case,
      "work_on_case",
      "a mentor works on a case until it is published",
@@ -152,8 +196,8 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::mentor, Role::director}}}},
     {Action::publish_reviewed_case,
      "publish_reviewed_case",
-     "a mentor or a director publishes what was reviewed",
-     {{{Role::mentor, Role::director}}}},
+     "a mentor or a director publishes what was reviewed, as a second person: not the one who made or submitted it",
+     {{{Role::mentor, Role::director}, {}, Whose::anothers}}},
     {Action::publish_unreviewed_case,
      "publish_unreviewed_case",
      "only a mentor publishes what no second person has approved, to their own cohort",
@@ -177,10 +221,45 @@ inline constexpr Permission kPermissions[] = {
     {Action::remove_draft_curriculum, "remove_draft_curriculum", "a mentor takes a draft away", {{{Role::mentor}}}},
     {Action::retire_curriculum, "retire_curriculum", "a director retires a curriculum", {{{Role::director}}}},
 
+    {Action::see_standard_attempts,
+     "see_standard_attempts",
+     "a mentor sees which attempts made a standard",
+     {{{Role::mentor}}}},
     {Action::set_standard,
      "set_standard",
      "a director sets a standard that none of their own attempts is part of",
      {{{Role::director}, {}, Whose::anothers}}},
+
+    {Action::see_cohort,
+     "see_cohort",
+     "a mentor sees who is in the own cohort, a director who is in the own programmes",
+     {{{Role::mentor}, {}, Whose::own_cohorts}, {{Role::director}, {}, Whose::own_programmes}}},
+    {Action::see_cohort_cells,
+     "see_cohort_cells",
+     "a director sees counts of other programmes, of at least five people",
+     {{{Role::director}}}},
+    {Action::manage_cohorts,
+     "manage_cohorts",
+     "an admin or a director says who belongs to a cohort",
+     {{{Role::admin, Role::director}}}},
+    {Action::manage_studies,
+     "manage_studies",
+     "an admin or a director makes a study, its text, and says who works on it",
+     {{{Role::admin, Role::director}}}},
+    {Action::export_study,
+     "export_study",
+     "a researcher exports the attempts of those who consent to an own study",
+     {{{Role::researcher}, {}, Whose::own_studies}}},
+    {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
+    {Action::erase_attempts,
+     "erase_attempts",
+     "an admin erases attempts, or whose they are",
+     {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
+    {Action::erase_person, "erase_person", "an admin erases a person", {{{Role::admin}}}},
+    {Action::erase_case,
+     "erase_case",
+     "a mentor deletes a draft, an admin a draft or what is retired",
+     {{{Role::mentor, Role::admin}, {CaseState::draft}}, {{Role::admin}, {CaseState::retired}}}},
 };
 
 constexpr bool may(Role role, Action action, const Subject& subject = {}) noexcept {

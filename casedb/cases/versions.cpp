@@ -74,6 +74,14 @@ const Decision* last_of(const std::vector<Decision>& decisions, DecisionKind kin
   return found;
 }
 
+// Whether it is the own work of who wants it.
+bool made_or_submitted(const Wish& wish) {
+  return std::any_of(wish.decisions.begin(), wish.decisions.end(), [&](const Decision& one) {
+    return (one.kind == DecisionKind::made || one.kind == DecisionKind::submitted) &&
+           one.person_id == wish.by.person_id;
+  });
+}
+
 // A case that comes from a patient is published only when a person has looked for burned-in text.
 base::Result<void> check_burned_in(const CaseRow& row) {
   if (row.origin != "import" || row.burned_in_checked) return {};
@@ -183,7 +191,8 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
     return bad_state("only a draft or a case in review is published");
   const bool reviewed = wanted->row.state == CaseState::review && review_of(wanted->decisions).has_value();
   const Action action = reviewed ? Action::publish_reviewed_case : Action::publish_unreviewed_case;
-  if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
+  if (const auto allowed = allow(wanted->by.role, action, Subject::whose(made_or_submitted(*wanted))); !allowed)
+    return allowed.error();
   if (!reviewed && !own_cohort)
     return base::Error{
         "not_allowed",
@@ -193,6 +202,12 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
     return base::Error{"checks_failed", "the case has changed since it was checked: check it again"};
   decide(library, *wanted, DecisionKind::published, note);
   set_state(library, *wanted, CaseState::published, !reviewed);
+  if (!reviewed)
+    question(library.database(), "add_case_cohorts")
+        .bind("case_id", case_id)
+        .bind("person_id", wanted->by.person_id)
+        .bind("now_us", now_us())
+        .run();
   transaction.commit();
   return {};
 }

@@ -17,10 +17,38 @@ constexpr TravellingTable kTravelling[] = {
     {"case_dropped", kOfCase, {}},         {"lesion", kOfCase, {}},         {"structure", kOfCase, {}},
     {"case_label_map", kOfCase, {}},
 };
-constexpr std::string_view kStaying[] = {
-    "person",          "account",         "attempt",       "recording_chunk",  "metric_value", "open_attempt",
-    "open_chunk",      "servo_record",    "case_decision", "attempt_step",     "person_level", "curriculum",
-    "curriculum_item", "curriculum_gate", "standard",      "standard_attempt", "standard_band"};
+constexpr std::string_view kStaying[] = {"person",
+                                         "account",
+                                         "attempt",
+                                         "recording_chunk",
+                                         "metric_value",
+                                         "open_attempt",
+                                         "open_chunk",
+                                         "servo_record",
+                                         "case_decision",
+                                         "attempt_step",
+                                         "person_level",
+                                         "curriculum",
+                                         "curriculum_item",
+                                         "curriculum_gate",
+                                         "cohort",
+                                         "enrolment",
+                                         "programme_director",
+                                         "case_cohort",
+                                         "person_fact",
+                                         "study",
+                                         "study_researcher",
+                                         "consent_text",
+                                         "consent",
+                                         "erasure",
+                                         "erased_attempt",
+                                         "erasing",
+                                         "attempt_condition",
+                                         "open_attempt_condition",
+                                         "replay_watched",
+                                         "standard",
+                                         "standard_attempt",
+                                         "standard_band"};
 
 }  // namespace
 
@@ -55,6 +83,17 @@ std::set<std::string> columns_to_staying_tables(Sqlite& database, std::string_vi
   for (rows.bind("name", table); rows.step();)
     if (std::ranges::find(kStaying, rows.view("other")) != std::end(kStaying)) names.insert(rows.text("name"));
   return names;
+}
+
+std::vector<Reference> references_to(Sqlite& database, const std::string& table) {
+  std::vector<Reference> found;
+  for (const std::string& one : tables_of(database)) {
+    Statement rows = database.prepare(
+        "SELECT \"from\" AS name FROM pragma_foreign_key_list(:name) WHERE \"table\" = :other AND id NOT IN "
+        "(SELECT id FROM pragma_foreign_key_list(:name) WHERE seq > 0) ORDER BY name");
+    for (rows.bind("name", one).bind("other", table); rows.step();) found.push_back({one, rows.text("name")});
+  }
+  return found;
 }
 
 std::vector<AssetColumn> asset_columns(Sqlite& database) {

@@ -30,6 +30,12 @@ std::vector<std::string> columns_of(Sqlite& database, std::string_view table);  
 // Columns that refer to a table that stays: they are empty in a bundle.
 std::set<std::string> columns_to_staying_tables(Sqlite& database, std::string_view table);
 
+// A column whose values are keys of another table's rows.
+struct Reference {
+  std::string table, column;
+};
+std::vector<Reference> references_to(Sqlite& database, const std::string& table);
+
 struct AssetColumn {
   std::string table, column;
 };

@@ -37,9 +37,15 @@ bool is_frozen(Library& library, const CaseRow& row) {
   return !changeable && changeable.error().code == "has_attempts";
 }
 
+Subject subject_of(Library& library, const CaseRow& row, const std::string& person_id) {
+  Subject subject = row.state;
+  subject.reached = !row.own_cohort_only || reaches_own_cohort(library, row.case_id, person_id);
+  return subject;
+}
+
 // Whether it stands alone, to be practised out of any curriculum.
-bool can_be_practised(Library& library, const CaseRow& row, Role role) {
-  if (!may(role, Action::practise_case, row.state)) return false;
+bool can_be_practised(Library& library, const CaseRow& row, const std::string& person_id, Role role) {
+  if (!may(role, Action::practise_case, subject_of(library, row, person_id))) return false;
   if (row.state == CaseState::draft && !is_frozen(library, row)) return false;
   return !list_lesions(library, row.case_id).empty();
 }
@@ -62,7 +68,8 @@ Choices choices_of(Library& library, const std::string& person_id, Role role) {
     for (const ItemState& item : states_of(library, curriculum, person_id)) {
       const auto row =
           std::find_if(rows.begin(), rows.end(), [&](const CaseRow& one) { return one.case_id == item.case_id; });
-      if (row != rows.end()) choices.cases.push_back(choice_of(*row, curriculum, item));
+      if (row == rows.end() || !may(role, Action::practise_case, subject_of(library, *row, person_id))) continue;
+      choices.cases.push_back(choice_of(*row, curriculum, item));
     }
   }
   Grader grader(library);
@@ -74,7 +81,7 @@ Choices choices_of(Library& library, const std::string& person_id, Role role) {
   for (const CaseRow& row : rows) {
     if (may(role, Action::work_on_case, row.state))
       choices.drafts.push_back({row.case_id, row.title, row.state, row.modality, row.version});
-    if (is_listed(row) || !can_be_practised(library, row, role)) continue;
+    if (is_listed(row) || !can_be_practised(library, row, person_id, role)) continue;
     count_attempts(attempts, grader, choices.cases.emplace_back(choice_of(row)));
   }
   return choices;

@@ -39,7 +39,7 @@ struct Choices {
 
 // First the items of each published curriculum, in their order, then what is not in one: published cases with a
 // lesion, and for who may practise drafts too those that attempts have frozen (they are no longer changed, so
-// practice does no harm; any other is tried on the bench, which freezes nothing). A case may be in several
+// practice does no harm; any other is tried in the case editor, which freezes nothing). A case may be in several
 // curricula.
 Choices choices_of(Library& library, const std::string& person_id, Role role);
 

@@ -68,7 +68,7 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
     const bool done = result.state == assessment::StepState::done;
     const std::string state(assessment::name_of(result.state));
     const LaneMark mark{result.t_s.value_or(0.0), result.t_s.value_or(0.0), done ? "step" : state,
-                        std::string(info->words) + (done ? "" : " (" + state + ")")};
+                        std::string(info->words) + (done ? "" : " (" + state + ")") + assessment::how_text(result)};
     (result.t_s ? steps.marks : steps.timeless).push_back(mark);
   }
   std::stable_sort(steps.marks.begin(), steps.marks.end(),

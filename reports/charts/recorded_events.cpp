@@ -59,7 +59,9 @@ std::vector<RecordedEvent> recorded_events(const cases::Recording& recording) {
   if (recording.events)
     for (const cases::Event& event : *recording.events)
       if (const cases::EventInfo* known = cases::find_event(event.kind))
-        events.push_back({event.t_s, info_of(known->name)});
+        events.push_back({event.t_s, info_of(known->name),
+                          event.kind == cases::EventKind::paused ? std::optional(event.wall_s) : std::nullopt,
+                          event.length_mm()});
   std::stable_sort(events.begin(), events.end(),
                    [](const RecordedEvent& a, const RecordedEvent& b) { return a.t_s < b.t_s; });
   return events;

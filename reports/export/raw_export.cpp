@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 
 #include "casedb/attempts/attempt_history.h"
 #include "casedb/database/disk.h"
+#include "casedb/people/consent.h"
+#include "casedb/people/facts.h"
 #include "reports/export/raw_tables.h"
 #include "sim/base/hex.h"
 
@@ -66,8 +69,8 @@ struct Place {
   double days = 0.0;
 };
 
-std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const RawChoice& choice,
-                             const Names& names) {
+std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const RawChoice& choice, const Names& names,
+                             const std::set<std::string>& consenting) {
   struct Person {
     std::int64_t first_us = 0;
     int attempts = 0;
@@ -76,6 +79,8 @@ std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const Raw
   std::map<std::string, Person> people;
   std::vector<Place> places;
   for (const casedb::AttemptKey& key : keys) {
+    // What a simulated operator made is about nobody.
+    if (!key.synthetic && !(key.person_id && consenting.contains(*key.person_id))) continue;
     Place place{&key, {}, names.of("A-", key.attempt_id)};
     if (key.person_id) {
       auto [at, is_new] = people.try_emplace(*key.person_id);
@@ -133,6 +138,21 @@ void write_recording(const fs::path& folder, const RawChoice& choice, const std:
       events->add(line_of(event_columns(), EventFact{&attempt, event}));
 }
 
+// What those people said of themselves, in the order of their names; times since the person's first attempt.
+void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> keys, const Names& names,
+                 const std::set<std::string>& people, Table& table) {
+  std::map<std::string, std::int64_t> first_us;
+  for (const casedb::AttemptKey& key : keys)
+    if (key.person_id && !key.synthetic) first_us.try_emplace(*key.person_id, key.started_us);
+  std::map<std::string, std::string> by_name;
+  for (const std::string& person_id : people) by_name.emplace(names.of("P-", person_id), person_id);
+  for (const auto& [name, person_id] : by_name)
+    for (const casedb::FactGiven& one : casedb::list_facts(library, person_id))
+      table.add(
+          line_of(fact_columns(),
+                  PersonFact{&name, &one, static_cast<double>(one.given_us - first_us.at(person_id)) / kDayUs}));
+}
+
 }  // namespace
 
 base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out, const RawChoice& choice,
@@ -141,7 +161,10 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
     return base::Error{"exists", "there is already something of that name"};
   if (choice.case_id)
     if (const auto known = casedb::find_case(library, *choice.case_id); !known) return known.error();
+  if (choice.study_id)
+    if (const auto known = casedb::find_study(library, *choice.study_id); !known) return known.error();
   const Names names(key);
+  const std::set<std::string> consenting = casedb::consenting_people(library, choice.study_id);
   const std::vector<casedb::AttemptKey> keys = casedb::list_attempt_keys(library);
   std::map<std::string, casedb::CaseRow> cases_by_id;
   for (casedb::CaseRow& row : casedb::list_case_heads(library)) {
@@ -163,7 +186,8 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
   if (choice.events) events.emplace(at / "events.csv", header_of(event_columns()));
   const bool recorded = choice.poses || choice.forces || choice.frames || choice.events;
   std::string person_before;
-  for (const Place& place : places_of(keys, choice, names)) {
+  std::set<std::string> people;  // whose own attempts are among them
+  for (const Place& place : places_of(keys, choice, names, consenting)) {
     const auto row = casedb::find_attempt(library, place.key->attempt_id);
     if (!row) return row.error();
     AttemptFacts facts;
@@ -175,6 +199,7 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       facts.person_attempt = place.person_attempt;
       facts.days_since_first = place.days;
       if (place.person != person_before) ++sum.people;
+      if (!place.key->synthetic) people.insert(*place.key->person_id);
       person_before = place.person;
     }
     attempts.add(attempt_line(facts));
@@ -192,13 +217,16 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
     ++sum.attempts;
     if (row->synthetic()) ++sum.synthetic;
   }
+  Table facts(at / "facts.csv", header_of(fact_columns()));
+  write_facts(library, keys, names, people, facts);
+  facts.close();
   attempts.close();
   metrics.close();
   steps.close();
   if (events) events->close();
   write_whole(at / "data_dictionary.csv", data_dictionary());
   write_whole(at / "README.txt", raw_readme());
-  sum.files += choice.events ? 6 : 5;
+  sum.files += choice.events ? 7 : 6;
   if (!folder.keep()) return base::Error{"exists", "there is already something of that name"};
   parents.keep();
   return sum;

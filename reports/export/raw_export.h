@@ -1,5 +1,5 @@
-// Attempts of a library as a folder of CSV for researchers (docs/export.md): without names, dates or anything that
-// somebody wrote.
+// Attempts of a library as a folder of CSV for researchers (docs/export.md): of people who consent, and of
+// simulated operators; without names, dates or anything that somebody wrote.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,8 @@ namespace seldinger::reports {
 
 struct RawChoice {
   std::optional<std::string> case_id{};  // attempts at this case only
+  std::optional<std::string>
+      study_id{};  // of those who consent to it; none: who consent to research with the library
   bool poses = true, forces = true, frames = true, events = true;
 };
 
@@ -25,8 +27,8 @@ struct RawExport {
 
 // `out` appears whole or not at all; attempts that are added meanwhile are not in it. One attempt's recording is in
 // memory at a time, beside a few hundred bytes for each attempt of the library. The same key gives the same
-// names. Refused: `exists`, `no_case`, and a damaged recording as casedb::load_recording refuses it. Throws
-// base::Failure("disk").
+// names. Refused: `exists`, `no_case`, `no_study`, and a damaged recording as casedb::load_recording refuses it.
+// Throws base::Failure("disk").
 base::Result<RawExport> export_raw(casedb::Library& library, const std::filesystem::path& out,
                                    const RawChoice& choice, const casedb::HashKey& key);
 

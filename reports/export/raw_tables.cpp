@@ -5,6 +5,7 @@
 
 #include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
+#include "casedb/attempts/condition_table.h"
 
 namespace seldinger::reports {
 namespace {
@@ -33,6 +34,19 @@ bool core(const casedb::AttemptRow& row) {
 
 CsvLine& place(CsvLine& line, bool there, double value) {
   return there ? line.number(value) : line.nothing();
+}
+
+void write_condition(CsvLine& line, const casedb::ConditionRow& row, const casedb::ConditionValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value))
+    line.flag(*flag);
+  else if (const std::string* words = std::get_if<std::string>(&value))
+    line.text(*words);
+  else if (const double* number = std::get_if<double>(&value); number == nullptr)
+    line.nothing();
+  else if (row.kind == casedb::ConditionKind::whole)
+    line.whole(static_cast<std::int64_t>(*number));
+  else
+    line.number(*number);
 }
 
 template <typename Fact>
@@ -128,6 +142,9 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) {
          f.row->end ? line.text(casedb::name_of(*f.row->end)) : line.nothing();
        }},
+      {{"away_s", "number", "s", "it was not interrupted and gone on with, or for how long is not known",
+        "how long it lay interrupted, by the wall's clock, before somebody went on with it"},
+       [](CsvLine& line, const Facts& f) { line.number(f.row->away_s); }},
       // What recorded it.
       {{"program_version", "text", "", "", "of the program that recorded it"},
        [](CsvLine& line, const Facts& f) { line.text(f.row->program_version); }},
@@ -179,6 +196,11 @@ const std::vector<Column<StepFact>>& step_columns() {
        [](CsvLine& line, const Fact& f) { line.number(f.step->t_s); }},
       {{"reason", "text", "", "it was asked", "why it was not"},
        [](CsvLine& line, const Fact& f) { line.text(f.step->reason); }},
+      {{"how", "text", "", "it was neither, or stored before this was kept",
+        "of done: shown (by a deed) or said; of skipped: said, where only a deed counts"},
+       [](CsvLine& line, const Fact& f) {
+         f.step->how ? line.text(assessment::name_of(*f.step->how)) : line.nothing();
+       }},
   };
   return columns;
 }
@@ -338,6 +360,10 @@ const std::vector<Column<EventFact>>& event_columns() {
       {{"source", "text", "", "", "hand: a button; else who it came from: trainee, mentor, patient, workstation"},
        [](CsvLine& line, const Fact& f) { line.text(f.event.info->source); }},
       {{"event", "text", "", "", kinds}, [](CsvLine& line, const Fact& f) { line.text(f.event.info->kind); }},
+      {{"wall_s", "number", "s", "no pause", "how long the pause was, by the wall's clock: no time of the attempt"},
+       [](CsvLine& line, const Fact& f) { line.number(f.event.wall_s); }},
+      {{"length_mm", "number", "mm", "none was told with it", "the depth that was measured or planned"},
+       [](CsvLine& line, const Fact& f) { line.number(f.event.length_mm); }},
   };
   return columns;
 }
@@ -358,6 +384,44 @@ std::string better_of(const assessment::MetricInfo& info) {
 
 }  // namespace
 
+const std::vector<ColumnInfo>& attempt_conditions() {
+  static const std::vector<ColumnInfo> columns = [] {
+    const auto type_of = [](casedb::ConditionKind kind) {
+      return kind == casedb::ConditionKind::flag    ? "flag"
+             : kind == casedb::ConditionKind::whole ? "integer"
+             : kind == casedb::ConditionKind::text  ? "text"
+                                                    : "number";
+    };
+    std::vector<ColumnInfo> all;
+    for (const casedb::ConditionRow& row : casedb::condition_rows())
+      all.push_back({row.id, type_of(row.kind), row.unit, row.missing, row.about});
+    return all;
+  }();
+  return columns;
+}
+
+const std::vector<Column<PersonFact>>& fact_columns() {
+  using Fact = PersonFact;
+  static const std::string known = [] {
+    std::string text = "which question: ";
+    for (const casedb::FactInfo& fact : casedb::fact_infos())
+      text += (&fact == casedb::fact_infos().data() ? "" : "; ") + std::string(fact.id) + ": " +
+              std::string(fact.words);
+    return text;
+  }();
+  static const std::vector<Column<Fact>> columns = {
+      {{"person", "text", "", "", "as in attempts.csv"},
+       [](CsvLine& line, const Fact& f) { line.text(*f.person); }},
+      {{"fact", "text", "", "", known}, [](CsvLine& line, const Fact& f) { line.text(f.fact->fact_id); }},
+      {{"answer", "text", "", "", "as it was given; it holds until the next one"},
+       [](CsvLine& line, const Fact& f) { line.text(f.fact->answer); }},
+      {{"days_since_first", "number", "day", "",
+        "from the person's first attempt to the answer; negative: before it"},
+       [](CsvLine& line, const Fact& f) { line.number(f.days_since_first); }},
+  };
+  return columns;
+}
+
 const std::vector<ColumnInfo>& attempt_metrics() {
   static const std::vector<ColumnInfo> columns = [] {
     std::vector<ColumnInfo> all;
@@ -376,6 +440,7 @@ const std::vector<ColumnInfo>& attempt_metrics() {
 std::string attempts_header() {
   CsvLine line;
   for (const auto& column : attempt_columns()) line.text(column.name);
+  for (const ColumnInfo& condition : attempt_conditions()) line.text(condition.name);
   for (const ColumnInfo& metric : attempt_metrics()) line.text(metric.name);
   return line.take();
 }
@@ -383,6 +448,8 @@ std::string attempts_header() {
 std::string attempt_line(const AttemptFacts& facts) {
   CsvLine line;
   for (const auto& column : attempt_columns()) column.write(line, facts);
+  for (const casedb::ConditionRow& row : casedb::condition_rows())
+    write_condition(line, row, row.read(facts.row->conditions));
   const auto& metrics = facts.row->metrics;
   for (const ColumnInfo& column : attempt_metrics()) {
     const auto found = std::find_if(metrics.begin(), metrics.end(), [&](const casedb::MetricValue& metric) {
@@ -429,9 +496,11 @@ std::vector<ColumnInfo> infos_of(const std::vector<Column<Row>>& columns) {
 const std::vector<TableInfo>& raw_tables() {
   static const std::vector<TableInfo> tables = [] {
     std::vector<ColumnInfo> attempts = infos_of(attempt_columns());
+    attempts.insert(attempts.end(), attempt_conditions().begin(), attempt_conditions().end());
     attempts.insert(attempts.end(), attempt_metrics().begin(), attempt_metrics().end());
     return std::vector<TableInfo>{
-        {"attempts.csv", "one row an attempt: how it was made, and each metric's value", std::move(attempts)},
+        {"attempts.csv", "one row an attempt: how and under which conditions it was made, and each metric's value",
+         std::move(attempts)},
         {"metrics.csv",
          "one row a metric of an attempt: every stored version, with the reason where there is no "
          "value",
@@ -440,6 +509,7 @@ const std::vector<TableInfo>& raw_tables() {
          infos_of(event_columns())},
         {"steps.csv", "one row a step of an attempt's procedure; none of attempts from before it was kept",
          infos_of(step_columns())},
+        {"facts.csv", "one row an answer of a person about their experience", infos_of(fact_columns())},
         {"poses/ATTEMPT.csv", "where needle and probe were; `seldinger score --poses` reads it as it is",
          infos_of(pose_columns())},
         {"forces/ATTEMPT.csv", "what was to be felt; no file where nothing was", infos_of(force_columns())},

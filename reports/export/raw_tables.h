@@ -8,6 +8,7 @@
 
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
+#include "casedb/people/facts.h"
 #include "reports/charts/recorded_events.h"
 #include "reports/export/csv_line.h"
 #include "sim/case/record/recording.h"
@@ -70,6 +71,14 @@ struct EventFact {
   RecordedEvent event;
 };
 
+// Without the conditions and the metrics, which are attempt_conditions() and attempt_metrics().
+const std::vector<Column<AttemptFacts>>& attempt_columns();
+struct PersonFact {
+  const std::string* person = nullptr;
+  const casedb::FactGiven* fact = nullptr;
+  double days_since_first = 0.0;  // of that person's attempts; negative: answered before it
+};
+
 const std::vector<Column<AttemptFacts>>& attempt_columns();  // without the metrics, which are attempt_metrics()
 const std::vector<Column<MetricFact>>& metric_columns();
 const std::vector<Column<StepFact>>& step_columns();
@@ -79,6 +88,9 @@ const std::vector<Column<PoseFact>>& pose_columns();
 const std::vector<Column<ForceFact>>& force_columns();
 const std::vector<Column<FrameFact>>& frame_columns();
 const std::vector<Column<EventFact>>& event_columns();
+// A column for each row of casedb/attempts/condition_table.h, behind those.
+const std::vector<ColumnInfo>& attempt_conditions();
+const std::vector<Column<PersonFact>>& fact_columns();
 // A column for each metric of the registry, behind the others of attempts.csv: its value in today's version.
 const std::vector<ColumnInfo>& attempt_metrics();
 

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "assessment/registry.h"
 #include "reports/charts/time_chart.h"
 #include "reports/pages/beam_table.h"
 #include "reports/pages/grade_section.h"
+#include "reports/pages/metric_details.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/shown_metrics.h"
 
 namespace seldinger::reports {
 namespace {
@@ -29,40 +31,16 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
     if (found == nullptr && !leads) continue;
     const bool core = row.instrument.kind == cases::InstrumentKind::core;
     if (id == "core_in_target" && !core) continue;
-    const casedb::MetricValue missing{std::string(id), 1, std::nullopt, "", "not measured"};
+    const casedb::MetricValue missing{std::string(id), 1, std::nullopt, "", "not_measured"};
     const casedb::MetricValue& metric = found != nullptr ? *found : missing;
     const std::string value = value_text(metric);
     html.raw("<div class=\"");
     html.text(id == "hit" && value == "Yes" ? "good" : id == "hit" && value == "No" ? "bad" : "plain");
-    html.raw("\"><dt>").text(metric_label(id)).raw("</dt><dd>");
+    html.raw("\"><dt>").add(metric_details(id, metric.version)).raw("</dt><dd>");
     add_value(html, metric);
     html.raw("</dd></div>\n");
   }
   html.raw("</dl>\n");
-}
-
-assessment::Manner manner_of(const casedb::AttemptRow& row) {
-  return {row.picture.modality, row.approach, row.instrument.kind};
-}
-
-// What the case or the desk does not have is named apart, and what means nothing here not at all.
-bool absent(const casedb::MetricValue& metric) {
-  return !metric.value && assessment::absent_from_case(metric.reason);
-}
-bool shown(const casedb::MetricValue& metric, const casedb::AttemptRow& row) {
-  return assessment::applies(metric, manner_of(row)) && !absent(metric);
-}
-
-void add_definitions(Html& html, const casedb::AttemptRow& row) {
-  Html items;
-  for (const casedb::MetricValue& metric : row.metrics) {
-    const std::string definition = metric_definition(metric.id);
-    if (definition.empty() || !shown(metric, row)) continue;
-    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(definition).raw("</dd>\n");
-  }
-  if (items.empty()) return;
-  html.raw("<details><summary>How these are measured</summary>\n<dl class=\"definitions\">\n").add(items);
-  html.raw("</dl>\n</details>\n");
 }
 
 // As many rows of a group are read at a glance; the others are folded away.
@@ -86,7 +64,7 @@ void add_table(Html& html, const std::string& caption, std::span<const casedb::M
           "class=\"number\">Value</th></tr></thead>\n<tbody>\n");
   for (const casedb::MetricValue* metric : metrics) {
     html.raw("<tr><th scope=\"row\">")
-        .text(metric_label(metric->id))
+        .add(metric_details(metric->id, metric->version))
         .raw(" <span class=\"id\">")
         .text(metric->id)
         .raw(" v")
@@ -100,10 +78,7 @@ void add_table(Html& html, const std::string& caption, std::span<const casedb::M
 }
 
 void add_group(Html& html, const std::string& group, const AttemptView& view) {
-  const casedb::AttemptRow& row = view.row;
-  std::vector<const casedb::MetricValue*> metrics;
-  for (const casedb::MetricValue& metric : row.metrics)
-    if (metric_group(metric.id) == group && shown(metric, row)) metrics.push_back(&metric);
+  const std::vector<const casedb::MetricValue*> metrics = shown_metrics(view.row, group);
   if (metrics.empty()) return;
   // One row alone is not worth a fold.
   const std::size_t leading = metrics.size() > kLeadingRows + 1 ? kLeadingRows : metrics.size();
@@ -119,10 +94,12 @@ void add_group(Html& html, const std::string& group, const AttemptView& view) {
 
 void add_absent(Html& html, const casedb::AttemptRow& row) {
   Html items;
-  for (const casedb::MetricValue& metric : row.metrics) {
-    if (!absent(metric) || !assessment::applies(metric, manner_of(row))) continue;
-    items.raw("<dt>").text(metric_label(metric.id)).raw("</dt><dd>").text(reason_text(metric)).raw("</dd>\n");
-  }
+  for (const casedb::MetricValue* metric : absent_metrics(row))
+    items.raw("<dt>")
+        .add(metric_details(metric->id, metric->version))
+        .raw("</dt><dd>")
+        .text(reason_text(*metric))
+        .raw("</dd>\n");
   if (items.empty()) return;
   html.raw("<details><summary>What this case does not measure</summary>\n<dl class=\"definitions\">\n").add(items);
   html.raw("</dl>\n</details>\n");
@@ -131,10 +108,13 @@ void add_absent(Html& html, const casedb::AttemptRow& row) {
 void add_metrics(Html& html, const AttemptView& view) {
   const casedb::AttemptRow& row = view.row;
   html.raw("<section class=\"metrics\" aria-labelledby=\"metrics\">\n<h2 id=\"metrics\">Metrics</h2>\n");
-  if (row.metrics.empty()) html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
+  if (row.metrics.empty())
+    html.raw("<p class=\"note\">No metrics are stored with this attempt.</p>\n");
+  else
+    html.raw(
+        "<p class=\"note\">A name opens what it measures. All of them: <a href=\"/metrics\">metrics</a>.</p>\n");
   for (const std::string& group : metric_groups()) add_group(html, group, view);
   add_absent(html, row);
-  add_definitions(html, row);
   html.raw("</section>\n");
 }
 
@@ -181,8 +161,37 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
   html.raw("</section>\n");
 }
 
+// What the drawing and the table beneath it show, by the metrics that are measured from the same.
+void add_drawn(Html& html, const casedb::AttemptRow& row) {
+  const bool xray = row.picture.modality == cases::Modality::xray;
+  html.raw("<div class=\"drawn\">\n<span class=\"note\">What is drawn, as the metrics measure it:</span>\n");
+  html.add(metric_details("tip_target_dist")).raw("\n").add(metric_details("vis_needle")).raw("\n");
+  if (xray)
+    for (const std::string_view id : {"views", "pulses", "fluoroscopy_time", "collimated_share", "hand_in_beam"})
+      html.add(metric_details(id)).raw("\n");
+  html.raw("</div>\n");
+}
+
 void add_detail(Html& html, std::string_view name, std::string_view value) {
   html.raw("<div><dt>").text(name).raw("</dt><dd>").name(value).raw("</dd></div>\n");
+}
+
+// Those that are known, each with what it means.
+void add_conditions(Html& html, const casedb::AttemptRow& row) {
+  const std::string line = conditions_text(row.conditions, row.away_s);
+  if (line.empty()) {
+    html.raw("<p class=\"note\">Its conditions were not recorded.</p>\n");
+    return;
+  }
+  html.raw("<p class=\"conditions\">Conditions: ")
+      .text(line)
+      .raw(".</p>\n<details><summary>All conditions</summary>\n<dl class=\"definitions\">\n");
+  for (const casedb::ConditionRow& condition : casedb::condition_rows()) {
+    if (std::holds_alternative<std::monostate>(condition.read(row.conditions))) continue;
+    html.raw("<dt>").text(condition.words).raw("</dt><dd>").text(condition_text(condition, row.conditions));
+    html.raw(" <span class=\"why\">").text(condition.about).raw("</span></dd>\n");
+  }
+  html.raw("</dl>\n</details>\n");
 }
 
 void add_details(Html& html, const AttemptView& attempt) {
@@ -200,11 +209,17 @@ void add_details(Html& html, const AttemptView& attempt) {
   add_detail(html, "Target", lesion_text(row.lesion));
   add_detail(html, "Picture", picture_text(row.picture));
   add_detail(html, "Started", utc_text(row.started_us));
-  add_detail(html, "Recorded for", number_text(row.duration_s, 1) + " s");
+  if (const std::string away = away_text(row); !away.empty()) add_detail(html, "Interruption", away);
+  std::string recorded = number_text(row.duration_s, 1) + " s";
+  if (row.conditions.paused_s.value_or(0.0) > 0.0)
+    recorded += ", without " + number_text(*row.conditions.paused_s, 1) + " s of pauses";
+  add_detail(html, "Recorded for", recorded);
   add_detail(html, "Step version", std::to_string(row.step_version));
   add_detail(html, "Program version", row.program_version);
   add_detail(html, "Attempt", row.attempt_id);
-  html.raw("</dl>\n</section>\n");
+  html.raw("</dl>\n");
+  add_conditions(html, row);
+  html.raw("</section>\n");
 }
 
 }  // namespace
@@ -235,6 +250,7 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
   } else {
     html.add(chart);
     html.add(beam_table(*recording));
+    add_drawn(html, row);
   }
   html.raw("</section>\n");
   add_details(html, attempt);

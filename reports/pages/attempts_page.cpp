@@ -7,7 +7,7 @@ namespace seldinger::reports {
 namespace {
 
 void add_metric_cell(Html& html, const casedb::AttemptRow& row, std::string_view id) {
-  const casedb::MetricValue missing{std::string(id), 1, std::nullopt, "", "not measured"};
+  const casedb::MetricValue missing{std::string(id), 1, std::nullopt, "", "not_measured"};
   const casedb::MetricValue* found = find_metric(row.metrics, id);
   const casedb::MetricValue& metric = found != nullptr ? *found : missing;
   html.raw("<td class=\"number\" data-label=\"").text(id == "hit" ? "Hit" : metric_label(id)).raw("\">");
@@ -100,15 +100,16 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
     return page("Attempts", visitor, html);
   }
   html.raw("<div class=\"wide\">\n<table class=\"list\">\n<caption>");
-  html.text(part.own_only ? "Your attempts" : "All attempts")
+  html.text(part.own_only ? "Your attempts" : "Attempts that you may see")
       .raw(", newest first: ")
       .text(std::to_string(part.total));
   html.raw(
       ". Times are in UTC.</caption>\n<thead><tr><th scope=\"col\">When</th><th scope=\"col\">Case</th>"
       "<th scope=\"col\">Operator</th><th scope=\"col\">Instrument</th><th scope=\"col\">Result</th><th "
-      "scope=\"col\" class=\"number\">Hit</th>"
-      "<th scope=\"col\" class=\"number\">Tip to centre</th>"
-      "<th scope=\"col\" class=\"number\">Time</th></tr></thead>\n<tbody>\n");
+      "scope=\"col\" class=\"number\"><a href=\"/metrics#metric-hit\">Hit</a></th>"
+      "<th scope=\"col\" class=\"number\"><a href=\"/metrics#metric-tip_target_dist\">Tip to centre</a></th>"
+      "<th scope=\"col\" class=\"number\"><a href=\"/metrics#metric-time_total\">Time</a></th></tr></thead>\n"
+      "<tbody>\n");
   for (const AttemptView& view : attempts) add_row(html, view);
   html.raw("</tbody>\n</table>\n</div>\n");
   add_pages(html, part);

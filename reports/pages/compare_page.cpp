@@ -5,6 +5,7 @@
 #include "assessment/grading/plain_words.h"
 #include "reports/markup/html.h"
 #include "reports/pages/grade_section.h"
+#include "reports/pages/metric_details.h"
 #include "reports/pages/page.h"
 #include "reports/words/attempt_words.h"
 #include "reports/words/grade_words.h"
@@ -66,7 +67,9 @@ void add_criteria(Html& html, const Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.criteria.size(); ++i) {
     const assessment::CriterionResult& one = comparison.criteria[i];
     html.raw("<tr><th scope=\"row\">")
-        .text(metric_label(one.criterion.metric) + ", " + assessment::limit_text(one.criterion, one.unit));
+        .add(metric_details(
+            one.criterion.metric, one.criterion.version,
+            metric_label(one.criterion.metric) + ", " + assessment::limit_text(one.criterion, one.unit)));
     if (one.criterion.critical) html.raw(" <span class=\"mark critical\">critical</span>");
     if (one.of_the_time_limit) html.raw(" <span class=\"mark\">time limit</span>");
     html.raw("</th>");
@@ -99,7 +102,7 @@ void add_metrics(Html& html, const Comparison& comparison) {
   html.raw("<tbody>\n");
   for (std::size_t i = 0; i < comparison.metrics.size(); ++i) {
     const assessment::MetricInfo& info = *comparison.metrics[i];
-    html.raw("<tr><th scope=\"row\">").text(info.label).raw("</th>");
+    html.raw("<tr><th scope=\"row\">").add(metric_details(info.id, info.version)).raw("</th>");
     for (const ComparedGroup& group : comparison.groups) {
       html.raw("<td class=\"number\">").text(estimate_text(group.of_metrics[i], info));
       if (group.of_metrics[i].n > 0 && group.of_metrics[i].n < group.gradable)

@@ -1,6 +1,8 @@
 #include "reports/pages/grade_section.h"
 
 #include "assessment/grading/plain_words.h"
+#include "assessment/grading/reason_words.h"
+#include "reports/pages/metric_details.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -38,7 +40,7 @@ std::string needed_text(const CriterionResult& one) {
 }
 
 void add_criterion(Html& html, const CriterionResult& one, const assessment::ExpertSet& experts) {
-  html.raw("<tr><th scope=\"row\">").text(metric_label(one.criterion.metric));
+  html.raw("<tr><th scope=\"row\">").add(metric_details(one.criterion.metric, one.criterion.version));
   if (one.criterion.critical) html.raw(" <span class=\"mark critical\">critical</span>");
   if (one.of_the_time_limit) html.raw(" <span class=\"mark\">time limit</span>");
   html.raw("</th><td class=\"number\" data-label=\"You\">");
@@ -47,7 +49,7 @@ void add_criterion(Html& html, const CriterionResult& one, const assessment::Exp
   else if (one.value)
     html.text(assessment::plain_apart(*one.value, one.criterion.value, one.unit).first);
   else
-    html.raw("— <span class=\"why\">").text(assessment::plain_code(one.reason)).raw("</span>");
+    html.raw("— <span class=\"why\">").text(assessment::reason_words(one.reason)).raw("</span>");
   html.raw("</td><td class=\"number\" data-label=\"To pass\">").text(needed_text(one));
   if (experts.standard()) {
     html.raw("</td><td class=\"number\" data-label=\"Consultants\">");
@@ -97,7 +99,9 @@ void add_score(Html& html, const casedb::AttemptGrade& grade) {
         "scope=\"col\" class=\"number\">SD</th><th scope=\"col\" class=\"number\">SD at least</th><th "
         "scope=\"col\" class=\"number\">z</th></tr></thead>\n<tbody>\n");
     for (const assessment::ScorePart& part : grade.score.parts) {
-      html.raw("<tr><th scope=\"row\">").text(metric_label(part.id)).raw("</th><td class=\"number\">");
+      html.raw("<tr><th scope=\"row\">")
+          .add(metric_details(part.id, part.version))
+          .raw("</th><td class=\"number\">");
       html.text(part.value ? assessment::plain_value(*part.value, part.unit) : "—");
       html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.mean, part.unit));
       html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.sd, part.unit));
@@ -133,7 +137,9 @@ Html debrief_list(const std::vector<assessment::Sentence>& sentences) {
         html.raw("<li>");
         break;
     }
-    html.text(one.text).raw("</li>\n");
+    html.text(one.text);
+    if (!one.metric_id.empty()) html.raw(" ").add(metric_details(one.metric_id));
+    html.raw("</li>\n");
   }
   html.raw("</ol>\n");
   return html;

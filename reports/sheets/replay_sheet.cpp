@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "assessment/registry.h"
 #include "reports/charts/timeline.h"
 #include "reports/markup/base64.h"
+#include "reports/pages/metric_details.h"
 #include "reports/pages/page.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/shown_metrics.h"
 
 namespace seldinger::reports {
 namespace {
@@ -56,8 +57,9 @@ constexpr const char kStyle[] =
     "padding:.2rem 0}th,td{text-align:left;font-weight:400;padding:.18rem .5rem .18rem 0;"
     "border-bottom:1px solid "
     "var(--line);vertical-align:top}td{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}"
-    ".events{columns:18rem;column-gap:1.6rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
-    "td .soft{white-space:normal}"
+    ".events{columns:18rem;column-gap:2.4rem;margin:.5rem 0 0;padding-left:1.6rem;font-size:.9rem}"
+    "td .soft{white-space:normal}summary{cursor:pointer}.card{color:var(--soft);font-size:.875rem;"
+    "margin:.2rem 0 .5rem}.card p{margin:0 0 .3rem}.card dl{margin:0}.card dt{font-weight:600}.card dd{margin:0}"
     "@media print{body{background:#fff}.strip li,.planes figure,table{break-inside:avoid}}"
     "@media(max-width:30rem){.strip{grid-template-columns:1fr 1fr}.strip img,.strip .empty{height:150px}"
     "body{padding:.7rem}}";
@@ -225,7 +227,13 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
   html.raw(
       "</div>\n<p class=\"soft\"><span class=\"key\">depth of the tip, seen</span> <span class=\"key no\">not "
       "seen</span> <span class=\"key target-key\">where the target lies for this entry</span> Numbers above: "
-      "the pictures. Dashed upright line: fired.</p>\n");
+      "the pictures. Dashed upright line: fired. Depth is the length of the needle in the body, from where it "
+      "entered "
+      "the skin.</p>\n");
+  html.add(metric_details("vis_needle")).raw("\n").add(metric_details("vis_target")).raw("\n");
+  if (!sheet.course.forces.empty())
+    html.add(metric_details("force_peak_axial")).raw("\n").add(metric_details("lateral_force_peak")).raw("\n");
+
   for (const Lane& lane : sheet.course.lanes) {
     html.raw("<h3>").text(lane.name).raw("</h3><ol class=\"events\">\n");
     for (const LaneMark& mark : lane.marks) {
@@ -245,20 +253,18 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
 void add_metrics(Html& html, const casedb::AttemptRow& row) {
   html.raw(
       "<section aria-labelledby=\"measured\"><h2 id=\"measured\">What was measured</h2>\n<div class=\"tables\">\n");
-  const assessment::Manner manner{row.picture.modality, row.approach, row.instrument.kind};
   for (const std::string& group : metric_groups()) {
     Html rows;
-    for (const casedb::MetricValue& metric : row.metrics) {
-      if (metric_group(metric.id) != group || !assessment::applies(metric, manner)) continue;
-      if (!metric.value && assessment::absent_from_case(metric.reason)) continue;
-      rows.raw("<tr><th scope=\"row\">").text(metric_label(metric.id)).raw("</th><td>").text(value_text(metric));
-      const std::string reason = reason_text(metric);
+    for (const casedb::MetricValue* metric : shown_metrics(row, group)) {
+      rows.raw("<tr><th scope=\"row\">").add(metric_details(metric->id, metric->version)).raw("</th><td>");
+      rows.text(value_text(*metric));
+      const std::string reason = reason_text(*metric);
       if (!reason.empty()) rows.raw(" <span class=\"soft\">").text(reason).raw("</span>");
       rows.raw("</td></tr>\n");
     }
     if (!rows.empty()) html.raw("<table><caption>").text(group).raw("</caption>\n").add(rows).raw("</table>\n");
   }
-  html.raw("</div></section>\n");
+  html.raw("</div>\n<p class=\"soft\">A name opens what it measures.</p></section>\n");
 }
 
 }  // namespace
@@ -283,6 +289,8 @@ std::string replay_sheet(const ReplaySheet& sheet) {
       .raw("</p>\n<p class=\"notice\">")
       .text(kTrainingOnly)
       .raw("</p>\n");
+  if (const std::string away = away_text(row); !away.empty())
+    html.raw("<p class=\"soft\">").text(away).raw("</p>\n");
   if (!sheet.note.empty()) html.raw("<p class=\"notice\">").text(sheet.note).raw("</p>\n");
   add_strip(html, sheet);
   add_planes(html, sheet);

@@ -51,6 +51,20 @@ std::string position_text(cases::PatientPosition position) {
   return "";
 }
 
+std::string away_text(const casedb::AttemptHead& attempt) {
+  if (!attempt.away_s) return "";
+  struct Unit {
+    double seconds, below_s;
+    const char* name;
+  };
+  constexpr Unit kUnits[] = {{1.0, 120.0, " s"}, {60.0, 7200.0, " min"}, {3600.0, 172800.0, " hours"}};
+  for (const Unit& unit : kUnits)
+    if (*attempt.away_s < unit.below_s)
+      return "Interrupted, and gone on with after " + number_text(*attempt.away_s / unit.seconds, 0) + unit.name +
+             ".";
+  return "Interrupted, and gone on with after " + number_text(*attempt.away_s / 86400.0, 0) + " days.";
+}
+
 std::string person_text(const std::string& person_id) {
   // The end of a UUIDv7 is random; its beginning would tell when the account was made.
   return "Person " + person_id.substr(person_id.size() < 6 ? 0 : person_id.size() - 6);

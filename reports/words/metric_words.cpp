@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "assessment/grading/reason_words.h"
 #include "assessment/registry.h"
 
 namespace seldinger::reports {
@@ -109,7 +110,7 @@ std::string value_text(const casedb::MetricValue& metric) {
 
 std::string reason_text(const casedb::MetricValue& metric) {
   if (metric.value.has_value()) return std::isfinite(*metric.value) ? "" : "the stored number is not finite";
-  return metric.reason.empty() ? "no reason was stored" : words_from_code(metric.reason);
+  return metric.reason.empty() ? "no reason was stored" : assessment::reason_words(metric.reason);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "assessment/recorder.h"
 #include "assessment/score.h"
@@ -51,6 +52,11 @@ class Store {
     in_memory_.push_back(chunk);
     return {};
   }
+  // The same; nothing of it is kept in memory.
+  base::Result<void> add(const casedb::Conditions& conditions) {
+    if (!recorders_library_) return {};
+    return casedb::note_conditions(*recorders_library_, attempt_id_, conditions);
+  }
   base::Result<cases::Recording> recording(casedb::Library& library) const {
     return recorders_library_ ? casedb::load_open_recording(library, attempt_id_)
                               : cases::recording_from_chunks(in_memory_);
@@ -88,18 +94,29 @@ class Running {
     engine::ServoLoop servo({}, [this](double elapsed_s) { turn(elapsed_s); });
     guide();
     servo.stop();
+    take_pause();  // it was stopped in one
+    if (paused_s_ > 0.0) recorder_.note({now_.state.t_s, cases::EventKind::paused, paused_s_});
     return servo.record();
   }
 
   const cases::State& state() const noexcept { return now_.state; }
 
  private:
+  // How long a pause was that is over now.
+  void take_pause() {
+    if (!paused_from_) return;
+    paused_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - *paused_from_).count();
+    paused_from_.reset();
+  }
+
   // By the servo: the ticks that are due.
   void turn(double elapsed_s) {
     if (over_ || (with_.paused && with_.paused())) {
+      if (!over_ && !paused_from_) paused_from_ = std::chrono::steady_clock::now();
       over_ = over_ || with_.done();
       return;
     }
+    take_pause();
     const auto frame = frames_.take();
     if (const auto exposed = reports_.take()) report_ = *exposed;
     // A tick that was missed is made up for, so that the attempt's clock is the wall's.
@@ -117,8 +134,14 @@ class Running {
       inputs.event = cases::EventKind::resumed;
       says_resumed_ = false;
     }
-    const bool kept =
-        recorder_.tick(tick_.advance_hands(inputs, with_.read ? with_.read() : engine::ToolsRead(), now_));
+    cases::RecordedTick made = tick_.advance_hands(inputs, with_.read ? with_.read() : engine::ToolsRead(), now_);
+    if (paused_s_ > 0.0) {
+      made.noted = cases::EventKind::paused;
+      made.noted_wall_s = std::exchange(paused_s_, 0.0);
+    } else if (with_.note) {
+      made.noted = with_.note(now_.state);
+    }
+    const bool kept = recorder_.tick(made);
     if (with_.feel) with_.feel(tick_, now_);
     if (now_.state.fluoroscopy.frame_due) pulses_.put(engine::moment_of(now_));
     if (!kept || with_.done() || now_.state.t_s >= kMostLiveSeconds) over_ = true;
@@ -154,6 +177,8 @@ class Running {
   engine::TickState now_;
   cases::ExposureReport report_;
   bool says_resumed_ = false;
+  std::optional<std::chrono::steady_clock::time_point> paused_from_;
+  double paused_s_ = 0.0;               // not noted yet
   std::unique_ptr<Guidance> guidance_;  // the caller's
   base::Snapshot<engine::Moment> moments_, pulses_;
   base::Snapshot<cases::FrameTruth> frames_;
@@ -185,8 +210,16 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     if (with.opened) with.opened(store.attempt_id());
   }
   if (before_) recorded = {before_->ticks(), static_cast<std::uint32_t>(before_->attempt().chunks)};
+  const auto note_conditions = [&]() -> base::Result<void> {
+    return with.conditions ? store.add(with.conditions()) : base::Result<void>{};
+  };
+  if (const auto noted = note_conditions(); !noted) return noted.error();
   assessment::Recorder recorder(
-      engine::kStepVersion, base::kTickS, [&](const cases::RecordingChunk& chunk) { return store.add(chunk); },
+      engine::kStepVersion, base::kTickS,
+      [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
+        if (const auto added = store.add(chunk); !added) return added.error();
+        return note_conditions();
+      },
       recorded);
   Running running(scene_, with, recorder);
   if (before_) running.go_on_from(*before_);
@@ -205,12 +238,15 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
   if (!scored) return scored.error();
   outcome.metrics = std::move(scored->metrics);
   outcome.steps = std::move(scored->steps);
+  if (with.conditions) outcome.conditions = with.conditions();
+  casedb::add_recorded(*recording, outcome.conditions);
   if (keep_ == Keep::stored) {
     outcome.picture_png = program_.file_of(picture_at_endpoint(scene_, *recording));
     if (const auto closed = casedb::close_attempt(library_, store.attempt_id(), outcome); !closed)
       return closed.error();
   }
-  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end};
+  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end,
+                       std::move(outcome.conditions)};
 }
 
 }  // namespace seldinger::session

@@ -24,6 +24,7 @@ struct StoredAttempt {
   std::vector<assessment::MetricValue> metrics;
   std::vector<assessment::StepResult> steps{};
   casedb::AttemptEnd end = casedb::AttemptEnd::stopped;
+  casedb::Conditions conditions{};
 };
 
 class LiveAttempt {
@@ -31,16 +32,23 @@ class LiveAttempt {
   // By the servo: what the hands want now; `frame` is a picture that appeared since the last tick.
   using Hands = std::function<cases::Inputs(const cases::State&, const cases::FrameTruth* frame)>;
 
-  // Who takes part. All but `opened` and `ended` are asked by the servo: they must not allocate, lock or wait.
+  // Who takes part. All but `opened`, `ended` and `conditions` are asked by the servo: they must not allocate, lock
+  // or wait.
   struct With {
     Hands hands;
     std::function<void(const std::string& attempt_id)> opened{};  // before the first tick, by the caller's thread
     std::function<engine::ToolsRead()> read{};                    // after `hands`: what of them an arm said
+    // After these: what the recorder is to note of the tick (cases::EventInfo::noted); `none`: nothing. Pauses are
+    // noted without.
+    std::function<cases::EventKind(const cases::State&)> note{};
     std::function<void(const engine::Tick&, const engine::TickState&)> feel{};  // after each: what hands feel in it
     std::function<bool()> done;                                                 // after each tick
     std::function<bool()> paused{};                                             // while it says so, no time goes by
     std::function<void(const engine::Moment&)> watch{};  // what else there is to do with a tick
     std::function<void()> ended{};                       // no tick comes any more; scoring and storing follow
+    // The conditions that are known by now: by the recorder's thread with each piece that is stored, so that a
+    // program that dies leaves what was known, and by the caller's before the first tick and after `ended`.
+    std::function<casedb::Conditions()> conditions{};
   };
 
   // Not kept: nothing of it comes into the library; a mentor tries a draft, which stays one that can be changed.

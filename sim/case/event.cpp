@@ -1,10 +1,14 @@
 #include "sim/case/event.h"
 
+#include <limits>
+
 namespace seldinger::cases {
 namespace {
 
 using enum EventKind;
 using enum EventSource;
+
+constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 constexpr EventInfo kKinds[] = {
     {sign_in, trainee, "sign_in", "signed in", "identity, consent, imaging, allergy and coagulation are checked"},
@@ -20,6 +24,8 @@ constexpr EventInfo kKinds[] = {
     {breath_hold_request, trainee, "breath_hold_request", "asked to hold the breath",
      "the patient is asked to hold the breath"},
     {breathe_again, trainee, "breathe_again", "let breathe again", "the patient may breathe again"},
+    {depth_measured, trainee, "depth_measured", "measured a depth",
+     "calipers were set in the picture from the skin down, and tell how deep they end"},
     {sign_out, trainee, "sign_out", "signed out", "what was done, counted and to be watched is told"},
     {cough, mentor, "cough", "the patient coughs", "a mentor lets the patient cough"},
     {bleeding, mentor, "bleeding", "bleeding", "a mentor lets the puncture bleed"},
@@ -29,7 +35,36 @@ constexpr EventInfo kKinds[] = {
     {breath_held, patient, "breath_held", "holds the breath", "the patient has begun to hold the breath"},
     {breath_lost, patient, "breath_lost", "breathes again", "the patient could hold the breath no longer"},
     {resumed, workstation, "resumed", "went on after an interruption",
-     "the program had ended too early, and the attempt goes on from what was stored of it"},
+     "the program had ended too early, and the attempt goes on from what was stored of it", false, true},
+    {paused, workstation, "paused", "paused", "the attempt's clock stood still here, by the trainee's wish", true,
+     true},
+    {guide_on, workstation, "guide_on", "took up the needle guide",
+     "from here on the needle is brought to its guide", true, true},
+    {guide_reached, workstation, "guide_reached", "needle in the guide", "from here on the guide leads the needle",
+     true, true},
+    {guide_off, workstation, "guide_off", "put the needle guide aside", "from here on the needle is free", true},
+    {return_begun, workstation, "return_begun", "tools go back to the start",
+     "from here on the program brings both tools back to where they began", true, true},
+    {return_ended, workstation, "return_ended", "tools are free again",
+     "the tools are where they began, or the hand has moved one on the way", true, true},
+    {needle_by_mouse, workstation, "needle_by_mouse", "mouse and keys lead the needle",
+     "from here on mouse and keys lead the needle", true, true},
+    {needle_by_gamepad, workstation, "needle_by_gamepad", "a gamepad leads the needle",
+     "from here on a gamepad leads the needle", true, true},
+    {needle_by_space_mouse, workstation, "needle_by_space_mouse", "a 3-D mouse leads the needle",
+     "from here on a 3-D mouse leads the needle", true, true},
+    {needle_by_arm, workstation, "needle_by_arm", "an arm leads the needle",
+     "from here on an arm with force feedback leads the needle", true, true},
+    {probe_by_mouse, workstation, "probe_by_mouse", "mouse and keys lead the probe",
+     "from here on mouse and keys lead the probe", true, true},
+    {probe_by_gamepad, workstation, "probe_by_gamepad", "a gamepad leads the probe",
+     "from here on a gamepad leads the probe", true, true},
+    {probe_by_space_mouse, workstation, "probe_by_space_mouse", "a 3-D mouse leads the probe",
+     "from here on a 3-D mouse leads the probe", true, true},
+    {probe_by_arm, workstation, "probe_by_arm", "an arm leads the probe",
+     "from here on an arm with force feedback leads the probe", true, true},
+    {calipers_recorded, workstation, "calipers_recorded", "records what is measured",
+     "from here on depths that are measured or planned are recorded; before, none of them is known"},
 };
 
 }  // namespace
@@ -53,6 +88,39 @@ std::optional<EventKind> event_from(std::string_view name) noexcept {
 std::string_view name_of(EventSource source) noexcept {
   constexpr std::string_view kNames[] = {"trainee", "mentor", "patient", "workstation"};
   return kNames[static_cast<std::size_t>(source)];
+}
+
+std::vector<EventSpan> program_moves(std::span<const Event> events) {
+  std::vector<EventSpan> moves;
+  std::optional<std::size_t> under_way;  // the move that lasts
+  for (const Event& event : events) {
+    const EventInfo* info = find_event(event.kind);
+    const bool begins = event.kind == guide_on || event.kind == return_begun;
+    const bool ends = event.kind == guide_reached || event.kind == guide_off || event.kind == return_ended ||
+                      event.kind == resumed;
+    if (under_way && (ends || begins)) {
+      moves[*under_way].to_s = event.t_s;
+      under_way.reset();
+    }
+    if (begins) {
+      under_way = moves.size();
+      moves.push_back({event.t_s, kNoEnd});
+    } else if (info != nullptr && info->snaps) {
+      moves.push_back({event.t_s, event.t_s});
+    }
+  }
+  return moves;
+}
+
+// Whoever goes on with an attempt that was interrupted takes the tools up without a guide.
+std::vector<EventSpan> guided_times(std::span<const Event> events) {
+  std::vector<EventSpan> times;
+  for (const Event& event : events) {
+    const bool on = !times.empty() && times.back().to_s == kNoEnd;
+    if (event.kind == guide_on && !on) times.push_back({event.t_s, kNoEnd});
+    if ((event.kind == guide_off || event.kind == resumed) && on) times.back().to_s = event.t_s;
+  }
+  return times;
 }
 
 }  // namespace seldinger::cases

@@ -25,6 +25,7 @@ struct Inputs {
   bool freeze = false;                // picture is frozen
   ConsoleSetting console;             // under xray it says nothing
   EventKind event = EventKind::none;  // said or asked for in this tick, by trainee or mentor
+  std::uint16_t event_tenths_mm = 0;  // the length that is told with it, in 0.1 mm; 0: none
   FluoroscopeInputs fluoroscope;
   ExposureReport exposure;  // of the last exposed frame, by imaging; each frame's counts once
 };

@@ -81,6 +81,33 @@ TEST(Recorder, AnAttemptOfNoTicksIsARecordingToo) {
   EXPECT_TRUE(cases::recording_from_chunks(chunks)->inputs.empty());
 }
 
+// Beside the inputs: in the tick in which it was, or once no tick comes any more.
+TEST(Recorder, WhatIsNotedIsAnEventAndNoInput) {
+  std::vector<cases::RecordingChunk> chunks;
+  Recorder recorder(5, 0.001, [&](const cases::RecordingChunk& chunk) {
+    chunks.push_back(chunk);
+    return base::Result<void>{};
+  });
+  for (std::uint64_t at = 0; at < 2000; ++at) {
+    cases::RecordedTick tick = tick_of(at);
+    if (at == 700) tick.noted = cases::EventKind::guide_on;
+    if (at == 900) tick.noted = cases::EventKind::paused;
+    if (at == 900) tick.noted_wall_s = 41.5;
+    ASSERT_TRUE(recorder.tick(tick));
+  }
+  recorder.note({2.0, cases::EventKind::paused, 7.0});
+  ASSERT_TRUE(recorder.finish());
+  const auto recording = cases::recording_from_chunks(chunks);
+  ASSERT_TRUE(recording.has_value()) << recording.error().text;
+  const std::vector<cases::Event> expected = {{701 * 0.001, cases::EventKind::nick},
+                                              {701 * 0.001, cases::EventKind::pain_bone},
+                                              {701 * 0.001, cases::EventKind::guide_on},
+                                              {901 * 0.001, cases::EventKind::paused, 41.5},
+                                              {2.0, cases::EventKind::paused, 7.0}};
+  EXPECT_EQ(recording->events, expected);
+  EXPECT_EQ(recording->inputs[900].event, cases::EventKind::none);
+}
+
 // A disk that hangs: the servo goes on, and what was recorded is whole up to where the queue was full.
 TEST(Recorder, AServoNeverWaitsForTheDisk) {
   std::vector<cases::RecordingChunk> chunks;

@@ -70,8 +70,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups[0].at("operator"), "expert");
   EXPECT_EQ(groups[1].at("operator"), "novice");
-  EXPECT_EQ(side.at("experts").at("kind"), "simulated");
-  EXPECT_EQ(side.at("experts").at("standard"), false);
+  EXPECT_TRUE(side.at("experts").is_null()) << "no number of a simulated operator's";
   for (const Json& group : groups) {
     EXPECT_EQ(group.at("simulated"), true);
     EXPECT_EQ(group.at("attempts"), 5);
@@ -81,7 +80,7 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
       << "the simulated expert is built to do better";
   const std::string page = fixtures::whole_file(library_.folder() / "side.html");
   for (const char* text : {"Simulated expert", "Simulated novice", "What each attempt was told",
-                           "Training only, not for planning a patient&#39;s procedure.", "not a standard"})
+                           "Training only, not for planning a patient&#39;s procedure.", "No expert has set a standard yet"})
     EXPECT_NE(page.find(text), page.npos) << text;
 
   // The same grade wherever it is asked.
@@ -92,6 +91,11 @@ TEST_F(GradingCommands, ExpertsAndNovicesSideBySideOnARealCt) {
   EXPECT_EQ(shown.at("grade"), novices.at("attempts")[0].at("grade"));
   const Json listed = answer("attempt list");
   EXPECT_EQ(listed.at("attempts")[0].at("verdict"), novices.at("attempts")[4].at("grade").at("verdict"));
+  EXPECT_EQ(page.find("Consultants"), page.npos);
+  done("user add director --role director");
+  EXPECT_EQ(code_of("standard set " + id + " --by director"), "too_few_consultants");
+  EXPECT_EQ(code_of("standard set " + id + " --by mentor"), "not_allowed");
+  EXPECT_TRUE(answer("standard show " + id).at("standards").empty());
   EXPECT_EQ(code_of("attempt compare --case " + id + " --modality xray"), "no_attempt");
   EXPECT_EQ(code_of("attempt compare --case 00000000-0000-7000-8000-000000000000"), "no_case");
 }

@@ -62,7 +62,12 @@ TEST_F(LiveTest, AnAttemptInRealTimeIsOneLikeAnyOther) {
 TEST_F(LiveTest, AttemptsInVirtualTimeHaveNoServoAndTheSameForcesAgain) {
   const Json made = ask("simulate --operator novice --seed 7 --case " + case_id_);
   const std::string id = made["attempts"][0]["attempt_id"];
-  EXPECT_TRUE(ask("attempt show " + id)["servo"].is_null());
+  const Json shown = ask("attempt show " + id);
+  EXPECT_TRUE(shown["servo"].is_null());
+  EXPECT_TRUE(shown["away_s"].is_null());
+  EXPECT_EQ(shown["conditions"]["needle_hand"], "simulated");
+  EXPECT_EQ(shown["conditions"]["guide_used"], false);
+  EXPECT_TRUE(shown["conditions"]["window_width_px"].is_null());
   EXPECT_EQ(ask("replay " + id + " --verify")["verified"], true);
 }
 
@@ -169,6 +174,7 @@ TEST_F(LiveTest, WhatAKillInterruptedGoesOn) {
   const Json shown = ask("attempt show " + id);
   EXPECT_NE(shown["end"], "interrupted");
   EXPECT_GT(shown["duration_s"], 4.0);
+  EXPECT_GT(shown["away_s"], 0.0);
   int marks = 0;
   for (const Json& event : shown["events"])
     if (event["kind"] == "resumed") {

@@ -43,7 +43,7 @@ TEST(MentorPage, ItsCommandsLeadFromDicomToAPublishedCase) {
   const auto scratch = fixtures::fresh_folder("mentor_page");
   const std::string library = (scratch / "library").string();
   const auto commands = commands_of_the_page();
-  ASSERT_EQ(commands.size(), 11U) << "two accounts, five commands, four for the review";
+  ASSERT_EQ(commands.size(), 13U) << "two accounts, two about a cohort, five commands, four for the review";
   std::string case_id, next_id;
   for (const std::string& command : commands) {
     std::string line = with(with(command, "CASE", case_id), "NEXT", next_id);

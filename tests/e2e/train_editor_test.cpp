@@ -27,13 +27,13 @@ class TrainEditorTest : public testing::Test {
       library_.done(std::string("user add ") + user);
     case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
-    library_.done("case setting " + case_id_ + " --title 'From the bench' --pass 'hit >= 1'");
+    library_.done("case setting " + case_id_ + " --title 'From the case editor' --pass 'hit >= 1'");
   }
   void sit_down(const std::vector<std::string>& options = {}) {
     mentor_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(), options);
   }
   Json shown() const { return library_.ask("case show " + case_id_); }
-  Json editor() const { return mentor_->now().value("bench", Json::object()); }
+  Json editor() const { return mentor_->now().value("editor", Json::object()); }
   // Once what was done last is checked.
   bool check_is(const std::string& list, const std::string& name) {
     return fixtures::until(
@@ -46,7 +46,7 @@ class TrainEditorTest : public testing::Test {
   }
   void click_axial(const std::pair<double, double>& at) const { mentor_->click("plane", at.first, at.second); }
 
-  fixtures::CommandLibrary library_{fixtures::fresh_folder("train_bench")};
+  fixtures::CommandLibrary library_{fixtures::fresh_folder("train_editor")};
   std::string case_id_;
   std::unique_ptr<fixtures::Trainee> mentor_;
 };
@@ -56,8 +56,8 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   ASSERT_FALSE(HasFailure());
   const fixtures::Screen& screen = mentor_->screen();
   ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword));
-  mentor_->click("Bench#2");  // the first is the demo's own, which attempts have frozen
-  ASSERT_TRUE(mentor_->reaches("bench"));
+  mentor_->click("Open draft#2");  // the first is the demo's own, which attempts have frozen
+  ASSERT_TRUE(mentor_->reaches("editor"));
   ASSERT_TRUE(check_is("failing", "lesion_present")) << mentor_->now();
   mentor_->keep_picture();
   screen.press("l");
@@ -92,7 +92,7 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   screen.press("F9");
   ASSERT_TRUE(mentor_->reaches("debrief"));
   screen.press("Escape");
-  ASSERT_TRUE(mentor_->reaches("bench"));
+  ASSERT_TRUE(mentor_->reaches("editor"));
   const Json attempts = library_.ask("attempt list");
   for (const Json& attempt : attempts["attempts"])
     EXPECT_TRUE(attempt["synthetic"].get<bool>()) << "it was only tried";
@@ -132,7 +132,7 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
     mentor_->click("Log out");
     ASSERT_TRUE(mentor_->reaches("log_in"));
   };
-  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword, "bench"));
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("mona", kPassword, "editor"));
   ASSERT_TRUE(becomes("draft")) << mentor_->now();
   ASSERT_TRUE(editor()["failing"].empty()) << editor();
   mentor_->click("Submit for review");
@@ -145,7 +145,7 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
   mentor_->click("Approve");  // not for who made it
   ASSERT_TRUE(fixtures::until([&] { return !editor().value("refusal", "").empty(); })) << mentor_->now();
   ASSERT_NO_FATAL_FAILURE(log_out());
-  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("rita", kPassword, "bench"));
+  ASSERT_NO_FATAL_FAILURE(mentor_->log_in("rita", kPassword, "editor"));
   ASSERT_TRUE(becomes("review")) << mentor_->now();
   mentor_->click("Approve");
   mentor_->click("Publish");
@@ -155,7 +155,7 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
   ASSERT_TRUE(mentor_->reaches("choose"));
   mentor_->keep_picture();
   mentor_->click("Edit#2");  // of the second one that may be practised
-  ASSERT_TRUE(mentor_->reaches("bench")) << mentor_->now();
+  ASSERT_TRUE(mentor_->reaches("editor")) << mentor_->now();
   EXPECT_TRUE(fixtures::until([&] { return editor().value("state", "") == "draft"; })) << mentor_->now();
   EXPECT_EQ(state(), "published") << "trainees keep what they have";
 }

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+#include <string>
 
 #include "casedb/cases/cases.h"
 #include "casedb/people/people.h"
@@ -29,6 +30,9 @@ class TrainTest : public testing::Test {
     const std::string demo = library_->ask("demo --no-serve")["case_id"];
     for (const char* user : {"mona --role mentor", "tina --role trainee"})
       library_->done(std::string("user add ") + user);
+    library_->done("cohort add Autumn --programme Radiology");
+    library_->done("cohort enrol Autumn --user mona --mentor");
+    library_->done("cohort enrol Autumn --user tina");
     case_id_ = library_->ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     // The entry above the target, where straight down leads to it.
     auto library = casedb::Library::open(library_->path());
@@ -53,6 +57,28 @@ class TrainTest : public testing::Test {
     ASSERT_FALSE(HasFailure());
   }
   Json now() const { return trainee_->now(); }
+  // In the debrief: what a number means is one click away, or one key.
+  void ask_what_was_measured() {
+    const auto shows = [&](const char* name) { return fixtures::until([&] { return trainee_->shows(name); }); };
+    trainee_->click("Skin punctures");
+    EXPECT_TRUE(shows("Definition of Skin punctures")) << now();
+    look();
+    trainee_->screen().press("Escape");
+    EXPECT_TRUE(fixtures::until([&] { return !trainee_->shows("Definition of Skin punctures"); }));
+    EXPECT_EQ(now()["screen"], "debrief") << "Escape closes the definition first";
+    trainee_->click("Sentence 1");
+    EXPECT_TRUE(shows("Back to the steps (Esc)"));
+    trainee_->screen().press("a");
+    EXPECT_TRUE(shows("To pass (A)"));
+    EXPECT_FALSE(trainee_->shows("Back to the steps (Esc)"));
+    look();
+    for (std::size_t i = 0; i < 4; ++i) trainee_->screen().press("Down");  // past the sentences
+    EXPECT_TRUE(shows("Definition of Target hit")) << now();
+    look();
+    trainee_->screen().press("Escape");
+    trainee_->click("To pass (A)");
+    EXPECT_TRUE(shows("All values (A)"));
+  }
   fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
   static inline std::optional<fixtures::CommandLibrary> library_;
@@ -92,6 +118,8 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   trainee_->prepare();
   ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
   const auto picture = trainee_->place_of("picture"), room = trainee_->place_of("room");
+  trainee_->test_side();
+  ASSERT_NO_FATAL_FAILURE(trainee_->measure_depth(depth_mm_));
   const auto scanning = look();
   EXPECT_GT(share(scanning, picture, grey), 0.20) << "speckle on the monitor";
   EXPECT_GT(share(scanning, room, skin), 0.10) << "a patient in the room";
@@ -101,6 +129,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->fire());
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
+  ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
   trainee_->screen().press("w");
   ASSERT_TRUE(trainee_->reaches("watch"));
   const auto again = trainee_->place_of("picture");
@@ -115,11 +144,12 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   EXPECT_EQ(fixtures::metric(shown, "hit"), 1.0);
   EXPECT_EQ(fixtures::metric(shown, "skin_punctures"), 1.0);
   EXPECT_EQ(shown["grade"]["verdict"], "passed") << shown["grade"];
-  std::set<std::string> done_steps;
+  std::map<std::string, Json> how;  // those that were done
   for (const Json& step : shown["steps"])
-    if (step["state"] == "done") done_steps.insert(step["id"].get<std::string>());
-  for (const char* step : {"sign_in", "decide", "check_probe", "note_depth", "anaesthetise", "insert", "sign_out"})
-    EXPECT_TRUE(done_steps.contains(step)) << step;
+    if (step["state"] == "done") how[step["id"].get<std::string>()] = step["how"];
+  for (const char* step : {"sign_in", "decide", "anaesthetise", "sign_out"}) EXPECT_EQ(how[step], "said") << step;
+  for (const char* step : {"check_probe", "note_depth", "insert", "insert_to_depth"})
+    EXPECT_EQ(how[step], "shown") << step << ": " << shown["steps"];
   EXPECT_EQ(library_->ask("replay " + mine + " --verify")["verified"], true);
 }
 

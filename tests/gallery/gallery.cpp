@@ -90,7 +90,7 @@ TEST_F(Gallery, Fluoroscopy) {
 }
 
 // What a mentor has placed on a draft that can still be changed.
-TEST_F(Gallery, Bench) {
+TEST_F(Gallery, CaseEditor) {
   const std::string made = library("ultrasound");
   const auto ask = [&](const std::string& words) {
     const auto ran = fixtures::run(program + " " + words + " --library " + made, scratch_);
@@ -105,17 +105,17 @@ TEST_F(Gallery, Bench) {
   ask("case setting " + draft + " --title 'Liver, intercostal' --entry-mm -160,10,-15 --pass 'hit >= 1'");
   fixtures::Trainee trainee(program, made, scratch_);
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
-  trainee.click("Bench#2");  // the first is the demo's own, which attempts have frozen
-  ASSERT_TRUE(trainee.reaches("bench", 20.0));
+  trainee.click("Open draft#2");  // the first is the demo's own, which attempts have frozen
+  ASSERT_TRUE(trainee.reaches("editor", 20.0));
   ASSERT_TRUE(fixtures::until(
       [&] {
-        const Json editor = trainee.now().value("bench", Json::object());
+        const Json editor = trainee.now().value("editor", Json::object());
         return editor.contains("checking") && !editor["checking"].get<bool>() && !editor["holding"].empty();
       },
       60.0));
   trainee.screen().press("e");
   trainee.place_of("room");  // it is made
-  keep(trainee, "bench");
+  keep(trainee, "case-editor");
 }
 
 }  // namespace

@@ -73,15 +73,29 @@ TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
   const std::string html = attempt_page(kTrainee, view, nullptr);
   const std::size_t at = html.find("<table class=\"list criteria\">");
   const std::string table = html.substr(at, html.find("</table>", at) - at);
-  EXPECT_THAT(table, HasSubstr("Way through critical <span class=\"mark critical\">critical</span>"));
+  EXPECT_THAT(table, HasSubstr("<summary>Way through critical</summary>"));
+  EXPECT_THAT(table, HasSubstr("</details> <span class=\"mark critical\">critical</span>"));
   EXPECT_THAT(table, HasSubstr(">3.2 mm<"));
   EXPECT_THAT(table, HasSubstr(">none<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Missed</span>"));
-  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">no endpoint</span>"));
+  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the needle was never fired</span>"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Not met</span>"));
   EXPECT_THAT(table, HasSubstr(">Yes<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"yes\">Met</span>"));
   EXPECT_THAT(table, Not(HasSubstr("Experts"))) << "there are none";
+}
+
+TEST(GradeOnPage, EachSentenceAndCriterionOpensWhatItMeasures) {
+  AttemptView view = sample_attempt();
+  view.grade = failed_grade();
+  view.grade.grade.criteria[2].criterion.version = 7;  // of a definition that this program does not have
+  const std::string html = attempt_page(kTrainee, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("Hit the target. <details class=\"metric\"><summary>Target hit</summary>"));
+  const std::size_t at = html.find("<table class=\"list criteria\">");
+  const std::string table = html.substr(at, html.find("</table>", at) - at);
+  for (const char* label : {"Way through critical", "Core in target", "Target hit"})
+    EXPECT_THAT(table, HasSubstr("<th scope=\"row\"><details class=\"metric\"><summary>" + std::string(label)));
+  EXPECT_THAT(table, HasSubstr("(hit); this value was measured by version 7"));
 }
 
 TEST(GradeOnPage, ABandHasItsNumberOfPeopleAndItsToleranceInterval) {

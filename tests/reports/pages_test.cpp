@@ -7,6 +7,7 @@
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/login_page.h"
+#include "reports/pages/metrics_page.h"
 #include "reports/pages/page.h"
 #include "tests/reports/sample_attempt.h"
 
@@ -56,6 +57,7 @@ std::vector<std::string> all_pages() {
           attempts_page(kMentor, std::vector{view, view}, part),
           attempts_page(kMentor, {}, {}),
           no_attempts_page(kMentor),
+          metrics_page(kMentor),
           attempt_page(kMentor, view, &recording),
           attempt_page(kMentor, view, nullptr)};
 }
@@ -89,6 +91,49 @@ TEST(EveryPage, GivesItsTablesACaptionAndItsHeadersAScope) {
   }
 }
 
+// A value is never far from what it measures: its name opens the definition, and a link in every page's head leads
+// to all of them.
+TEST(AttemptPage, EveryValueOpensItsDefinition) {
+  AttemptView view = sample_attempt();
+  view.row.picture = {cases::Modality::ultrasound, 85.0, 0.0, 60.0, "C5-2v"};
+  view.row.metrics.clear();
+  for (const assessment::MetricInfo& info : assessment::registry())
+    view.row.metrics.push_back({info.id, info.version, std::nullopt, info.unit, "no_endpoint"});
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html, HasSubstr("<dt><details class=\"metric\"><summary>Target hit</summary>")) << "what leads, too";
+  const std::size_t from = html.find("id=\"metrics\"");
+  std::size_t rows = 0;
+  const std::string row = "<th scope=\"row\">", opens = "<details class=\"metric\"><summary>";
+  for (std::size_t at = html.find(row, from); at != html.npos; at = html.find(row, at + 1), ++rows)
+    EXPECT_EQ(html.compare(at + row.size(), opens.size(), opens), 0) << html.substr(at, 120);
+  EXPECT_GT(rows, 30U);
+  EXPECT_THAT(html, HasSubstr("<dt>Better</dt><dd>lower</dd>"));
+  EXPECT_THAT(html, HasSubstr("<a href=\"/metrics\">Metrics</a>"));
+}
+
+TEST(AttemptPage, AValueOfAnOlderDefinitionSaysSo) {
+  AttemptView view = sample_attempt();
+  view.row.metrics = {{"path_tip", 1, 80.0, "mm", ""}};
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("this value was measured by version 1"));
+  view.row.metrics[0].version = assessment::find_metric("path_tip")->version;
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("this value was measured by version")));
+}
+
+TEST(AttemptPage, TellsForHowLongItLayInterrupted) {
+  AttemptView view = sample_attempt();
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("Interrupted")));
+  view.row.away_s = 754.0;
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Interrupted, and gone on with after 13 min."));
+}
+
+TEST(MetricsPage, HoldsEveryMetricUnderItsAnchor) {
+  const std::string html = metrics_page(kMentor);
+  for (const assessment::MetricInfo& info : assessment::registry()) {
+    EXPECT_EQ(count_of(html, " id=\"metric-" + std::string(info.id) + "\""), 1U) << info.id;
+    EXPECT_THAT(html, HasSubstr(escaped(info.source)));
+  }
+}
+
 TEST(AttemptPage, LeadsWithHitAndDistance) {
   const std::string html = attempt_page(kMentor, sample_attempt(), nullptr);
   const std::size_t hit = html.find("<dd>Yes</dd>"), distance = html.find("<dd>2.3 mm</dd>");
@@ -102,12 +147,31 @@ TEST(AttemptPage, LeadsWithHitAndDistance) {
   EXPECT_THAT(html, HasSubstr("time_total v2"));
 }
 
+TEST(AttemptPage, SaysUnderWhichConditionsItWasMade) {
+  AttemptView view = sample_attempt();
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Its conditions were not recorded."));
+  view.row.conditions = casedb::simulated_conditions();
+  view.row.conditions.paused_s = 41.25;
+  view.row.conditions.pauses = 2;
+  view.row.conditions.picture_method = "<scatterers>";
+  view.row.away_s = 90.0;
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_THAT(html,
+              HasSubstr("Conditions: simulated hands; no needle guide; 2 pauses, 41 s; interrupted for 90 s."));
+  EXPECT_THAT(html, HasSubstr("34.6 s, without 41.2 s of pauses"));
+  EXPECT_THAT(html, HasSubstr("90 s, then gone on with"));
+  EXPECT_THAT(html, HasSubstr("<dt>Needle guide used</dt><dd>no"));
+  EXPECT_THAT(html, HasSubstr("&lt;scatterers&gt;"));
+  EXPECT_THAT(html, Not(HasSubstr("Window&#39;s width"))) << "what is not known is not listed";
+  EXPECT_EQ(first_unbalanced_tag(html), "");
+}
+
 TEST(AttemptPage, ShowsNullMetricsAsADashWithTheReason) {
   AttemptView view = sample_attempt();
   for (casedb::MetricValue& metric : view.row.metrics) metric.value = std::nullopt, metric.reason = "no_endpoint";
   const std::string html = attempt_page(kMentor, view, nullptr);
   // Hit, distance and time lead; the tables hold six: a core's length means nothing for an access needle.
-  EXPECT_EQ(count_of(html, "— <span class=\"why\">no endpoint</span>"), 3U + 6U);
+  EXPECT_EQ(count_of(html, "— <span class=\"why\">the needle was never fired</span>"), 3U + 6U);
   for (const char* zero : {">0<", ">0.0", "No</dd>", "Yes</dd>", "the target was"})
     EXPECT_THAT(html, Not(HasSubstr(zero)));
 }
@@ -121,7 +185,7 @@ TEST(AttemptPage, OfFluoroscopySpeaksOfItAndShowsWhatItCost) {
   const std::string html = attempt_page(kMentor, view, nullptr);
   EXPECT_THAT(html, HasSubstr("<caption>Dose</caption>"));
   EXPECT_THAT(html, HasSubstr("0.042 Gy·cm²"));
-  EXPECT_THAT(html, HasSubstr("fewer than two views"));
+  EXPECT_THAT(html, HasSubstr("the target was not looked at from two directions"));
   EXPECT_THAT(html, HasSubstr("The last image before the moment of firing."));
   EXPECT_THAT(html, HasSubstr("<bdi>Fluoroscopy</bdi>"));
   EXPECT_THAT(html, Not(HasSubstr("MPR")));
@@ -147,7 +211,7 @@ TEST(AttemptPage, NamesApartWhatTheCaseDoesNotHave) {
   ASSERT_NE(apart, html.npos);
   EXPECT_GT(html.find("Peak axial force"), apart);
   EXPECT_GT(html.find("Angle to planned entry"), apart);
-  EXPECT_LT(html.find("not in tissue at the end"), apart) << "what the trainee did stands in the table";
+  EXPECT_LT(html.find("the tip was not in tissue at the end"), apart) << "what the trainee did stands in the table";
   EXPECT_THAT(attempt_page(kMentor, sample_attempt(), nullptr), Not(HasSubstr("What this case does not measure")));
 }
 
@@ -198,7 +262,7 @@ TEST(AttemptPage, WithoutMetricsOrPictureSaysSo) {
   EXPECT_THAT(html, HasSubstr("No metrics are stored"));
   EXPECT_THAT(html, HasSubstr("No picture is stored"));
   EXPECT_THAT(html, Not(HasSubstr("<img")));
-  EXPECT_EQ(count_of(html, "— <span class=\"why\">not measured</span>"), 2U);
+  EXPECT_EQ(count_of(html, "— <span class=\"why\">it was not measured</span>"), 2U);
 }
 
 TEST(AttemptPage, NothingOfTheDataBecomesMarkup) {
@@ -229,8 +293,8 @@ TEST(AttemptsPage, ShowsTheRowsInTheOrderGivenWithLinks) {
   EXPECT_LT(html.find("/attempts/" + first.row.attempt_id), html.find("/attempts/" + second.row.attempt_id));
   EXPECT_THAT(html, HasSubstr("<span class=\"yes\">Yes</span>"));
   EXPECT_THAT(html, HasSubstr("<span class=\"no\">No</span>"));
-  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">no target</span>"));
-  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">not measured</span>"));
+  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">the case has no target</span>"));
+  EXPECT_THAT(html, HasSubstr("— <span class=\"why\">it was not measured</span>"));
   EXPECT_THAT(html, Not(HasSubstr("Pages of the list")));
 }
 

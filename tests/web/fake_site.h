@@ -1,6 +1,7 @@
 // A library in memory and a world whose clock and chance the test sets.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <functional>
@@ -41,23 +42,50 @@ class FakeQuestions final : public Questions {
     const std::lock_guard lock(mutex);
     return accounts;
   }
-  std::size_t count_attempts() override {
+  std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) override {
     fail_if_asked();
-    return attempts.size();
+    auto all = relations[reader_id];
+    for (const casedb::Account& account : accounts) all.emplace(account.person_id, casedb::Relation{});
+    all[reader_id].own = true;
+    return all;
   }
-  std::vector<casedb::AttemptRow> list_attempts(std::size_t first, std::size_t count) override {
-    fail_if_asked();
-    first = std::min(first, attempts.size());
-    count = std::min(count, attempts.size() - first);
-    const auto from = attempts.begin() + static_cast<std::ptrdiff_t>(first);
-    return {from, from + static_cast<std::ptrdiff_t>(count)};
+  std::vector<casedb::Cohort> list_cohorts() override { return cohorts; }
+  std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) override {
+    return enrolments[cohort_id];
   }
-  std::vector<casedb::AttemptRow> list_attempts_of(const std::string& person_id) override {
-    std::vector<casedb::AttemptRow> own;
-    for (const casedb::AttemptRow& row : attempts) {
-      if (row.person_id == person_id) own.push_back(row);
+  reports::AboutMe about(const std::string& person_id) override {
+    asked_about = person_id;
+    return about_me;
+  }
+  base::Result<void> give_facts(const std::string& person_id,
+                                const std::map<std::string, std::string>& answers) override {
+    done.push_back("facts of " + person_id);
+    for (const auto& [fact_id, answer] : answers) {
+      if (const auto fit = casedb::checked_answer(fact_id, answer); !fit) return fit.error();
+      done.push_back(fact_id + " = " + answer);
     }
-    return own;
+    return {};
+  }
+  base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) override {
+    done.push_back(person_id + " gives " + text_id);
+    return {};
+  }
+  base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) override {
+    done.push_back(person_id + " withdraws " + text_id);
+    return {};
+  }
+  base::Result<void> erase_attempts_of(const std::string& person_id) override {
+    done.push_back("erased " + person_id);
+    return {};
+  }
+  std::size_t count_attempts(const casedb::WhoseAttempts& whose) override { return seen(whose).size(); }
+  std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
+                                                std::size_t count) override {
+    const auto rows = seen(whose);
+    first = std::min(first, rows.size());
+    count = std::min(count, rows.size() - first);
+    const auto from = rows.begin() + static_cast<std::ptrdiff_t>(first);
+    return {from, from + static_cast<std::ptrdiff_t>(count)};
   }
   base::Result<casedb::AttemptRow> find_attempt(const std::string& attempt_id) override {
     fail_if_asked();
@@ -92,10 +120,16 @@ class FakeQuestions final : public Questions {
 
   std::mutex mutex;  // guards accounts
   std::vector<casedb::Account> accounts;
-  std::map<std::string, std::string> passwords;  // by log-in name
-  std::vector<casedb::AttemptRow> attempts;      // newest first
-  std::vector<casedb::CaseRow> cases;            // oldest first
-  casedb::AttemptGrade grade;                    // of every attempt
+  std::map<std::string, std::string> passwords;                                        // by log-in name
+  std::map<std::string, std::unordered_map<std::string, casedb::Relation>> relations;  // by reader
+  std::vector<casedb::Cohort> cohorts;
+  std::map<std::string, std::vector<casedb::Enrolment>> enrolments;  // by cohort
+  reports::AboutMe about_me;
+  std::string asked_about;
+  std::vector<std::string> done;             // what was changed, in words
+  std::vector<casedb::AttemptRow> attempts;  // newest first
+  std::vector<casedb::CaseRow> cases;        // oldest first
+  casedb::AttemptGrade grade;                // of every attempt
   std::vector<reports::CurriculumView> curricula;
   std::optional<std::string> curricula_asked_for;
   std::vector<std::byte> picture;
@@ -106,6 +140,15 @@ class FakeQuestions final : public Questions {
  private:
   void fail_if_asked() const {
     if (fault) fault();
+  }
+  std::vector<casedb::AttemptRow> seen(const casedb::WhoseAttempts& whose) const {
+    fail_if_asked();
+    std::vector<casedb::AttemptRow> rows;
+    for (const casedb::AttemptRow& row : attempts)
+      if (row.person_id ? std::find(whose.people.begin(), whose.people.end(), *row.person_id) != whose.people.end()
+                        : whose.nobodys)
+        rows.push_back(row);
+    return rows;
   }
 };
 
@@ -149,6 +192,10 @@ inline void fill(FakeQuestions& questions) {
     questions.passwords[name] = kPassword;
   }
   questions.accounts.push_back({"person-of-other-zzz999", "Other Trainee", Role::trainee, true});
+  // The second trainee is in the mentor's cohort, the director's programme, and consents to the researcher's study.
+  questions.relations["person-of-mentor"]["person-of-other-zzz999"].own_cohort = true;
+  questions.relations["person-of-director"]["person-of-other-zzz999"].own_programme = true;
+  questions.relations["person-of-researcher"]["person-of-other-zzz999"].own_study = true;
   questions.cases = {
       case_row(kDraftCase, casedb::CaseState::draft), case_row(kReviewCase, casedb::CaseState::review),
       case_row(kPublishedCase, casedb::CaseState::published), case_row(kRetiredCase, casedb::CaseState::retired)};

@@ -8,6 +8,7 @@
 
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/sound_check.h"
 #include "tests/web/fake_site.h"
@@ -77,6 +78,7 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
   ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
   ASSERT_TRUE(casedb::add_user(library, "Dan", casedb::Role::director, kPassword).has_value());
   const std::string tom = casedb::add_user(library, "Tom", casedb::Role::trainee, kPassword).value();
+  fixtures::make_cohort(library, "Mia", {"Tom"});
   const auto [case_id, lesion_id] = add_small_case(library);
   casedb::CaseSetting setting = casedb::find_case(library, case_id).value();
   setting.rule.criteria = {*assessment::criterion_from("hit >= 1"),
@@ -99,8 +101,8 @@ TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {
   attempt.metrics = {{"gap_share", 2, 0.0, "share", ""},
                      {"sample_rate_p5", 1, 1000.0, "Hz", ""},
                      {"tracking_jumps", 1, 0.0, "count", ""},
-                     {"hit", 1, 1.0, "bool", ""},
-                     {"skin_punctures", 1, 3.0, "count", ""}};
+                     {"hit", setting.rule.criteria[0].version, 1.0, "bool", ""},
+                     {"skin_punctures", setting.rule.criteria[1].version, 3.0, "count", ""}};
   const std::string attempt_id = casedb::add_attempt(library, attempt).value();
   RealSite real(std::move(library));
   FakeBrowser browser(real.site);
@@ -133,7 +135,7 @@ TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
   const std::string page = browser.get("/attempts/" + attempt_id).body;
   for (const char* piece :
        {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
-        "— <span class=\"why\">no endpoint</span>", "From 4.9 mm at the start to 0.0 mm at the end",
+        "— <span class=\"why\">the needle was never fired</span>", "From 4.9 mm at the start to 0.0 mm at the end",
         "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }

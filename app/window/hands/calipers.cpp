@@ -1,5 +1,7 @@
 #include "app/window/hands/calipers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
@@ -33,6 +35,13 @@ void Calipers::clear() noexcept {
 std::optional<double> Calipers::length_mm(std::size_t caliper) const noexcept {
   if (2 * caliper + 1 >= ends_mm_.size()) return std::nullopt;
   return imaging::caliper_mm(ends_mm_[2 * caliper], ends_mm_[2 * caliper + 1]);
+}
+
+std::optional<double> Calipers::depth_mm(std::size_t caliper) const noexcept {
+  if (2 * caliper + 1 >= ends_mm_.size()) return std::nullopt;
+  const double a_mm = ends_mm_[2 * caliper].y, b_mm = ends_mm_[2 * caliper + 1].y;
+  if (std::abs(std::min(a_mm, b_mm)) > kAtFaceMm || !(std::max(a_mm, b_mm) > kAtFaceMm)) return std::nullopt;
+  return std::max(a_mm, b_mm);
 }
 
 std::vector<std::string> Calipers::words() const {

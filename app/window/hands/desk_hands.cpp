@@ -23,8 +23,10 @@ void count(bool so, double elapsed_s, double& lasted_s) noexcept {
   lasted_s = std::clamp(lasted_s + (so ? elapsed_s : -kForgivenTimes * elapsed_s), 0.0, kMostS);
 }
 
+constexpr const char* kArmModel = "inverse3";
+
 std::array<haptics::HandSettings, 2> two_arms() {
-  const haptics::ArmModel* device = haptics::find_arm_model("inverse3");
+  const haptics::ArmModel* device = haptics::find_arm_model(kArmModel);
   CHECK(device != nullptr);
   haptics::HandSettings settings;
   settings.device = *device;
@@ -50,6 +52,11 @@ DeskHands::DeskHands(const cases::Case& scene, const devices::HandsStart& start,
     led_->put(led_arm_[side], {there.position_mm, there.orientation, false});
   }
   desk_ = std::make_unique<DeskArms>(arms->station, scene, handedness, arms->place);
+}
+
+std::optional<std::string> DeskHands::arm_model() const {
+  if (!arms_.used) return std::nullopt;
+  return (led_ ? "simulated " : "") + std::string(kArmModel);
 }
 
 void DeskHands::take_over(const cases::Inputs& left, const cases::State& state) noexcept {

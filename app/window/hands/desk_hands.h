@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/hands/desk_arms.h"
 #include "app/window/hands/braced_hand.h"
@@ -53,6 +54,8 @@ class DeskHands {
   double press_mm(const cases::State& state) const noexcept;
   // None: there are no arms.
   ArmsWatch* watch() noexcept { return desk_ ? &desk_->watch() : nullptr; }
+  // What the arms are, for the attempt's conditions: "inverse3", "simulated inverse3"; nothing: there are none.
+  std::optional<std::string> arm_model() const;
   bool frozen() const noexcept { return last_.freeze; }
   const ArmsHeld& arms() const noexcept { return arms_; }
 

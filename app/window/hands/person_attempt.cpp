@@ -1,6 +1,8 @@
 #include "app/window/hands/person_attempt.h"
 
+#include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "session/guidance/guidance.h"
 #include "sim/base/check.h"
@@ -11,6 +13,8 @@ namespace seldinger::app {
 namespace {
 
 constexpr double kAimMm = 60.0;  // any depth: only its direction counts
+// An arm that has not answered by then, since the attempt began, does not lead from the beginning.
+constexpr double kArmAnswersS = 0.5;
 
 }  // namespace
 
@@ -88,6 +92,10 @@ void PersonAttempt::take_up_tools(bool left_handed) {
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<session::Monitor>(task_->scene, 0, wanted_.by);
+  know([&](casedb::Conditions& conditions) {
+    conditions.handedness = left_handed ? casedb::Handedness::left : casedb::Handedness::right;
+    conditions.needle_arm = conditions.probe_arm = hands_->arm_model();
+  });
 }
 
 // A new one, or the one that is gone on with, replayed.
@@ -112,17 +120,33 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
   return session::LiveAttempt(library, wanted_.program, std::move(*interrupted), task_->scene);
 }
 
-bool PersonAttempt::say(cases::EventKind kind) noexcept {
+bool PersonAttempt::say(cases::EventKind kind, double length_mm) noexcept {
   const std::uint64_t said = said_count_.load(std::memory_order_relaxed);
   if (said - heard_count_.load(std::memory_order_acquire) >= kMostSaid) return false;
-  said_[said % kMostSaid].store(kind, std::memory_order_relaxed);
+  said_[said % kMostSaid].store({kind, cases::tenths_of(length_mm)}, std::memory_order_relaxed);
   said_count_.store(said + 1, std::memory_order_release);
   return true;
+}
+
+void PersonAttempt::know(const std::function<void(casedb::Conditions&)>& change) {
+  const std::lock_guard lock(conditions_mutex_);
+  change(conditions_);
+}
+
+// By whoever stores.
+casedb::Conditions PersonAttempt::conditions() {
+  casedb::Conditions known;
+  know([&](const casedb::Conditions& told) { known = told; });
+  if (phase() == Phase::storing) known.begun_again = again_.load();
+  return known;
 }
 
 // By the servo.
 cases::Inputs PersonAttempt::hands(const cases::State& state) {
   if (const auto told = told_.take()) {
+    if (devices::way_of(devices::since(told_sum_, told->sum)) > 0.0)
+      led_by_[hands_->mouse().held() == devices::HeldTool::needle ? 0 : 1] = told->by;
+    told_sum_ = told->sum;
     even_.tell(told->sum, told->between_s);
     fluoroscope_ = told->fluoroscope;
     console_ = told->console;
@@ -135,10 +159,46 @@ cases::Inputs PersonAttempt::hands(const cases::State& state) {
   inputs.console = console_;
   const std::uint64_t heard = heard_count_.load(std::memory_order_relaxed);
   if (said_count_.load(std::memory_order_acquire) != heard) {
-    inputs.event = said_[heard % kMostSaid].load(std::memory_order_relaxed);
+    const Said next = said_[heard % kMostSaid].load(std::memory_order_relaxed);
+    inputs.event = next.kind;
+    inputs.event_tenths_mm = next.tenths_mm;
     heard_count_.store(heard + 1, std::memory_order_release);
   }
   return inputs;
+}
+
+// Nothing: that is not known yet.
+std::optional<cases::HandKind> PersonAttempt::hand_of(haptics::Tool tool, const cases::State& state) const {
+  if (!hands_->mouse_leads(tool)) return cases::HandKind::arm;
+  const bool an_arms =
+      hands_->arms().used && std::ranges::find(hands_->arms().tools, tool) != hands_->arms().tools.end();
+  const std::size_t of = tool == haptics::Tool::needle ? 0 : 1;
+  if (an_arms && !noted_hand_[of] && state.t_s < begun_at_s_ + kArmAnswersS) return std::nullopt;
+  return led_by_[of];
+}
+
+// One thing a tick; what else there is waits for the next.
+cases::EventKind PersonAttempt::note(const cases::State& state) {
+  if (begun_at_s_ < 0.0) begun_at_s_ = state.t_s;
+  for (const haptics::Tool tool : {haptics::Tool::needle, haptics::Tool::probe}) {
+    const bool needle = tool == haptics::Tool::needle;
+    std::optional<cases::HandKind>& noted = noted_hand_[needle ? 0 : 1];
+    const auto hand = hand_of(tool, state);
+    if (!hand || hand == noted) continue;
+    noted = hand;
+    return cases::led_by(needle ? cases::LedTool::needle : cases::LedTool::probe, *hand);
+  }
+  const devices::Hands& mouse = hands_->mouse();
+  const bool leads = hands_->mouse_leads(haptics::Tool::needle);  // a guide is for what mouse and keys lead
+  const auto turned = [](bool now, bool& noted) { return std::exchange(noted, now) != now; };
+  if (turned(leads && mouse.guided(), noted_guided_)) {
+    noted_in_guide_ = false;
+    return noted_guided_ ? cases::EventKind::guide_on : cases::EventKind::guide_off;
+  }
+  if (turned(leads && mouse.in_guide(), noted_in_guide_) && noted_in_guide_) return cases::EventKind::guide_reached;
+  if (turned(mouse.returning(), noted_returning_))
+    return noted_returning_ ? cases::EventKind::return_begun : cases::EventKind::return_ended;
+  return cases::EventKind::none;
 }
 
 void PersonAttempt::feel(const engine::Tick& tick, const engine::TickState& now) {
@@ -196,6 +256,7 @@ void PersonAttempt::run() {
     const auto stored =
         attempt->run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
                       .read = [this] { return hands_->read(); },
+                      .note = [this](const cases::State& state) { return note(state); },
                       .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
                       .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
                       .paused =
@@ -205,7 +266,8 @@ void PersonAttempt::run() {
                             return true;
                           },
                       .watch = [this](const engine::Moment& moment) { watch(moment); },
-                      .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); }});
+                      .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); },
+                      .conditions = [this] { return conditions(); }});
     hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());
     stored_ = *stored;

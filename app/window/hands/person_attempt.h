@@ -7,6 +7,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "session/case/program.h"
 #include "session/case/task.h"
 #include "session/monitor/monitor.h"
+#include "sim/case/hand_kind.h"
 #include "sim/devices/hands/even_intent.h"
 #include "sim/devices/hands/hands.h"
 
@@ -30,6 +32,8 @@ struct HandsTold {
   cases::ConsoleSetting console;
   double between_s = 0.0;  // since it was told before
   double told_s = 0.0;     // when, by clock_s
+  // What of mouse, gamepad and 3-D mouse has moved a tool last.
+  cases::HandKind by = cases::HandKind::mouse;
 };
 
 // What the servo tells the window: the newest tick, and how the hands hold their tools.
@@ -79,16 +83,25 @@ class PersonAttempt {
   // interrupted, with hands where they were. `refused` where that cannot be.
   void resume(std::string attempt_id, bool left_handed);
   void tell(const HandsTold& told) noexcept { told_.put(told); }
-  // Into the next tick in which nothing else is said; false: too much was said at once, and this is not.
-  bool say(cases::EventKind kind) noexcept;
+  // Into the next tick in which nothing else is said, with a length or (0) without; false: too much was said at
+  // once, and this is not.
+  bool say(cases::EventKind kind, double length_mm = 0.0) noexcept;
   // No time goes by, and hands are still.
   void pause(bool paused) noexcept { paused_ = paused; }
   bool paused() const noexcept { return paused_; }
   // Stops it once all that was said is in; then it is stored.
   void end() noexcept {
+    paused_ = false;  // first: the pause is noted in a tick
     ending_ = true;
-    paused_ = false;
   }
+  // The same, because the trainee wants to begin again; the attempt's conditions say so.
+  void end_to_begin_again() noexcept {
+    again_ = true;
+    end();
+  }
+  // By the window's thread: what is known now of the conditions under which the attempt is made. What the hands and
+  // the clock do is known by itself.
+  void know(const std::function<void(casedb::Conditions&)>& change);
 
   // The newest since the last call.
   std::optional<Seen> seen() noexcept { return seen_.take(); }
@@ -100,6 +113,9 @@ class PersonAttempt {
   void take_up_tools(bool left_handed);
   base::Result<session::LiveAttempt> live(casedb::Library& library);
   cases::Inputs hands(const cases::State& state);
+  cases::EventKind note(const cases::State& state);
+  std::optional<cases::HandKind> hand_of(haptics::Tool tool, const cases::State& state) const;
+  casedb::Conditions conditions();
   void watch(engine::Moment moment);
   void feel(const engine::Tick& tick, const engine::TickState& now);
 
@@ -117,13 +133,25 @@ class PersonAttempt {
   devices::EvenIntent even_;
   devices::AxialForces forces_;
   double told_s_ = 0.0, hand_to_force_s_ = 0.0;
+  devices::HandIntent told_sum_;
+  // What leads needle and probe where no arm does; what the recorder has noted last.
+  std::array<cases::HandKind, 2> led_by_{cases::HandKind::mouse, cases::HandKind::mouse};
+  std::array<std::optional<cases::HandKind>, 2> noted_hand_{};
+  bool noted_guided_ = false, noted_in_guide_ = false, noted_returning_ = false;
+  double begun_at_s_ = -1.0;  // of the attempt, before its first tick here
   cases::FluoroscopeInputs fluoroscope_;
   cases::ConsoleSetting console_;
   static constexpr std::uint64_t kMostSaid = 32;
-  std::array<std::atomic<cases::EventKind>, kMostSaid> said_{};  // … a ring between window and servo
+  struct Said {
+    cases::EventKind kind = cases::EventKind::none;
+    std::uint16_t tenths_mm = 0;
+  };
+  std::array<std::atomic<Said>, kMostSaid> said_{};  // … a ring between window and servo
   alignas(64) std::atomic<std::uint64_t> said_count_{0};
   alignas(64) std::atomic<std::uint64_t> heard_count_{0};
-  std::atomic<bool> ending_{false}, paused_{false};
+  std::atomic<bool> ending_{false}, paused_{false}, again_{false};
+  std::mutex conditions_mutex_;
+  casedb::Conditions conditions_;  // conditions_mutex_'s
   std::mutex mutex_;
   std::condition_variable begun_;
   bool begin_ = false, gone_ = false;

@@ -11,6 +11,7 @@
 #include "app/window/hands/frame_plan.h"
 #include "app/window/screens/panel_device_traces.h"
 #include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
 #include "reports/words/attempt_words.h"
 
 namespace seldinger::app {
@@ -47,6 +48,7 @@ constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
 
 // What came at once, a notch or what a slow frame kept, is given out as by a window of 60 frames a second.
 constexpr double kLeastBetweenS = 1.0 / 60.0;
+constexpr float kPlannedPx = 190.0F;   // wide: the slider of the planned depth
 constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
 constexpr double kLookAgainS = 0.0005;
 constexpr double kLagOver = 0.9;  // of a lag that is shown, what was before counts so much
@@ -90,13 +92,40 @@ void AttemptPanel::set_up(Trainer& trainer) {
   method_ = trainer.attempt()->monitor().method();
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
+  watch_.begin(scene.picture.modality);
   decided_ = scene.subject == cases::Subject::phantom;  // nobody is asked
   fired_ = leaving_ = false;
   said_.clear();
+  planned_mm_ = 0.0;
 }
 
 void AttemptPanel::say(PersonAttempt& attempt, EventKind kind, const char* words) {
-  if (attempt.say(kind)) said_ = words;
+  const bool plan = kind == EventKind::note_plan;
+  if (!attempt.say(kind, plan ? planned_mm_ : 0.0)) return;
+  said_ = words;
+  if (plan && planned_mm_ > 0.0) said_ += ", " + std::to_string(std::lround(planned_mm_)) + " mm";
+}
+
+// What calipers measured is recorded as it is, and is what the needle is planned for until that is set otherwise.
+void AttemptPanel::note_measured(PersonAttempt& attempt) {
+  const auto depth_mm = monitor_.take_depth_mm();
+  if (!depth_mm || !attempt.say(EventKind::depth_measured, *depth_mm)) return;
+  planned_mm_ = std::round(*depth_mm);
+  said_ = "Depth " + std::to_string(std::lround(*depth_mm)) + " mm";
+}
+
+void AttemptPanel::draw_planned_depth(const cases::Case& scene) {
+  auto planned_mm = static_cast<float>(planned_mm_);
+  ImGui::SetNextItemWidth(kPlannedPx);
+  if (ImGui::SliderFloat("##planned", &planned_mm, 0.0F, static_cast<float>(scene.instrument.length_mm),
+                         planned_mm_ > 0.0 ? "needle in by %.0f mm" : "needle in by: not set",
+                         ImGuiSliderFlags_AlwaysClamp))
+    planned_mm_ = std::round(static_cast<double>(planned_mm));
+  note_item("planned depth");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "how far you plan to insert the needle, by its marks; F2 notes it (calipers from the skin down to "
+        "the target set it)");
 }
 
 void AttemptPanel::finish(PersonAttempt& attempt) {
@@ -183,10 +212,15 @@ void AttemptPanel::draw_steps(Trainer& trainer) {
   float used = 0.0F;
   for (const Saying& saying : kSayings) {
     if (!asked_for(saying, scene)) continue;
-    const float wide = ImGui::CalcTextSize(saying.label).x + 24.0F;
+    const bool plan = saying.kind == EventKind::note_plan && scene.picture.modality != cases::Modality::xray;
+    const float wide = ImGui::CalcTextSize(saying.label).x + 24.0F + (plan ? kPlannedPx + 8.0F : 0.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     if (used + wide >= room) used = 0.0F;
     used += wide;
+    if (plan) {
+      draw_planned_depth(scene);
+      ImGui::SameLine();
+    }
     if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
   }
   const bool patient = scene.subject == cases::Subject::patient;
@@ -225,23 +259,43 @@ void AttemptPanel::tell(TraceLine& line) {
       line.arms.emplace_back(seen_.arms.lost[side] ? "lost" : seen_.arms.late[side] ? "late" : "ok");
 }
 
-void AttemptPanel::shown() noexcept {
-  const double now_s = session::clock_s();
+void AttemptPanel::shown(Trainer& trainer, int width_px, int height_px) {
+  ConditionWatch::Frame frame;
+  frame.now_s = session::clock_s();
   const auto lately = [](double& lag_s, double newest_s) {
     lag_s = lag_s > 0.0 ? kLagOver * lag_s + (1.0 - kLagOver) * newest_s : newest_s;
   };
   hand_to_force_s_ = std::max(hand_to_force_s_, seen_.hand_to_force_s);
   if (seen_.moment.told_s > room_told_s_) {
     room_told_s_ = seen_.moment.told_s;
-    lately(room_lag_s_, now_s - room_told_s_);
-    hand_to_room_s_ = std::max(hand_to_room_s_, now_s - room_told_s_);
+    frame.force_lag_s = seen_.hand_to_force_s;
+    frame.room_lag_s = frame.now_s - room_told_s_;
+    lately(room_lag_s_, *frame.room_lag_s);
+    hand_to_room_s_ = std::max(hand_to_room_s_, *frame.room_lag_s);
   }
   const session::ShownPicture& shown = monitor_.shown();
-  if (shown.number == 0 || shown.number == pictures_) return;
-  pictures_ = shown.number;
-  if (!shown.live || shown.told_s <= 0.0) return;
-  lately(picture_lag_s_, now_s - shown.told_s);
-  hand_to_picture_s_ = std::max(hand_to_picture_s_, now_s - shown.told_s);
+  frame.new_picture = shown.number != 0 && shown.number != pictures_;
+  if (frame.new_picture) {
+    pictures_ = shown.number;
+    if (shown.live && shown.told_s > 0.0) {
+      frame.picture_lag_s = frame.now_s - shown.told_s;
+      lately(picture_lag_s_, *frame.picture_lag_s);
+      hand_to_picture_s_ = std::max(hand_to_picture_s_, *frame.picture_lag_s);
+    }
+  }
+  frame.sound = !speaker_.muted() && speaker_.volume() > 0.0 && speaker_.state() != Speaker::State::none;
+  frame.stereo = room_.stereo();
+  frame.width_px = width_px;
+  frame.height_px = height_px;
+  tell_conditions(*trainer.attempt(), frame);
+}
+
+void AttemptPanel::tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame& frame) {
+  frame.paused = attempt.paused();
+  watch_.shown(frame);
+  watch_.made_by(method_);
+  if (watch_.due(frame.now_s))
+    attempt.know([this](casedb::Conditions& conditions) { watch_.put_into(conditions); });
 }
 
 void AttemptPanel::draw_arms() {
@@ -322,7 +376,7 @@ void AttemptPanel::read_hands(PersonAttempt& attempt, const Keys& keys, const Po
                               const OtherHands& other) {
   const double now_s = session::clock_s(), elapsed_s = now_s - told_s_;
   devices::HandIntent sum = told_.sum;
-  room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum);
+  told_.by = room_.hands(seen_, keys, pointer, wheel, other, elapsed_s, sum).value_or(told_.by);
   told_s_ = now_s;
   if (attempt.phase() != PersonAttempt::Phase::running || attempt.paused()) return;
   told_.sum = sum;
@@ -397,6 +451,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   ImGui::SameLine();
   begin_picture("guidance", 0.0F, all.y - below - 8.0F);
   monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, keys, &told_);
+  if (running) note_measured(attempt);
   ImGui::EndChild();
   ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   if (running)

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/window/hands/condition_watch.h"
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/sound/speaker.h"
@@ -41,8 +42,8 @@ class AttemptPanel {
 
   // Just before it is shown: what came last.
   void take_late(Trainer& trainer);
-  // Once what was drawn is on the screen: how long after the hands that is.
-  void shown() noexcept;
+  // Once what was drawn is on the screen, of a window of that size: how long after the hands that is.
+  void shown(Trainer& trainer, int width_px, int height_px);
   // What there is to tell since it was told last.
   void tell(TraceLine& line);
   bool first_picture() const noexcept { return pictures_ > 0 && pictures_told_ == 0; }  // not told of yet
@@ -61,9 +62,12 @@ class AttemptPanel {
   void draw_arms();
   void draw_arms_live(PersonAttempt& attempt);
   void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
+  void note_measured(PersonAttempt& attempt);
+  void draw_planned_depth(const cases::Case& scene);
   void read_keys(Trainer& trainer, const Keys& keys);
   void finish(PersonAttempt& attempt);
   void keep_picture();
+  void tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame& frame);
   void see(PersonAttempt& attempt);
   void see_told(PersonAttempt& attempt);
   void read_hands(PersonAttempt& attempt, const Keys& keys, const Pointer& pointer, double wheel,
@@ -85,10 +89,12 @@ class AttemptPanel {
   double frames_s_ = 0.0;                                                          // the window's rate, lately
   double room_lag_s_ = 0.0, picture_lag_s_ = 0.0;                                  // lately
   double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell
+  ConditionWatch watch_;
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   double room_told_s_ = 0.0;
   std::string method_;
-  std::string said_;  // the last thing that was said, for the screen
+  std::string said_;         // the last thing that was said, for the screen
+  double planned_mm_ = 0.0;  // how far the needle is to go in, as it is noted; 0: not planned
 };
 
 }  // namespace seldinger::app

@@ -5,6 +5,7 @@
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::app {
@@ -20,7 +21,7 @@ void line(const std::string& words) {
 }
 
 void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
-  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not told"));
+  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not recorded"));
 }
 
 void fact(const char* what, const std::string& value) {
@@ -56,6 +57,23 @@ void draw_hands(const casedb::CaseRow& row) {
   if (xray) line(kBeam);
 }
 
+// Of whole pieces: what came after the last of them is lost.
+std::string interrupted_words(const casedb::OpenAttempt& attempt) {
+  return "Your attempt at this case was interrupted after " +
+         reports::number_text(cases::kChunkSeconds * attempt.chunks, 0) +
+         " s. If you begin a new one, it is stored as it stands.";
+}
+
+// What the line before asks for, while the mouse is on it.
+void explain(const std::string& metric_id) {
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(30.0F * ImGui::GetFontSize());
+  ImGui::TextUnformatted(reports::metric_card(metric_id).definition.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 std::string unit_of(const std::string& metric_id) {
   const assessment::MetricInfo* info = assessment::find_metric(metric_id);
   return info != nullptr ? info->unit : "";
@@ -67,7 +85,7 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   heading("Sign-in");
   laboratory("INR", row.clinic.inr, "", 1);
   laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
-  fact("Allergy", row.clinic.allergy.empty() ? "none told" : row.clinic.allergy);
+  fact("Allergy", row.clinic.allergy.empty() ? "none recorded" : row.clinic.allergy);
   ImGui::Spacing();
   bool all = true;
   for (std::size_t i = 0; i < kSignIn.size(); ++i) {
@@ -96,7 +114,9 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   quiet(kTrainingOnly);
   ImGui::Spacing();
   const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
-  const float high = ImGui::GetContentRegionAvail().y - 60.0F;
+  const bool left = trainer.interrupted() && !trainer.resuming();
+  const float high =
+      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   heading("The task");
   if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
@@ -113,9 +133,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::Spacing();
   heading("To pass");
   if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
-  for (const assessment::Criterion& criterion : row.rule.criteria)
+  for (const assessment::Criterion& criterion : row.rule.criteria) {
     line(reports::metric_label(criterion.metric) + ": " +
          assessment::limit_text(criterion, unit_of(criterion.metric)) + (criterion.critical ? " (critical)" : ""));
+    explain(criterion.metric);
+  }
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
@@ -128,6 +150,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     end_screen();
     return false;
   }
+  if (left) quiet(interrupted_words(*trainer.interrupted()).c_str());
   if (noted_button("Back")) {
     trainer.back();
     end_screen();
@@ -146,8 +169,6 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     ImGui::BeginDisabled(!ready);
     if (noted_button("Go on with the interrupted attempt (R)") || (ready && keys.pressed('R'))) resume_ = true;
     ImGui::EndDisabled();
-    ImGui::SameLine();
-    quiet("A new one closes it as it is.");
   }
   ImGui::SameLine();
   ImGui::BeginDisabled(!ready || !all);

@@ -61,7 +61,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     if (edits) {
       ImGui::SameLine();
       if (noted_button("Edit", edit_px)) versioned = choice.case_id;
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a new version of it, as a draft on the bench");
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("Opens a new version of it as a draft in the case editor");
     }
     ImGui::PopID();
   }
@@ -73,7 +73,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
 void draw_drafts(Trainer& trainer) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   ImGui::Spacing();
-  heading("On the bench");
+  heading("Drafts and reviews");
   if (!ImGui::BeginTable("drafts", 4, kTable)) return;
   ImGui::TableSetupColumn("Draft", ImGuiTableColumnFlags_WidthStretch, 5.3F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.2F);
@@ -92,7 +92,7 @@ void draw_drafts(Trainer& trainer) {
     ImGui::TableNextColumn();
     ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
-    if (noted_button("Bench", -1.0F)) opened = draft.case_id;
+    if (noted_button("Open draft", -1.0F)) opened = draft.case_id;
     ImGui::PopID();
   }
   ImGui::EndTable();

@@ -1,3 +1,5 @@
+#include "app/window/screens/panel_debrief.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -5,12 +7,19 @@
 
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
+#include "assessment/grading/plain_words.h"
+#include "assessment/grading/reason_words.h"
 #include "assessment/procedure/steps.h"
+#include "reports/words/attempt_words.h"
+#include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/shown_metrics.h"
 
 namespace seldinger::app {
 namespace {
+
+const ImVec4 kQuiet = {0.62F, 0.66F, 0.70F, 1.0F}, kLink = {0.62F, 0.86F, 0.97F, 1.0F};
 
 ImVec4 colour_of(assessment::Verdict verdict) {
   if (verdict == assessment::Verdict::passed) return {0.45F, 0.85F, 0.55F, 1.0F};
@@ -28,6 +37,13 @@ ImVec4 colour_of(const assessment::CriterionResult& result) {
   if (result.outcome == assessment::Outcome::met) return {0.45F, 0.85F, 0.55F, 1.0F};
   if (result.outcome == assessment::Outcome::missed) return {0.96F, 0.58F, 0.40F, 1.0F};
   return {0.80F, 0.82F, 0.84F, 1.0F};
+}
+
+// The value that was held against the limit, with as many digits as tell the two apart; or why there is none.
+std::string value_text(const assessment::CriterionResult& result) {
+  if (!result.value) return "—";
+  if (result.unit == "bool") return *result.value != 0.0 ? "yes" : "no";
+  return assessment::plain_apart(*result.value, result.criterion.value, result.unit).first;
 }
 
 // The experts' band on a line, where the trainee's value lies to it (a dot), and what was asked (a stroke).
@@ -49,41 +65,10 @@ void draw_band(const assessment::MetricBand& band, double value, const assessmen
   ImGui::Dummy({wide, high_px});
 }
 
-void draw_criteria(const Debrief& debrief) {
-  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
-  if (!ImGui::BeginTable("criteria", 5, kTable)) return;
-  ImGui::TableSetupColumn("To pass", ImGuiTableColumnFlags_WidthStretch, 2.6F);
-  ImGui::TableSetupColumn("asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
-  ImGui::TableSetupColumn("yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-  ImGui::TableSetupColumn("consultants", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-  ImGui::TableHeadersRow();
-  for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
-    const assessment::Criterion& criterion = result.criterion;
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::TextWrapped("%s", reports::metric_label(criterion.metric).c_str());
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(assessment::limit_text(criterion, result.unit).c_str());
-    ImGui::TableNextColumn();
-    const casedb::MetricValue* value = reports::find_metric(debrief.attempt.metrics, criterion.metric);
-    ImGui::TextUnformatted(value != nullptr ? reports::value_text(*value).c_str() : "–");
-    ImGui::TableNextColumn();
-    const std::string band = reports::band_text(debrief.grade.experts, criterion.metric, criterion.version);
-    if (!band.empty()) {
-      ImGui::TextUnformatted(band.c_str());
-      quiet(reports::tolerance_text(debrief.grade.experts, criterion.metric, criterion.version).c_str());
-      if (value != nullptr && value->value)
-        draw_band(*debrief.grade.experts.find(criterion.metric, criterion.version), *value->value, result);
-    }
-    ImGui::TableNextColumn();
-    ImGui::TextColored(colour_of(result), "%s", mark_of(result));
-  }
-  ImGui::EndTable();
-  const assessment::ExpertSet& experts = debrief.grade.experts;
-  quiet((reports::experts_text(experts) +
-         (experts.standard() ? " Bar: 10th to 90th percentile; dot: yours; stroke: asked." : ""))
-            .c_str());
+void wrapped(const ImVec4& colour, const std::string& words) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextWrapped("%s", words.c_str());
+  ImGui::PopStyleColor();
 }
 
 void draw_steps(const Debrief& debrief) {
@@ -95,48 +80,26 @@ void draw_steps(const Debrief& debrief) {
                                                                       : "✗";
     ImGui::Text("%s", mark);
     ImGui::SameLine(28.0F);
-    ImGui::TextWrapped("%s", info != nullptr ? info->words : step.id.c_str());
+    ImGui::TextWrapped("%s%s", info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
   }
 }
 
-}  // namespace
+void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
+  if (picture == nullptr || picture->width_px() <= 0) return;
+  ImGui::Spacing();
+  const float across = std::min(ImGui::GetContentRegionAvail().x, 420.0F);
+  quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
+                                                         : "The last picture:");
+  ImGui::Image(
+      reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->name())),
+      {across, across * static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())});
+}
 
-void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPicture* picture) {
-  const Debrief& debrief = *trainer.debrief();
-  begin_screen("debrief");
-  heading(trainer.chosen().title.c_str());
-  ImGui::SetWindowFontScale(1.6F);
-  ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
-                     reports::verdict_text(debrief.grade.grade).c_str());
-  ImGui::SetWindowFontScale(1.0F);
-  if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
-  ImGui::Spacing();
-  for (const assessment::Sentence& sentence : debrief.grade.debrief) {
-    ImGui::Bullet();
-    ImGui::TextWrapped("%s", sentence.text.c_str());
-  }
-  ImGui::Spacing();
-  const float high = ImGui::GetContentRegionAvail().y - 50.0F;
-  const float wide = ImGui::GetContentRegionAvail().x;
-  ImGui::BeginChild("criteria", {0.60F * wide - 8.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-  draw_criteria(debrief);
-  ImGui::Spacing();
-  if (picture != nullptr && picture->width_px() > 0) {
-    const float across = std::min(ImGui::GetContentRegionAvail().x, 420.0F);
-    quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
-                                                           : "The last picture:");
-    ImGui::Image(
-        reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->name())),
-        {across, across * static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())});
-  }
-  ImGui::EndChild();
-  ImGui::SameLine();
-  ImGui::BeginChild("steps", {0.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-  heading("Steps");
-  draw_steps(debrief);
-  ImGui::EndChild();
-  // Done after the screen is drawn: what it shows goes with the debrief.
-  enum class Wish { none, next, again, watch, expert, cases, log_out } wish = Wish::none;
+// Done after the screen is drawn: what it shows goes with the debrief.
+enum class Wish { none, next, again, watch, expert, cases, log_out };
+
+Wish draw_buttons(Trainer& trainer, const Keys& keys, bool escapes) {
+  Wish wish = Wish::none;
   const auto button = [&](const char* words, int key, Wish its) {
     if (noted_button(words) || (key != 0 && keys.pressed(key))) wish = its;
     ImGui::SameLine();
@@ -150,13 +113,207 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   if (!trainer.trying()) button("Watch it again (W)", 'W', Wish::watch);
   if (!trainer.expert_attempt().empty()) button("Watch an expert (E)", 'E', Wish::expert);
   if (trainer.trying())
-    button("Back to the bench (Esc)", kEscape, Wish::cases);
+    button("Back to the case editor (Esc)", escapes ? static_cast<int>(kEscape) : 0, Wish::cases);
   else
     button("Cases", 0, Wish::cases);
   button("Log out", 0, Wish::log_out);
   quiet(kTrainingOnly);
+  return wish;
+}
+
+}  // namespace
+
+void DebriefPanel::line(const char* name, std::string_view metric_id, int version, std::string words,
+                        bool underlined) {
+  const int own = static_cast<int>(lines_.size());
+  lines_.push_back({std::string(metric_id), std::move(words), version});
+  note_item(name);
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  if (underlined) draw->AddLine({from.x, to.y}, {to.x, to.y}, IM_COL32(158, 219, 247, 110));
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (hovered || asked_ == own)
+    draw->AddRectFilled({from.x - 4.0F, from.y - 2.0F}, {to.x + 4.0F, to.y + 2.0F},
+                        asked_ == own ? IM_COL32(110, 180, 215, 60) : IM_COL32(110, 180, 215, 30), 3.0F);
+  if (asked_ == own && sought_) {
+    ImGui::SetScrollHereY();
+    sought_ = false;
+  }
+  if (ImGui::IsItemClicked()) asked_ = own;
+}
+
+// Escape closes the definition before it leaves the screen; Down and Up go through what was measured.
+void DebriefPanel::read_keys(const Keys& keys) {
+  const int all = static_cast<int>(lines_.size());
+  if (keys.pressed('A')) {
+    all_ = !all_;
+    asked_ = -1;
+    return;
+  }
+  const int step = (keys.pressed(kDown) ? 1 : 0) - (keys.pressed(kUp) ? 1 : 0);
+  if (step != 0 && all > 0) {
+    asked_ = asked_ < 0 ? (step > 0 ? 0 : all - 1) : std::clamp(asked_ + step, 0, all - 1);
+    sought_ = true;
+  }
+  if (keys.pressed(kEscape)) asked_ = -1;
+}
+
+void DebriefPanel::draw_sentences(const Debrief& debrief) {
+  int number = 0;
+  for (const assessment::Sentence& sentence : debrief.grade.debrief) {
+    const std::string name = "Sentence " + std::to_string(++number);
+    ImGui::Bullet();
+    ImGui::TextWrapped("%s", sentence.text.c_str());
+    if (!sentence.metric_id.empty()) line(name.c_str(), sentence.metric_id, 0, sentence.text, false);
+  }
+}
+
+void DebriefPanel::draw_criteria(const Debrief& debrief) {
+  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  if (debrief.grade.grade.criteria.empty()) return;
+  const assessment::ExpertSet& experts = debrief.grade.experts;
+  const bool banded = experts.standard();
+  if (!ImGui::BeginTable("criteria", banded ? 5 : 4, kTable)) return;
+  ImGui::TableSetupColumn("To pass", ImGuiTableColumnFlags_WidthStretch, 2.6F);
+  ImGui::TableSetupColumn("Asked", ImGuiTableColumnFlags_WidthStretch, 1.3F);
+  ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  if (banded) ImGui::TableSetupColumn("Consultants", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableSetupColumn("Result", ImGuiTableColumnFlags_WidthStretch, 1.2F);
+  ImGui::TableHeadersRow();
+  for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
+    const assessment::Criterion& criterion = result.criterion;
+    const std::string label = reports::metric_label(criterion.metric), own = value_text(result);
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    wrapped(kLink, label);
+    line(label.c_str(), criterion.metric, criterion.version,
+         result.value ? "Yours: " + own : "Yours: no value, as " + assessment::reason_words(result.reason), true);
+    ImGui::TableNextColumn();
+    ImGui::TextWrapped("%s", assessment::limit_text(criterion, result.unit).c_str());
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(own.c_str());
+    if (banded) ImGui::TableNextColumn();
+    const std::string band = reports::band_text(experts, criterion.metric, criterion.version);
+    if (!band.empty()) {
+      ImGui::TextWrapped("%s", band.c_str());
+      quiet(reports::tolerance_text(experts, criterion.metric, criterion.version).c_str());
+      if (result.value) draw_band(*experts.find(criterion.metric, criterion.version), *result.value, result);
+    }
+    ImGui::TableNextColumn();
+    wrapped(colour_of(result), mark_of(result));
+  }
+  ImGui::EndTable();
+  quiet((reports::experts_text(experts) +
+         (experts.standard() ? " Bar: 10th to 90th percentile; dot: yours; stroke: asked." : ""))
+            .c_str());
+}
+
+void DebriefPanel::draw_values(const Debrief& debrief) {
+  constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
+  for (const std::string& group : reports::metric_groups()) {
+    const auto metrics = reports::shown_metrics(debrief.attempt, group);
+    if (metrics.empty() || !ImGui::BeginTable(group.c_str(), 2, kTable)) continue;
+    ImGui::TableSetupColumn(group.c_str(), ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+    ImGui::TableHeadersRow();
+    for (const casedb::MetricValue* metric : metrics) {
+      const std::string label = reports::metric_label(metric->id), why = reports::reason_text(*metric);
+      const std::string own = reports::value_text(*metric);
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      wrapped(kLink, label);
+      line(label.c_str(), metric->id, metric->version, why.empty() ? "Yours: " + own : "Yours: no value, as " + why,
+           true);
+      ImGui::TableNextColumn();
+      if (why.empty())
+        ImGui::TextWrapped("%s", own.c_str());
+      else
+        wrapped(kQuiet, "— " + why);
+    }
+    ImGui::EndTable();
+    ImGui::Spacing();
+  }
+}
+
+void DebriefPanel::draw_measured(const Debrief& debrief, const gpu::ScreenPicture* picture) {
+  if (all_)
+    draw_values(debrief);
+  else
+    draw_criteria(debrief);
+  draw_picture(debrief, picture);
+}
+
+void DebriefPanel::draw_definition() {
+  const Line& about = lines_[static_cast<std::size_t>(asked_)];
+  if (card_.id != about.metric_id || about_.version != about.version || about_.words != about.words) {
+    card_ = reports::metric_card(about.metric_id, about.version);
+    about_ = about;
+  }
+  heading(card_.label.c_str());
+  note_item(("Definition of " + card_.label).c_str());
+  ImGui::TextWrapped("%s", about_.words.c_str());
+  ImGui::Spacing();
+  ImGui::TextWrapped("%s", card_.definition.c_str());
+  for (const reports::CardLine& one : card_.lines) {
+    ImGui::Spacing();
+    wrapped(kQuiet, one.name);
+    ImGui::TextWrapped("%s", one.text.c_str());
+  }
+  ImGui::Spacing();
+  if (noted_button("Back to the steps (Esc)")) asked_ = -1;
+}
+
+void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPicture* picture) {
+  const Debrief& debrief = *trainer.debrief();
+  if (attempt_id_ != debrief.attempt.attempt_id) {
+    attempt_id_ = debrief.attempt.attempt_id;
+    lines_.clear();
+    asked_ = -1;
+    all_ = false;
+  }
+  const bool escapes = asked_ < 0;
+  read_keys(keys);
+  lines_.clear();
+  begin_screen("debrief");
+  heading(trainer.chosen().title.c_str());
+  ImGui::SetWindowFontScale(1.6F);
+  ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
+                     reports::verdict_text(debrief.grade.grade).c_str());
+  ImGui::SetWindowFontScale(1.0F);
+  if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
+  if (const std::string away = reports::away_text(debrief.attempt); !away.empty()) quiet(away.c_str());
+  const std::string made = reports::conditions_text(debrief.attempt.conditions, std::nullopt);
+  if (!made.empty()) quiet(("Made with " + made + ".").c_str());
+  ImGui::Spacing();
+  draw_sentences(debrief);
+  ImGui::Spacing();
+  if (noted_button(all_ ? "To pass (A)" : "All values (A)")) {
+    all_ = !all_;
+    asked_ = -1;
+  }
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  quiet("Click on a line, or press Down, for what was measured and how.");
+  const float high = ImGui::GetContentRegionAvail().y - 50.0F;
+  const float wide = ImGui::GetContentRegionAvail().x;
+  ImGui::BeginChild("criteria", {0.60F * wide - 8.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_measured(debrief, picture);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  asked_ = std::min(asked_, static_cast<int>(lines_.size()) - 1);
+  ImGui::BeginChild(asked_ < 0 ? "steps" : "definition", {0.0F, high}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  if (asked_ < 0) {
+    heading("Steps");
+    draw_steps(debrief);
+  } else {
+    draw_definition();
+  }
+  ImGui::EndChild();
+  const Wish wish = draw_buttons(trainer, keys, escapes);
   end_screen();
-  if (wish == Wish::next) trainer.choose(std::string(next->case_id));
+  if (wish == Wish::next) trainer.choose(std::string(trainer.next()->case_id));
   if (wish == Wish::again) trainer.again();
   if (wish == Wish::watch) trainer.watch(std::string(debrief.attempt.attempt_id));
   if (wish == Wish::expert) trainer.watch(std::string(trainer.expert_attempt()));

@@ -208,7 +208,7 @@ void EditorPanel::draw_help() {
   if (!help_) return;
   ImGui::SetNextWindowPos({60.0F, 120.0F}, ImGuiCond_Always);
   ImGui::SetNextWindowSize({760.0F, 0.0F});
-  ImGui::Begin("The bench", &help_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Begin("The case editor", &help_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextWrapped("%s", kHelp);
   ImGui::End();
 }
@@ -241,7 +241,7 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
     texts_.clear();
     setting_in_hand_ = form_in_hand_ = structure_in_hand_ = false;
   }
-  begin_screen("bench");
+  begin_screen("editor");
   draw_top(trainer);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const float wide = std::floor(0.5F * (all.x - kRightPx - 12.0F)), high = std::floor(0.5F * (all.y - 6.0F));

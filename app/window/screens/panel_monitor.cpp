@@ -27,6 +27,7 @@ void MonitorPanel::begin(const cases::Case& scene) {
   shown_ = {};
   knobs_.begin(scene.picture);
   calipers_.clear();
+  measured_mm_.reset();
   measuring_ = frozen_ = false;
   dose_from_s_ = dose_from_mgy_ = dose_mgy_min_ = 0.0;
   kept_.reset();
@@ -102,7 +103,10 @@ void MonitorPanel::measure(float left, float top, float zoom) {
     const glm::dvec2 at_mm = mm_of(shown_, flip, {(mouse.x - left) / zoom - 0.5F, (mouse.y - top) / zoom - 0.5F});
     if (ImGui::IsItemActivated()) calipers_.press(at_mm, kCaliperReachPx / zoom * shown_.pixel_mm);
     if (ImGui::IsItemActive()) calipers_.drag(at_mm);
-    if (ImGui::IsItemDeactivated()) calipers_.release();
+    if (ImGui::IsItemDeactivated()) {
+      if (const auto caliper = calipers_.held()) measured_mm_ = calipers_.depth_mm(*caliper);
+      calipers_.release();
+    }
   }
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const auto place = [&](const glm::dvec2& end_mm) {

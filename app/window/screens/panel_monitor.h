@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/replay/canvas.h"
@@ -33,6 +34,8 @@ class MonitorPanel {
   const gpu::ScreenPicture& picture() const noexcept { return picture_; }
   const ConsoleKnobs& knobs() const noexcept { return knobs_; }
 
+  // The depth that calipers measured from the face down, once each time they are let go.
+  std::optional<double> take_depth_mm() noexcept { return std::exchange(measured_mm_, std::nullopt); }
   // The guidance's picture, once, where somebody asked to keep it.
   std::optional<Canvas> take_kept();
   // Shown at the picture for a moment.
@@ -62,6 +65,7 @@ class MonitorPanel {
   cases::FluoroscopyState machine_state_;
   ConsoleKnobs knobs_;
   Calipers calipers_;
+  std::optional<double> measured_mm_;  // not yet taken
   bool measuring_ = false, frozen_ = false;
   int notches_ = 0;  // of the wheel, over the picture, in this frame
   double dose_from_s_ = 0.0, dose_from_mgy_ = 0.0, dose_mgy_min_ = 0.0;  // lately

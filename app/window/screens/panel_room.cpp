@@ -135,10 +135,11 @@ void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& ke
   if (room_) move_camera(*room_, scene, seen.moment.state, keys, elapsed_s);
 }
 
-void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
-                      const OtherHands& other, double elapsed_s, devices::HandIntent& sum) {
+std::optional<cases::HandKind> RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer,
+                                                double wheel, const OtherHands& other, double elapsed_s,
+                                                devices::HandIntent& sum) {
   const Pointer before = std::exchange(pointer_, pointer);
-  if (!room_ || !begun_) return;
+  if (!room_ || !begun_) return std::nullopt;
   devices::MouseEvents events;
   events.elapsed_s = elapsed_s;
   events.actions = held_actions(keys);
@@ -155,9 +156,26 @@ void RoomPanel::hands(const Seen& seen, const Keys& keys, const Pointer& pointer
   const cases::ToolPose held = pose_of_held(seen);
   const devices::HandView view = hand_view(*room_, held, size_px_[1]);
   devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
-  if (other.gamepad) devices::join(room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s), intent);
-  if (other.space_mouse) devices::join(room_->space_mouse.intent(*other.space_mouse, view, elapsed_s), intent);
+  std::optional<cases::HandKind> leads;
+  double most = 0.0;
+  const auto look = [&](cases::HandKind hand, const devices::HandIntent& its) {
+    const double way = devices::way_of(its);
+    if (way > most) leads = hand;
+    most = std::max(most, way);
+  };
+  look(cases::HandKind::mouse, intent);
+  if (other.gamepad) {
+    const devices::HandIntent its = room_->gamepad.intent(*other.gamepad, view, seen.held, held, elapsed_s);
+    look(cases::HandKind::gamepad, its);
+    devices::join(its, intent);
+  }
+  if (other.space_mouse) {
+    const devices::HandIntent its = room_->space_mouse.intent(*other.space_mouse, view, elapsed_s);
+    look(cases::HandKind::space_mouse, its);
+    devices::join(its, intent);
+  }
   devices::add(intent, sum);
+  return leads;
 }
 
 void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {

@@ -8,6 +8,7 @@
 
 #include "app/window/hands/person_attempt.h"
 #include "app/window/surface/window.h"
+#include "sim/case/hand_kind.h"
 #include "sim/devices/hands/gamepad_hands.h"
 #include "sim/devices/hands/mouse_hands.h"
 #include "sim/devices/hands/space_mouse.h"
@@ -40,9 +41,10 @@ class RoomPanel {
   // It takes what room there is, and the camera goes on.
   void place(const cases::Case& scene, const Seen& seen, const Keys& keys, double elapsed_s);
   // What mouse, keys and `other` want since the last call is added to `sum`: in a frame once the room is placed,
-  // and between frames. `wheel`: notches.
-  void hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel, const OtherHands& other,
-             double elapsed_s, devices::HandIntent& sum);
+  // and between frames. `wheel`: notches. What of them moves the tool, the most of it where it is several; nothing:
+  // none does.
+  std::optional<cases::HandKind> hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
+                                       const OtherHands& other, double elapsed_s, devices::HandIntent& sum);
   bool under_pointer() const noexcept { return over_ || dragging_; }  // when it was placed
   // Where it was placed, of the newest that is seen.
   void draw(const cases::Case& scene, const Seen& seen, int help);

@@ -10,7 +10,6 @@
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 #include "sim/base/training_only.h"
-#include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
 
@@ -44,12 +43,6 @@ class BriefingPanel {
   std::string case_id_;
   std::array<bool, 5> checked_{};
   bool resume_ = false;
-};
-
-class DebriefPanel {
- public:
-  // `picture`: when the trigger fell; may be null.
-  void draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPicture* picture);
 };
 
 // Pieces that several screens have.

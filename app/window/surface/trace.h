@@ -15,7 +15,7 @@
 
 namespace seldinger::app {
 
-// What is on the case editor.
+// What is in the case editor.
 struct EditorTrace {
   std::string state, refusal;
   bool checking = false, entry = false;

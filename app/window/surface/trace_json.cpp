@@ -29,16 +29,16 @@ std::string json_of(const TraceLine& line) {
   if (!line.sounds.empty()) json["sounds"] = line.sounds;
   if (line.editor) {
     const EditorTrace& editor = *line.editor;
-    json["bench"] = {{"state", editor.state},
-                     {"refusal", editor.refusal},
-                     {"checking", editor.checking},
-                     {"entry", editor.entry},
-                     {"lesions", editor.lesions},
-                     {"structures", editor.structures},
-                     {"failing", editor.failing},
-                     {"holding", editor.holding},
-                     {"cursor_lps_mm", {editor.cursor_lps_mm.x, editor.cursor_lps_mm.y, editor.cursor_lps_mm.z}},
-                     {"mm_per_pixel", editor.mm_per_pixel}};
+    json["editor"] = {{"state", editor.state},
+                      {"refusal", editor.refusal},
+                      {"checking", editor.checking},
+                      {"entry", editor.entry},
+                      {"lesions", editor.lesions},
+                      {"structures", editor.structures},
+                      {"failing", editor.failing},
+                      {"holding", editor.holding},
+                      {"cursor_lps_mm", {editor.cursor_lps_mm.x, editor.cursor_lps_mm.y, editor.cursor_lps_mm.z}},
+                      {"mm_per_pixel", editor.mm_per_pixel}};
   }
   if (!line.arms.empty()) json["arms"] = line.arms;
   if (!line.asks.empty()) json["asks"] = line.asks;

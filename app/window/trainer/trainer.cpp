@@ -240,6 +240,7 @@ void Trainer::again() {
       screen_ == TrainerScreen::editor)
     return;
   if (screen_ == TrainerScreen::debrief && !once_more()) return;
+  if (attempt_ && attempt_->phase() == PersonAttempt::Phase::running) attempt_->end_to_begin_again();
   const bool prepared = attempt_ && attempt_->phase() != PersonAttempt::Phase::preparing;
   restarting_ = true;
   prepare(prepared ? attempt_->task() : nullptr);
@@ -251,7 +252,9 @@ bool Trainer::begin(bool left_handed) {
   restarting_ = false;
   if (interrupted_ && !trying_) session::close_interrupted_attempt(library_, *interrupted_);
   interrupted_.reset();
+  tell_conditions();
   attempt_->begin(left_handed);
+  attempt_->say(cases::EventKind::calipers_recorded);
   if (chosen_.subject == cases::Subject::patient) attempt_->say(cases::EventKind::sign_in);
   screen_ = TrainerScreen::attempt;
   return true;
@@ -263,9 +266,21 @@ bool Trainer::resume(bool left_handed) {
     return false;
   restarting_ = false;
   resuming_ = true;
+  tell_conditions();
   attempt_->resume(interrupted_->attempt_id, left_handed);
   interrupted_.reset();
   return true;
+}
+
+// What helps, and what was seen before.
+void Trainer::tell_conditions() {
+  const casedb::ReplaysWatched watched =
+      casedb::count_replays_watched(library_, account_.person_id, chosen_.case_id);
+  attempt_->know([&](casedb::Conditions& conditions) {
+    conditions.help_level = help_;
+    conditions.expert_replays = watched.others;
+    conditions.own_replays = watched.own;
+  });
 }
 
 void Trainer::watch(const std::string& attempt_id) {
@@ -273,6 +288,7 @@ void Trainer::watch(const std::string& attempt_id) {
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   refusal_.clear();
   watched_from_ = screen_;
+  watched_id_ = attempt_id;
   watched_ = std::make_unique<session::WatchedAttempt>(library_.folder(), attempt_id, by_);
   screen_ = TrainerScreen::watch;
 }
@@ -292,6 +308,7 @@ Debrief Trainer::debrief_of_try() {
   row.lesion = task->lesion.lesion;
   row.end = made.end;
   row.metrics = made.metrics;
+  row.conditions = made.conditions;
   return {row, casedb::Grader(library_).look_at(row), made.steps};
 }
 
@@ -300,6 +317,11 @@ void Trainer::look() {
   if (watched_ && watched_->phase() == session::WatchedAttempt::Phase::refused) {
     refusal_ = watched_->error().text;
     stop_watching();
+  }
+  if (watched_ && !watched_id_.empty() && watched_->phase() != session::WatchedAttempt::Phase::preparing) {
+    // Whoever is not in the library any more watches as nobody.
+    static_cast<void>(casedb::note_replay_watched(library_, account_.person_id, watched_id_));
+    watched_id_.clear();
   }
   if (editor_ && screen_ == TrainerScreen::editor) editor_->look();
   if (!attempt_) return;

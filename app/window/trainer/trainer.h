@@ -124,6 +124,7 @@ class Trainer {
   void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const session::Task> task);
+  void tell_conditions();
   Debrief debrief_of_try();
 
   casedb::Library library_;
@@ -138,6 +139,7 @@ class Trainer {
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
   std::unique_ptr<session::WatchedAttempt> watched_;
+  std::string watched_id_;  // until it is noted that it is watched
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
   std::unique_ptr<CaseEditor> editor_;
   std::unique_ptr<DevicePage> device_page_;

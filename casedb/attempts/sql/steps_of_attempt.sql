@@ -1,5 +1,5 @@
 -- Of each step the newest version, in order.
-SELECT step_id, version, state, t_s, reason
+SELECT step_id, version, state, t_s, reason, how
 FROM attempt_step AS this
 WHERE attempt_id = :attempt_id
   AND version = (

@@ -1,2 +1,2 @@
--- Whether there is such a person.
-SELECT EXISTS (SELECT 1 FROM person WHERE person_id = :person_id) AS found
+-- Whether there is such a person, who has not been erased.
+SELECT EXISTS (SELECT 1 FROM person WHERE person_id = :person_id AND erased_us IS NULL) AS found

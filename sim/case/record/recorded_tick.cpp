@@ -8,8 +8,10 @@ PoseSample pose_of(const State& state) {
 }
 
 void add_events(double t_s, const RecordedTick& tick, std::vector<Event>& events) {
-  for (const EventKind kind : {tick.inputs.event, tick.reaction})
-    if (kind != EventKind::none) events.push_back({t_s, kind});
+  if (tick.inputs.event != EventKind::none)
+    events.push_back({t_s, tick.inputs.event, 0.0, tick.inputs.event_tenths_mm});
+  if (tick.reaction != EventKind::none) events.push_back({t_s, tick.reaction});
+  if (tick.noted != EventKind::none) events.push_back({t_s, tick.noted, tick.noted_wall_s});
 }
 
 }  // namespace seldinger::cases

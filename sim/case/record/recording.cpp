@@ -11,8 +11,8 @@ namespace seldinger::cases {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x524c4453;  // "SDLR"
-constexpr std::uint32_t kFormat = 6, kFormatWithoutConsole = 5, kFormatWithoutEvents = 4, kFormatWithoutForces = 3,
-                        kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
+constexpr std::uint32_t kFormat = 7, kFormatWithoutPauses = 6, kFormatWithoutConsole = 5, kFormatWithoutEvents = 4,
+                        kFormatWithoutForces = 3, kFormatWithoutNearPlane = 2, kFormatWithoutFluoroscope = 1;
 constexpr std::uint32_t kMaxRows = 50'000;  // per chunk, 25 kHz: bounds what damaged bytes can make us allocate
 
 constexpr std::uint32_t kNotListened = 0xffff'ffff;
@@ -29,7 +29,7 @@ struct Header {
 static_assert(sizeof(Header) == 104);
 constexpr std::size_t kHeaderWithoutForces = 96;
 
-enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4 };
+enum UsedBit : std::uint32_t { kFluoroscope = 1, kMoves = 2, kConsole = 4, kPauses = 8 };
 
 struct Piece {
   Rows inputs, poses, forces, frames, events;
@@ -51,6 +51,13 @@ bool uses_fluoroscope(const Recording& recording, const Piece& piece) {
 bool turns_console(const Recording& recording, const Piece& piece) {
   for (std::size_t i = piece.inputs.first; i < piece.inputs.end; ++i)
     if (!(recording.inputs[i].console == ConsoleSetting{})) return true;
+  return false;
+}
+
+// Whether an event of a chunk says how long by the wall's clock.
+bool pauses(const Recording& recording, const Piece& piece) {
+  for (std::size_t i = piece.events.first; i < piece.events.end; ++i)
+    if ((*recording.events)[i].wall_s != 0.0) return true;
   return false;
 }
 
@@ -79,8 +86,8 @@ Header header_of(const Recording& recording, const Piece& piece, const ChunkLayo
       header.endpoint[4 + axis] = endpoint.direction[axis];
     }
   }
-  header.used =
-      (layout.fluoroscope ? kFluoroscope : 0U) | (layout.moving ? kMoves : 0U) | (layout.console ? kConsole : 0U);
+  header.used = (layout.fluoroscope ? kFluoroscope : 0U) | (layout.moving ? kMoves : 0U) |
+                (layout.console ? kConsole : 0U) | (layout.pauses ? kPauses : 0U);
   return header;
 }
 
@@ -89,6 +96,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   layout.fluoroscope = uses_fluoroscope(recording, piece);
   layout.moving = moves(recording, piece);
   layout.console = turns_console(recording, piece);
+  layout.pauses = pauses(recording, piece);
   const Header header = header_of(recording, piece, layout);
   std::vector<std::byte> raw(sizeof header);
   std::memcpy(raw.data(), &header, sizeof header);
@@ -96,7 +104,7 @@ RecordingChunk make_chunk(const Recording& recording, std::uint32_t sequence, co
   append_poses(recording, piece.poses, layout, raw);
   append_forces(recording, piece.forces, raw);
   append_frames(recording, piece.frames, layout, raw);
-  append_events(recording, piece.events, raw);
+  append_events(recording, piece.events, layout, raw);
   if (layout.moving && piece.with_endpoint) append_endpoint_at_rest(recording, raw);
 
   RecordingChunk chunk;
@@ -114,7 +122,8 @@ std::size_t size_of_header(std::uint32_t format) {
 std::uint32_t used_bits(std::uint32_t format) {
   if (format == kFormatWithoutFluoroscope) return 0;
   if (format <= kFormatWithoutEvents) return kFluoroscope;
-  return format <= kFormatWithoutConsole ? kFluoroscope | kMoves : kFluoroscope | kMoves | kConsole;
+  if (format <= kFormatWithoutConsole) return kFluoroscope | kMoves;
+  return kFluoroscope | kMoves | kConsole | (format > kFormatWithoutPauses ? kPauses : 0U);
 }
 
 // The header of a chunk in any known format, its later fields as the newest format would have them.
@@ -139,6 +148,7 @@ ChunkLayout layout_of(const Header& header) {
   layout.fluoroscope = (header.used & kFluoroscope) != 0;
   layout.moving = (header.used & kMoves) != 0;
   layout.console = (header.used & kConsole) != 0;
+  layout.pauses = (header.used & kPauses) != 0;
   layout.listened = header.events != kNotListened;
   layout.near_plane = header.format > kFormatWithoutNearPlane;
   return layout;
@@ -151,7 +161,8 @@ bool has_its_size(const Header& header, const ChunkLayout& layout, std::size_t b
     if (rows > kMaxRows) return false;
   const std::size_t words = header.inputs * layout.input_columns() + header.poses * layout.pose_columns() +
                             header.forces * kForceColumns + header.frames * layout.frame_columns() +
-                            events * kEventColumns + (layout.moving && header.has_endpoint != 0 ? kRestColumns : 0);
+                            events * layout.event_columns() +
+                            (layout.moving && header.has_endpoint != 0 ? kRestColumns : 0);
   return bytes == size_of_header(header.format) + 8 * words;
 }
 
@@ -186,7 +197,7 @@ base::Result<void> add_chunk(const RecordingChunk& chunk, const std::string& whe
   read_poses(from, header->poses, layout, recording);
   read_forces(from, header->forces, recording);
   read_frames(from, header->frames, layout, recording);
-  const auto events = read_events(from, layout.listened ? header->events : 0, recording);
+  const auto events = read_events(from, layout.listened ? header->events : 0, layout, recording);
   if (!events) return base::Error{events.error().code, where + " " + events.error().text};
   if (layout.moving && header->has_endpoint != 0) read_endpoint_at_rest(from, recording);
   return {};

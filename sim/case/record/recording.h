@@ -87,8 +87,8 @@ struct Recording {
   std::vector<PoseSample> poses;      // 100 Hz
   std::vector<ForceSample> forces;    // 100 Hz, each beside its pose; empty: nothing was to be felt
   std::vector<FrameTruth> frames;     // the picture's rate; a fluoroscope's: each pulse, and when its time is over
-  // What was said, asked for and answered, by rising time; nothing: it was not listened to (a pose file, a
-  // recording before format 5), and what is missing is no omission.
+  // What was said, asked for and answered, and what became of hands and clock, by rising time; nothing: it was not
+  // listened to (a pose file, a recording before format 5), and what is missing is no omission.
   std::optional<std::vector<Event>> events{};
   std::optional<Endpoint> endpoint;
 };
@@ -104,7 +104,8 @@ struct RecordingChunk {
 // format 2 a chunk in which the fluoroscope was used holds its inputs, exposures and beams too; since format 3
 // frames of ultrasound say what was near its plane; since format 4 there are forces, since format 5 events and, of
 // a patient who moves, where tips are at rest; since format 6 a chunk in which the console was not as the case has
-// it holds how it stood. Formats 1 to 5, without, are read too.
+// it holds how it stood; since format 7 one with a pause holds how long it was.
+// Formats 1 to 6, without, are read too; so are those whose events, in bits that were 0 then, tell no length.
 std::vector<RecordingChunk> chunks_from_recording(const Recording& recording);
 
 constexpr double kChunkSeconds = 2.0;

@@ -1,6 +1,7 @@
 #include "sim/case/record/recording_rows.h"
 
 #include <bit>
+#include <cmath>
 
 namespace seldinger::cases {
 namespace {
@@ -10,7 +11,9 @@ static_assert(kMaxInputColumns == kInputColumns + kFluoroscopeColumns + kConsole
 
 // The flags of a row share one word.
 enum InputBit : unsigned { kFire = 1, kFreeze = 2, kPedal = 4, kAutomatic = 8, kHandAway = 16, kHandInBeam = 32 };
-constexpr unsigned kEventShift = 8;  // the event's kind, eight bits
+constexpr unsigned kEventShift = 8;         // the event's kind, eight bits …
+constexpr unsigned kEventLengthShift = 16;  // … and its length, sixteen; 0 in recordings that knew of none
+constexpr unsigned kLengthShift = 8;        // of a row of an event
 enum FrameBit : unsigned {
   kLive = 1,
   kNeedleTip = 2,
@@ -159,6 +162,10 @@ std::size_t ChunkLayout::frame_columns() const noexcept {
   return fluoroscope ? 11 : 3;
 }
 
+std::size_t ChunkLayout::event_columns() const noexcept {
+  return pauses ? 3 : 2;
+}
+
 void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out) {
   std::vector<std::uint64_t> words(rows.count() * layout.input_columns());
   std::uint64_t* at = words.data();
@@ -170,7 +177,8 @@ void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& lay
     *at++ = (inputs.fire ? kFire : 0U) | (inputs.freeze ? kFreeze : 0U) | (asked.pedal ? kPedal : 0U) |
             (layout.fluoroscope && asked.automatic_exposure ? kAutomatic : 0U) |
             (asked.hand_away ? kHandAway : 0U) | (inputs.exposure.hand_in_beam ? kHandInBeam : 0U) |
-            std::uint64_t{static_cast<std::uint8_t>(inputs.event)} << kEventShift;
+            std::uint64_t{static_cast<std::uint8_t>(inputs.event)} << kEventShift |
+            std::uint64_t{inputs.event_tenths_mm} << kEventLengthShift;
     *at++ = recording.hashes[i];
     if (layout.fluoroscope) put(at, asked, inputs.exposure);
     if (layout.console) put(at, inputs.console);
@@ -221,14 +229,16 @@ void append_frames(const Recording& recording, Rows rows, const ChunkLayout& lay
   append_table(out, words, layout.frame_columns());
 }
 
-void append_events(const Recording& recording, Rows rows, std::vector<std::byte>& out) {
-  std::vector<std::uint64_t> words(rows.count() * kEventColumns);
+void append_events(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out) {
+  std::vector<std::uint64_t> words(rows.count() * layout.event_columns());
   std::uint64_t* at = words.data();
   for (std::size_t i = rows.first; i < rows.end; ++i) {
-    put(at, (*recording.events)[i].t_s);
-    *at++ = static_cast<std::uint8_t>((*recording.events)[i].kind);
+    const Event& event = (*recording.events)[i];
+    put(at, event.t_s);
+    *at++ = static_cast<std::uint8_t>(event.kind) | std::uint64_t{event.tenths_mm} << kLengthShift;
+    if (layout.pauses) put(at, event.wall_s);
   }
-  append_table(out, words, kEventColumns);
+  append_table(out, words, layout.event_columns());
 }
 
 void append_endpoint_at_rest(const Recording& recording, std::vector<std::byte>& out) {
@@ -251,6 +261,7 @@ base::Result<void> read_inputs(const std::byte*& from, std::size_t count, const 
     in.freeze = (bits & kFreeze) != 0;
     if (layout.listened) {
       in.event = static_cast<EventKind>(bits >> kEventShift & 0xffU);
+      in.event_tenths_mm = static_cast<std::uint16_t>(bits >> kEventLengthShift & 0xffffU);
       if (in.event != EventKind::none && find_event(in.event) == nullptr) return unknown_event();
     }
     recording.hashes.push_back(static_cast<std::uint32_t>(*at++));
@@ -312,15 +323,20 @@ void read_frames(const std::byte*& from, std::size_t count, const ChunkLayout& l
   }
 }
 
-base::Result<void> read_events(const std::byte*& from, std::size_t count, Recording& recording) {
-  const auto words = table_at(from, count, kEventColumns);
+base::Result<void> read_events(const std::byte*& from, std::size_t count, const ChunkLayout& layout,
+                               Recording& recording) {
+  const auto words = table_at(from, count, layout.event_columns());
   const std::uint64_t* at = words.data();
   for (std::size_t row = 0; row < count; ++row) {
     Event& event = recording.events->emplace_back();
     event.t_s = get(at);
-    const std::uint64_t kind = *at++;
-    event.kind = static_cast<EventKind>(kind);
-    if (kind > 0xffU || find_event(event.kind) == nullptr) return unknown_event();
+    const std::uint64_t word = *at++;
+    event.kind = static_cast<EventKind>(word & 0xffU);
+    event.tenths_mm = static_cast<std::uint16_t>(word >> kLengthShift & 0xffffU);
+    if (word > 0xff'ffffU || find_event(event.kind) == nullptr) return unknown_event();
+    if (layout.pauses) event.wall_s = get(at);
+    if (!(event.wall_s >= 0.0 && std::isfinite(event.wall_s)))
+      return base::Error{"damaged", "holds a pause without a sound length"};
   }
   return {};
 }

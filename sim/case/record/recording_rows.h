@@ -18,12 +18,14 @@ struct ChunkLayout {
   bool console = false;      // how the ultrasound console was set
   bool listened = true;      // events were recorded
   bool near_plane = true;    // frames say what lies near the picture's plane
+  bool pauses = false;       // events say how long by the wall's clock
 
   std::size_t input_columns() const noexcept;
   std::size_t pose_columns() const noexcept;
   std::size_t frame_columns() const noexcept;
+  std::size_t event_columns() const noexcept;
 };
-constexpr std::size_t kForceColumns = 4, kEventColumns = 2, kRestColumns = 3;
+constexpr std::size_t kForceColumns = 4, kRestColumns = 3;
 constexpr std::size_t kMaxInputColumns = 41, kMaxPoseColumns = 19;
 
 // Rows `first` to `end` of one of a recording's tables.
@@ -36,17 +38,18 @@ void append_inputs(const Recording& recording, Rows rows, const ChunkLayout& lay
 void append_poses(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out);
 void append_forces(const Recording& recording, Rows rows, std::vector<std::byte>& out);
 void append_frames(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out);
-void append_events(const Recording& recording, Rows rows, std::vector<std::byte>& out);
+void append_events(const Recording& recording, Rows rows, const ChunkLayout& layout, std::vector<std::byte>& out);
 void append_endpoint_at_rest(const Recording& recording, std::vector<std::byte>& out);
 
 // Each adds `count` rows to the recording and moves `from` past their bytes, all of which must be there. Refused
-// (`damaged`): an unknown event.
+// (`damaged`): an unknown event, a pause without a sound length.
 base::Result<void> read_inputs(const std::byte*& from, std::size_t count, const ChunkLayout& layout,
                                Recording& recording);
 void read_poses(const std::byte*& from, std::size_t count, const ChunkLayout& layout, Recording& recording);
 void read_forces(const std::byte*& from, std::size_t count, Recording& recording);
 void read_frames(const std::byte*& from, std::size_t count, const ChunkLayout& layout, Recording& recording);
-base::Result<void> read_events(const std::byte*& from, std::size_t count, Recording& recording);
+base::Result<void> read_events(const std::byte*& from, std::size_t count, const ChunkLayout& layout,
+                               Recording& recording);
 void read_endpoint_at_rest(const std::byte*& from, Recording& recording);
 
 }  // namespace seldinger::cases

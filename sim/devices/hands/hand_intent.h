@@ -3,6 +3,7 @@
 // can be read by a servo at its own pace (`since`) without losing a notch.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -50,6 +51,14 @@ inline void join(const HandIntent& other, HandIntent& one) noexcept {
   both.keep_tilt = levels.keep_tilt;
   both.in_space = levels.in_space;
   one = both;
+}
+
+// How much it moves a tool, to compare hands by: mm, and a radian as much as 100 mm, about the way from a tool's
+// tip to the hand.
+inline double way_of(const HandIntent& intent) noexcept {
+  constexpr double kMmPerRad = 100.0;
+  return glm::length(intent.slide_lps_mm) + std::abs(intent.advance_mm) +
+         kMmPerRad * (glm::length(intent.turn_lps_rad) + glm::length(intent.turn_own_rad));
 }
 
 // What came between two readings of one running sum.

@@ -159,7 +159,8 @@ TEST(DebriefTest, NullIsSaidAndNeverPraised) {
                         .debriefed(rule);
   ASSERT_EQ(said.size(), 3U);
   EXPECT_EQ(said[0].kind, SentenceKind::not_measured);
-  EXPECT_EQ(said[0].text, "“Far wall punctures” has no value (no target structure), so it is not met.");
+  EXPECT_EQ(said[0].text,
+            "“Far wall punctures” has no value (no lumen to be reached is marked in this case), so it is not met.");
   EXPECT_EQ(said[1].text, "The needle was never fired, so the end of the way cannot be judged.");
   EXPECT_EQ(said[2].text, "Punctured the skin only once.");
   for (const Sentence& one : said) EXPECT_NE(one.metric_id == "hit" && one.kind == SentenceKind::well, true);

@@ -49,7 +49,7 @@ std::optional<Changed> mirrored(const RandomAttempt& attempt, Draw&) {
 
 std::optional<Changed> in_another_breath(const RandomAttempt& attempt, Draw& draw) {
   if (!attempt.setting.breathes) return std::nullopt;
-  Changed changed{attempt, attempt, {1e-3, 1e-4, 1e-3}};
+  Changed changed{attempt, attempt, {0.01, 0.01, 0.25}};
   changed.before = changed.after = random_attempt_at_rest(attempt.seed);
   ride_on_breath(changed.after, draw.in(4.0, 14.0));
   return changed;
@@ -170,8 +170,8 @@ constexpr LawInfo kLaws[] = {
     {kInAnyFrame, "in any frame", "frame", "0.001 mm: the skin's vertices are floats, up to 700 mm from the origin",
      &in_another_frame},
     {kMirrored, "mirrored", "mirror", "rounding: a sign changes no digits", &mirrored},
-    {kInAnyBreath, "in any breath", "breath", "0.1 %: rounding of differences of what moves along",
-     &in_another_breath},
+    {kInAnyBreath, "in any breath", "breath",
+     "1 % and 0.25 mm: what moves along turns the dead band of a hand at rest elsewhere", &in_another_breath},
     {kIdleBefore, "idle before", "before", "0.1 %: the low-pass begins in rest rather than with the first way",
      &idle_before},
     {kIdleAfter, "idle after", "after",

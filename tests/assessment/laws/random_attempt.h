@@ -8,23 +8,9 @@
 #include <vector>
 
 #include "assessment/signals/signals.h"
-#include "sim/base/rng.h"
-#include "tests/assessment/metrics/sample_attempts.h"
+#include "tests/assessment/laws/random_hands.h"
 
 namespace seldinger::assessment {
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : rng_(seed) {}
-  double in(double low, double high) { return low + (high - low) * rng_.uniform(); }
-  bool chance(double share) { return rng_.uniform() < share; }
-  int from(int low, int high) { return low + static_cast<int>(rng_.uniform() * (high - low + 1)); }
-  double side(double low, double high) { return (chance(0.5) ? 1.0 : -1.0) * in(low, high); }
-  glm::dvec3 direction();
-
- private:
-  base::Rng rng_;
-};
 
 struct RandomAttempt {
   std::uint64_t seed = 0;

@@ -471,6 +471,27 @@ TEST(PlaneAngle, IsAveragedOverTheWay) {
   EXPECT_EQ(value(recording, "plane_angle_mean").reason, "no_picture_plane");
 }
 
+// 0 before: an angle of the guide's was praised as the trainee's.
+TEST(PlaneAngle, UnderANeedleGuideIsTheGuides) {
+  using enum cases::EventKind;
+  auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);  // in tissue from 1 s on
+  for (auto& pose : recording.poses) pose.probe_axial = {0.0, 1.0, 0.0};
+  for (const char* id : {"plane_angle_mean", "plane_angle_max", "probe_drift_advancing"}) {
+    recording.events.reset();
+    EXPECT_EQ(number(recording, id), 0.0) << "nobody listened: as before";
+    recording.events = {{0.1, sign_in}};
+    EXPECT_EQ(number(recording, id), 0.0) << "whether there was a guide is not known: as before";
+    recording.events = {{0.001, needle_by_mouse}, {0.2, guide_on}, {0.5, guide_reached}, {0.9, guide_off}};
+    EXPECT_EQ(number(recording, id), 0.0) << "in the air it led nothing";
+    recording.events = {{0.001, needle_by_mouse}, {0.2, guide_on}, {0.5, guide_reached}, {1.1, guide_off}};
+    EXPECT_EQ(value(recording, id).reason, "needle_guide_was_on");
+    recording.events = {{0.001, needle_by_mouse}, {0.2, guide_on}, {0.5, guide_reached}};
+    EXPECT_EQ(value(recording, id).reason, "needle_guide_was_on");
+  }
+  EXPECT_EQ(number(recording, "advance_visible_share"), 1.0) << "what was looked at stays the trainee's";
+  EXPECT_EQ(number(recording, "blind_advance"), 0.0);
+}
+
 TEST(AdvanceBeyondPlane, CountsFromThreeMillimetresOnTheFarSide) {
   AttemptSetting s = setting();
   s.modality = cases::Modality::ultrasound;
@@ -530,6 +551,29 @@ TEST(Forces, ArePeaksUpToTheEndpoint) {
   recording.forces = {{0.5, 1.0, 0.2, 0.0}, {1.0, -3.0, 0.7, 0.0}, {2.0, 2.5, 0.1, 0.0}, {3.5, 9.0, 9.0, 0.0}};
   EXPECT_EQ(number(recording, "force_peak_axial"), 2.5) << "a pull back is no push";
   EXPECT_EQ(number(recording, "lateral_force_peak"), 0.7);
+}
+
+// 2.5 N before, of a mouse that gives none.
+TEST(Forces, AreMeasuredWhereAnArmLedTheNeedle) {
+  using enum cases::EventKind;
+  auto recording = straight([](double t) { return ramp(t, 20.0); }, 3.0);  // in tissue from 1 s on
+  recording.forces = {{0.5, 1.0, 0.2, 0.0}, {2.0, 2.5, 0.7, 0.0}};
+  for (const char* id : {"force_peak_axial", "lateral_force_peak"}) {
+    const double as_before = number(recording, id);
+    recording.events = {{0.1, sign_in}};
+    EXPECT_EQ(number(recording, id), as_before) << "what led is not known";
+    recording.events = {{0.3, needle_by_arm}, {0.3, probe_by_mouse}};
+    EXPECT_EQ(number(recording, id), as_before);
+    recording.events = {{0.001, needle_by_mouse}, {0.3, needle_by_arm}};
+    EXPECT_EQ(number(recording, id), as_before) << "in time";
+    for (const auto& events : {std::vector<cases::Event>{{0.001, needle_by_mouse}, {0.002, probe_by_arm}},
+                               {{0.001, needle_by_arm}, {2.0, needle_by_gamepad}},
+                               {{0.001, needle_by_space_mouse}, {1.5, needle_by_arm}}}) {
+      recording.events = events;
+      EXPECT_EQ(value(recording, id).reason, "no_arm") << id;
+    }
+    recording.events.reset();
+  }
 }
 
 TEST(Times, InTissueAndFromPunctureToTrigger) {

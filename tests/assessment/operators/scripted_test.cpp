@@ -80,6 +80,8 @@ std::vector<Tick> ticks_of(const OperatorProfile& profile, const PuncturePlan& p
     person.hear(tick.inputs.event);
     state.needle.tip_lps_mm = tick.inputs.needle.position_lps_mm;
     state.needle.direction = tick.inputs.needle.axis;
+    state.probe.origin_lps_mm = tick.inputs.probe.position_lps_mm;
+    state.probe.axial = tick.inputs.probe.axis;
     tick.t_s = state.t_s;
     tick.inserted_mm = glm::dot(state.needle.tip_lps_mm - plan.entry_lps_mm, plan.direction);
     const glm::dvec3 normal = plane_normal(tick.inputs.probe);
@@ -192,7 +194,8 @@ TEST(ScriptedOperator, ACoreNeedleIsTakenOutWhole) {
   EXPECT_LT(ticks.back().t_s, 60.0);
 }
 
-// What was drawn before operators knew of breath stays: attempts at still cases are those of before.
+// What was drawn before operators knew of breath, or showed anything by deed, stays: attempts at still cases are
+// those of before.
 TEST(ScriptedOperator, AtAStillPatientActsAsBeforeItKnewOfBreath) {
   const auto shows = [](const Tick& tick) {
     return tick.inserted_mm > 2.0 && (tick.inserted_mm < 20.0 || tick.inserted_mm > 26.0) &&
@@ -202,12 +205,15 @@ TEST(ScriptedOperator, AtAStillPatientActsAsBeforeItKnewOfBreath) {
   for (const bool across : {false, true})
     for (const char* name : {"novice", "intermediate", "expert"}) {
       std::uint64_t hash = 0;
-      for (const Tick& tick :
-           ticks_of(*named_profile(name), across ? plan_across() : plan_in_plane(), {}, 11, shows)) {
+      OperatorProfile only_says = *named_profile(name);
+      only_says.shows_share = 0.0;
+      for (const Tick& tick : ticks_of(only_says, across ? plan_across() : plan_in_plane(), {}, 11, shows)) {
         for (const cases::ToolPose* pose : {&tick.inputs.needle, &tick.inputs.probe})
           for (int axis = 0; axis < 3; ++axis)
             hash = base::hash_combine(base::hash_combine(hash, pose->position_lps_mm[axis]), pose->axis[axis]);
-        hash = base::hash_combine(hash, static_cast<std::uint64_t>(tick.inputs.event) * 2 + tick.inputs.fire);
+        const EventKind said =
+            tick.inputs.event == EventKind::calipers_recorded ? EventKind::none : tick.inputs.event;
+        hash = base::hash_combine(hash, static_cast<std::uint64_t>(said) * 2 + tick.inputs.fire);
       }
       hashes.push_back(hash);
     }
@@ -215,6 +221,60 @@ TEST(ScriptedOperator, AtAStillPatientActsAsBeforeItKnewOfBreath) {
                                              16400829000048328202ULL, 17482833977871081420ULL,
                                              9217564390732547871ULL,  8099544976703744377ULL};
   EXPECT_EQ(hashes, before);
+}
+
+// How far the probe went along the picture each way before anything was said of it, and what was measured and
+// planned.
+struct Deeds {
+  double least_mm = 0.0, most_mm = 0.0;
+  std::optional<double> measured_mm, planned_mm;
+  bool tested() const { return least_mm < -10.0 && most_mm > 10.0; }
+};
+Deeds deeds_of(const OperatorProfile& profile, const PuncturePlan& plan, std::uint64_t seed) {
+  Deeds deeds;
+  bool said = false;
+  for (const Tick& tick :
+       ticks_of(profile, plan, {}, seed, [](const Tick& one) { return one.inserted_mm > 0.0; })) {
+    const double along_mm =
+        glm::dot(tick.inputs.probe.position_lps_mm - plan.probe.position_lps_mm, plan.probe.side);
+    said = said || tick.inputs.event == EventKind::probe_checked || tick.inputs.event == EventKind::note_plan;
+    if (!said) {
+      deeds.least_mm = std::min(deeds.least_mm, along_mm);
+      deeds.most_mm = std::max(deeds.most_mm, along_mm);
+    }
+    const cases::Event event{tick.t_s, tick.inputs.event, tick.inputs.event_tenths_mm};
+    if (event.kind == EventKind::depth_measured) deeds.measured_mm = event.length_mm();
+    if (event.kind == EventKind::note_plan) deeds.planned_mm = event.length_mm();
+  }
+  return deeds;
+}
+
+TEST(ScriptedOperator, ShowsByDeedAsOftenAsPlanted) {
+  const PuncturePlan plan = plan_in_plane();
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Deeds deeds = deeds_of(*named_profile("expert"), plan, seed);
+    EXPECT_TRUE(deeds.tested()) << deeds.least_mm << " to " << deeds.most_mm;
+    ASSERT_TRUE(deeds.measured_mm && deeds.planned_mm);
+    EXPECT_NEAR(*deeds.measured_mm, 50.0, 5.0) << "below the probe's face";
+    EXPECT_NEAR(*deeds.planned_mm, plan.depth_mm, 5.0);
+    OperatorProfile only_says = *named_profile("expert");
+    only_says.shows_share = 0.0;
+    const Deeds said = deeds_of(only_says, plan, seed);
+    EXPECT_FALSE(said.tested());
+    EXPECT_FALSE(said.measured_mm);
+  }
+  OperatorProfile novice = *named_profile("novice");
+  novice.max_redirections = 0.0;
+  constexpr int kTries = 150;
+  int tested = 0, measured = 0;
+  for (std::uint64_t seed = 0; seed < kTries; ++seed) {
+    const Deeds deeds = deeds_of(novice, plan, seed);
+    tested += deeds.tested() ? 1 : 0;
+    measured += deeds.measured_mm ? 1 : 0;
+  }
+  const double share = novice.shows_share, most = 4.0 * std::sqrt(share * (1.0 - share) / kTries);
+  EXPECT_NEAR(tested / double{kTries}, share, most);
+  EXPECT_NEAR(measured / double{kTries}, share, most);
 }
 
 // Who breathes, and coughs at cough_s; pictures show everything below the skin. Nothing is in his way.

@@ -58,9 +58,11 @@ TEST_F(StoreAttemptsTest, AnAttemptComesBackAsItWentIn) {
 }
 
 TEST_F(StoreAttemptsTest, StepsComeBackInTheirOrder) {
+  using assessment::StepHow;
   using assessment::StepState;
   NewAttempt attempt = sample();
-  attempt.steps = {{"sign_in", 1, StepState::done, 1.25, ""},
+  attempt.steps = {{"sign_in", 1, StepState::done, 1.25, "", StepHow::said},
+                   {"check_probe", 1, StepState::done, 1.5, "", StepHow::shown},
                    {"decide", 1, StepState::skipped, std::nullopt, ""},
                    {"insert", 1, StepState::violated, 0.1 + 0.2, ""},
                    {"a_step_of_old", 1, StepState::not_asked, std::nullopt, "not_xray"}};
@@ -70,12 +72,12 @@ TEST_F(StoreAttemptsTest, StepsComeBackInTheirOrder) {
 
   // Another version is added beside it and is what is told; the same one again is not.
   auto again = attempt.steps;
-  again[1] = {"decide", 1, StepState::done, 3.0, ""};
+  again[2] = {"decide", 1, StepState::done, 3.0, "", StepHow::said};
   EXPECT_EQ(add_steps(library_, attempt_id, again).value(), 0U);
   EXPECT_EQ(list_steps(library_, attempt_id), attempt.steps);
   again.pop_back();
   for (auto& step : again) step.version = 2;
-  EXPECT_EQ(add_steps(library_, attempt_id, again).value(), 3U);
+  EXPECT_EQ(add_steps(library_, attempt_id, again).value(), 4U);
   again.push_back(attempt.steps.back());
   EXPECT_EQ(list_steps(library_, attempt_id), again);
   EXPECT_EQ(add_steps(library_, "nobody", again).error().code, "no_attempt");

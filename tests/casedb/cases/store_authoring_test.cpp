@@ -3,8 +3,10 @@
 #include <limits>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/permissions.h"
 #include "casedb/cases/structure_json.h"
 #include "casedb/cases/versions.h"
+#include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
 #include "tests/fixtures/sound_check.h"
@@ -338,9 +340,10 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
   EXPECT_EQ(code(publish("dora", false)), "not_allowed");
   ASSERT_TRUE(judge_case(library_, case_id_, "dora", true));
   EXPECT_EQ(code(publish("tim", false)), "not_allowed");
-  EXPECT_EQ(code(publish("ann", false)), "burned_in_unchecked");
+  EXPECT_EQ(code(publish("ann", false)), "not_allowed") << "a second person publishes, not who submitted it";
+  EXPECT_EQ(code(publish("ben", false)), "burned_in_unchecked");
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
-  ASSERT_TRUE(publish("ann", false));
+  ASSERT_TRUE(publish("dora", false)) << "who approved it may";
   EXPECT_EQ(state(), CaseState::published);
   EXPECT_FALSE(find_case(library_, case_id_).value().own_cohort_only);
   const auto decisions = list_decisions(library_, case_id_);
@@ -364,11 +367,35 @@ TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {
 
 TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
   add_users();
+  const std::string own = add_cohort(library_, "Own", "Radiology", "").value(),
+                    others = add_cohort(library_, "Other", "Radiology", "").value(),
+                    former = add_cohort(library_, "Former", "Radiology", "").value();
+  const auto put = [&](const std::string& cohort, const std::string& name, Post post) {
+    ASSERT_TRUE(enrol(library_, cohort, open_account(library_, name)->person_id, post));
+  };
+  for (const char* name : {"tom", "late"}) static_cast<void>(add_user(library_, name, Role::trainee, "a password"));
+  put(own, "ann", Post::mentor);
+  put(own, "tim", Post::learner);
+  put(others, "tom", Post::learner);
+  put(others, "ben", Post::mentor);
+  put(former, "ann", Post::mentor);
+  put(former, "late", Post::learner);
+  ASSERT_TRUE(end_enrolment(library_, former, open_account(library_, "ann")->person_id));
   EXPECT_EQ(code(publish("dora", true)), "not_allowed");
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish("ann", true));
   EXPECT_TRUE(find_case(library_, case_id_).value().own_cohort_only);
   EXPECT_FALSE(review_of(list_decisions(library_, case_id_)).has_value());
+  const auto reaches = [&](const std::string& name) {
+    return reaches_own_cohort(library_, case_id_, open_account(library_, name)->person_id);
+  };
+  EXPECT_TRUE(reaches("ann")) << "who published it";
+  EXPECT_TRUE(reaches("tim"));
+  EXPECT_FALSE(reaches("ben"));
+  EXPECT_FALSE(reaches("tom")) << "in another cohort";
+  EXPECT_FALSE(reaches("late")) << "of a cohort that ann led no longer";
+  ASSERT_TRUE(end_enrolment(library_, own, open_account(library_, "tim")->person_id));
+  EXPECT_FALSE(reaches("tim")) << "no longer in it";
   ASSERT_TRUE(retire_case(library_, case_id_, "ann")) << "who published it may take it back";
 }
 
@@ -418,7 +445,7 @@ TEST_F(AuthoringTest, OnlyACheckOfTheCaseAsItIsLetsItBePublished) {
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, again)).value());
   ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
   ASSERT_TRUE(judge_case(library_, case_id_, "ben", true));
-  ASSERT_TRUE(publish_by(check));
+  ASSERT_TRUE(publish_case(library_, case_id_, check, "ben", true));
   EXPECT_EQ(state(), CaseState::published);
 }
 

@@ -72,8 +72,16 @@ TEST_F(SchemaTest, ALibraryOfTheFirstSchemaKeepsEverything) {
     }
   }
   Sqlite database(file);
+  // Steps that were stored before it was kept how they were done.
+  constexpr std::size_t kBeforeHow = 12;
+  ASSERT_TRUE(migrate(database, {newest.application_id, newest.steps.first(kBeforeHow)}).has_value());
+  database.run("INSERT INTO attempt_step SELECT attempt_id, 'check_probe', 2, 0, 'done', 1.5, '' FROM attempt");
   const auto migrated = migrate(database, newest);
   ASSERT_TRUE(migrated.has_value()) << migrated.error().text;
+  EXPECT_EQ(
+      database.integer("SELECT count(*) FROM attempt_step WHERE state = 'done' AND t_s = 1.5 AND how IS NULL"),
+      kAttempts)
+      << "nobody guesses";
   EXPECT_EQ(
       database.integer("SELECT count(*) FROM attempt_summary WHERE picture_modality = 'mpr' AND seed = -7 AND "
                        "picture_depth_mm = 150.25 AND case_title = 'T'"),
@@ -90,8 +98,8 @@ TEST_F(SchemaTest, ALibraryOfTheFirstSchemaKeepsEverything) {
   for (const char* change :
        {"UPDATE attempt SET seed = 1", "DELETE FROM attempt", "UPDATE metric_value SET value = 0",
         "UPDATE attempt SET picture_modality = 'us'", "UPDATE training_case SET modality = 'xray'",
-        "UPDATE training_case SET hu_min = 0", "UPDATE training_case SET classes_sha256 = volume_sha256",
-        "DELETE FROM training_case"})
+        "UPDATE attempt_step SET how = 'shown'", "UPDATE training_case SET hu_min = 0",
+        "UPDATE training_case SET classes_sha256 = volume_sha256", "DELETE FROM training_case"})
     EXPECT_TRUE(refused_by_constraint([&] { database.run(change); })) << change;
   EXPECT_TRUE(refused_by_constraint([&] {
     database.run("INSERT INTO recording_chunk VALUES ('" + std::string(36, 'x') + "', 0, 0, x'00')");
@@ -132,10 +140,11 @@ TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
   refuse("INSERT INTO recording_chunk VALUES ('" + nobody + "', 0, 0, x'00')");
   refuse("UPDATE training_case SET state = 'lost'");
   refuse("DELETE FROM training_case");
-  database_.run("INSERT INTO person VALUES ('" + nobody + "', 'P', 0)");
+  database_.run("INSERT INTO person (person_id, pseudonym, created_us) VALUES ('" + nobody + "', 'P', 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'king', '$argon2id$x', 1, 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', 'secret', 1, 0)");
   refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 2, 0)");
+  refuse("INSERT INTO attempt_step VALUES ('" + attempt_id + "', 'insert', 3, 0, 'done', 1.0, '', 'guessed')");
   const std::string metric = "INSERT INTO metric_value VALUES ('" + attempt_id + "', 'm', 1, 0, ";
   refuse(metric + "NULL, 'mm', '')");        // no value, no reason
   refuse(metric + "0.0, 'mm', 'no plan')");  // both

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "casedb/cases/permissions.h"
 #include "casedb/cases/versions.h"
 #include "casedb/grading/curriculum.h"
 #include "tests/casedb/graded_library.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/sound_check.h"
 
 namespace seldinger::casedb {
@@ -17,6 +19,8 @@ class ChoicesTest : public GradedLibrary {
  protected:
   std::string person_ = (user("Mia", Role::mentor), user("Ben", Role::mentor), user("Dan", Role::director),
                          user("Tom", Role::trainee));
+
+  void SetUp() override { fixtures::make_cohort(library_, "Mia", {"Tom"}); }
 
   // A draft with a target that asks for a hit within 30 s; attempts are on it from here on.
   std::string draft(const std::string& title, std::optional<int> attempt_limit = {}) {
@@ -117,6 +121,20 @@ TEST_F(ChoicesTest, OutOfACurriculumOnlyThePersonsOwnAttemptsCount) {
   EXPECT_EQ(all.cases[0].attempts_left, std::nullopt);
   EXPECT_EQ(all.cases[1].passes, 1);
   EXPECT_EQ(next_of(all), nullptr);
+}
+
+TEST_F(ChoicesTest, WhatIsPublishedToACohortReachesNobodyElse) {
+  const std::string alone = published("Alone"), item = published("In a curriculum");
+  ASSERT_TRUE(publish_curriculum(library_, curriculum("Year", {item}), "Dan"));
+  const std::string ann = user("Ann", Role::trainee);
+  EXPECT_EQ(titles(choices()), (Titles{"Year: In a curriculum", "Alone"}));
+  EXPECT_EQ(titles(choices_of(library_, ann, Role::trainee)), Titles{}) << "she was never in the cohort";
+  for (const Role role : kAllRoles) EXPECT_EQ(titles(choices_of(library_, ann, role)), Titles{}) << name_of(role);
+  const std::string cohort = list_cohorts(library_).at(0).cohort_id;
+  ASSERT_TRUE(enrol(library_, cohort, ann, Post::learner));
+  EXPECT_EQ(titles(choices_of(library_, ann, Role::trainee)), (Titles{"Year: In a curriculum", "Alone"}));
+  ASSERT_TRUE(end_enrolment(library_, cohort, person_));
+  EXPECT_EQ(titles(choices()), Titles{}) << "he has left it";
 }
 
 TEST_F(ChoicesTest, GatesOpenAndWhatIsDueMovesOn) {

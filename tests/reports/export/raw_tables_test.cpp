@@ -10,6 +10,7 @@
 #include <set>
 
 #include "assessment/registry.h"
+#include "casedb/attempts/condition_table.h"
 #include "tests/fixtures/csv_table.h"
 #include "tests/reports/sample_attempt.h"
 
@@ -109,6 +110,51 @@ TEST(RawTables, AMetricOfAnOlderVersionIsNotMixedIn) {
   EXPECT_EQ(table.cell(0, "operator"), "expert");
   EXPECT_EQ(table.cell(0, "throw_mm"), "");
   EXPECT_EQ(table.cell(0, "target_y_mm"), "-34.54");
+}
+
+TEST(RawTables, EachConditionHasItsColumnAndWhatIsNotKnownIsEmpty) {
+  AttemptView view = sample_attempt();
+  casedb::CaseRow of_case;
+  of_case.origin = "import";
+  AttemptFacts facts;
+  facts.row = &view.row;
+  facts.of_case = &of_case;
+  const auto written = [&] { return csv_table(attempts_header() + attempt_line(facts)); };
+  for (const casedb::ConditionRow& row : casedb::condition_rows()) {
+    EXPECT_EQ(written().cell(0, row.id), "") << row.id;
+    casedb::Conditions known;
+    const casedb::ConditionValue number = row.kind == casedb::ConditionKind::whole ? 3.0 : 0.25;
+    const std::string id = row.id;
+    const std::string words = id.ends_with("_hand") ? "gamepad" : id == "handedness" ? "left" : "words";
+    ASSERT_TRUE(row.write(known, row.kind == casedb::ConditionKind::flag   ? casedb::ConditionValue(false)
+                                 : row.kind == casedb::ConditionKind::text ? casedb::ConditionValue(words)
+                                                                           : number));
+    view.row.conditions = known;
+    EXPECT_EQ(written().cell(0, row.id), row.kind == casedb::ConditionKind::flag    ? "0"
+                                         : row.kind == casedb::ConditionKind::whole ? "3"
+                                         : row.kind == casedb::ConditionKind::text  ? words
+                                                                                    : "0.25")
+        << row.id;
+    view.row.conditions = {};
+  }
+  EXPECT_EQ(written().cell(0, "away_s"), "");
+  view.row.away_s = 12.5;
+  EXPECT_EQ(written().cell(0, "away_s"), "12.5");
+}
+
+TEST(RawTables, HowLongAPauseWasIsBesideItsEvent) {
+  cases::Recording recording;
+  recording.events = {{1.0, cases::EventKind::guide_on}, {2.0, cases::EventKind::paused, 41.5}};
+  const std::string name = "A-1";
+  std::string text = header_of(event_columns());
+  for (const RecordedEvent& event : recorded_events(recording))
+    text += line_of(event_columns(), EventFact{&name, event});
+  const auto table = csv_table(text);
+  EXPECT_EQ(table.cell(0, "event"), "guide_on");
+  EXPECT_EQ(table.cell(0, "source"), "workstation");
+  EXPECT_EQ(table.cell(0, "wall_s"), "");
+  EXPECT_EQ(table.cell(1, "event"), "paused");
+  EXPECT_EQ(table.cell(1, "wall_s"), "41.5");
 }
 
 TEST(RawTables, SomebodysOwnWordsAreNotWritten) {

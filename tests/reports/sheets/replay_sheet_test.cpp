@@ -47,6 +47,18 @@ std::size_t count(const std::string& text, const std::string& what) {
   return found;
 }
 
+TEST(ReplaySheet, ANameOpensWhatItMeasures) {
+  ReplaySheet sheet = sample_sheet();
+  EXPECT_EQ(replay_sheet(sheet).find("Interrupted"), std::string::npos);
+  sheet.attempt.row.away_s = 30.0;
+  const std::string page = replay_sheet(sheet);
+  EXPECT_NE(page.find("Interrupted, and gone on with after 30 s."), std::string::npos);
+  const std::string measured = page.substr(page.find("What was measured"));
+  EXPECT_GT(count(measured, "<th scope=\"row\">"), 4U);
+  EXPECT_EQ(count(measured, "<th scope=\"row\">"),
+            count(measured, "<th scope=\"row\"><details class=\"metric\"><summary>"));
+}
+
 TEST(ReplaySheet, HoldsStripWayTimelineAndMetrics) {
   const std::string page = replay_sheet(sample_sheet());
   EXPECT_NE(page.find("Through the skin"), std::string::npos);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "assessment/registry.h"
+#include "reports/words/attempt_words.h"
 
 namespace seldinger::reports {
 namespace {
@@ -17,7 +18,7 @@ std::string shown(double value, const std::string& unit, const std::string& id =
 TEST(Values, NullIsADashWithItsReasonAndNeverZero) {
   const casedb::MetricValue metric{"hit", 1, std::nullopt, "bool", "no_endpoint"};
   EXPECT_EQ(value_text(metric), "—");
-  EXPECT_EQ(reason_text(metric), "no endpoint");
+  EXPECT_EQ(reason_text(metric), "the needle was never fired");
   EXPECT_EQ(reason_text({"x", 1, std::nullopt, "mm", ""}), "no reason was stored");
 }
 
@@ -57,6 +58,19 @@ TEST(Times, AreUtcAndSaySo) {
   EXPECT_EQ(utc_machine_text(1772373909999999), "2026-03-01T14:05:09Z");
   EXPECT_EQ(utc_text(1709164800000000), "2024-02-29 00:00 UTC");  // a leap day
   EXPECT_EQ(utc_machine_text(-1), "1969-12-31T23:59:59Z");
+}
+
+TEST(Times, AnInterruptionIsToldInTheUnitOneWouldSay) {
+  casedb::AttemptHead attempt;
+  EXPECT_EQ(away_text(attempt), "");
+  for (const auto& [away_s, words] : {std::pair{0.0, "0 s"},
+                                      {119.0, "119 s"},
+                                      {754.0, "13 min"},
+                                      {5.0 * 3600.0, "5 hours"},
+                                      {3.2 * 86400.0, "3 days"}}) {
+    attempt.away_s = away_s;
+    EXPECT_EQ(away_text(attempt), std::string("Interrupted, and gone on with after ") + words + ".");
+  }
 }
 
 TEST(Words, EveryRegisteredMetricHasALabelAndAPlace) {

@@ -151,6 +151,31 @@ TEST(Calipers, AreTwoWhoseEndsCanBeMended) {
   EXPECT_EQ(calipers.ends_mm().size(), 1U) << "a third begins anew";
 }
 
+TEST(Calipers, MeasureADepthFromTheFaceDown) {
+  struct Pair {
+    glm::dvec2 from_mm, to_mm;
+    std::optional<double> depth_mm;
+  };
+  const Pair pairs[] = {{{0, 2}, {0, 60}, 60.0},   {{10, 70.5}, {0, 0}, 70.5},  // either way, and at a slant
+                        {{0, 7.9}, {5, 60}, 60.0}, {{0, 8.1}, {0, 60}, {}},     // begins too deep
+                        {{-20, 30}, {20, 30}, {}}, {{0, 0}, {20, 2}, {}},       // across; along the face
+                        {{0, -30}, {0, 60}, {}}};
+  for (const Pair& pair : pairs) {
+    Calipers calipers;
+    calipers.press(pair.from_mm, 1.0);
+    EXPECT_EQ(calipers.held(), 0U);
+    EXPECT_FALSE(calipers.depth_mm(0)) << "one end";
+    calipers.release();
+    EXPECT_FALSE(calipers.held());
+    calipers.press(pair.to_mm, 1.0);
+    calipers.release();
+    EXPECT_EQ(calipers.depth_mm(0), pair.depth_mm) << pair.from_mm.y << " to " << pair.to_mm.y;
+    EXPECT_FALSE(calipers.depth_mm(1));
+    calipers.press({40, 40}, 1.0);
+    EXPECT_EQ(calipers.held(), 1U);
+  }
+}
+
 session::ShownPicture shown_at(double depth_mm) {
   session::ShownPicture shown;
   shown.picture = {std::vector<unsigned char>(400 * 300, 90), 400, 300};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <functional>
@@ -41,8 +42,10 @@ Recording random_recording(std::size_t ticks, std::uint64_t seed) {
       if (i == 0) recording.events.emplace();
       if (i % 701 == 3) {
         const EventKind kind = event_kinds()[i % event_kinds().size()].kind;
+        const auto tenths_mm = static_cast<std::uint16_t>(i % 3 == 0 ? 0 : 977 * i);
         recording.inputs.back().event = kind;
-        recording.events->push_back({t_s, kind});
+        recording.inputs.back().event_tenths_mm = tenths_mm;
+        recording.events->push_back({t_s, kind, tenths_mm});
       }
     }
     if (i % 33 == 0) recording.frames.push_back({t_s, i % 2 == 0, i % 5 == 0, i % 7 == 0, rng.uniform() * 100.0});
@@ -98,6 +101,7 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.inputs[i].fire, b.inputs[i].fire);
     EXPECT_EQ(a.inputs[i].freeze, b.inputs[i].freeze);
     EXPECT_EQ(a.inputs[i].event, b.inputs[i].event);
+    EXPECT_EQ(a.inputs[i].event_tenths_mm, b.inputs[i].event_tenths_mm);
     EXPECT_EQ(a.inputs[i].console, b.inputs[i].console);
     EXPECT_EQ(a.inputs[i].fluoroscope, b.inputs[i].fluoroscope);
     EXPECT_EQ(a.inputs[i].exposure, b.inputs[i].exposure);
@@ -232,6 +236,28 @@ TEST(Recording, AConsoleThatIsNotTurnedTakesNoRoom) {
   EXPECT_EQ(bytes_of(random_console_recording(4000, 5, 3000)), without + 8 * 2000 * 4) << "in the second chunk";
 }
 
+TEST(Recording, HowLongAPauseWasComesBackAndOtherEventsTakeNoRoomForIt) {
+  Recording recording = random_recording(6500, 8);
+  const std::size_t without = bytes_of(recording);
+  const std::size_t events = recording.events->size();
+  const auto second = std::find_if(recording.events->begin(), recording.events->end(),
+                                   [](const Event& event) { return event.t_s >= 2.0; });
+  const Event pause{2.5, EventKind::paused, 12.25};
+  const auto place =
+      std::find_if(second, recording.events->end(), [&](const Event& event) { return event.t_s > 2.5; });
+  recording.events->insert(place, pause);
+  const auto in_second = std::count_if(recording.events->begin(), recording.events->end(),
+                                       [](const Event& event) { return event.t_s >= 2.0 && event.t_s < 4.0; });
+  EXPECT_EQ(bytes_of(recording), without + 8 * (2 + static_cast<std::size_t>(in_second))) << "in its chunk alone";
+  const auto back = recording_from_chunks(chunks_from_recording(recording));
+  ASSERT_TRUE(back.has_value()) << back.error().text;
+  expect_same(recording, *back);
+  EXPECT_EQ(back->events->size(), events + 1);
+  for (Event& event : *recording.events)
+    if (event.kind == EventKind::paused) event.wall_s = -1.0;
+  EXPECT_EQ(recording_from_chunks(chunks_from_recording(recording)).error().code, "damaged");
+}
+
 TEST(Recording, AFluoroscopeThatIsNotUsedTakesNoRoom) {
   // The columns of format 1: 20, 16 and 3 words a row; 104 bytes of head.
   const Recording recording = random_recording(2000, 3);
@@ -337,7 +363,10 @@ TEST(Recording, OfFormat4SaysNothingOfEvents) {
     raw[4] = std::byte{4};
     std::memset(raw.data() + 100, 0, 4);  // the word that was not used
   });
-  for (Inputs& inputs : recording.inputs) inputs.event = EventKind::none;  // its bits had no meaning
+  for (Inputs& inputs : recording.inputs) {  // their bits had no meaning
+    inputs.event = EventKind::none;
+    inputs.event_tenths_mm = 0;
+  }
   recording.events.reset();
   const auto back = recording_from_chunks(std::vector{as_format_4});
   ASSERT_TRUE(back.has_value()) << back.error().text;

@@ -1,0 +1,149 @@
+// cohort add, list, show, enrol, direct.
+#include <cstdio>
+
+#include "app/cli/command.h"
+#include "app/library/acting.h"
+#include "app/library/people_json.h"
+
+namespace seldinger::app {
+namespace {
+
+int run_cohort_add(const Arguments& arguments) {
+  const std::string programme = arguments.required("--programme");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
+  if (!by) return refuse(by.error());
+  const auto made = casedb::add_cohort(*library, arguments.positional(0), programme, arguments.text("--site"));
+  if (!made) return refuse(made.error());
+  std::fputs(arguments.has("--json") ? json_of_made("cohort_id", *made).c_str() : (*made + "\n").c_str(), stdout);
+  return kDone;
+}
+
+int run_cohort_list(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto cohorts = casedb::list_cohorts(*library);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_cohorts(cohorts).c_str(), stdout);
+    return kDone;
+  }
+  if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
+  for (const casedb::Cohort& one : cohorts)
+    std::printf("%s  %-24s %-16s %d learners\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
+                one.learners);
+  return kDone;
+}
+
+int run_cohort_show(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto cohort = casedb::find_cohort(*library, arguments.positional(0));
+  if (!cohort) return refuse(cohort.error());
+  const auto enrolments = casedb::list_enrolments(*library, cohort->cohort_id);
+  std::map<std::string, std::string> names;
+  for (const casedb::Account& one : casedb::list_users(*library)) names.emplace(one.person_id, one.login_name);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_cohort(*cohort, enrolments, names).c_str(), stdout);
+    return kDone;
+  }
+  std::printf("%s, %s%s%s\n", cohort->title.c_str(), cohort->programme.c_str(), cohort->site.empty() ? "" : ", ",
+              cohort->site.c_str());
+  for (const casedb::Enrolment& one : enrolments) {
+    const auto name = names.find(one.person_id);
+    std::printf("  %-8s %s%s\n", casedb::name_of(one.post).c_str(),
+                name == names.end() ? one.pseudonym.c_str() : name->second.c_str(), one.to_us ? " (left)" : "");
+  }
+  return kDone;
+}
+
+int run_cohort_enrol(const Arguments& arguments) {
+  const std::string user = arguments.required("--user");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
+  if (!by) return refuse(by.error());
+  const auto cohort = casedb::find_cohort(*library, arguments.positional(0));
+  if (!cohort) return refuse(cohort.error());
+  const auto person = casedb::open_account(*library, user);
+  if (!person) return refuse(person.error());
+  const auto post = arguments.has("--mentor") ? casedb::Post::mentor : casedb::Post::learner;
+  const auto done = arguments.has("--end") ? casedb::end_enrolment(*library, cohort->cohort_id, person->person_id)
+                                           : casedb::enrol(*library, cohort->cohort_id, person->person_id, post);
+  return done ? kDone : refuse(done.error());
+}
+
+int run_cohort_direct(const Arguments& arguments) {
+  const std::string user = arguments.required("--user");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
+  if (!by) return refuse(by.error());
+  const auto person = casedb::open_account(*library, user);
+  if (!person) return refuse(person.error());
+  const auto done = arguments.has("--end")
+                        ? casedb::end_director(*library, arguments.positional(0), person->person_id)
+                        : casedb::appoint_director(*library, arguments.positional(0), person->person_id);
+  return done ? kDone : refuse(done.error());
+}
+
+constexpr Option kUserOption{"--user", "NAME", "whose account"};
+constexpr Option kAddOptions[] = {kLibrary,
+                                  {"--programme", "TEXT", "the programme to which it belongs"},
+                                  {"--site", "TEXT", "where; may be left out"},
+                                  kActing,
+                                  kJson};
+constexpr Option kEnrolOptions[] = {kLibrary,
+                                    kUserOption,
+                                    {"--mentor", nullptr, "as a mentor; else as a learner"},
+                                    {"--end", nullptr, "from now on no longer"},
+                                    kActing};
+constexpr Option kDirectOptions[] = {kLibrary, kUserOption, {"--end", nullptr, "from now on no longer"}, kActing};
+
+}  // namespace
+
+Command cohort_add_command() {
+  return {.name = "cohort add",
+          .positionals = "TITLE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kAddOptions,
+          .summary = "Adds a cohort of learners.",
+          .run = &run_cohort_add};
+}
+
+Command cohort_list_command() {
+  return {.name = "cohort list", .options = kLibraryJson, .summary = "Lists the cohorts.", .run = &run_cohort_list};
+}
+
+Command cohort_show_command() {
+  return {.name = "cohort show",
+          .positionals = "COHORT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryJson,
+          .summary = "Shows who is and was in a cohort, by its title or id.",
+          .run = &run_cohort_show};
+}
+
+Command cohort_enrol_command() {
+  return {.name = "cohort enrol",
+          .positionals = "COHORT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kEnrolOptions,
+          .summary = "Enrols a learner or a mentor from now on; mentors see the learners of their cohorts by name.",
+          .run = &run_cohort_enrol};
+}
+
+Command cohort_direct_command() {
+  return {.name = "cohort direct",
+          .positionals = "PROGRAMME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kDirectOptions,
+          .summary = "Makes somebody director of a programme, who sees the learners of its cohorts by name.",
+          .run = &run_cohort_direct};
+}
+
+}  // namespace seldinger::app

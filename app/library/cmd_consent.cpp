@@ -1,0 +1,215 @@
+// study new, list, researcher; consent text, list, give, withdraw; user fact.
+#include <cstdio>
+
+#include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "app/library/acting.h"
+#include "app/library/people_json.h"
+
+namespace seldinger::app {
+namespace {
+
+int run_study_new(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_studies);
+  if (!by) return refuse(by.error());
+  const auto made = casedb::add_study(*library, arguments.positional(0));
+  if (!made) return refuse(made.error());
+  std::fputs(arguments.has("--json") ? json_of_made("study_id", *made).c_str() : (*made + "\n").c_str(), stdout);
+  return kDone;
+}
+
+int run_study_list(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto studies = casedb::list_studies(*library);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_studies(studies).c_str(), stdout);
+    return kDone;
+  }
+  if (studies.empty()) std::puts("There is no study yet; `seldinger study new` makes one.");
+  for (const casedb::Study& one : studies)
+    std::printf("%s  %-32s %d consent\n", one.study_id.c_str(), one.title.c_str(), one.consenting);
+  return kDone;
+}
+
+int run_study_researcher(const Arguments& arguments) {
+  const std::string user = arguments.required("--user");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_studies);
+  if (!by) return refuse(by.error());
+  const auto study = casedb::find_study(*library, arguments.positional(0));
+  if (!study) return refuse(study.error());
+  const auto person = casedb::open_account(*library, user);
+  if (!person) return refuse(person.error());
+  const auto done = casedb::add_researcher(*library, study->study_id, person->person_id);
+  return done ? kDone : refuse(done.error());
+}
+
+int run_consent_text(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::manage_studies);
+  if (!by) return refuse(by.error());
+  std::optional<std::string> study_id;
+  if (arguments.has("--study")) {
+    const auto study = casedb::find_study(*library, arguments.text("--study"));
+    if (!study) return refuse(study.error());
+    study_id = study->study_id;
+  }
+  const auto body = read_text(arguments.positional(0));
+  if (!body) return refuse(body.error());
+  const auto version = casedb::add_consent_text(*library, study_id, *body);
+  if (!version) return refuse(version.error());
+  std::printf("version %d\n", *version);
+  return kDone;
+}
+
+int run_consent_list(const Arguments& arguments) {
+  const std::string user = arguments.required("--user");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto person = casedb::open_account(*library, user);
+  if (!person) return refuse(person.error());
+  const auto consents = casedb::list_consents(*library, person->person_id);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_consents(consents).c_str(), stdout);
+    return kDone;
+  }
+  if (consents.empty()) std::puts("Nothing asks for consent; `seldinger consent text` adds a text.");
+  for (const casedb::Consent& one : consents)
+    std::printf("%s  version %d  %-12s %s\n", one.text_id.c_str(), one.version,
+                one.stands()   ? "given"
+                : one.given_us ? "withdrawn"
+                               : "not answered",
+                one.study_id ? one.study_title.c_str() : "research with this library");
+  return kDone;
+}
+
+int run_consent_answer(const Arguments& arguments, bool give) {
+  const std::string user = arguments.required("--user");
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto person = casedb::open_account(*library, user);
+  if (!person) return refuse(person.error());
+  const auto done = give ? casedb::give_consent(*library, person->person_id, arguments.positional(0))
+                         : casedb::withdraw_consent(*library, person->person_id, arguments.positional(0));
+  if (!done) return refuse(done.error());
+  if (give || !arguments.has("--delete")) return kDone;
+  const auto erased = casedb::erase_attempts_of(*library, person->person_id, person->person_id);
+  if (!erased) return refuse(erased.error());
+  std::printf("withdrawn; %zu attempts erased\n", erased->attempts);
+  return kDone;
+}
+
+int run_user_fact(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto person = casedb::open_account(*library, arguments.positional(0));
+  if (!person) return refuse(person.error());
+  if (arguments.positionals() == 2) throw UsageError("a fact and its answer, or neither");
+  if (arguments.positionals() == 3) {
+    const auto done =
+        casedb::give_fact(*library, person->person_id, arguments.positional(1), arguments.positional(2));
+    return done ? kDone : refuse(done.error());
+  }
+  const auto facts = casedb::list_facts(*library, person->person_id);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_given_facts(facts).c_str(), stdout);
+    return kDone;
+  }
+  const auto newest = casedb::newest_facts(facts);
+  for (const casedb::FactInfo& fact : casedb::fact_infos()) {
+    const auto found = newest.find(std::string(fact.id));
+    std::printf("%-20s %-8s %s\n", std::string(fact.id).c_str(),
+                found == newest.end() ? "–" : found->second.answer.c_str(), std::string(fact.words).c_str());
+  }
+  return kDone;
+}
+
+constexpr Option kUserOption{"--user", "NAME", "whose account"};
+constexpr Option kNewOptions[] = {kLibrary, kActing, kJson};
+constexpr Option kResearcherOptions[] = {kLibrary, kUserOption, kActing};
+constexpr Option kTextOptions[] = {
+    kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}, kActing};
+constexpr Option kListOptions[] = {kLibrary, kUserOption, kJson};
+constexpr Option kGiveOptions[] = {kLibrary, kUserOption};
+constexpr Option kWithdrawOptions[] = {
+    kLibrary, kUserOption, {"--delete", nullptr, "also erase this person's recordings and results"}};
+
+}  // namespace
+
+Command study_new_command() {
+  return {.name = "study new",
+          .positionals = "TITLE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kNewOptions,
+          .summary = "Makes a study, to which people can consent.",
+          .run = &run_study_new};
+}
+
+Command study_list_command() {
+  return {.name = "study list", .options = kLibraryJson, .summary = "Lists the studies.", .run = &run_study_list};
+}
+
+Command study_researcher_command() {
+  return {.name = "study researcher",
+          .positionals = "STUDY",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kResearcherOptions,
+          .summary = "Lets a researcher see, as pseudonyms, those who consent to a study.",
+          .run = &run_study_researcher};
+}
+
+Command consent_text_command() {
+  return {.name = "consent text",
+          .positionals = "FILE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kTextOptions,
+          .summary = "Adds the next version of a text that people are asked to consent to.",
+          .run = &run_consent_text};
+}
+
+Command consent_list_command() {
+  return {.name = "consent list",
+          .options = kListOptions,
+          .summary = "Lists what somebody is asked to consent to, and the answers.",
+          .run = &run_consent_list};
+}
+
+Command consent_give_command() {
+  return {.name = "consent give",
+          .positionals = "TEXT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kGiveOptions,
+          .summary = "Notes that somebody consents, given on paper; on the dashboard people answer themselves.",
+          .run = [](const Arguments& arguments) { return run_consent_answer(arguments, true); }};
+}
+
+Command consent_withdraw_command() {
+  return {.name = "consent withdraw",
+          .positionals = "TEXT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kWithdrawOptions,
+          .summary = "Notes that somebody no longer consents.",
+          .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
+}
+
+Command user_fact_command() {
+  return {.name = "user fact",
+          .positionals = "NAME [FACT ANSWER]",
+          .min_positionals = 1,
+          .max_positionals = 3,
+          .options = kLibraryJson,
+          .summary = "Lists what somebody said of their experience, or notes an answer that holds from now on.",
+          .run = &run_user_fact};
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,95 @@
+// user erase, attempt delete, case delete.
+#include <cstdio>
+
+#include "app/cli/command.h"
+#include "app/library/acting.h"
+#include "app/library/people_json.h"
+#include "casedb/attempts/attempts.h"
+
+namespace seldinger::app {
+namespace {
+
+int told(const Arguments& arguments, const base::Result<casedb::Erased>& erased) {
+  if (!erased) return refuse(erased.error());
+  if (!erased->overwritten)
+    std::fputs(
+        "Another program has the library open: its log still holds old bytes until the last one closes it.\n",
+        stderr);
+  if (arguments.has("--json")) {
+    std::fputs(json_of_erased(*erased).c_str(), stdout);
+    return kDone;
+  }
+  std::printf(
+      "erased: %zu attempts, %zu files, %zu copies of older schemas. Backups and exports made before still hold "
+      "what was erased.\n",
+      erased->attempts, erased->assets, erased->old_copies);
+  return kDone;
+}
+
+int run_user_erase(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto by = acting(*library, arguments, casedb::Action::erase_person);
+  if (!by) return refuse(by.error());
+  return told(arguments, casedb::erase_person(*library, arguments.positional(0), *by));
+}
+
+int run_attempt_delete(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
+  if (!attempt) return refuse(attempt.error());
+  casedb::Subject subject;
+  if (arguments.has("--by"))
+    if (const auto account = casedb::open_account(*library, arguments.text("--by")))
+      subject = casedb::relation_to(*library, account->person_id, attempt->person_id);
+  const auto by = acting(*library, arguments, casedb::Action::erase_attempts, subject);
+  if (!by) return refuse(by.error());
+  return told(arguments, casedb::erase_attempt(*library, attempt->attempt_id, *by));
+}
+
+int run_case_delete(const Arguments& arguments) {
+  auto library = casedb::Library::open(arguments.required("--library"));
+  if (!library) return refuse(library.error());
+  const auto row = casedb::find_case(*library, arguments.positional(0));
+  if (!row) return refuse(row.error());
+  const auto by = acting(*library, arguments, casedb::Action::erase_case, row->state);
+  if (!by) return refuse(by.error());
+  return told(arguments, casedb::erase_case(*library, row->case_id, *by));
+}
+
+constexpr Option kEraseOptions[] = {kLibrary, kActing, kJson};
+
+}  // namespace
+
+Command user_erase_command() {
+  return {.name = "user erase",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kEraseOptions,
+          .summary = "Erases a person: name, account, recordings, results and facts. What is left is an empty row.",
+          .run = &run_user_erase};
+}
+
+Command attempt_delete_command() {
+  return {.name = "attempt delete",
+          .positionals = "ATTEMPT",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kEraseOptions,
+          .summary = "Erases one attempt with its recording and results; an empty row is left.",
+          .run = &run_attempt_delete};
+}
+
+Command case_delete_command() {
+  return {.name = "case delete",
+          .positionals = "CASE",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kEraseOptions,
+          .summary = "Deletes a draft or a retired case on which nobody has made an attempt.",
+          .run = &run_case_delete};
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,2 @@
+-- On which case an attempt was made.
+SELECT case_id FROM attempt WHERE attempt_id = :attempt_id

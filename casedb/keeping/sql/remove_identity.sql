@@ -1,0 +1,2 @@
+-- Identities: a person has no name any more.
+DELETE FROM identity WHERE person_id = :person_id

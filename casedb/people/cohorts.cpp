@@ -1,0 +1,156 @@
+#include "casedb/people/cohorts.h"
+
+#include <algorithm>
+
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+#include "sim/base/names.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr auto kPosts = base::names<Post>({{Post::learner, "learner"}, {Post::mentor, "mentor"}});
+constexpr std::size_t kMostTitle = 200;
+const base::Error kNotEnrolled{"not_enrolled", "this person does not belong to it now"};
+
+base::Result<void> only_a_person(Library& library, const std::string& person_id) {
+  Statement row = question(library.database(), "person_exists");
+  CHECK(row.bind("person_id", person_id).step());
+  if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+  return {};
+}
+
+}  // namespace
+
+std::string name_of(Post post) {
+  return std::string(base::name_of(kPosts, post));
+}
+
+std::optional<Post> post_from(const std::string& name) {
+  return base::from_name(kPosts, name);
+}
+
+base::Result<void> check_title(const std::string& title) {
+  const bool sound = !title.empty() && title.size() <= kMostTitle &&
+                     std::none_of(title.begin(), title.end(),
+                                  [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+  if (!sound) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
+  return {};
+}
+
+base::Result<std::string> add_cohort(Library& library, const std::string& title, const std::string& programme,
+                                     const std::string& site) {
+  for (const std::string& text : {title, programme})
+    if (const auto fit = check_title(text); !fit) return fit.error();
+  if (!site.empty())
+    if (const auto fit = check_title(site); !fit) return fit.error();
+  Transaction transaction(library.database());
+  std::string cohort_id = new_uuid();
+  {
+    Statement insert = question(library.database(), "add_cohort");
+    insert.bind("cohort_id", cohort_id).bind("title", title).bind("programme", programme).bind("site", site);
+    if (!insert.bind("created_us", now_us()).step())
+      return base::Error{"title_taken", "there is already a cohort of that title"};
+    CHECK(!insert.step());
+  }
+  transaction.commit();
+  return cohort_id;
+}
+
+std::vector<Cohort> list_cohorts(Library& library) {
+  std::vector<Cohort> cohorts;
+  Statement rows = question(library.database(), "cohorts");
+  for (rows.bind("now_us", now_us()); rows.step();)
+    cohorts.push_back({rows.text("cohort_id"), rows.text("title"), rows.text("programme"), rows.text("site"),
+                       rows.small_integer("learners"), rows.small_integer("attempts"),
+                       rows.small_integer("people_with_attempts"), rows.small_integer("with_hit"),
+                       rows.small_integer("hits")});
+  return cohorts;
+}
+
+base::Result<Cohort> find_cohort(Library& library, const std::string& title_or_id) {
+  for (Cohort& one : list_cohorts(library))
+    if (one.title == title_or_id || one.cohort_id == title_or_id) return std::move(one);
+  return base::Error{"no_cohort", "there is no such cohort"};
+}
+
+std::vector<Enrolment> list_enrolments(Library& library, const std::string& cohort_id) {
+  std::vector<Enrolment> enrolments;
+  Statement rows = question(library.database(), "enrolments");
+  for (rows.bind("cohort_id", cohort_id); rows.step();) {
+    const auto post = post_from(rows.text("post"));
+    CHECK(post.has_value());
+    enrolments.push_back({rows.text("person_id"), rows.text("pseudonym"), *post, rows.integer("from_us"),
+                          rows.is_null("to_us") ? std::nullopt : std::optional(rows.integer("to_us"))});
+  }
+  return enrolments;
+}
+
+base::Result<void> enrol(Library& library, const std::string& cohort_id, const std::string& person_id, Post post) {
+  Transaction transaction(library.database());
+  if (const auto known = only_a_person(library, person_id); !known) return known.error();
+  if (const auto cohort = find_cohort(library, cohort_id); !cohort) return cohort.error();
+  const std::int64_t now = now_us();
+  for (const Enrolment& one : list_enrolments(library, cohort_id))
+    if (one.person_id == person_id && one.post == post && one.to_us.value_or(now + 1) > now) return {};
+  question(library.database(), "add_enrolment")
+      .bind("cohort_id", cohort_id)
+      .bind("person_id", person_id)
+      .bind("post", name_of(post))
+      .bind("from_us", now)
+      .run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> end_enrolment(Library& library, const std::string& cohort_id, const std::string& person_id) {
+  Transaction transaction(library.database());
+  int ended = 0;
+  {
+    Statement end = question(library.database(), "end_enrolments");
+    for (end.bind("cohort_id", cohort_id).bind("person_id", person_id).bind("to_us", now_us()); end.step();)
+      ++ended;
+  }
+  if (ended == 0) return kNotEnrolled;
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> appoint_director(Library& library, const std::string& programme, const std::string& person_id) {
+  if (const auto fit = check_title(programme); !fit) return fit.error();
+  Transaction transaction(library.database());
+  if (const auto known = only_a_person(library, person_id); !known) return known.error();
+  question(library.database(), "add_director")
+      .bind("programme", programme)
+      .bind("person_id", person_id)
+      .bind("from_us", now_us())
+      .run();
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> end_director(Library& library, const std::string& programme, const std::string& person_id) {
+  Transaction transaction(library.database());
+  int ended = 0;
+  {
+    Statement end = question(library.database(), "end_director");
+    for (end.bind("programme", programme).bind("person_id", person_id).bind("to_us", now_us()); end.step();)
+      ++ended;
+  }
+  if (ended == 0) return kNotEnrolled;
+  transaction.commit();
+  return {};
+}
+
+Cohort suppressed(Cohort cohort) {
+  if (cohort.learners < kSmallestCell) cohort.learners = -1;
+  // Two cells whose difference is a small one would tell it: attempts are shown of a whole cohort or not at all.
+  const bool told = cohort.learners > 0 && cohort.people_with_attempts >= kSmallestCell;
+  if (!told) cohort.attempts = cohort.with_hit = cohort.hits = -1;
+  cohort.people_with_attempts = -1;
+  return cohort;
+}
+
+}  // namespace seldinger::casedb

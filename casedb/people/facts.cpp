@@ -1,0 +1,125 @@
+#include "casedb/people/facts.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "casedb/database/question.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr FactInfo kFacts[] = {
+    {.id = "years_in_radiology",
+     .words = "Years in radiology",
+     .unit = "years",
+     .whole = false,
+     .least = 0,
+     .most = 70},
+    {.id = "handedness", .words = "Writing hand", .choices = "left|right|both"},
+    {.id = "logbook_total",
+     .words = "Interventional procedures in your logbook, last 3 months",
+     .unit = "count",
+     .least = 0,
+     .most = 5000},
+    {.id = "logbook_independent",
+     .words = "of these performed independently",
+     .unit = "count",
+     .least = 0,
+     .most = 5000},
+    {.id = "confidence",
+     .words = "Confidence in performing image-guided needle punctures",
+     .least = 1,
+     .most = 10,
+     .least_words = "none: I cannot do these",
+     .most_words = "full: unsupervised in all cases"},
+};
+
+std::string digits_of(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+}  // namespace
+
+std::span<const FactInfo> fact_infos() {
+  return kFacts;
+}
+
+const FactInfo* find_fact(std::string_view id) noexcept {
+  const auto found =
+      std::find_if(std::begin(kFacts), std::end(kFacts), [&](const FactInfo& one) { return one.id == id; });
+  return found == std::end(kFacts) ? nullptr : &*found;
+}
+
+std::vector<std::string> choices_of(const FactInfo& fact) {
+  std::vector<std::string> choices;
+  for (std::size_t from = 0; fact.is_choice() && from <= fact.choices.size();) {
+    const std::size_t end = std::min(fact.choices.find('|', from), fact.choices.size());
+    choices.emplace_back(fact.choices.substr(from, end - from));
+    from = end + 1;
+  }
+  return choices;
+}
+
+base::Result<std::string> checked_answer(const std::string& fact_id, const std::string& answer) {
+  const FactInfo* fact = find_fact(fact_id);
+  if (fact == nullptr) {
+    std::string known;
+    for (const FactInfo& one : kFacts) known += (known.empty() ? "" : ", ") + std::string(one.id);
+    return base::Error{"unknown_fact", "there is no such fact; known are " + known};
+  }
+  if (fact->is_choice()) {
+    const auto choices = choices_of(*fact);
+    if (std::find(choices.begin(), choices.end(), answer) != choices.end()) return answer;
+    return base::Error{"bad_answer", std::string(fact->words) + ": one of " + std::string(fact->choices)};
+  }
+  double value = 0.0;
+  const auto read = std::from_chars(answer.data(), answer.data() + answer.size(), value);
+  const bool number = read.ec == std::errc() && read.ptr == answer.data() + answer.size() && std::isfinite(value);
+  if (!number || value < fact->least || value > fact->most || (fact->whole && value != std::floor(value)))
+    return base::Error{"bad_answer", std::string(fact->words) +
+                                         (fact->whole ? ": a whole number from " : ": a number from ") +
+                                         digits_of(fact->least) + " to " + digits_of(fact->most)};
+  return digits_of(value + 0.0);  // no negative zero
+}
+
+base::Result<void> give_fact(Library& library, const std::string& person_id, const std::string& fact_id,
+                             const std::string& answer) {
+  const auto checked = checked_answer(fact_id, answer);
+  if (!checked) return checked.error();
+  Transaction transaction(library.database());
+  {
+    Statement row = question(library.database(), "person_exists");
+    CHECK(row.bind("person_id", person_id).step());
+    if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+  }
+  question(library.database(), "add_fact")
+      .bind("person_id", person_id)
+      .bind("fact_id", fact_id)
+      .bind("given_us", now_us())
+      .bind("answer", *checked)
+      .run();
+  transaction.commit();
+  return {};
+}
+
+std::vector<FactGiven> list_facts(Library& library, const std::string& person_id) {
+  std::vector<FactGiven> given;
+  Statement rows = question(library.database(), "facts_of_person");
+  for (rows.bind("person_id", person_id); rows.step();)
+    given.push_back({rows.text("fact_id"), rows.text("answer"), rows.integer("given_us")});
+  return given;
+}
+
+std::map<std::string, FactGiven> newest_facts(const std::vector<FactGiven>& given) {
+  std::map<std::string, FactGiven> newest;
+  for (const FactGiven& one : given) newest[one.fact_id] = one;
+  return newest;
+}
+
+}  // namespace seldinger::casedb

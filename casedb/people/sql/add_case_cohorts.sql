@@ -1,0 +1,4 @@
+-- A case reaches the cohorts that its publisher leads now.
+INSERT INTO case_cohort (case_id, cohort_id)
+SELECT DISTINCT :case_id, cohort_id FROM enrolment
+WHERE person_id = :person_id AND post = 'mentor' AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)

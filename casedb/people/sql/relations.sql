@@ -1,0 +1,21 @@
+-- What everybody is to :reader at :now_us, as far as it is anything.
+WITH led AS (
+  SELECT cohort_id FROM enrolment
+  WHERE person_id = :reader AND post = 'mentor' AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+), directed AS (
+  SELECT cohort_id FROM cohort JOIN programme_director USING (programme)
+  WHERE person_id = :reader AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+), learning AS (
+  SELECT cohort_id, person_id FROM enrolment
+  WHERE post = 'learner' AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+), studied AS (
+  SELECT consenting.person_id FROM study_researcher JOIN consenting USING (study_id)
+  WHERE study_researcher.person_id = :reader AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+)
+SELECT person_id,
+  person_id = :reader AS own,
+  person_id IN (SELECT learning.person_id FROM learning JOIN led USING (cohort_id)) AS own_cohort,
+  person_id IN (SELECT learning.person_id FROM learning JOIN directed USING (cohort_id)) AS own_programme,
+  person_id IN (SELECT person_id FROM studied) AS own_study
+FROM person
+WHERE erased_us IS NULL

@@ -1,0 +1,52 @@
+#include "reports/pages/cohorts_page.h"
+
+namespace seldinger::reports {
+namespace {
+
+// −1: withheld.
+std::string count_text(int count) {
+  return count < 0 ? "fewer than " + std::to_string(casedb::kSmallestCell) + " people" : std::to_string(count);
+}
+
+void add_row(Html& html, const CohortView& view) {
+  const casedb::Cohort& cohort = view.cohort;
+  html.raw("<tr><th scope=\"row\">")
+      .name(cohort.title)
+      .raw("</th><td data-label=\"Programme\">")
+      .name(cohort.programme);
+  if (!cohort.site.empty()) html.raw(" <span class=\"why\">").name(cohort.site).raw("</span>");
+  html.raw("</td><td data-label=\"Learners\">").text(count_text(cohort.learners));
+  for (std::size_t i = 0; i < view.learners.size(); ++i) html.raw(i == 0 ? ": " : ", ").name(view.learners[i]);
+  html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(count_text(cohort.attempts));
+  html.raw("</td><td class=\"number\" data-label=\"Hits\">");
+  if (cohort.hits < 0)
+    html.text(count_text(cohort.hits));
+  else
+    html.text(std::to_string(cohort.hits) + " of " + std::to_string(cohort.with_hit));
+  html.raw("</td></tr>\n");
+}
+
+}  // namespace
+
+std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts) {
+  Html html;
+  html.raw("<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; of others counts only, and none of fewer than ")
+      .text(std::to_string(casedb::kSmallestCell))
+      .raw(" people.</p>\n");
+  if (cohorts.empty()) {
+    html.raw(
+        "<p>There is no cohort for you to see. Whoever runs this library adds one with <code>seldinger cohort "
+        "add</code>.</p>\n");
+    return page("Cohorts", visitor, html);
+  }
+  html.raw(
+      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did, and how often they "
+      "hit</caption>\n<thead><tr><th scope=\"col\">Cohort</th><th "
+      "scope=\"col\">Programme</th><th scope=\"col\">Learners</th><th scope=\"col\">Attempts</th><th "
+      "scope=\"col\">Hits</th></tr></thead>\n<tbody>\n");
+  for (const CohortView& view : cohorts) add_row(html, view);
+  html.raw("</tbody>\n</table>\n</div>\n");
+  return page("Cohorts", visitor, html);
+}
+
+}  // namespace seldinger::reports

@@ -1,0 +1,21 @@
+// Cohorts: who is in those that the reader may see by name, and counts of the others, small ones withheld.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "casedb/people/cohorts.h"
+#include "reports/pages/page.h"
+
+namespace seldinger::reports {
+
+struct CohortView {
+  casedb::Cohort cohort;                // where `named` is false, as casedb::suppressed leaves it
+  bool named = false;                   // the reader sees who is in it
+  std::vector<std::string> learners{};  // their names
+};
+
+std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts);
+
+}  // namespace seldinger::reports
