@@ -150,7 +150,7 @@ std::vector<TimeSpan> program_moves(std::span<const cases::PoseSample> poses,
                                     std::span<const cases::Event> events) {
   std::vector<TimeSpan> moves;
   if (!poses.empty()) moves.push_back({poses.front().t_s, poses.front().t_s});
-  for (const cases::EventSpan& span : cases::program_moves(events)) moves.push_back({span.from_s, span.to_s});
+  for (const cases::EventSpan& move : cases::program_moves(events)) moves.push_back({move.from_s, move.to_s});
   return moves;
 }
 

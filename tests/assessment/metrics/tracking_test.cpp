@@ -111,6 +111,10 @@ TEST(TrackingJumps, TheProgramsOwnMovesAreMarked) {
   EXPECT_EQ(planted_number(recording, "gap_share"), 0.0);
   EXPECT_EQ(not_graded(recording), "");
   EXPECT_NEAR(planted_number(recording, "path_tip"), 80.0, 0.5) << "nor are they the hand's way";  // before: 260
+  recording.events = {{4.0, cases::EventKind::needle_by_gamepad}};
+  EXPECT_EQ(planted_number(recording, "tracking_jumps"), 0.0) << "hands changed";
+  recording.events = {{3.0, cases::EventKind::guide_on}, {4.2, cases::EventKind::guide_reached}};
+  EXPECT_EQ(planted_number(recording, "tracking_jumps"), 0.0) << "brought to its guide";
   recording.events->clear();
   EXPECT_EQ(planted_number(recording, "tracking_jumps"), 1.0) << "what nobody marked is one";
 }
