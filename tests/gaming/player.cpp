@@ -129,12 +129,15 @@ class Hands {
 }  // namespace
 
 const Player& honest_player() {
-  static const Player player = {
-      "honest",
-      "",
-      {{.wait_s = 1.0, .two_views = true},
-       {.from = From::target, .depth_mm = 0.0, .mm_s = 8.0, .wait_s = 0.5, .two_views = true},
-       {.from = From::target, .depth_mm = 0.0, .fire = true}}};
+  static const Player player = [] {
+    Player made = {"honest", "he leaves nothing out", {{.wait_s = 1.0, .two_views = true}}};
+    // Under a fluoroscope with a look after each step.
+    for (const double short_mm : {56.0, 42.0, 28.0, 14.0, 0.0})
+      made.stages.push_back(
+          {.from = From::target, .depth_mm = -short_mm, .mm_s = 8.0, .wait_s = 0.2, .two_views = true});
+    made.stages.push_back({.from = From::target, .depth_mm = 0.0, .fire = true});
+    return made;
+  }();
   return player;
 }
 
