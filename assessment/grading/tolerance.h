@@ -6,7 +6,8 @@
 namespace seldinger::assessment {
 
 // k such that mean ± k sd of `n` values holds `share` of the population, with `confidence`: Howe, J. Am. Stat.
-// Assoc. 64 (1969) 610, less than 1 % below the exact factor from n = 8 on. CHECKs n ≥ 2, 0 < share, confidence < 1.
+// Assoc. 64 (1969) 610, less than 1 % below the exact factor from n = 8 on. CHECKs n ≥ 2, 0 < share, confidence
+// < 1.
 double tolerance_factor(std::size_t n, double share, double confidence);
 
 // x below which `p` of a standard normal variable lies.
