@@ -91,7 +91,7 @@ TEST(ExpertSetTest, ABandIsOverOneValueAPerson) {
   EXPECT_EQ(find(set, "gap_share"), nullptr) << "of the recording, not of what was done";
 }
 
-TEST(ExpertSetTest, ATolerancIntervalIsMeanAndSdWithinWhatTheMetricCanBe) {
+TEST(ExpertSetTest, AToleranceIntervalIsMeanAndSdWithinWhatTheMetricCanBe) {
   const ExpertSet set = expert_set(attempts_of(11));
   const MetricBand* core = find(set, "core_in_target");
   ASSERT_TRUE(core->tolerance.has_value());
