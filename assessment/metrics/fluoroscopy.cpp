@@ -107,7 +107,7 @@ Measured longest_advance_between_exposures(const Signals& signals) {
     for (; frame < signals.frames.size() && signals.frames[frame].t_s <= signals.poses[i].t_s; ++frame)
       exposed = exposed || signals.frames[frame].beam.has_value();
     if (exposed) lowest_mm = last_mm;
-    const double inserted_mm = signals.inserted_mm(i);
+    const double inserted_mm = signals.pushed_mm[i];
     // What starts inside has advanced before anybody looked; what happened in a gap is not known.
     if (i == 0 || signals.gap(i - 1)) lowest_mm = inserted_mm;
     lowest_mm = std::min(lowest_mm, inserted_mm);
@@ -175,14 +175,16 @@ constexpr MetricInfo kFluoroscopyMetrics[] = {
      "let go) met the collimated beam.",
      kTechnique, &hand_in_beam, kMedianRatio,
      kAnyPlace | kInAnyBreath | kIdleBefore | kIdleAfter | kLostSamples | kOneDarkFrame},
-    {"longest_advance_between_exposures", 1, "mm", "Advance between exposures", Group::picture,
+    {"longest_advance_between_exposures", 2, "mm", "Advance between exposures", Group::picture,
      Direction::lower_is_better, kUnderBeam | kSkin | kMotion | kTissue,
-     "Most that the inserted length grew without a pulse: between two, before the first, and after the last. What "
-     "was "
-     "withdrawn and inserted again counts again; gaps over 0.25 s are not bridged.",
+     "Most that the hand pushed the needle in without a pulse: between two, before the first, and after the last. "
+     "What was withdrawn and inserted again counts again; breath that slides past a hand at rest does not; gaps "
+     "over "
+     "0.25 s are not bridged.",
      "advancing between exposures is correct practice under fluoroscopy, as long as it is short",
      &longest_advance_between_exposures, kMedianRatio,
-     kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing},
+     kAnyPlace | kAtAnySpeed | kIdleBefore | kIdleAfter | kOneDarkFrame | kLostSamples | kNothingIsNothing,
+     "1: what the needle came in, so that breath past a resting hand was advance."},
 };
 
 }  // namespace

@@ -88,7 +88,8 @@ double BoxedStructure::distance_mm(const glm::dvec3& p, double known_mm, double 
   for (double limit_mm = std::max(kNearMm, bound_mm + kNearMm);; limit_mm *= 2.0) {
     const double asked_mm = std::min(limit_mm, most_mm);
     const double found_mm = cases::signed_distance_mm(structure_->shape, p, asked_mm);
-    if (std::abs(found_mm) < asked_mm || found_mm >= enough_mm || limit_mm >= kDeepMm) return found_mm;
+    const bool exact = std::abs(found_mm) < asked_mm;  // else it lies at least so deep inside, or so far outside
+    if (exact || (found_mm > 0.0 && found_mm >= enough_mm) || limit_mm >= kDeepMm) return found_mm;
     if (found_mm < 0.0) most_mm = kDeepMm;
   }
 }

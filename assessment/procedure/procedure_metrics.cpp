@@ -1,4 +1,6 @@
 // Metrics of the procedure around the puncture: what was decided, which steps were done, and what hurt.
+#include <algorithm>
+
 #include "assessment/metrics/tables.h"
 #include "assessment/procedure/steps.h"
 #include "assessment/signals/signals.h"
@@ -14,7 +16,11 @@ Measured decision_right(const Signals& signals) {
   const bool deferred = first_s(Evidence::deferred, signals).has_value();
   const bool punctured = count_punctures(signals).punctures > 0;
   if (!deferred && !punctured && !first_s(Evidence::decided, signals)) return Measured::none("nothing_decided");
-  const bool right = *signals.setting.defer_is_right ? deferred && !punctured : !deferred;
+  // Who says both has left the decision to whoever listens.
+  const bool proceeds =
+      punctured || std::any_of(signals.events->begin(), signals.events->end(),
+                               [](const auto& event) { return event.kind == cases::EventKind::proceed; });
+  const bool right = *signals.setting.defer_is_right ? deferred && !proceeds : !deferred;
   return Measured::of(right ? 1.0 : 0.0);
 }
 
@@ -62,11 +68,13 @@ constexpr MetricInfo kProcedureMetrics[] = {
      "else 0. To look, to talk or to hold the needle beside the patient is no procedure, and has the best value of "
      "whatever counts errors: comparisons are among attempts with 1.",
      "the population of an estimand: ICH E9(R1), 2019, A.3.3", &procedure_performed, kProportion, kOfTheWay},
-    {"decision_right", 1, "bool", "Right decision", Group::procedure, Direction::higher_is_better,
+    {"decision_right", 2, "bool", "Right decision", Group::procedure, Direction::higher_is_better,
      kEvents | kDecision | kSkin,
-     "Whether a case to be deferred was deferred, with no skin puncture, or one to go ahead was not. Null: "
-     "nothing_decided (neither said nor punctured).",
-     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand, kOfEvents | kNothingIsNothing},
+     "1 or 0: whether a case to be deferred was deferred, neither saying to proceed nor puncturing the skin, or "
+     "one to "
+     "go ahead was not deferred. Null: nothing_decided (neither said nor punctured).",
+     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand, kOfEvents | kNothingIsNothing,
+     "1: to proceed and to defer could both be said."},
     {"steps_done", 3, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for; a step that a deed can show, by the deed "
      "only. "

@@ -177,6 +177,18 @@ TEST(LongestAdvance, IsFromPulseToPulse) {
   EXPECT_NEAR(number(seldom, "longest_advance_between_exposures"), 40.0, 0.11) << "up to the trigger";
 }
 
+TEST(LongestAdvance, BreathPastARestingHandIsNone) {
+  // 30 mm in, a pulse each 0.2 s on the way; then the hand rests for 20 s while breath slides 6 mm along the
+  // needle.
+  auto recording = way([](double t) { return 10.0 * std::min(t, 3.0); }, 23.0);
+  for (auto& pose : recording.poses)
+    pose.rest_tip_lps_mm =
+        pose.tip_lps_mm - glm::dvec3(0.0, pose.t_s < 3.0 ? 0.0 : 3.0 - 3.0 * std::cos(1.5 * (pose.t_s - 3.0)), 0.0);
+  recording.endpoint->rest_tip_lps_mm = recording.poses.back().rest_tip_lps_mm;
+  for (double t_s = 0.0; t_s < 3.1; t_s += 0.2) expose(recording, t_s, beam());
+  EXPECT_LT(number(recording, "longest_advance_between_exposures"), 2.2);  // before: 6
+}
+
 TEST(LongestAdvance, AHeldImageShowsNothingAndOutsideIsNoAdvance) {
   auto recording = way([](double t) { return -50.0 + 10.0 * t; }, 8.0);
   expose(recording, 1.0, beam());

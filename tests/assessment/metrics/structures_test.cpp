@@ -92,6 +92,17 @@ TEST(NoGo, AChordBesideTheMiddleIsItsClosedForm) {
   EXPECT_EQ(number("clearance_min", {ball(StructureRule::major, 30, 5, 90)}, down, 4.0), 20.0) << "at most";
 }
 
+TEST(NoGo, DeepInsideItsDistanceIsNotCutOff) {
+  // Through the middle of a ball of 17 mm. Before: the limit up to which it was asked, as far as the steps of the
+  // way happened to take it.
+  const std::vector<cases::Structure> one = {ball(StructureRule::critical, 30, 17)};
+  for (const double speed_mm_s : {5.0, 20.0, 40.0})
+    EXPECT_NEAR(number(
+                    "clearance_min", one, [&](double t) { return -20.0 + speed_mm_s * t; }, 60.0 / speed_mm_s),
+                -17.0, 0.3)
+        << speed_mm_s;
+}
+
 TEST(NoGo, AGrazeIsNoContactAndSlownessHelpsNobody) {
   // Half a millimetre inside, and a little more.
   const auto chord = [](double length_mm) {

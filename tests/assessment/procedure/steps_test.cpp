@@ -602,6 +602,12 @@ TEST(Steps, WhoDefersIsAskedForNothingMore) {
   EXPECT_EQ(value(sample).value, 0.0) << "it was to go ahead";
   sample.setting.defer_is_right = true;
   EXPECT_EQ(value(sample).value, 1.0);
+  SampleAttempt both = sample;
+  for (const double t_s : {0.05, 0.25}) {  // before or after it was said to defer
+    both.recording.events = {{0.1, EventKind::sign_in}, {0.2, EventKind::defer}};
+    say(both, t_s, EventKind::proceed);
+    EXPECT_EQ(value(both).value, 0.0) << "said both";  // before: 1
+  }
   SampleAttempt punctured = exemplary(kUltrasoundCore);
   punctured.setting.defer_is_right = true;
   EXPECT_EQ(value(punctured).value, 0.0);
