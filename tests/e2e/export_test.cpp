@@ -187,8 +187,8 @@ TEST(RawExport, APersonsAttemptsAreOrderedAndWithoutDates) {
   EXPECT_EQ(nobody, 2);
   std::set<std::string> files;
   for (const auto& entry : fs::directory_iterator(made().at("tables"))) files.insert(entry.path().filename());
-  EXPECT_EQ(files, (std::set<std::string>{"attempts.csv", "metrics.csv", "steps.csv", "data_dictionary.csv",
-                                          "README.txt"}));
+  EXPECT_EQ(files, (std::set<std::string>{"attempts.csv", "metrics.csv", "steps.csv", "facts.csv",
+                                          "data_dictionary.csv", "README.txt"}));
 }
 
 TEST(RawExport, NamesAreOfOneExportUnlessThereIsAKey) {

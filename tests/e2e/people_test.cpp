@@ -86,7 +86,7 @@ TEST_F(PeopleCommands, AnExportHoldsWhoConsentsAndNobodyElse) {
   EXPECT_FALSE(holds(at("after"), "tina"));
   EXPECT_EQ(refusal("export --study Needles --by mona --out " + at("x")), "not_allowed");
   EXPECT_EQ(refusal("export --study Probes --out " + at("x")), "no_study");
-  const Json all = library_.ask("export --out " + at("library"));
+  const Json all = library_.ask("export --out " + at("research"));
   EXPECT_EQ(all["attempts"], all["synthetic"]) << "consent to a study is none to any research";
   library_.done("consent withdraw " + text + " --user tina");
   EXPECT_EQ(refusal("consent withdraw " + text + " --user tina"), "not_given");

@@ -25,6 +25,9 @@ class TrainEditorTest : public testing::Test {
     const std::string demo = library_.ask("demo --no-serve")["case_id"];
     for (const char* user : {"mona --role mentor", "tina --role trainee"})
       library_.done(std::string("user add ") + user);
+    for (const char* words :
+         {"add Autumn --programme Radiology", "enrol Autumn --user mona --mentor", "enrol Autumn --user tina"})
+      library_.done(std::string("cohort ") + words);
     case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
     library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
     library_.done("case setting " + case_id_ + " --title 'From the case editor' --pass 'hit >= 1'");

@@ -64,6 +64,7 @@ TEST(RawTables, DictionaryAndHeadersSayTheSame) {
                                                       {"metrics.csv", header_of(metric_columns())},
                                                       {"steps.csv", header_of(step_columns())},
                                                       {"events.csv", header_of(event_columns())},
+                                                      {"facts.csv", header_of(fact_columns())},
                                                       {"poses/ATTEMPT.csv", header_of(pose_columns())},
                                                       {"forces/ATTEMPT.csv", header_of(force_columns())},
                                                       {"frames/ATTEMPT.csv", header_of(frame_columns())}};
