@@ -184,6 +184,13 @@ WHEN OLD.case_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a standard cannot be deleted');
 END;
+DROP TRIGGER standard_band_is_kept;
+CREATE TRIGGER standard_band_is_kept BEFORE DELETE ON standard_band
+WHEN EXISTS (SELECT 1 FROM standard
+  WHERE standard.standard_id = OLD.standard_id AND standard.case_id NOT IN (SELECT id FROM erasing))
+BEGIN
+  SELECT RAISE(ABORT, 'a standard cannot be changed: set another');
+END;
 DROP TRIGGER case_decision_is_kept;
 CREATE TRIGGER case_decision_is_kept BEFORE DELETE ON case_decision
 WHEN OLD.case_id NOT IN (SELECT id FROM erasing)

@@ -38,7 +38,9 @@ TEST(Events, EachHasItsNumberAndItsName) {
 
 TEST(Events, WhatTheRecorderNotesIsTheWorkstations) {
   for (const EventInfo& info : event_kinds())
-    if (info.noted || info.snaps) EXPECT_EQ(info.source, EventSource::workstation) << info.name;
+    if (info.noted || info.snaps) {
+      EXPECT_EQ(info.source, EventSource::workstation) << info.name;
+    }
   EXPECT_FALSE(find_event(EventKind::resumed)->noted) << "it is an input of the attempt that goes on";
 }
 

@@ -45,7 +45,7 @@ Recording random_recording(std::size_t ticks, std::uint64_t seed) {
         const auto tenths_mm = static_cast<std::uint16_t>(i % 3 == 0 ? 0 : 977 * i);
         recording.inputs.back().event = kind;
         recording.inputs.back().event_tenths_mm = tenths_mm;
-        recording.events->push_back({t_s, kind, tenths_mm});
+        recording.events->push_back({t_s, kind, 0.0, tenths_mm});
       }
     }
     if (i % 33 == 0) recording.frames.push_back({t_s, i % 2 == 0, i % 5 == 0, i % 7 == 0, rng.uniform() * 100.0});
