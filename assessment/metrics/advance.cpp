@@ -161,6 +161,9 @@ constexpr std::uint32_t kSame =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
 constexpr const char* kByTissue =
     "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance.";
+constexpr const char* kByTissueGuided =
+    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; also under a "
+    "needle guide.";
 
 constexpr MetricInfo kAdvanceMetrics[] = {
     {"advance_visible_share", 2, "share", "Advance visible", Group::picture, Direction::higher_is_better,
@@ -187,11 +190,11 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      "Angle between needle and picture plane, averaged over the way that the hand advanced the tip in tissue. "
      "Null: under_1_mm_of_advance, no_picture_plane.",
      "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean, kMedianInterval,
-     kSame | kNothingIsNothing, kByTissue},
+     kSame | kNothingIsNothing, kByTissueGuided},
     {"plane_angle_max", 2, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
      "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max, kMedianInterval, kSame | kNothingIsNothing,
-     kByTissue},
+     kByTissueGuided},
     {"advance_beyond_plane", 2, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kOutOfPlane | kMotion | kTissue,
      "Length that the hand advanced the tip in tissue while it was more than 3 mm beyond the picture's plane, "

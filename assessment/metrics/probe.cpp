@@ -150,7 +150,7 @@ constexpr MetricInfo kProbeMetrics[] = {
      "counts is what both the room and the tissue at the tip say. Null: no_picture_plane.",
      kSites, &measured<&Probe::drift_mm>, kMedianRatio, kProbeLaws,
      "1: the way of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
-     "at more than 2 mm/s."},
+     "at more than 2 mm/s, also under a needle guide."},
     {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better,
      kOfProbe,
      "The part of probe_drift_advancing's motion that slides: way of the middle of the probe's face over the "

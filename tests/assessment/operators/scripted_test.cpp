@@ -242,7 +242,7 @@ Deeds deeds_of(const OperatorProfile& profile, const PuncturePlan& plan, std::ui
       deeds.least_mm = std::min(deeds.least_mm, along_mm);
       deeds.most_mm = std::max(deeds.most_mm, along_mm);
     }
-    const cases::Event event{tick.t_s, tick.inputs.event, tick.inputs.event_tenths_mm};
+    const cases::Event event{tick.t_s, tick.inputs.event, 0.0, tick.inputs.event_tenths_mm};
     if (event.kind == EventKind::depth_measured) deeds.measured_mm = event.length_mm();
     if (event.kind == EventKind::note_plan) deeds.planned_mm = event.length_mm();
   }
