@@ -126,7 +126,8 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
   std::set<std::string_view> without;
   for (const Route& route : routes())
     if (!route.who.action) without.insert(route.pattern);
-  EXPECT_EQ(without, (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts", "/metrics"}))
+  EXPECT_EQ(without, (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts",
+                                                 "/metrics"}))
       << "a new route names its action";
 }
 

@@ -135,7 +135,8 @@ TEST_F(ServerTest, ALogInThroughTheSocketsOpensTheAttempts) {
   const std::size_t session = answer.find("Set-Cookie: seldinger_session=");
   ASSERT_NE(session, answer.npos);
   const std::string session_cookie = answer.substr(session + 12, answer.find(';', session) - session - 12);
-  EXPECT_THAT(get("/attempts", "Cookie: " + session_cookie + "\r\n"), HasSubstr("Attempts that you may see, newest first: 2"));
+  EXPECT_THAT(get("/attempts", "Cookie: " + session_cookie + "\r\n"),
+              HasSubstr("Attempts that you may see, newest first: 2"));
   // Log-in fault of the library: 500 and 503 carry nothing of the inside.
   questions_->fault = [] { throw std::runtime_error("SECRET db path"); };
   const std::string broken = get("/attempts", "Cookie: " + session_cookie + "\r\n");
