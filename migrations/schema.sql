@@ -487,6 +487,7 @@ BEGIN
 END;
 
 CREATE TRIGGER attempt_condition_is_kept BEFORE DELETE ON attempt_condition
+WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a condition of an attempt cannot be deleted');
 END;
@@ -691,7 +692,8 @@ BEGIN
 END;
 
 CREATE TRIGGER standard_band_is_kept BEFORE DELETE ON standard_band
-WHEN EXISTS (SELECT 1 FROM standard WHERE standard.standard_id = OLD.standard_id)
+WHEN EXISTS (SELECT 1 FROM standard
+  WHERE standard.standard_id = OLD.standard_id AND standard.case_id NOT IN (SELECT id FROM erasing))
 BEGIN
   SELECT RAISE(ABORT, 'a standard cannot be changed: set another');
 END;
@@ -702,7 +704,8 @@ BEGIN
 END;
 
 CREATE TRIGGER standard_is_kept BEFORE DELETE ON standard
-WHEN EXISTS (SELECT 1 FROM training_case WHERE training_case.case_id = OLD.case_id)
+WHEN OLD.case_id NOT IN (SELECT id FROM erasing)
+  AND EXISTS (SELECT 1 FROM training_case WHERE training_case.case_id = OLD.case_id)
 BEGIN
   SELECT RAISE(ABORT, 'a standard cannot be deleted');
 END;

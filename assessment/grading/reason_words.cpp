@@ -60,6 +60,7 @@ constexpr ReasonWords kReasons[] = {
     {"not_in_tissue_at_the_end", "the tip was not in tissue at the end"},
     {"under_1_mm_of_advance", "the needle advanced by less than 1 mm in tissue"},
     {"under_1_s", "the attempt lasted less than 1 s"},
+    {"under_1_s_in_tissue", "the tip was in tissue for less than 1 s"},
     {"under_1_s_in_tissue_with_a_live_picture", "the tip was in tissue for less than 1 s with a live picture"},
     {"under_5_mm_from_the_skin", "the tip ended less than 5 mm from where it entered"},
     {"too_short", "it was over before it began"},

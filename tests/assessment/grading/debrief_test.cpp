@@ -70,7 +70,7 @@ TEST(DebriefTest, SaysThatVersionsAreNotComparable) {
   attempt.metrics[3].version += 1;
   const auto said = attempt.debriefed(rule_of({"hit >= 1", "blind_advance <= 5"}, {}));
   ASSERT_EQ(said.size(), 1U);
-  EXPECT_NE(said[0].text.find("another version of a metric"), std::string::npos) << said[0].text;
+  EXPECT_NE(said[0].text.find("another version of the metric"), std::string::npos) << said[0].text;
   attempt.metrics[4].value = 0.0;  // missed: it fails whatever the other would be
   EXPECT_EQ(texts(attempt.debriefed(rule_of({"hit >= 1", "blind_advance <= 5"}, {}))),
             (std::vector<std::string>{

@@ -418,7 +418,7 @@ TEST(Recording, AnUnknownEventIsDamage) {
 
 TEST(Recording, OfAnotherFormatIsRefused) {
   const Recording recording = random_recording(100, 13);
-  for (const std::uint32_t format : {0U, 7U, 77U})
+  for (const std::uint32_t format : {0U, 8U, 77U})
     EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, format)}).error().code,
               "recording_version");
   EXPECT_EQ(recording_from_chunks(std::vector{chunk_of_format_1(recording, 1, 1)}).error().code, "damaged")
