@@ -22,8 +22,8 @@ esac
 # example KIND NAME LIMIT WORDS [PATHS...]: LIMIT "-" is none; WORDS an extended regular expression; PATHS as git
 # takes them, the whole tree when there are none.
 examples() {
-  example 'metric, in a table that is there' advance_in_breath 5 '\badvance_in_breath\b'
-  example 'metric, in a table that is there' plane_angle_max 5 '\bplane_angle_max\b'
+  example 'metric, in a table that is there' advance_in_breath 6 '\badvance_in_breath\b'
+  example 'metric, in a table that is there' plane_angle_max 6 '\bplane_angle_max\b'
   example 'command' 'case mesh' 3 '\bcase_mesh\b|\bcase mesh\b'
   example 'command' 'user disable' 3 '\buser_disable\b|\buser disable\b'
   example 'route' '/cases/{case_id}/checks.json' - 'checks\.json|checks_json\b'

@@ -159,7 +159,7 @@ TEST(AttemptPage, SaysUnderWhichConditionsItWasMade) {
   EXPECT_THAT(html,
               HasSubstr("Conditions: simulated hands; no needle guide; 2 pauses, 41 s; interrupted for 90 s."));
   EXPECT_THAT(html, HasSubstr("34.6 s, without 41.2 s of pauses"));
-  EXPECT_THAT(html, HasSubstr("90 s, then gone on with"));
+  EXPECT_THAT(html, HasSubstr("Interrupted, and gone on with after 90 s."));
   EXPECT_THAT(html, HasSubstr("<dt>Needle guide used</dt><dd>no"));
   EXPECT_THAT(html, HasSubstr("&lt;scatterers&gt;"));
   EXPECT_THAT(html, Not(HasSubstr("Window&#39;s width"))) << "what is not known is not listed";
