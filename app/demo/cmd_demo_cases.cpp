@@ -132,8 +132,12 @@ base::Result<std::string> with_rule(casedb::Library& library, const std::string&
 base::Result<void> retire_older(casedb::Library& library, const casedb::CaseRow& newest) {
   for (const casedb::CaseRow& row : casedb::list_cases(library))
     if (row.family_id == newest.family_id && row.version < newest.version &&
-        row.state == casedb::CaseState::published)
-      if (const auto done = casedb::retire_case(library, row.case_id, kAuthor); !done) return done.error();
+        row.state == casedb::CaseState::published) {
+      // By who published it: the reviewer, or the author where an older program did.
+      auto done = casedb::retire_case(library, row.case_id, kReviewer);
+      if (!done) done = casedb::retire_case(library, row.case_id, kAuthor);
+      if (!done) return done.error();
+    }
   return {};
 }
 

@@ -36,7 +36,7 @@ void add_outcome(Html& html, const casedb::AttemptRow& row) {
     const std::string value = value_text(metric);
     html.raw("<div class=\"");
     html.text(id == "hit" && value == "Yes" ? "good" : id == "hit" && value == "No" ? "bad" : "plain");
-    html.raw("\"><dt>").add(metric_details(id, metric.version)).raw("</dt><dd>");
+    html.raw("\"><dt>").add(metric_details(id, found != nullptr ? found->version : 0)).raw("</dt><dd>");
     add_value(html, metric);
     html.raw("</dd></div>\n");
   }

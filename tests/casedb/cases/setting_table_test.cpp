@@ -55,7 +55,7 @@ void change(const SettingRow& row, CaseSetting& setting) {
                if (one.what == Composed::planned_entry)
                  setting.planned_entry_lps_mm = glm::dvec3(1.0, -2.0, 1.0 / 3.0);
                if (one.what == Composed::pass_rule)
-                 setting.rule.criteria = {{"hit", 1, assessment::Comparison::at_least, 1.0, false}};
+                 setting.rule.criteria = {assessment::criterion_from("hit >= 1").value()};
              }},
       row.field);
 }

@@ -47,6 +47,12 @@ class CaseEditorTest : public testing::Test {
       if (one.name == name) return &one;
     return nullptr;
   }
+  std::string findings() const {
+    std::string text;
+    for (const casedb::Check& one : editor_->scene()->check.checks)
+      if (!one.holds) text += one.name + ": " + one.text + "\n";
+    return text;
+  }
   bool holds(const std::string& name) const { return check(name) != nullptr && check(name)->holds; }
   std::size_t stored_lesions() { return casedb::list_lesions(*library_, case_id_).size(); }
 
@@ -70,7 +76,7 @@ TEST_F(CaseEditorTest, AClickPlacesALesionAndTheChecksSeeIt) {
   editor_->click({15.0, 0.0, 0.0});
   EXPECT_EQ(stored_lesions(), 1U) << "the chosen one is moved";
   ASSERT_TRUE(checked());
-  EXPECT_TRUE(editor_->scene()->check.holds());
+  EXPECT_TRUE(editor_->scene()->check.holds()) << findings();
   const auto spot = editor_->spot({16.0, 0.0, 0.0});
   ASSERT_TRUE(spot && spot->hu);
   EXPECT_EQ(*spot->hu, editor_->new_lesion.hu);
