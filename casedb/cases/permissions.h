@@ -24,7 +24,7 @@ enum class Action {
   // Cases.
   see_case,        // what it holds, also what is right: more than to practise it
   see_case_notes,  // what people wrote beside their decisions
-  work_on_case,    // on the workstation's bench
+  work_on_case,    // in the case editor
   confirm_no_burned_in_text,
   submit_case,
   approve_case,  // "own": one's own submission
