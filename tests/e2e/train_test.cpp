@@ -119,6 +119,9 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
   const auto picture = trainee_->place_of("picture"), room = trainee_->place_of("room");
   trainee_->test_side();
+  // Also a click into the picture: Tab, which then takes the needle, would go to a slider's number, and Space with
+  // it.
+  ASSERT_NO_FATAL_FAILURE(trainee_->measure_depth(depth_mm_));
   const auto scanning = look();
   EXPECT_GT(share(scanning, picture, grey), 0.20) << "speckle on the monitor";
   EXPECT_GT(share(scanning, room, skin), 0.10) << "a patient in the room";

@@ -453,14 +453,15 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, keys, &told_);
   if (running) note_measured(attempt);
   ImGui::EndChild();
-  ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  constexpr ImGuiWindowFlags kChild = ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav;
+  ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, kChild);
   if (running)
     draw_steps(trainer);
   else
     ImGui::TextUnformatted("The attempt is being stored and graded …");
   ImGui::EndChild();
   ImGui::SameLine();
-  ImGui::BeginChild("hands", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::BeginChild("hands", {0.0F, 0.0F}, false, kChild);
   draw_hands(task);
   ImGui::EndChild();
   end_screen();

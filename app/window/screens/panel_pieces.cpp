@@ -22,7 +22,8 @@ void end_screen() {
 void begin_picture(const char* name, float width, float height) {
   ImGui::BeginChild(
       name, {width, height}, false,
-      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
+          ImGuiWindowFlags_NoNav);  // Tab changes the tool; it would take a slider's number for a field
 }
 
 void heading(const char* text) {
