@@ -120,13 +120,23 @@ bool completed(const AttemptRow& attempt, const CaseSetting& setting) noexcept {
   return attempt.end == AttemptEnd::fired || (setting.clinic.defer && attempt.end == AttemptEnd::stopped);
 }
 
+namespace {
+
+// What is not known of older attempts does not stand against them.
+bool unaided(const Conditions& conditions) noexcept {
+  return !conditions.guide_used.value_or(false) && conditions.help_level.value_or(0) == 0;
+}
+
+}  // namespace
+
 assessment::ExpertSet consultants_of(Library& library, const Task& task) {
   const auto row = find_case(library, task.case_id);
   CHECK(row.has_value());  // a task's case is in its library
   std::vector<assessment::ExpertAttempt> experts;
   for (const AttemptRow& one : list_expert_attempts(library, task.case_id, SetKind::consultants))
     if (task_of(one) == task && one.person_id)
-      experts.push_back({one.attempt_id, *one.person_id, one.started_us, every_version(one), completed(one, *row)});
+      experts.push_back({one.attempt_id, *one.person_id, one.started_us, every_version(one),
+                         completed(one, *row) && unaided(find_conditions(library, one.attempt_id))});
   return assessment::expert_set(std::move(experts));
 }
 

@@ -117,6 +117,28 @@ TEST_F(GradingTest, EightConsultantsOfFiveAttemptsMakeAStandardThatADirectorSets
   EXPECT_EQ(looked_at(list_attempts_of(library_, person)[0].attempt_id).score.reason, "of_the_set");
 }
 
+TEST_F(GradingTest, WhatTheGuideOrHelpLedSetsNoStandard) {
+  rule({"hit >= 1"});
+  user("Dora", Role::director);
+  const auto attempts_of = [&](const std::string& person, const Conditions& conditions) {
+    NewAttempt made = new_attempt(person, 1.0, 10.0);
+    made.conditions = conditions;
+    for (int k = 0; k < 5; ++k) ASSERT_TRUE(add_attempt(library_, made));
+  };
+  Conditions guided, helped, unaided;
+  guided.guide_used = true;
+  helped.guide_used = unaided.guide_used = false;
+  helped.help_level = 1;
+  unaided.help_level = 0;
+  for (int i = 0; i < 6; ++i) attempts_of(consultant("Consultant " + std::to_string(i)), unaided);
+  attempts_of(consultant("Guided"), guided);
+  attempts_of(consultant("Helped"), helped);
+  EXPECT_EQ(set_one().error().code, "too_few_consultants");  // before: set, of eight
+  attempts_of(consultant("Seventh"), unaided);
+  attempts_of(consultant("Older"), {});  // nothing is known of it
+  EXPECT_TRUE(set_one().has_value());
+}
+
 TEST_F(GradingTest, AStandardStaysAsItWasSet) {
   rule({"hit >= 1"});
   user("Dora", Role::director);
