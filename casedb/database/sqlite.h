@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "sim/base/failure.h"
@@ -75,7 +75,7 @@ class Statement {
 
   sqlite3* connection_;
   std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-  std::unordered_map<std::string_view, int> columns_;
+  std::map<std::string, int, std::less<>> columns_;  // own: SQLite frees its names when the schema has changed
 };
 
 class Sqlite {
