@@ -1,4 +1,4 @@
-// The JSON documents that commands answer (contracts.md).
+// The JSON documents that commands answer.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@
 namespace seldinger::app {
 namespace {
 
-constexpr double kSame = 1e-9;  // across builds (assessment.md §11.7)
+constexpr double kSame = 1e-9;  // relative, across builds: our judgement
 
 bool same_bits(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() &&

@@ -21,7 +21,7 @@
 namespace seldinger::app {
 namespace {
 
-// What the picture at each row's probe pose shows: the view's kind, depth and size (contracts.md, Attempts).
+// What the picture at each row's probe pose shows: the view's kind, depth and size (app/attempts/poses_csv.h).
 void add_frames(const Scene& scene, const imaging::MprView& size, cases::Recording& recording) {
   for (const cases::PoseSample& pose : recording.poses) {
     const imaging::MprView view = imaging::view_under_probe(

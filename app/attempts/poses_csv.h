@@ -1,4 +1,5 @@
-// A pose file (contracts.md, Attempts): one row per instant, the first row with fire = 1 is the endpoint.
+// A pose file of `seldinger score` (docs/commands.md): one row per instant, the first row with fire = 1 is the
+// endpoint.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The drills and graded cases that the program brings along (clinical.md, "First hour" and "Cases to ship first"):
-// one table, no code of their own. Training only.
+// The drills and graded cases that the program brings along (docs/clinical.md, "First hour" and "Cases to ship
+// first"): one table, no code of their own. Training only.
 #pragma once
 
 #include <span>

@@ -37,7 +37,7 @@ const haptics::NeedleTissueRow& tissue_named(const std::string& name) {
   throw UsageError("--tissue is one of " + known);
 }
 
-// A machine that others share misses this much under load (haptics.md §5: SCHED_FIFO, 4-5 %); an idle one of its
+// A machine that others share misses this much under load (measured with SCHED_FIFO: 4-5 %); an idle one of its
 // own should be asked for less.
 constexpr double kMostMissedShare = 0.05;
 

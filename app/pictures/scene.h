@@ -1,4 +1,4 @@
-// A scene file (contracts.md, "Scenes and pictures"): a volume, what is inserted, and a view.
+// A scene file (docs/scenes/README.md): a volume, what is inserted, and a view.
 #pragma once
 
 #include <filesystem>

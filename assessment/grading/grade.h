@@ -1,6 +1,6 @@
-// Whether an attempt passes its case's rule: every criterion met and no critical error (clinical.md, "Passing").
-// Nothing buys a missed criterion back, and what has no value is never met. Computed when looked at, by the
-// versions that the rule names (docs/decisions/0022).
+// Whether an attempt passes its case's rule: every criterion met and no critical error (docs/clinical.md,
+// "Passing"). Nothing buys a missed criterion back, and what has no value is never met. Computed when looked at, by
+// the versions that the rule names (docs/decisions/0022).
 #pragma once
 
 #include <cstddef>

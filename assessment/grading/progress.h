@@ -15,8 +15,9 @@ enum class Proficiency { not_started, practising, passed, proficient };
 std::string_view name_of(Proficiency proficiency) noexcept;
 std::optional<Proficiency> proficiency_from(std::string_view name) noexcept;
 
-// Proficient: two passes running (clinical.md, "Passing"), once at any time: what was reached stays. `verdicts` are
-// of all attempts, oldest first. One that is not gradable, or has no rule, neither makes nor breaks a run.
+// Proficient: two passes running (docs/clinical.md, "Passing"), once at any time: what was reached stays.
+// `verdicts` are of all attempts, oldest first. One that is not gradable, or has no rule, neither makes nor breaks
+// a run.
 Proficiency proficiency_of(std::span<const Verdict> verdicts);
 
 struct Gate {

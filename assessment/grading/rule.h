@@ -1,5 +1,5 @@
 // When an attempt passes: every criterion must be met, and one marked critical must not be missed whatever else is
-// good (clinical.md, "Passing"). Plain data of a case; graded elsewhere.
+// good (docs/clinical.md, "Passing"). Plain data of a case; graded elsewhere.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // What consultants do on a task: the named set of their attempts, the band of each metric, and a score against it
 // that stands beside a grade and changes nothing of it. Who counts as a consultant, and which set is the standard,
-// is the library's to say (casedb/grading/standards.h); simulated operators never set one (clinical.md, "Passing").
+// is the library's to say (casedb/grading/standards.h); simulated operators never set one (docs/clinical.md,
+// "Passing").
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace seldinger::assessment {
 
-// clinical.md: provisional until at least 8 consultants have 3 attempts each on a case.
+// docs/clinical.md, "Passing": provisional until 8 consultants have made their attempts on a case.
 constexpr std::size_t kStandardConsultants = 8;
 // Of each consultant's completed attempts the last three count, once there are five: the first ones are spent on
 // getting used to the simulator. Judgement.
@@ -103,7 +104,7 @@ struct Score {
 Score score(const ExpertSet& set, const Grade& grade, const Gradable& attempt, std::string_view person_id);
 
 // What a score is made of where it applies: few, since many metrics of one aspect would weigh it many times. No
-// time: speed never buys back a blind advance (clinical.md, "Passing").
+// time: speed never buys back a blind advance (docs/clinical.md, "Passing").
 std::span<const std::string_view> scored_metrics();
 
 }  // namespace seldinger::assessment

@@ -12,7 +12,7 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kBeyondMm = 3.0;      // clinical.md, out-of-plane
+constexpr double kBeyondMm = 3.0;      // docs/clinical.md, out-of-plane
 constexpr double kSightSeconds = 0.2;  // of the tip, until an unseen advance is over: a flicker is no sight
 
 struct Seen {

@@ -76,7 +76,7 @@ Measured breath_holds_failed(const Signals& signals) {
 }
 
 constexpr std::uint32_t kHeld = kEvents | kBreathes;
-constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; clinical.md: check in breath-hold";
+constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; docs/clinical.md: check in breath-hold";
 
 constexpr MetricInfo kBreathMetrics[] = {
     {"advance_breath_held_share", 1, "share", "Advance with breath held", Group::procedure,

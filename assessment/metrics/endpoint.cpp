@@ -10,7 +10,7 @@ namespace seldinger::assessment {
 namespace {
 
 constexpr double kFarMm = 500.0;    // no needle is farther from its target
-constexpr double kMinCoreMm = 5.0;  // assessment.md §8, hit: min_core_mm
+constexpr double kMinCoreMm = 5.0;  // of a core in the target, for a hit: our judgement
 
 bool core(const Signals& signals) {
   return signals.setting.instrument.kind == cases::InstrumentKind::core;
@@ -33,7 +33,8 @@ double length_in(const cases::Lesion& target, const glm::dvec3& start, const glm
   return inside_mm;
 }
 
-// The point that counts, to the target's centre: the tip, or the middle of a core needle's notch (clinical.md).
+// The point that counts, to the target's centre: the tip, or the middle of a core needle's notch
+// (docs/clinical.md).
 glm::dvec3 to_target(const Signals& signals) {
   glm::dvec3 point = signals.endpoint->tip_at_rest_lps_mm();
   if (core(signals))

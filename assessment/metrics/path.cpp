@@ -12,8 +12,8 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kMinStraightMm = 5.0;  // assessment.md §8, path_inefficiency
-constexpr double kExcursionMm = 5.0;    // clinical.md: jiggling is taught
+constexpr double kMinStraightMm = 5.0;  // for path_inefficiency: our judgement
+constexpr double kExcursionMm = 5.0;    // docs/clinical.md: jiggling is taught
 constexpr double kSwingMm = 0.5;        // the shaft swings when its tip does by this
 
 Measured path_tip(const Signals& signals) {

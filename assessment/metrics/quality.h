@@ -8,7 +8,7 @@
 
 namespace seldinger::assessment {
 
-constexpr double kMaxGapShare = 0.05, kMinSampleRateHz = 60.0;  // assessment.md §8
+constexpr double kMaxGapShare = 0.05, kMinSampleRateHz = 60.0;  // our judgement
 constexpr double kMaxRepairedShare = 0.01;                      // judgement: one pose in a hundred
 
 // Why an attempt with these metrics is not to be graded, as a stable code; empty when it is. `too_short` (no time

@@ -11,7 +11,7 @@
 
 namespace seldinger::assessment {
 
-// More way than this inside is a visit, and as much outside ends it (clinical.md: any path longer than this
+// More way than this inside is a visit, and as much outside ends it (docs/clinical.md: any path longer than this
 // inside).
 constexpr double kVisitMm = 0.5;
 

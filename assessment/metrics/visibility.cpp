@@ -8,7 +8,7 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr double kMinSeconds = 1.0;  // assessment.md §8: a shorter denominator says nothing
+constexpr double kMinSeconds = 1.0;  // our judgement: a shorter denominator says nothing
 
 struct Shares {
   double session_s = 0.0, joint_session_s = 0.0;  // in tissue or not, live or not

@@ -1,5 +1,5 @@
-// What a trainee says and asks for around the puncture (clinical.md, "Steps around the puncture"), step by step,
-// and whether he defers it. Left out with the profile's probability.
+// What a trainee says and asks for around the puncture (docs/clinical.md, "Steps around the puncture"), step by
+// step, and whether he defers it. Left out with the profile's probability.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Brief {
   cases::Subject subject = cases::Subject::patient;
 };
 
-// SIR 2019, high-risk biopsy: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l (clinical.md).
+// SIR 2019, high-risk biopsy: INR at most 1.5 to 1.8, platelets at least 50 · 10⁹/l (docs/clinical.md).
 constexpr double kMostInr = 1.8, kLeastPlateletsPerNl = 50.0;
 bool forbids(const Brief& brief) noexcept;
 

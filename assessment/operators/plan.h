@@ -60,7 +60,7 @@ struct PathLimits {
   // and what it must lead through for must_cross_mm. Outlive the plan's making.
   std::span<const cases::Structure> structures{};
   double structure_clearance_mm = 2.0;  // room for a hand's sway (design)
-  double must_cross_mm = 10.0;          // clinical.md, cases 3 and 5: renal parenchyma
+  double must_cross_mm = 10.0;          // docs/clinical.md, cases 3 and 5: renal parenchyma
   double behind_target_mm = 0.0;        // how far beyond the target's centre the tip may come
   // Here HU do not count: a target, or the lumen it is in, may be full of contrast agent.
   std::vector<cases::Shape> open{};

@@ -27,8 +27,8 @@ constexpr double kMostLeanDeg = 30.0;
 // What a plan under ultrasound costs: so much for a mm of way before the tip shows, a mm of needle that is not seen
 // at the target, a dB of shadow on the target, a mm from skin to target, and a degree by which a probe across a
 // vessel is askew (design). Advance that nobody sees is the commonest error, and no more than 5 mm of it are let
-// pass (clinical.md): beyond what leaves room for a reaction it weighs most. Across a vessel the probe stands right
-// over it: so near a linear one sees better.
+// pass (docs/clinical.md): beyond what leaves room for a reaction it weighs most. Across a vessel the probe stands
+// right over it: so near a linear one sees better.
 constexpr double kBlindFreeMm = 2.5, kBlindPrice = 6.0;
 constexpr double kUnseenPrice = 0.25, kShadowPrice = 2.0, kDepthPrice = 0.3;
 constexpr double kOverPrice = 1.0, kAskewPrice = 0.2;

@@ -12,7 +12,8 @@ namespace {
 using S = Skills;
 
 // Values are judgement, chosen so that novice, intermediate and expert differ in the way the literature says they
-// do (assessment.md §1.3): unseen advance, probe drift, redirections, distance to the target.
+// do: unseen advance and probe drift (Sites et al., Reg. Anesth. Pain Med. 32, 2007, 107), redirections, distance
+// to the target.
 constexpr SkillField kFields[] = {
     {"reaction_delay_s", "s", 0, 5, 0.5, 0.35, 0.25, true, "from a picture to acting on it", &S::reaction_delay_s},
     {"tremor_mm", "mm", 0, 10, 0.25, 0.15, 0.1, true, "amplitude, 8–12 Hz (physiological tremor)", &S::tremor_mm},

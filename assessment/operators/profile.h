@@ -1,6 +1,6 @@
 // How well a simulated trainee does, how he differs from others like him, and how he learns. Software test data:
-// what they show says nothing about validity (clinical.md). What is written here is the planted truth that metrics
-// are tested against.
+// what they show says nothing about validity (docs/clinical.md). What is written here is the planted truth that
+// metrics are tested against.
 #pragma once
 
 #include <cstdint>

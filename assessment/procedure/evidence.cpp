@@ -23,12 +23,12 @@ constexpr double kProbeOnSkinMm = 15.0;  // its middle from the skin: a curved f
 constexpr double kAtSkinMm = 5.0;
 constexpr double kAtEdgeMm = 5.0;  // thesis, step 10: a core needle stops at the target's edge
 constexpr double kAspirationSeconds = 15.0;
-constexpr double kBlindRunMm = 5.0;  // clinical.md, "Common"
+constexpr double kBlindRunMm = 5.0;  // docs/clinical.md, "Common"
 constexpr double kJiggleMostMm = 5.0, kJiggleSeconds = 2.0;
 constexpr double kReactSeconds = 1.0, kTroubleSeconds = 3.0, kTroubleMm = 2.0;
 constexpr double kPushMm = 2.0;                        // so far in breath is no slip of the hand
 constexpr double kLossNoticedSeconds = 1.0;            // until then a lost breath is nobody's fault
-constexpr double kAlongDeg = 10.0, kAcrossDeg = 30.0;  // clinical.md, case 6: views at least 30° apart
+constexpr double kAlongDeg = 10.0, kAcrossDeg = 30.0;  // docs/clinical.md, case 6: views at least 30° apart
 
 template <EventKind kind>
 When event(const Signals& signals) {

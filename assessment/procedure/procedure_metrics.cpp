@@ -50,7 +50,7 @@ Measured pain_reactions(const Signals& signals) {
   return Measured::of(count);
 }
 
-constexpr const char* kStepSources = "thesis, appendix A; clinical.md: steps around the puncture";
+constexpr const char* kStepSources = "thesis, appendix A; docs/clinical.md: steps around the puncture";
 
 constexpr Estimand kDecisionEstimand{Scale::yes_no, WithoutEndpoint::left_out, Aggregation::proportion},
     kShareEstimand{Scale::share, WithoutEndpoint::left_out, Aggregation::median},
@@ -73,8 +73,8 @@ constexpr MetricInfo kProcedureMetrics[] = {
      "1 or 0: whether a case to be deferred was deferred, neither saying to proceed nor puncturing the skin, or "
      "one to "
      "go ahead was not deferred. Null: nothing_decided (neither said nor punctured).",
-     "clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand, kOfEvents | kNothingIsNothing,
-     "1: to proceed and to defer could both be said."},
+     "docs/clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand,
+     kOfEvents | kNothingIsNothing, "1: to proceed and to defer could both be said."},
     {"steps_done", 3, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for; a step that a deed can show, by the deed "
      "only. "

@@ -9,7 +9,7 @@ namespace {
 
 using enum Evidence;
 
-constexpr const char* kAround = "clinical.md: steps around the puncture";
+constexpr const char* kAround = "docs/clinical.md: steps around the puncture";
 constexpr const char* kTask(int step) {
   constexpr const char* kSteps[] = {
       "thesis, appendix A, step 1",        "thesis, appendix A, step 2",  "thesis, appendix A, step 3",
@@ -18,8 +18,8 @@ constexpr const char* kTask(int step) {
       "thesis, appendix A, step 10",       "thesis, appendix A, step 11", "thesis, appendix A, step 12"};
   return kSteps[step - 1];
 }
-constexpr const char* kOutOf = "clinical.md: out-of-plane with dynamic tip positioning";
-constexpr const char* kBullsEye = "clinical.md, case 6: bull's-eye, then depth view";
+constexpr const char* kOutOf = "docs/clinical.md: out of plane the probe goes first";
+constexpr const char* kBullsEye = "docs/clinical.md, case 6: bull's-eye, then depth view";
 
 constexpr std::uint32_t kAlways = 0;  // graded
 
@@ -206,7 +206,7 @@ std::string steps_markdown() {
       "recording "
       "lacks what\nit needs. Steps that are graded with something count in cases that have it, else they are told "
       "and do not count "
-      "(clinical.md).\n\n"
+      "(docs/clinical.md).\n\n"
       "A step is *shown* where a deed completes it: what hands, pictures and patient tell. What is said about it "
       "is "
       "told\nand does not count. Where no deed can show it, the step is *said*: the trainee is taken at his word. "

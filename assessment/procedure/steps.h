@@ -1,4 +1,4 @@
-// The steps of a puncture as its task analysis tells them (thesis, appendix A; clinical.md, "Steps around the
+// The steps of a puncture as its task analysis tells them (thesis, appendix A; docs/clinical.md, "Steps around the
 // puncture"), as data: which evidence completes a step, by when, and which violates it.
 #pragma once
 

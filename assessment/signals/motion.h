@@ -1,4 +1,4 @@
-// The tools' way as metrics of movement see it: 100 times a second, low-passed at 10 Hz (assessment.md §8).
+// The tools' way as metrics of movement see it: 100 times a second, low-passed at 10 Hz (our judgement).
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -21,7 +21,7 @@
 namespace seldinger::assessment {
 
 constexpr double kTimeTolerance_s = 1e-6;  // decimal time stamps are not exact
-constexpr double kGapSeconds = 0.25;       // a longer silence of the tracker is not bridged (assessment.md §8)
+constexpr double kGapSeconds = 0.25;       // a longer silence of the tracker is not bridged (our judgement)
 
 // Where the needle was to enter the skin, and how.
 struct PlannedEntry {

@@ -18,7 +18,7 @@ enum class Difficulty { easy, moderate, hard };
 inline constexpr auto kDifficultyNames = base::names<Difficulty>(
     {{Difficulty::easy, "easy"}, {Difficulty::moderate, "moderate"}, {Difficulty::hard, "hard"}});
 
-// What is known at the sign-in (clinical.md, "Steps around the puncture").
+// What is known at the sign-in (docs/clinical.md, "Steps around the puncture").
 struct Clinic {
   std::optional<double> inr, platelets_per_nl;  // 10⁹/l
   std::string allergy, indication;              // a mentor's words; empty: none told

@@ -1,4 +1,4 @@
-// From draft to review by a second person, to published, to retired; who may do it (assessment.md §10), and new
+// From draft to review by a second person, to published, to retired; who may do it (docs/people.md), and new
 // versions. What is published stays as it is: the database refuses to change it.
 #pragma once
 

@@ -1,5 +1,5 @@
 // What is learnt in which order: items, each a case in whatever version is published, and gates between them. Made
-// by mentors, published by a director (assessment.md §10), from there on as it is. One transaction a write.
+// by mentors, published by a director (docs/grading.md), from there on as it is. One transaction a write.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Which stored attempt shows how a case is done: what a trainee watches before an own attempt (clinical.md, "First
-// hour").
+// Which stored attempt shows how a case is done: what a trainee watches before an own attempt (docs/clinical.md,
+// "First hour").
 #pragma once
 
 #include <optional>

@@ -82,7 +82,8 @@ struct PersonFact {
 const std::vector<Column<AttemptFacts>>& attempt_columns();  // without the metrics, which are attempt_metrics()
 const std::vector<Column<MetricFact>>& metric_columns();
 const std::vector<Column<StepFact>>& step_columns();
-// After `attempt`: contracts.md's poses.csv, kPoseFileColumns, and what a patient who moves has beside.
+// After `attempt`: a pose file's columns (app/attempts/poses_csv.h), kPoseFileColumns, and what a patient who moves
+// has beside.
 constexpr std::size_t kPoseFileColumns = 17;
 const std::vector<Column<PoseFact>>& pose_columns();
 const std::vector<Column<ForceFact>>& force_columns();
@@ -110,7 +111,7 @@ std::string line_of(const std::vector<Column<Row>>& columns, const Row& row) {
   return line.take();
 }
 
-// As poses.csv has them (contracts.md, Attempts): the endpoint is a row of its own time, with fire.
+// As a pose file has them (app/attempts/poses_csv.h): the endpoint is a row of its own time, with fire.
 std::vector<PoseFact> pose_facts(const std::string& attempt, const cases::Recording& recording);
 
 struct TableInfo {

@@ -9,7 +9,7 @@ namespace seldinger::session {
 // within an attempt: a picture that changes its grain to and fro is worse than either.
 class SpeckleChoice {
  public:
-  static constexpr double kLeastHz = 5.0;  // issue 9
+  static constexpr double kLeastHz = 5.0;  // our judgement
   static constexpr double kFineHz = 6.0;   // from here on the while begins anew
   static constexpr double kForS = 2.0;
   static constexpr int kLeastPictures = 5;

@@ -7,7 +7,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONSTANT real kMprOutsideHu = -1024.0;  // contracts.md: padding
+SHARED_CONSTANT real kMprOutsideHu = -1024.0;  // padding, as kAirHu of sim/volume/volume.h
 SHARED_CONSTANT real kMprLumenHu = -1000.0;    // the lumen of a hollow needle is empty: air
 SHARED_CONSTANT int kMprMaxLesions = 16;
 

@@ -21,7 +21,7 @@
 
 namespace seldinger::cases {
 
-// Why the tip or the notch decides (clinical.md, Instruments).
+// Why the tip or the notch decides (docs/clinical.md, Instruments).
 enum class InstrumentKind { access, core };
 inline constexpr auto kInstrumentKindNames =
     base::names<InstrumentKind>({{InstrumentKind::access, "access"}, {InstrumentKind::core, "core"}});

@@ -15,7 +15,7 @@ namespace seldinger::cases {
 // Stored in recordings: numbers stay as they are.
 enum class EventKind : std::uint8_t {
   none = 0,
-  // The trainee's (clinical.md, "Steps around the puncture"; thesis, appendix A).
+  // The trainee's (docs/clinical.md, "Steps around the puncture"; thesis, appendix A).
   sign_in = 1,
   proceed = 2,
   defer = 3,

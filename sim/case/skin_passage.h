@@ -1,6 +1,6 @@
 // Whether a tip is inside the body, followed from pose to pose: only the skin lets it in or out. Caps at the
-// volume's ends cannot be punctured, and lung or gas is body (clinical.md). Used by step() and, on recorded poses,
-// by metrics.
+// volume's ends cannot be punctured, and lung or gas is body (docs/clinical.md). Used by step() and, on recorded
+// poses, by metrics.
 #pragma once
 
 #include <cstdint>

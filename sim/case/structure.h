@@ -1,4 +1,4 @@
-// A structure: what lies in the patient beside the target, and what touching it means (clinical.md, "Body and
+// A structure: what lies in the patient beside the target, and what touching it means (docs/clinical.md, "Body and
 // patient" and "Metrics that need care").
 #pragma once
 

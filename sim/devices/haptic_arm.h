@@ -30,7 +30,7 @@ class HapticArm {
 };
 
 // A device that has been silent for kHoldS is lost: it is not followed, and its force goes to nothing evenly, by
-// kGoneS. With a cycle of the link it is gone in 20 ms (haptics.md §3.4, S16).
+// kGoneS. With a cycle of the link it is gone in 20 ms (docs/touch.md, S16).
 inline constexpr double kHoldS = 0.008, kGoneS = 0.016;
 inline double share_of_force(double silent_s) noexcept {
   if (silent_s <= kHoldS) return 1.0;

@@ -14,7 +14,7 @@ namespace seldinger::engine {
 
 struct ServoSettings {
   std::int64_t tick_ns = 1'000'000;
-  int priority = 80;      // SCHED_FIFO, above interrupt threads' 50 (haptics.md §5)
+  int priority = 80;      // SCHED_FIFO, above interrupt threads' 50
   bool real_time = true;  // false: SCHED_OTHER, and no memory is locked
 };
 

@@ -6,22 +6,23 @@
 namespace seldinger::haptics {
 namespace {
 
-// Viscous friction 0.005 N s/m and one tick of delay everywhere (haptics.md §3.1, §3.2). "Recalled": listed in
-// haptics.md from memory of makers' sheets, not checked against them.
+// Viscous friction 0.005 N s/m and one tick of delay everywhere (our judgement). "Recalled": from memory of
+// makers' sheets or of what is named, not checked against it.
 constexpr ArmModel kDevices[] = {
-    {"omni", 0.045, 5e-6, 0.26, 0.055, 3.3, 0.88, 1, "haptics.md §3.1 (recalled); forces: thesis §5.3.2"},
+    {"omni", 0.045, 5e-6, 0.26, 0.055, 3.3, 0.88, 1, "maker's sheet (recalled); forces: thesis §5.3.2"},
     {"desktop", 0.045, 5e-6, 0.06, 0.023, 7.9, 1.75, 1, "forces: thesis §5.3.2; rest recalled, friction 0.06 N"},
-    {"premium", 0.075, 5e-6, 0.04, 0.030, 8.5, 1.4, 1, "haptics.md §3.2; peak §1.1; continuous recalled"},
+    {"premium", 0.075, 5e-6, 0.04, 0.030, 8.5, 1.4, 1,
+     "peak: CHAI3D 3.3's limit for it; rest maker's sheet (recalled)"},
     {"inverse3", 0.100, 5e-6, 0.10, 0.010, 10.0, 5.0, 1, "(design): no measured figure is at hand"},
 };
 
-// The sets span fingertip to wrist, 0.006-0.2 kg, 1-15 N s/m, 100-1000 N/m (haptics.md §3.2, recalled).
+// The sets span fingertip to wrist, 0.006-0.2 kg, 1-15 N s/m, 100-1000 N/m (recalled).
 constexpr Hand kHands[] = {
     {"none", 0.0, 0.0, 0.0, "the user lets go"},
-    {"fingertip", 0.006, 0.004, 0.3, "haptics.md §3.2, the range's light end (Hajian and Howe 1997, recalled)"},
-    {"light", 0.05, 0.001, 0.1, "haptics.md §3.2"},
-    {"medium", 0.15, 0.005, 0.3, "haptics.md §3.2"},
-    {"firm", 0.2, 0.015, 1.0, "haptics.md §3.2, the range's heavy end"},
+    {"fingertip", 0.006, 0.004, 0.3, "the range's light end (Hajian and Howe 1997, recalled)"},
+    {"light", 0.05, 0.001, 0.1, "within the range (design)"},
+    {"medium", 0.15, 0.005, 0.3, "within the range (design)"},
+    {"firm", 0.2, 0.015, 1.0, "the range's heavy end (recalled)"},
 };
 
 template <typename Row, std::size_t N>

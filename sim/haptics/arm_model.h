@@ -38,8 +38,8 @@ std::span<const Hand> hands();
 const ArmModel* find_arm_model(const char* name);
 const Hand* find_hand(const char* name);
 
-// However short the delay: at 200 mm/s a wall of 0.5 N/mm and its damper change by 0.15 N a tick, the goal of issue
-// 5; it is the stiffness that haptics.md §0, item 4, recommends.
+// However short the delay: at 200 mm/s a wall of 0.5 N/mm and its damper change by 0.15 N a tick, the most
+// that a tick may step (docs/touch.md).
 inline constexpr double kMostStiffnessNMm = 0.5;
 
 // For the device, with its delay: bound / kStiffnessMargin, at most kMostStiffnessNMm.

@@ -1,5 +1,5 @@
 // What reaches the motors of what a law asks for: no more than their peak, no more over time than they bear for
-// ever, nothing within 20 ms of a fault, and no jump when it is over (issue 5, item 6; haptics.md §3.4 S16, S17).
+// ever, nothing within 20 ms of a fault, and no jump when it is over (docs/touch.md, S16 and S17).
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
 // The rig: a hand on a device along one axis, in steps of 10 µs of virtual time, asked for a
-// force every tick (haptics.md §3.4). One mass, viscous and dry friction, a quantised encoder, motors with a limit,
+// force every tick (docs/touch.md). One mass, viscous and dry friction, a quantised encoder, motors with a limit,
 // a delay of whole ticks. Deterministic; no clock.
 #pragma once
 

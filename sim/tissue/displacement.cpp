@@ -15,7 +15,7 @@ namespace {
 using shaders::DisplacementSource;
 using shaders::vec4;
 
-// Of the head's radius: up to there Hertz' small strains keep a picture (haptics.md §4). Of the bone's depth: from
+// Of the head's radius: up to there Hertz' small strains keep a picture (our judgement). Of the bone's depth: from
 // 0.72 on the layer would be folded (docs/decisions/0023).
 constexpr double kMostOfRadius = 0.6, kMostOfBone = 0.6;
 // √(R δ) over the bone's depth: in a layer still thinner tissue is squeezed out sideways, and no disk of Hertz'

@@ -1,4 +1,4 @@
-// Volumes and labels from analytic shapes: contracts.md's "analytic" scenes and the built-in phantom.
+// Volumes and labels from analytic shapes: "analytic" scenes (docs/scenes/README.md) and the built-in phantom.
 #pragma once
 
 #include <glm/mat3x3.hpp>

@@ -10,7 +10,7 @@ constexpr const char* kTried = "docs/decisions/0012, tried on four real volumes"
 constexpr const char* kLabel = "label";
 
 constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
-    {"air", "outside the largest piece above -300 HU with its inside filled", "contracts.md, Skin"},
+    {"air", "outside the largest piece above -300 HU with its inside filled", "docs/clinical.md, Body and patient"},
     {"gas", "inside, below -400 HU; in no lung, or an airway of it", kTried},
     {"lung", "inside, below -400 HU, large, its inside mostly above -930 HU", kTried},
     {"fat", "below -30 HU, the middle between fat (-100) and tissue (40)", kProkop},

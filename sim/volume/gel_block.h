@@ -1,7 +1,7 @@
-// The blocks of gel that the first hour is practised on (clinical.md, "First hour"): a tray of tissue-mimicking gel
-// with one ball of water in it, from analytic shapes. LPS mm: the tray lies on the table as a supine patient does,
-// its flat top at y = 0 and down at +y, so that y is the depth; x is along its length, z across. Walls and bottom
-// are the volume's ends: only the top can be punctured.
+// The blocks of gel that the first hour is practised on (docs/clinical.md, "First hour"): a tray of
+// tissue-mimicking gel with one ball of water in it, from analytic shapes. LPS mm: the tray lies on the table as a
+// supine patient does, its flat top at y = 0 and down at +y, so that y is the depth; x is along its length, z
+// across. Walls and bottom are the volume's ends: only the top can be punctured.
 #pragma once
 
 #include "sim/volume/phantom.h"

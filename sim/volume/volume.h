@@ -14,7 +14,7 @@ namespace seldinger::volume {
 constexpr std::size_t kMaxVoxels = std::size_t{1}
                                    << 30;  // 2 GiB of HU: import, scenes and the library hold no more
 constexpr double kMinSpacingMm = 0.01, kMaxSpacingMm = 100.0;  // no CT is finer or coarser
-constexpr std::int16_t kAirHu = -1024;  // padding and everything below becomes this (contracts.md)
+constexpr std::int16_t kAirHu = -1024;                         // padding and everything below becomes this
 
 struct Volume {
   glm::ivec3 size_voxels{0};       // i fastest

@@ -1,4 +1,4 @@
-// Tests of `seldinger haptics` as its user types it: columns, signs, figures and refusals (contracts.md).
+// Tests of `seldinger haptics` as its user types it: columns, signs, figures and refusals (docs/commands.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -95,7 +95,7 @@ TEST(RenderUltrasound, DisplayIsAPictureByEachMethod) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "q.png"));
 }
 
-// One grey, on all but a thousandth of the pixels (contracts.md's cross-backend promise).
+// One grey, on all but a thousandth of the pixels (what every backend promises).
 TEST(RenderUltrasound, TheGpuShowsWhatTheCpuShows) {
   const auto scratch = fixtures::fresh_folder("render_ultrasound_gpu");
   Json scene = ball();

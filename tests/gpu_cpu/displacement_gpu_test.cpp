@@ -112,7 +112,7 @@ class DisplacementOnGpu : public testing::Test {
   DisplacedPointsGpu gpu_;
 };
 
-// haptics.md §4: at most 1e-3 mm on 10^5 points.
+// The goal: at most 1e-3 mm on 10^5 points.
 TEST_F(DisplacementOnGpu, IsTheCpusToAMicron) {
   const Scene s = scene();
   const std::array<std::pair<const char*, Displacement>, 6> each{

@@ -1,4 +1,4 @@
-// What goes wrong in projectors (knowledge/xray.md §3c), on the GPU, each with what must come out.
+// What goes wrong in projectors, on the GPU, each with what must come out.
 #include <gtest/gtest.h>
 
 #include <cmath>

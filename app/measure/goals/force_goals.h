@@ -1,4 +1,4 @@
-// What the needle's force is held to (issue 5; haptics.md §3.4 S3-S5), as figures: driven by an ideal hand into
+// What the needle's force is held to (docs/touch.md, S3-S5), as figures: driven by an ideal hand into
 // tissues with a published line. `seldinger goals haptics` prints them, beside what haptics stability finds.
 #pragma once
 

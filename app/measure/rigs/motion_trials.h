@@ -1,4 +1,4 @@
-// Whether touch gives away energy when tissue moves under it (haptics.md §3.4, S15 and S18): hands at a scene that
+// Whether touch gives away energy when tissue moves under it (docs/touch.md, S15 and S18): hands at a scene that
 // breathes or yields, and the work that goes each way. The tests assert what `seldinger goals haptics` prints.
 #pragma once
 

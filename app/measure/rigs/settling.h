@@ -1,5 +1,5 @@
 // Does a law come to rest under a hand? One trial on the rig: the device is put somewhere by an ideal hand, then
-// left to a hand of the rig, and watched (haptics.md §3.4).
+// left to a hand of the rig, and watched (docs/touch.md).
 #pragma once
 
 #include <functional>
@@ -30,8 +30,8 @@ struct Settling {
   double least_work_mj = 0.0;  // the least that hands had put in at any tick, since from_mm
   double most_step_n = 0.0;    // of the law's force from tick to tick, after the ideal hand
 
-  // At rest but for one count of the encoder, and of the force by no more than a tenth of a newton (haptics.md
-  // §3.4).
+  // At rest but for one count of the encoder, and of the force by no more than a tenth of a newton
+  // (docs/touch.md).
   bool settled(const haptics::ArmModel& device) const noexcept;
 };
 

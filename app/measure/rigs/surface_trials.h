@@ -15,7 +15,7 @@ inline constexpr double kBumpySphereMm = 50.0;
 double bumpy_radius_mm(const glm::dvec3& outward) noexcept;
 
 // A sphere of about kBumpySphereMm about the origin with waves of 1.5 mm; 2 · around · rings triangles in rows from
-// pole to pole, where they have no area. 448 × 224 are the 200,704 that others were measured on (haptics.md §6.2).
+// pole to pole, where they have no area. 448 × 224 are 200,704.
 cases::Mesh bumpy_sphere(int around, int rings);
 
 struct Glide {

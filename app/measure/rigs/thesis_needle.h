@@ -1,5 +1,5 @@
 // The thesis' needle force F1 (§5.3.2, eq. 5.4-5.6), for the bench and charts only: a coefficient times the way of
-// a tick, averaged over m ticks. It depends on speed, is zero at rest and cycles (haptics.md §3.3); nothing else
+// a tick, averaged over m ticks. It depends on speed, is zero at rest and cycles; nothing else
 // uses it.
 #pragma once
 

@@ -7,7 +7,7 @@
 namespace seldinger::measure {
 namespace {
 
-constexpr double kStillN = 0.1;  // beside one count of the encoder through the spring (haptics.md §3.2)
+constexpr double kStillN = 0.1;  // beside one count of the encoder through the spring (docs/touch.md)
 
 }  // namespace
 

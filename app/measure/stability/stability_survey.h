@@ -9,7 +9,7 @@
 
 namespace seldinger::measure {
 
-// Dry friction of next to none: the worst case of every device (haptics.md §3.2 goes down to it).
+// Dry friction of next to none: the worst case of every device (our judgement).
 inline constexpr double kLeastCoulombN = 0.02;
 
 struct RestRow {
@@ -17,7 +17,7 @@ struct RestRow {
   haptics::Hand hand;
   const char* situation;
   Settling settling;
-  // At rest, no energy given, no step of the force above 0.15 N (haptics.md §3.4).
+  // At rest, no energy given, no step of the force above 0.15 N (docs/touch.md).
   bool holds() const noexcept;
 };
 

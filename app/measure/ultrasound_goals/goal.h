@@ -1,4 +1,4 @@
-// The goals of the ultrasound picture (ultrasound.md §4b): each is measured from pictures of tissue whose answer is
+// The goals of the ultrasound picture: each is measured from pictures of tissue whose answer is
 // known in closed form, the same way for every method, and told as how far off it is.
 #pragma once
 

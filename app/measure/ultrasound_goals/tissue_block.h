@@ -11,7 +11,7 @@
 namespace seldinger::measure {
 
 struct TissueBlock {
-  volume::Volume volume;  // HU typical of the class (ultrasound.md §2.1)
+  volume::Volume volume;  // HU typical of the class (our judgement)
   std::vector<volume::TissueClass> classes;
   imaging::TissueVolume tissue() const { return {&volume, classes, {}}; }
 };

@@ -48,7 +48,7 @@ struct NearPlane {
   bool operator==(const NearPlane&) const = default;
 };
 
-// What one picture showed (contracts.md, "What a picture shows").
+// What one picture showed (docs/decisions/0005, 0013).
 struct FrameTruth {
   double t_s = 0.0;
   bool live = true;  // not frozen, no last image held

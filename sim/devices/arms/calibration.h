@@ -61,7 +61,7 @@ struct Calibration {
   double residual_rms_mm = 0.0, residual_max_mm = 0.0;
 };
 
-// haptics.md §6.1; issue 5
+// Our judgement.
 inline constexpr double kMostResidualMm = 1.0;
 // Beyond these a device does not read millimetres (design).
 inline constexpr double kLeastScale = 0.1, kMostScale = 10.0;

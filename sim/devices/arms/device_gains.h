@@ -26,7 +26,7 @@ inline bool is_sound(const DeviceGains& gains) noexcept {
 
 // Of the force that tissue asks for, what may go to the motors when a mm of the hand is scale mm of the patient:
 // the hand feels share · scale times the tissue's stiffness, and more than that itself would not come to rest
-// (haptics.md: K_dev = s K with forces 1:1).
+// (closed form: with forces 1:1 the device shows s · K).
 inline double usable_share(const DeviceGains& gains, double scale) noexcept {
   return std::min(gains.force_share, scale > 1.0 ? 1.0 / scale : 1.0);
 }

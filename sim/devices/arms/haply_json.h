@@ -1,4 +1,4 @@
-// Messages of the Haply Inverse service, version 3: JSON text (haptics.md §1.3). The service tells states in answer
+// Messages of the Haply Inverse service, version 3: JSON text (docs.haply.co). The service tells states in answer
 // to commands, once of its own accord after the connection; positions in metres, orientations as unit quaternions.
 #pragma once
 

@@ -13,7 +13,7 @@
 
 namespace seldinger::haptics {
 
-inline constexpr double kDamperCutoffHz = 100.0;  // low-pass (haptics.md §3.2)
+inline constexpr double kDamperCutoffHz = 100.0;  // low-pass (our judgement)
 
 struct DamperSettings {
   double tick_s = 0.001;

@@ -9,8 +9,8 @@
 namespace seldinger::haptics {
 
 struct SoftContact {
-  double radius_mm = 20.0;      // of the sphere (haptics.md §4: 1.8 N at 8 mm)
-  double shear_n_mm2 = 0.0033;  // modulus G of the tissue: 3.3 kPa (haptics.md §4)
+  double radius_mm = 20.0;      // of the sphere (our judgement: 1.8 N at 8 mm)
+  double shear_n_mm2 = 0.0033;  // modulus G of the tissue: 3.3 kPa (our judgement)
   double most_stiffness_n_mm =
       0.48;  // beyond the depth where it gets stiffer, the force goes on in a straight line
 

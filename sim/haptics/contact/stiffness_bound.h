@@ -6,7 +6,7 @@ namespace seldinger::haptics {
 // Margin kept to the bound by every preset.
 inline constexpr double kStiffnessMargin = 1.4;
 
-// The damping of our walls, N s/mm (haptics.md §0, item 4: 1 N s/m).
+// The damping of our walls, N s/mm: 1 N s/m (our judgement; docs/stability.md tells what comes to rest with it).
 inline constexpr double kWallDampingNSMm = 0.001;
 
 // N/mm, for the device's and the wall's damping in N s/mm, the tick and the delay of the force in s:

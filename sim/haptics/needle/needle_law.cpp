@@ -18,11 +18,11 @@ constexpr double kShaftShare = 0.4;
 // (design).
 constexpr double kCapsuleLinearPart = 0.25;
 constexpr double kCapsuleSteepest = 2.0 - kCapsuleLinearPart;  // its steepest slope, in R / full dent
-// The fall after a rupture takes 5-20 ms (haptics.md §2.2, item 1).
+// The fall after a rupture takes 5-20 ms (our judgement).
 constexpr double kRuptureFallS = 0.008;
 // A high fall takes as long as it needs to be no step, 0.1 N a tick (design; the goal of 0.15 N a tick).
 constexpr double kMostFallNS = 100.0;
-// Relaxation: to this part of what slides or cuts, with this time (design; haptics.md §2.2 gives 5-20 s).
+// Relaxation: to this part of what slides or cuts, with this time (our judgement, within 5-20 s).
 constexpr double kRelaxedPart = 0.65, kRelaxationS = 10.0;
 
 double next_start_mm(Path path, const NeedleTrack& track) noexcept {

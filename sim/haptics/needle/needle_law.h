@@ -1,4 +1,4 @@
-// The force along a needle's axis, tick by tick (design.md; knowledge/haptics.md §2.2). Capsules are springs that
+// The force along a needle's axis, tick by tick (docs/decisions/0016). Capsules are springs that
 // rupture; the tip meets an elastic wall that it pushes on once the wall's force reaches what cutting takes (an
 // elasto-plastic "tracking wall", Alamilla 2018); the shaft drags the tissue along and slides once friction's limit
 // is reached (Dahl's model of order 0). Nothing depends on speed but a damper on how fast these springs load, so a
@@ -21,8 +21,8 @@ struct NeedleLayer {
   NeedleTissue tissue;
 };
 
-// Tissue moves along with each mm of shaft: 2 π G / ln(2 L / a) with G 4.5 kPa, L 80 mm, a 0.36 mm (haptics.md §2.1
-// for the formula; G by design).
+// Tissue moves along with each mm of shaft: 2 π G / ln(2 L / a) with G 4.5 kPa, L 80 mm, a 0.36 mm (a rod in an
+// elastic medium; G is our judgement).
 inline constexpr double kShaftStiffnessNMm2 = 0.005;
 
 struct NeedleSettings {

@@ -1,5 +1,5 @@
 // How tissue holds a needle sideways: a beam on an elastic foundation as long as the needle is in tissue, so that
-// nothing is switched at any depth (haptics.md §2.2, item 4; Hetényi, Beams on Elastic Foundation, 1946).
+// nothing is switched at any depth (Hetényi, Beams on Elastic Foundation, 1946).
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -10,10 +10,10 @@ using volume::TissueClass;
 
 constexpr const char* kNothingYet = "nothing yet";
 constexpr const char* kNoTissue = "no resistance: nothing there to cut or to drag (design)";
-constexpr const char* kWall = "a wall as stiff as the device may show (haptics.md §2.2, item 5)";
+constexpr const char* kWall = "a wall as stiff as the device may show (design)";
 
 // The lines of kidney and liver are the thesis' (§5.3.2, 500 mm/min, in vitro). "Recalled" marks what
-// knowledge/haptics.md §2.1 lists as recalled from the literature and not yet checked against it.
+// is recalled from the literature and not yet checked against it.
 constexpr std::array<NeedleTissueRow, volume::kTissueClasses> kTissues{{
     {TissueClass::air, {}, kNoTissue, kNothingYet},
     {TissueClass::gas, {}, kNoTissue, kNothingYet},

@@ -26,7 +26,7 @@ struct NeedleTissueRow {
   const char* validated_against;
 };
 
-// One gauge, to which the rows belong (contracts.md; the thesis names none).
+// One gauge, to which the rows belong (our choice; the thesis names none).
 inline constexpr int kTableGauge = 22;
 
 // One row per class, in the classes' order.

@@ -1,4 +1,4 @@
-// What an MPR picture shows (contracts.md): tip and target centre within 2 mm of the plane and inside the
+// What an MPR picture shows (docs/decisions/0005): tip and target centre within 2 mm of the plane and inside the
 // rectangle. Geometry only, no rendering.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace seldinger::imaging {
 
-constexpr double kMprSlabHalfMm = 2.0;  // contracts.md, "mpr: |y| ≤ 2 mm"
+constexpr double kMprSlabHalfMm = 2.0;  // docs/decisions/0005
 
 // `target` is the centre of the target lesion. The rectangle's borders are the outer edges of the border pixels.
 // `needle_length_mm` is the length of the shaft inside slab and rectangle.

@@ -19,7 +19,7 @@ struct ConsolePreset {
   double dynamic_range_db;
   double frequency_mhz = 0.0;  // 0: the probe's
 };
-// Design, after the depths of ultrasound.md §2.4; deep: sound that gets through; surface: sound that resolves.
+// Our judgement; deep: sound that gets through; surface: sound that resolves.
 std::span<const ConsolePreset> console_presets() noexcept;
 const ConsolePreset* console_preset_named(std::string_view name) noexcept;
 

@@ -165,8 +165,8 @@ double LineWalker::border_mm(const BeamPath& path, std::size_t sample, const Lin
   return 0.5 * (above + below);
 }
 
-// Sound that was slower than the scanner assumes comes later, and shows deeper (ultrasound.md §3: 10 mm of fat,
-// half a mm).
+// Sound that was slower than the scanner assumes comes later, and shows deeper: by ∫(1540/c − 1) dz, half a mm
+// behind 10 mm of fat.
 void LineWalker::shift(std::size_t first, Line& line) const {
   double sum_mm = 0.0, most_mm = 0.0;
   line.shift_mm.resize(line.tissue.size());

@@ -1,7 +1,6 @@
 // Ultrasound-like pictures as in Vidal's thesis (2008) §4.6, for comparison only: windowed HU, times a mask of
 // shadows that thresholds of HU cast, times noise from a stack of noisy slices, with edges along the beam made
-// bright by Sobel's operator. The thesis gives no numbers; those here are the knowledge's (ultrasound.md §2.5) or
-// design.
+// bright by Sobel's operator. The thesis gives no numbers; those here are our judgement.
 #pragma once
 
 #include "sim/imaging/ultrasound/view/motion.h"

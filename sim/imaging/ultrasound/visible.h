@@ -1,5 +1,5 @@
-// What an ultrasound picture shows (contracts.md), from expected levels without speckle: nothing is rendered and no
-// seed matters. The laws are the picture's own: its beam (probe.h), its needle (needle_echo.h), its tissue.
+// What an ultrasound picture shows (docs/decisions/0013), from expected levels without speckle: nothing is rendered
+// and no seed matters. The laws are the picture's own: its beam (probe.h), its needle (needle_echo.h), its tissue.
 //
 // Needle: the echo, weakened by how far it lies off the plane (and a tip by how far off its nearest beam), against
 // the speckle around it under the same loss, or the receiver's noise. Target: see docs/decisions/0013. Left out:
@@ -14,12 +14,12 @@
 
 namespace seldinger::imaging {
 
-// contracts.md, "What a picture shows is told".
+// Our judgement (docs/decisions/0013).
 constexpr double kNeedleAboveDb = 6.0;
 constexpr double kLeastTransmissionDb = -12.0;
 constexpr double kLeastCnr = 1.0;
 
-// Standard deviation of speckle on the log picture: 10·π/(√6·ln 10) dB, a cell (ultrasound.md §2.5).
+// Standard deviation of speckle on the log picture: 10·π/(√6·ln 10) dB, a cell (closed form of Rayleigh's).
 constexpr double kSpeckleDb = 5.57;
 // Over so many cells of speckle the eye averages: 2 × 2 (design; decision 0013).
 constexpr double kCellsSeen = 4.0;

@@ -1,4 +1,4 @@
-// What an X-ray picture shows (contracts.md): inside the collimated field, contrast ≥ 3 σ. Expected values along
+// What an X-ray picture shows: inside the collimated field, contrast ≥ 3 σ. Expected values along
 // one ray per question: no picture is made, and no seed matters.
 //
 // Contrast is the relative difference of the signal with and without the object on the ray through it, of a drawn

@@ -59,7 +59,7 @@ const MetricBand* find(const ExpertSet& set, const char* id) {
 }
 
 TEST(QuantileTest, IsTypeSeven) {
-  // assessment.md §3.1: {2, 4, 4, 5, 7, 9}, quartiles 4, 4.5, 6.5.
+  // By hand: {2, 4, 4, 5, 7, 9}, quartiles 4, 4.5, 6.5.
   const std::vector<double> values{2, 4, 4, 5, 7, 9};
   EXPECT_DOUBLE_EQ(quantile(values, 0.25), 4.0);
   EXPECT_DOUBLE_EQ(quantile(values, 0.5), 4.5);

@@ -1,4 +1,4 @@
-// Bad trajectories (assessment.md §12), one test each: a null with its reason or a clear error; never NaN, never 0
+// Bad trajectories, one test each: a null with its reason or a clear error; never NaN, never 0
 // for what is not known.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Laws that every metric keeps (assessment.md §8), for attempts of every modality and approach.
+// Laws that every metric keeps, for attempts of every modality and approach.
 #include <gtest/gtest.h>
 
 #include <cmath>

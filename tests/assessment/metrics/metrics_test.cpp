@@ -86,7 +86,7 @@ TEST(PathTip, AStraightWayIsItsLength) {
 }
 
 TEST(PathTip, AHelixIsItsClosedForm) {
-  // Radius 5 mm, pitch 4 mm, three turns: 3·√((2π·5)² + 4²) mm (assessment.md §8).
+  // Radius 5 mm, pitch 4 mm, three turns: 3·√((2π·5)² + 4²) mm.
   cases::Recording recording;
   for (int i = 0; i <= 1200; ++i) {
     cases::PoseSample pose;
@@ -219,7 +219,7 @@ TEST(PathInefficiency, IgnoresJiggleAndCountsLongerExcursions) {
 }
 
 TEST(SweptArea, OfAFanIsItsClosedForm) {
-  // 60 mm deep, turned by 10° about the entry: ½ · 60² · π/18 mm² (assessment.md §8).
+  // 60 mm deep, turned by 10° about the entry: ½ · 60² · π/18 mm².
   for (const double seconds : {1.0, 6.0}) {
     const auto fan = [&](double t) { return 10.0 * std::numbers::pi / 180.0 * std::clamp(t / seconds, 0.0, 1.0); };
     auto recording = straight([](double) { return 0.0; }, seconds + 8.0);
@@ -234,7 +234,7 @@ TEST(SweptArea, OfAFanIsItsClosedForm) {
   EXPECT_NEAR(number(straight([](double t) { return ramp(t, 20.0); }, 4.0), "swept_area"), 0.0, 1e-9);
 }
 
-// A minimum-jerk reach: −ln(720/(15/8)²) = −ln 204.8 (assessment.md §8).
+// A minimum-jerk reach: −ln(720/(15/8)²) = −ln 204.8 (closed form).
 glm::dvec3 minimum_jerk(double t_s, double length_mm, double seconds) {
   const double s = std::clamp(t_s / seconds, 0.0, 1.0);
   return {0.0, 20.0 + length_mm * s * s * s * (10.0 - 15.0 * s + 6.0 * s * s), 0.0};

@@ -140,7 +140,7 @@ TEST(PlantedNoGo, HalfAVoxelIsTold) {
   EXPECT_NE(std::string(find_metric("clearance_min")->definition).find("nogo_uncertainty"), std::string::npos);
 }
 
-// Case 4 of clinical.md: in the middle of the vein, 20 mm along it from where the lesion marks it.
+// Case 4 of docs/clinical.md: in the middle of the vein, 20 mm along it from where the lesion marks it.
 TEST(PlantedHit, IsAnywhereInTheLumenThatIsToBeReached) {
   Planted vein;
   vein.with(StructureRule::target, cases::Tube{{{0.0, 30.0, -50.0}, {0.0, 30.0, 50.0}}, 6.0});

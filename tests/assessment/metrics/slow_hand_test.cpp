@@ -35,7 +35,7 @@ TEST(SlowHand, NoiseAddsUnderAHundredth) {
     }
 }
 
-// Radius 5 mm, pitch 4 mm, three turns: 3·√((2π·5)² + 4²) mm (assessment.md §8).
+// Radius 5 mm, pitch 4 mm, three turns: 3·√((2π·5)² + 4²) mm.
 TEST(SlowHand, AHelixIsItsClosedFormAtAnySpeed) {
   for (const double turn_s : {1.0, 4.0, 15.0, 60.0}) {
     const auto recording = recorded(

@@ -72,7 +72,7 @@ TEST(NoGo, WithoutAStructureIsNullNotZero) {
   EXPECT_EQ(value("must_cross_length", {}, down, 3.0).reason, "no_must_cross_structure");
 }
 
-// Clinical.md: 3 mm across at 50 mm/s is crossed in 60 ms.
+// docs/clinical.md: 3 mm across at 50 mm/s is crossed in 60 ms.
 TEST(NoGo, AVesselThatIsCrossedInAMomentIsAContactOfItsChord) {
   const std::vector<cases::Structure> vessel = {ball(StructureRule::critical, 30, 1.5)};
   const auto fast = [](double t) { return -20.0 + 50.0 * t; };

@@ -220,7 +220,7 @@ TEST_F(RealCt, TheSkinOfTheAbdomenIsCrossedOnceFromBehind) {
   EXPECT_GT(skin->triangles.size(), 20000U);
   EXPECT_LT(skin->triangles.size(), 120000U);
   const cases::MeshIndex index(*skin);
-  // clinical.md: a straight posterior path to the left kidney's lower pole is one puncture, couch or not.
+  // A straight posterior path to the left kidney's lower pole is one puncture, couch or not.
   const glm::dvec3 target(63, 77, -620), start(63, 227, -620);
   EXPECT_LT(index.closest(target).distance_mm, 0.0);
   EXPECT_GT(index.closest(start).distance_mm, 0.0);

@@ -1,4 +1,4 @@
-// Tests of sim/haptics/force_limiter: S16 and S17 of knowledge/haptics.md §3.4.
+// Tests of sim/haptics/force_limiter: S16 and S17 of docs/touch.md.
 #include "sim/haptics/force_limiter.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The counts of haptics.md §3.4 S8 and S10 in full.
+// The counts of S8 and S10 of docs/touch.md in full.
 #include <gtest/gtest.h>
 
 #include "app/measure/rigs/surface_trials.h"

@@ -1,5 +1,5 @@
 // Tests that a hand, a device and our law come to rest, and that these tests could see it when they did not: S1-S3,
-// S11's needle part, S14 of knowledge/haptics.md §3.4.
+// S11's needle part, S14 of docs/touch.md.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Tests of sim/haptics/two_hands, held_needle and held_probe: tools in space against the laws along one line, and
-// what happens when something else happens: swaps, faults, delays (S12, S14-S17 of knowledge/haptics.md §3.4).
+// what happens when something else happens: swaps, faults, delays (S12, S14-S17 of docs/touch.md).
 #include "sim/haptics/two_hands.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace seldinger::haptics {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMostStepN = 0.15;  // issue 5
+constexpr double kMostStepN = 0.15;  // docs/touch.md
 constexpr double kRounding = 1e-12;
 
 // The right hand at work, the left holding nothing.

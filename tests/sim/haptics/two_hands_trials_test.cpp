@@ -1,5 +1,5 @@
 // Trials of sim/haptics/two_hands: both tools in space, with limiter and all, under simulated hands on simulated
-// devices; and hands that do anything (S2, S10-S12, S16 of knowledge/haptics.md §3.4).
+// devices; and hands that do anything (S2, S10-S12, S16 of docs/touch.md).
 #include <gtest/gtest.h>
 
 #include <cmath>

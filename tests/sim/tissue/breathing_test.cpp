@@ -135,7 +135,7 @@ TEST(BreathRegion, MovesOrgansAsPublishedAndLeavesSpineAndWall) {
   EXPECT_GT(least, 0.5);
 }
 
-// S18 (haptics.md §3.4): 16 mm every 4 s.
+// S18 of docs/touch.md: 16 mm every 4 s.
 TEST(BreathRegion, MovesNoFasterThanADiaphragm) {
   const BreathSettings settings{.irregularity = 0.0};
   BreathState state;

@@ -77,7 +77,7 @@ TEST(HertzReference, IsTheOneIntegralOnTheAxis) {
   }
 }
 
-// haptics.md §6.2: at most 3 % of the depth rms, goal 1 %, in 4a × 6a. Ours is the whole field, so what is left is
+// At most 3 % of the depth rms, better 1 %, in 4a × 6a. Ours is the whole field, so what is left is
 // how finely the oracle adds up.
 TEST(Contact, IsHertzEverywhere) {
   for (const double depth_mm : {0.5, 8.0, 12.0}) {
@@ -101,7 +101,7 @@ TEST(Contact, IsHertzEverywhere) {
   }
 }
 
-// That the charted peers are what haptics.md §4 measured: 15.3, 2.8 and 0.7 % of the depth rms by volume.
+// That the charted peers are as a program of its own measured them: 15.3, 2.8 and 0.7 % of the depth rms by volume.
 TEST(ContactPeers, AreAsFarFromHertzAsMeasuredBefore) {
   const BallContact contact{20.0, 8.0};
   const double a = contact_radius_mm(contact);
@@ -313,7 +313,7 @@ TEST(Contact, PressureIsHertzOnTheSkin) {
               pressure_n_mm2(press, {0.0, 0.0, z}, 0.0033));
 }
 
-// Round trip: X → x → X. haptics.md §4: at most 0.15 mm rms, and 0.5 mm anywhere with Newton's steps. Four
+// Round trip: X → x → X. The goal: at most 0.15 mm rms, and 0.5 mm anywhere with Newton's steps. Four
 // fixed-point steps alone keep the first without bone.
 TEST(Contact, ComesBackFromWhereItWent) {
   for (const double depth_mm : {2.0, 8.0, 12.0})

@@ -297,7 +297,7 @@ TEST(Phantom, another_spacing_covers_the_same_body) {
     EXPECT_NEAR(ml(coarse, organ) / ml(quiet_phantom(Calyces::normal), organ), 1.0, 0.06) << organ;
 }
 
-// clinical.md, case 1: 25 mm lesion, 60 mm deep, subcostal.
+// docs/clinical.md, case 1: 25 mm lesion, 60 mm deep, subcostal.
 TEST(Phantom, a_25_mm_lesion_60_mm_deep_in_the_liver_is_reached_below_the_ribs) {
   const Phantom& phantom = quiet_phantom(Calyces::normal);
   const glm::dvec3 lesion_mm(-91.0, -36.0, 3.0);
@@ -327,7 +327,7 @@ TEST(Phantom, a_25_mm_lesion_60_mm_deep_in_the_liver_is_reached_below_the_ribs) 
   }
 }
 
-// clinical.md, case 5: dilated lower calyx, prone posterolateral, through at least 10 mm of parenchyma.
+// docs/clinical.md, case 5: dilated lower calyx, prone posterolateral, through at least 10 mm of parenchyma.
 TEST(Phantom, the_dilated_lower_calyx_is_reached_from_behind_through_parenchyma) {
   const Phantom& phantom = quiet_phantom(Calyces::dilated);
   for (const glm::dvec3& calyx_mm : {glm::dvec3(-68.0, 40.0, -50.0), glm::dvec3(68.0, 40.0, -34.0)})

@@ -1,7 +1,7 @@
 // Speckle as complex noise on the nodes of a lattice in tissue coordinates, interpolated where the beams run and
 // smoothed across them. Fast, for a node costs a hash; but its cells must be as wide as the beams lie apart, so
 // that depth is resolved no better than the lattice, and it has no thickness: a tilted probe sees new speckle at
-// once (ultrasound.md §2.5). The cells double with the spacing of the beams.
+// once (docs/decisions/0014). The cells double with the spacing of the beams.
 #pragma once
 
 #include "sim/imaging/ultrasound/speckle/speckle.h"

@@ -1,8 +1,8 @@
 // How bright the speckle of tissue is that no label tells apart. Classes alone would draw liver, kidney and vessels
 // in one grey; HU say a little more: denser parenchyma is brighter on plain CT (liver over spleen over kidney), and
 // what stands out from its surroundings, darker on plain CT and brighter with contrast, is a vessel and black. A
-// guess for pictures, good for orientation; labels always win. Steps and slopes are design, after ultrasound.md
-// §2.1's HU and backscatter.
+// guess for pictures, good for orientation; labels always win. Steps and slopes are our
+// judgement; of backscatter it is known that the liver has the most, the spleen the least (Fei and Shung 1985).
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ constexpr double kNoScatterDb = -200.0;
 using AcousticTable = std::array<Acoustics, volume::kTissueClasses>;  // indexed by volume::TissueClass
 const AcousticTable& acoustic_table() noexcept;
 
-// The table with every soft class's coefficient replaced and its exponent 1 (contracts.md); finite, ≥ 0.
+// The table with every soft class's coefficient replaced and its exponent 1; finite, ≥ 0.
 AcousticTable acoustic_table(std::optional<double> soft_attenuation_db_cm_mhz);
 
 // Amplitude of each class's speckle; liver's is 1.

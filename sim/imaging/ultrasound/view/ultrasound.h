@@ -71,7 +71,7 @@ void ultrasound_polar(const TissueVolume& tissue, const UltrasoundView& view, co
                       std::span<const float> depth_below_skin_mm, PolarPicture& picture,
                       const tissue::Displacement& displacement = {});
 
-// contracts.md's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below kLeastDb.
+// A scene's polar_db: row-major, a row a depth, a column a beam; 20·log10, not below kLeastDb.
 constexpr float kLeastDb = -200.0F;
 float level_db_of(float amplitude) noexcept;
 std::vector<float> polar_db(const PolarPicture& picture);

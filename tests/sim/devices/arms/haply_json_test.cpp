@@ -14,7 +14,7 @@
 namespace seldinger::devices {
 namespace {
 
-// As the service writes it (haptics.md §1.3), with things in it that we do not read.
+// As the service writes it (docs.haply.co), with things in it that we do not read.
 constexpr const char* kFirst =
     R"({"inverse3":[{"device_id":"04BA","config":{"handedness":"right"},"status":{"calibrated":true},)"
     R"("state":{"cursor_position":{"x":0.0412,"y":-0.2061,"z":0.173},"cursor_velocity":{"x":0.0,"y":0.0,"z":0.0}}}],)"

@@ -362,7 +362,7 @@ TEST(Haply, AnAttemptGoesOnWithoutALostHand) {
     before_n = now_n;
     return now_n > 0.2;
   })) << "felt again";
-  EXPECT_LE(most_step_n, 0.15) << "no tick pulls at the hand by more than issue 5 allows";
+  EXPECT_LE(most_step_n, 0.15) << "no tick pulls at the hand by more than docs/touch.md allows";
 }
 
 TEST(WebSocket, APortThatIsTakenIsRefused) {

@@ -1,4 +1,4 @@
-// Tests of sim/haptics/needle/needle_law by what a needle's force must do (issue 5; haptics.md §3.4 S3-S6, S12).
+// Tests of sim/haptics/needle/needle_law by what a needle's force must do (docs/touch.md, S3-S6, S12).
 #include "sim/haptics/needle/needle_law.h"
 
 #include <gtest/gtest.h>

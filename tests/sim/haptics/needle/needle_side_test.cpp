@@ -17,8 +17,8 @@ namespace {
 const cases::Gauge kGauge = *cases::gauge(22);
 
 TEST(NeedleSide, BendingIsThatOfATube) {
-  EXPECT_NEAR(bending_stiffness_n_mm2(kGauge), 2.2e3, 0.15e3);            // haptics.md §2.1
-  EXPECT_NEAR(bending_stiffness_n_mm2(*cases::gauge(18)), 2.1e4, 0.1e4);  // the same place
+  EXPECT_NEAR(bending_stiffness_n_mm2(kGauge), 2.2e3, 0.15e3);            // E · π/4 · (R⁴ − r⁴)
+  EXPECT_NEAR(bending_stiffness_n_mm2(*cases::gauge(18)), 2.1e4, 0.1e4);  // so too
 }
 
 // E I y'''' = − k y by finite differences with free ends and 1 N at the first: a second way to the same number.

@@ -23,7 +23,7 @@ constexpr double kBonesMm[] = {kNone, 60.0, 30.0, 15.0, 8.0, 4.0, 2.0};
 constexpr SoftContact kFree{20.0, 0.0033, 1e9};
 
 TEST(SoftContact, WithoutBoneIsHertz) {
-  // 16/3 G √(R δ) δ, and the example of haptics.md §4: 1.8 N and 0.34 N/mm at 8 mm.
+  // 16/3 G √(R δ) δ, and by hand: 1.8 N and 0.34 N/mm at 8 mm.
   EXPECT_NEAR(kFree.force_n(8.0, 0.0), 16.0 / 3.0 * 0.0033 * std::sqrt(20.0 * 8.0) * 8.0, 1e-12);
   EXPECT_NEAR(kFree.force_n(8.0, 0.0), 1.8, 0.05);
   EXPECT_NEAR(kFree.stiffness_n_mm(8.0, 0.0), 0.34, 0.01);

@@ -1,4 +1,4 @@
-// Tests of sim/haptics/proxy/surface_proxy. S8 … are the failure modes of haptics.md §3.4.
+// Tests of sim/haptics/proxy/surface_proxy. S8 … are rows of docs/touch.md.
 #include "sim/haptics/proxy/surface_proxy.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests of sim/haptics/proxy/volume_proxy and iso_surface. S7 … are the failure modes of haptics.md §3.4.
+// Tests of sim/haptics/proxy/volume_proxy and iso_surface. S7 … are rows of docs/touch.md.
 #include "sim/haptics/proxy/volume_proxy.h"
 
 #include <gtest/gtest.h>

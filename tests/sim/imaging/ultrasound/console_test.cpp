@@ -14,7 +14,7 @@ PolarPicture ramp(int beams, int samples, float first) {
 }
 
 TEST(Console, FrameRateIsThatOfSound) {
-  // ultrasound.md §2.4: 60 mm and 128 lines 100, 150/128 40, 150/192 26.7, 200/256 15.
+  // c / (2 · depth · beams): 60 mm and 128 lines 100, 150/128 40, 150/192 26.7, 200/256 15.
   EXPECT_NEAR(frame_rate_hz(60.0, 128), 100.0, 0.5);
   EXPECT_NEAR(frame_rate_hz(150.0, 128), 40.1, 0.1);
   EXPECT_NEAR(frame_rate_hz(150.0, 192), 26.7, 0.1);

@@ -1,4 +1,4 @@
-// Gas, bone, metal, a face off the skin, the edge of the CT (ultrasound.md §4c).
+// Gas, bone, metal, a face off the skin, the edge of the CT.
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
@@ -64,7 +64,7 @@ TEST(HardCase, HalfOfTheFaceTouches) {
       EXPECT_LT(at(half, 64, k), 1e-4F);
     }
   }
-  std::fill(below.begin() + 64, below.end(), -1.0F);  // −1 mm still touches (contracts.md)
+  std::fill(below.begin() + 64, below.end(), -1.0F);  // −1 mm still touches
   EXPECT_EQ(polar_of(liver, view, {}, below).envelope, whole.envelope);
   // Other numbers of beams ask the element they stand on.
   view.beams = 64;

@@ -1,4 +1,4 @@
-// Where beams, widths and the screen's pixels lie (goal 1 of ultrasound.md §4b).
+// Where beams, widths and the screen's pixels lie (goal 1).
 #include "sim/imaging/ultrasound/view/fan.h"
 
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
@@ -38,7 +38,7 @@ TEST(Fan, PolarAndBackIsTheSame) {
 }
 
 TEST(Probe, WidthsAreTheSpecifications) {
-  // ultrasound.md §2.4
+  // By hand: axial c/2 · 0.8825 / bandwidth; lateral 0.89 λ F#; elevation √((λz/h)² + (0.6 h |1 − z/F|)²).
   EXPECT_NEAR(beam_width(kC52v, 3.57, 0, 10).axial_sigma_mm * 2.3548, 0.32, 0.005);
   EXPECT_NEAR(beam_width(kL115v, 7.6, 0, 10).axial_sigma_mm * 2.3548, 0.14, 0.01);
   EXPECT_NEAR(beam_width(kC52v, 3.57, 0, 40).lateral_sigma_mm * 2.3548, 0.77, 0.01);

@@ -1,4 +1,4 @@
-// The acoustic table against what ultrasound.md and the literature say of pairs of tissues.
+// The acoustic table against what the literature says of pairs of tissues.
 #include "sim/imaging/ultrasound/view/tissue.h"
 
 #include <gtest/gtest.h>
