@@ -25,8 +25,6 @@ int run_import(const Arguments& arguments) {
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
   if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
-  std::optional<std::string> series;
-  if (arguments.has("--series")) series = arguments.text("--series");
   const casedb::FaceChoice face = face_choice(arguments.text("--face", "refuse"));
   if (arguments.has("--by") && !arguments.has("--no-burned-in-text"))
     throw UsageError("--by goes with --no-burned-in-text");
@@ -39,8 +37,8 @@ int run_import(const Arguments& arguments) {
     if (!by) return refuse(by.error());
     confirmed_by = by->person_id;
   }
-  auto imported = import_case(arguments.positional(0), series, arguments.text("--title"), "import", face,
-                              arguments.has("--denoise"));
+  auto imported = import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"), "import",
+                              face, arguments.has("--denoise"));
   if (!imported) return refuse(imported.error());
   imported->no_burned_in_text = arguments.has("--no-burned-in-text");
   imported->burned_in_checked_by = confirmed_by;
@@ -127,7 +125,7 @@ int run_case_confirm(const Arguments& arguments) {
 constexpr Option kImportOptions[] = {
     kLibrary,
     {"--title", "TEXT", "the case's title; never taken from the source"},
-    {"--series", "UID|N", "which series, when the folder holds several"},
+    kSeries,
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
     {"--face", "refuse|crop|deface",

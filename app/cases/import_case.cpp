@@ -54,6 +54,11 @@ base::Result<casedb::NewCase> import_built_in(volume::Phantom phantom, const std
 
 }  // namespace
 
+std::optional<std::string> series_of(const Arguments& arguments) {
+  if (!arguments.has(kSeries.name)) return std::nullopt;
+  return arguments.text(kSeries.name);
+}
+
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin, casedb::FaceChoice face, bool denoise) {

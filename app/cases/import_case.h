@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/cli/command.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/privacy/face.h"
 #include "sim/base/result.h"
@@ -12,6 +13,9 @@
 #include "sim/volume/phantom.h"
 
 namespace seldinger::app {
+
+inline constexpr Option kSeries{"--series", "UID|N", "which series, when the folder holds several"};
+std::optional<std::string> series_of(const Arguments& arguments);  // nothing where it was not given
 
 // An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,

@@ -52,7 +52,7 @@ base::Result<casedb::CaseRow> demo_case(std::optional<casedb::Library>& opened, 
   if (own && arguments.has("--calyces")) throw UsageError("--calyces is of the built-in case, not of a CT");
   std::optional<casedb::NewCase> imported;
   if (own) {
-    auto read = import_case(arguments.text("--ct"), {}, "Demo CT", "import");
+    auto read = import_case(arguments.text("--ct"), series_of(arguments), "Demo CT", "import");
     if (!read) return read.error();
     imported.emplace(std::move(*read));
   }
@@ -172,6 +172,8 @@ void print_answer(const DemoAnswer& answer, const std::filesystem::path& folder)
 }
 
 int run_demo(const Arguments& arguments) {
+  if (arguments.has(kSeries.name) && (!arguments.has("--ct") || arguments.all("--ct").size() > 1))
+    throw UsageError("--series goes with one --ct");
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
   const std::filesystem::path folder =
       arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library();
@@ -218,6 +220,7 @@ int run_demo(const Arguments& arguments) {
 constexpr Option kDemoOptions[] = {
     {"--library", "DIR", "default seldinger/demo under the user's data folder; reused"},
     {"--ct", "SOURCE", "a CT to use in place of the built-in case; with --cases any number of them", true},
+    kSeries,
     {"--drills", nullptr,
      "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
      "replay is to be watched, and the curriculum that leads through them; takes seconds"},

@@ -274,7 +274,7 @@ int run_demo_cases(const Arguments& arguments) {
   if (!graded && arguments.has("--ct")) throw UsageError("--ct is not of the drills: they are built in");
   Sources sources;
   for (const std::string& path : arguments.all("--ct")) {
-    auto read = import_case(path, {}, {}, "import");
+    auto read = import_case(path, series_of(arguments), {}, "import");
     if (!read) return refuse(read.error());
     const auto source = source_of(read->volume);
     if (!source) return refuse({"no_case_fits", "no graded case is made of this CT"});

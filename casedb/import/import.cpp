@@ -14,7 +14,8 @@
 namespace seldinger::casedb {
 namespace {
 
-constexpr int kTissueHu = -200;  // a CT of a patient without anything below is none, or not in HU
+constexpr int kTissueHu = -200;            // a CT of a patient without anything below is none, or not in HU
+constexpr std::size_t kStartBytes = 4096;  // enough of a file to tell what it is
 
 std::string lower_extension(const std::filesystem::path& file) {
   std::string name = file.filename().string();
@@ -40,21 +41,43 @@ base::Result<Source> read_volume(const std::filesystem::path& file, FileFormat f
   return source;
 }
 
-// What a file begins as decides; its name only says what a damaged one was meant to be.
+// What a file begins as decides; its name only tells what is packed.
+std::optional<FileFormat> format_of(std::string_view start, const std::string& extension) {
+  const bool packed = start.size() >= 2 && start[0] == '\x1F' && start[1] == '\x8B';
+  if (packed) return extension == ".nii.gz" ? std::optional(FileFormat::nifti) : std::nullopt;
+  if (is_nifti_header(start.data(), start.size()) && extension == ".nii") return FileFormat::nifti;
+  if (start.starts_with("NRRD000")) return FileFormat::nrrd;
+  if (is_metaimage_header(start)) return FileFormat::metaimage;
+  return std::nullopt;
+}
+
+// Where the folder of a volume file was given in its place. By its kind: its name may be a patient's.
+base::Error with_volume_files(base::Error refused, const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  std::string kind;
+  std::error_code error;
+  for (std::filesystem::directory_iterator it(folder, error), end; it != end; it.increment(error)) {
+    const std::string extension = lower_extension(it->path());
+    const auto bytes =
+        extension.empty() || !it->is_regular_file(error) ? std::nullopt : read_bytes(it->path(), 0, kStartBytes);
+    if (!bytes || !format_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, extension)) continue;
+    ++count;
+    kind = extension;
+  }
+  if (count == 1) refused.text += "; it holds one volume file (" + kind + "): give that file itself";
+  if (count > 1) refused.text += "; it holds " + std::to_string(count) + " volume files: give one of them itself";
+  return refused;
+}
+
 base::Result<Source> read_one_file(const std::filesystem::path& file, const std::optional<std::string>& series) {
-  const auto bytes = read_bytes(file, 0, 4096);
+  const auto bytes = read_bytes(file, 0, kStartBytes);
   if (!bytes) return base::Error{"not_readable", "the file cannot be read"};
   const std::string_view start(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   const std::string extension = lower_extension(file);
   if (looks_like_dicom(start.data(), start.size())) return read_dicom_slice(file, series);
   if (series && *series != "1")
     return base::Error{"no_series", "there is no such series: the file holds one volume"};
-  const bool packed = start.size() >= 2 && start[0] == '\x1F' && start[1] == '\x8B';
-  if (packed && extension == ".nii.gz") return read_volume(file, FileFormat::nifti);
-  if (!packed && is_nifti_header(start.data(), start.size()) && extension == ".nii")
-    return read_volume(file, FileFormat::nifti);
-  if (start.starts_with("NRRD000")) return read_volume(file, FileFormat::nrrd);
-  if (is_metaimage_header(start)) return read_volume(file, FileFormat::metaimage);
+  if (const auto format = format_of(start, extension)) return read_volume(file, *format);
   if (!extension.empty()) return base::Error{"damaged", "the file does not begin as its name says"};
   return base::Error{"unknown_format", "the file is none of DICOM, NIfTI, NRRD and MetaImage"};
 }
@@ -69,6 +92,7 @@ base::Result<Source> read_source(const std::filesystem::path& source, const std:
     auto result = std::filesystem::is_directory(status)      ? read_dicom_folder(source, series)
                   : std::filesystem::is_regular_file(status) ? read_one_file(source, series)
                                                              : base::Error{"unknown_format", "no file or folder"};
+    if (!result && result.error().code == "no_dicom") return with_volume_files(result.error(), source);
     if (result && *std::min_element(result->volume.hu.begin(), result->volume.hu.end()) > kTissueHu)
       result->warnings.push_back({"no_air", "nothing in the volume is air: are its values HU?"});
     if (result) {

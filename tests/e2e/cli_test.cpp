@@ -407,6 +407,15 @@ TEST(Cli, RefusedDemosAndUsersMakeNoLibrary) {
   std::filesystem::create_directories(scratch / "empty");
   expect_refused(
       run(kProgram + " demo --no-serve --ct " + (scratch / "empty").string() + " --library " + library, scratch));
+  // demo had no --series, which import tells to choose by.
+  write(scratch / "ct.mha", "ObjectType = Image\n");
+  const std::string demo = kProgram + " demo --no-serve --library " + library;
+  const std::string ct = " --ct " + (scratch / "ct.mha").string();
+  for (const std::string more : {"", " --cases"}) {
+    expect_refused(run(demo + more + ct + " --series 2", scratch), "no_series");
+    EXPECT_EQ(run(demo + more + " --series 2", scratch).exit_code, 2);
+    EXPECT_EQ(run(demo + more + ct + ct + " --series 2", scratch).exit_code, 2);
+  }
   expect_refused(run("echo short | " + kProgram + " user add Bob --role trainee --library " + library, scratch),
                  "weak_password");
   expect_refused(run(kProgram + " doctor --library " + library, scratch), "no_library");

@@ -30,6 +30,22 @@ TEST_F(DicomRefused, NothingToRead) {
   EXPECT_EQ(refusal(folder_ / "a.txt"), "unknown_format");
 }
 
+// It said no more than that no file is DICOM. The file's name is not told: it may be a patient's.
+TEST_F(DicomRefused, AFolderOfVolumeFilesSaysToGiveTheFile) {
+  write("README", "about it");
+  write("PLANTED.nii", "damaged, and no volume file");
+  write("PLANTED.nrrd", "NRRD0004\n");
+  const auto one = read(folder_);
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().code, "no_dicom");
+  EXPECT_EQ(one.error().text,
+            "no file in the folder is DICOM; it holds one volume file (.nrrd): give that file itself");
+  write("PLANTED.mha", "ObjectType = Image\n");
+  const auto two = read(folder_);
+  ASSERT_FALSE(two);
+  EXPECT_EQ(two.error().text, "no file in the folder is DICOM; it holds 2 volume files: give one of them itself");
+}
+
 TEST_F(DicomRefused, OtherKindsOfObject) {
   const auto one = [&](const TestDicom& file) { return refusal(write("PLANTED", file.bytes())); };
   EXPECT_EQ(one(slice(0).text(0x00080060, "CS", "MR")), "not_ct");
