@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/page_commands.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 
@@ -15,25 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 using fixtures::run;
+using fixtures::with;
 
 using fixtures::kProgram;
-
-std::vector<std::string> commands_of_the_page() {
-  std::istringstream page(fixtures::whole_file(fixtures::source_dir().string() + "/docs/first-hour.md"));
-  std::vector<std::string> commands;
-  bool inside = false;
-  for (std::string line; std::getline(page, line);) {
-    if (line.rfind("```", 0) == 0) inside = !inside;
-    if (inside && line.rfind("seldinger ", 0) == 0) commands.push_back(line.substr(10));
-  }
-  return commands;
-}
-
-std::string with(std::string text, const std::string& word, const std::string& value) {
-  for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += value.size())
-    text.replace(at, word.size(), value);
-  return text;
-}
 
 bool passes(const Json& attempt, const Json& criteria) {
   for (const Json& criterion : criteria) {
@@ -166,7 +150,7 @@ TEST_F(FirstHour, ADrillWhoseRuleHasChangedGetsItsNextVersion) {
 
 TEST_F(FirstHour, ThePagesCommandsRunAsTheyStand) {
   const std::string library = (scratch_ / "page").string();
-  const auto commands = commands_of_the_page();
+  const auto commands = fixtures::commands_of_page("first-hour.md");
   ASSERT_GE(commands.size(), 6U);
   std::string drill, curriculum, attempt;
   for (const std::string& command : commands) {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "tests/fixtures/page_commands.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/shared_data.h"
@@ -13,25 +13,9 @@ namespace {
 
 using Json = nlohmann::json;
 using fixtures::run;
+using fixtures::with;
 
 using fixtures::kProgram;
-
-std::vector<std::string> commands_of_the_page() {
-  std::istringstream page(fixtures::whole_file(fixtures::source_dir().string() + "/docs/mentor.md"));
-  std::vector<std::string> commands;
-  bool inside = false;
-  for (std::string line; std::getline(page, line);) {
-    if (line.rfind("```", 0) == 0) inside = !inside;
-    if (inside && line.rfind("seldinger ", 0) == 0) commands.push_back(line.substr(10));
-  }
-  return commands;
-}
-
-std::string with(std::string text, const std::string& word, const std::string& value) {
-  for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; at += value.size())
-    text.replace(at, word.size(), value);
-  return text;
-}
 
 // The id behind "case " at the beginning of what a command printed.
 std::string id_of(const std::string& printed) {
@@ -42,7 +26,7 @@ TEST(MentorPage, ItsCommandsLeadFromDicomToAPublishedCase) {
   SELDINGER_NEEDS_SHARED_DATA();
   const auto scratch = fixtures::fresh_folder("mentor_page");
   const std::string library = (scratch / "library").string();
-  const auto commands = commands_of_the_page();
+  const auto commands = fixtures::commands_of_page("mentor.md");
   ASSERT_EQ(commands.size(), 13U) << "two accounts, two about a cohort, five commands, four for the review";
   std::string case_id, next_id;
   for (const std::string& command : commands) {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <optional>
@@ -42,10 +41,7 @@ constexpr int kDisplacedBinding = 1, kSourcesBinding = 2;  // of uniform blocks
 constexpr int kGridBinding = 2;                            // of storage
 
 std::string_view shader(std::string_view name) {
-  const auto files = embedded::mpr_shaders();
-  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
-  CHECK(found != files.end());
-  return found->content;
+  return base::content_of(embedded::mpr_shaders(), name);
 }
 
 glm::vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {

@@ -38,10 +38,7 @@ constexpr std::size_t kMostViews = 4;  // two lights' and two eyes'
 static_assert(sizeof(RoomThing) <= kThingStride && sizeof(shaders::RoomView) <= kViewStride);
 
 std::string_view shader(std::string_view name) {
-  const auto files = embedded::room_shaders();
-  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
-  CHECK(found != files.end());
-  return found->content;
+  return base::content_of(embedded::room_shaders(), name);
 }
 
 glm::vec4 vec4_from(const glm::dvec3& xyz, double w = 0.0) {

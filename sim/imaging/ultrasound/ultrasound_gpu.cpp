@@ -29,10 +29,7 @@ constexpr int kGroup = 64;  // local_size of the shaders but of the screen's
 constexpr int kGroupPx = 16;
 
 std::string_view shader(std::string_view name) {
-  const auto files = embedded::ultrasound_shaders();
-  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
-  CHECK(found != files.end());
-  return found->content;
+  return base::content_of(embedded::ultrasound_shaders(), name);
 }
 
 int groups(int count, int group) {

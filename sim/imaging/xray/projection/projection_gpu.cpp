@@ -53,10 +53,7 @@ constexpr int kVoxelsUnit = 0, kCellsUnit = 1;
 constexpr int kParametersBinding = 0, kWaterBinding = 1, kMineralBinding = 2;
 
 std::string_view shader(std::string_view name) {
-  const auto files = embedded::xray_shaders();
-  const auto found = std::find_if(files.begin(), files.end(), [&](const auto& file) { return file.name == name; });
-  CHECK(found != files.end());
-  return found->content;
+  return base::content_of(embedded::xray_shaders(), name);
 }
 
 // The axes of one walk: main, and the two minor ones in order.

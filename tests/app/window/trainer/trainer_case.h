@@ -54,6 +54,13 @@ class TrainerTest : public testing::Test {
       return trainer.attempt() != nullptr && trainer.attempt()->phase() == Phase::ready;
     });
   }
+  // Logged in, the case chosen, and begun as soon as it is prepared.
+  void begin(Trainer& trainer, const char* name, bool left_handed) {
+    trainer.log_in(name, kPassword);
+    trainer.choose(case_id_);
+    ASSERT_TRUE(ready(trainer)) << trainer.refusal();
+    ASSERT_TRUE(trainer.begin(left_handed));
+  }
   static constexpr double kTellingS = 0.02;  // from one telling of the hands to the next, as a window's frames
   // Tells the hands of one wish, and waits until they have done it.
   void advance(PersonAttempt& attempt, HandsTold& told, double to_mm) {

@@ -15,10 +15,7 @@ namespace {
 TEST_F(TrainerTest, TheConditionsOfAnAttemptAreKept) {
   publish();
   Trainer trainer(open());
-  trainer.log_in("mona", kPassword);
-  trainer.choose(case_id_);
-  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
-  ASSERT_TRUE(trainer.begin(true));
+  ASSERT_NO_FATAL_FAILURE(begin(trainer, "mona", true));
   PersonAttempt& attempt = *trainer.attempt();
   attempt.know([](casedb::Conditions& conditions) {
     conditions.window_rate_hz = 59.5;

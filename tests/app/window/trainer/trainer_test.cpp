@@ -140,10 +140,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
 TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
   publish();
   Trainer trainer(open());
-  trainer.log_in("mona", kPassword);
-  trainer.choose(case_id_);
-  ASSERT_TRUE(ready(trainer)) << trainer.refusal();
-  ASSERT_TRUE(trainer.begin(false));
+  ASSERT_NO_FATAL_FAILURE(begin(trainer, "mona", false));
   PersonAttempt& attempt = *trainer.attempt();
   HandsTold told;
   session::ShownPicture shown;
@@ -242,10 +239,7 @@ TEST_F(TrainerTest, BeginningAgainKeepsWhatWasDoneAndIsReadyAtOnce) {
   publish();
   {
     Trainer trainer(open());
-    trainer.log_in("mona", kPassword);
-    trainer.choose(case_id_);
-    ASSERT_TRUE(ready(trainer)) << trainer.refusal();
-    ASSERT_TRUE(trainer.begin(true));
+    ASSERT_NO_FATAL_FAILURE(begin(trainer, "mona", true));
     ASSERT_TRUE(until([&] { return trainer.attempt()->seen().has_value(); }));
     const auto task = trainer.attempt()->task();
     trainer.again();
