@@ -18,7 +18,7 @@ using fixtures::run;
 
 using fixtures::kProgram;
 constexpr int kPx = 65;
-constexpr double kWaterPerMm = 0.018366;      // 80 keV, with coherent scattering
+constexpr double kWaterPerMm = 0.018366;      // 80 keV, with coherent scattering (xraylib)
 constexpr double kIronPerMm = 0.5950 / 1.27;  // 80 keV: 1.27 mm of steel are 0.595
 
 // 100 mm of water in every direction, the middle at the origin.

@@ -8,7 +8,7 @@
 
 namespace seldinger::imaging {
 
-constexpr double kWaterPerMm = 0.018366;  // of water at 80 keV: path lengths to nepers (knowledge: xraylib)
+constexpr double kWaterPerMm = 0.018366;  // of water at 80 keV: path lengths to nepers (xraylib)
 
 // A detector around `center`, its normal u × v.
 XrayGeometry rays_from(const glm::dvec3& source_lps_mm, const glm::dvec3& center_lps_mm, const glm::dvec3& u,

@@ -11,8 +11,7 @@
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
-#include "sim/volume/analytic.h"
-#include "tests/fixtures/meshes.h"
+#include "tests/fixtures/ball_case.h"
 
 namespace seldinger::session {
 namespace {
@@ -20,17 +19,9 @@ namespace {
 constexpr cases::Modality kAll[] = {cases::Modality::mpr, cases::Modality::xray, cases::Modality::ultrasound};
 
 cases::Case make_ball() {
-  volume::AnalyticVolume analytic;
-  analytic.size_voxels = {88, 88, 88};
-  analytic.spacing_mm = {2.5, 2.5, 2.5};
-  analytic.origin_mm = {-108.75, -108.75, -108.75};
-  analytic.shapes.push_back({volume::Sphere{{0, 0, 0}, 100.0}, 50.0, ""});
-  cases::Case scene;
-  scene.volume = volume::rasterize(analytic);
+  cases::Case scene = fixtures::ball_case({.voxels = 88, .voxel_mm = 2.5, .radius_mm = 100.0, .skin_levels = 5});
   scene.classes = volume::tissue_classes(scene.volume);
   scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
-  scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
-  scene.skin_index = cases::MeshIndex(scene.skin);
   scene.lesions.push_back({{0.0, -45.0, 0.0}, 6.0, 500.0});
   scene.breathing.emplace();
   return scene;
