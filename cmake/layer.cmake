@@ -2,13 +2,14 @@
 # folders whose headers it includes, by the names of their targets (tests/repo holds them against every #include);
 # PRIVATE_LINKS are third-party packages, behind the folder's door.
 # Several sources are compiled as one (a unity build): what they all include is read once, which makes a build from
-# nothing more than twice as fast (docs/decisions/0039).
+# nothing more than twice as fast (docs/decisions/0039). SELDINGER_UNITY=OFF, for tools that look at single files.
+option(SELDINGER_UNITY "compile a folder's sources together" ON)
 function(seldinger_layer NAME)
   cmake_parse_arguments(ARG "" "" "LINKS;PRIVATE_LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   add_library(seldinger_${NAME} STATIC ${sources})
-  set_target_properties(seldinger_${NAME} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8 OPTIMIZE_DEPENDENCIES ON)
+  set_target_properties(seldinger_${NAME} PROPERTIES UNITY_BUILD ${SELDINGER_UNITY} UNITY_BUILD_BATCH_SIZE 8 OPTIMIZE_DEPENDENCIES ON)
   set(links)
   foreach(layer ${ARG_LINKS})
     list(APPEND links seldinger_${layer})
@@ -21,6 +22,9 @@ endfunction()
 # g++ 12 then takes the text inside a std::string or std::optional for something else (gcc.gnu.org/PR105329, PR80635).
 macro(seldinger_unhurried)
   if(CMAKE_BUILD_TYPE STREQUAL Release)
-    add_compile_options(-O1 -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict -Wno-maybe-uninitialized)
+    add_compile_options(-O1)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      add_compile_options(-Wno-array-bounds -Wno-stringop-overflow -Wno-restrict -Wno-maybe-uninitialized)
+    endif()
   endif()
 endmacro()

@@ -2,8 +2,10 @@
 add_library(seldinger_options INTERFACE)
 target_compile_options(seldinger_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast -Werror
-  -ffp-contract=off
-  -Wno-subobject-linkage) # of a unity build's sources, which are one file to the compiler
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(seldinger_options INTERFACE -Wno-subobject-linkage) # a unity build's sources are one file to it
+endif()
 target_include_directories(seldinger_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/generated)
 target_compile_definitions(seldinger_options INTERFACE GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
 if(SELDINGER_SANITIZE STREQUAL "thread")

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <ranges>
 #include <set>
 #include <string_view>
 
@@ -185,14 +184,19 @@ std::int64_t count_of(Sqlite& database, std::string_view table) {
   return database.integer("SELECT count(*) FROM " + std::string(table));
 }
 
+// The case last, in a bundle and in the library: to a published one nothing may be added.
+std::vector<TravellingTable> case_last() {
+  const auto tables = travelling_tables();
+  return {tables.rbegin(), tables.rend()};
+}
+
 }  // namespace
 
 std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_id) {
   std::vector<std::byte> out;
   std::uint32_t tables = 0;
   put_number(out, tables);
-  // The case last, here and in the library: to a published one nothing may be added.
-  for (const TravellingTable& table : std::views::reverse(travelling_tables())) {
+  for (const TravellingTable& table : case_last()) {
     const std::vector<std::string> columns = columns_of(library, table.name);
     if (columns.empty()) continue;  // of a later schema
     ++tables;
@@ -285,7 +289,7 @@ Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id) {
 void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id) {
   CHECK(library.in_transaction());
   library.run("PRAGMA defer_foreign_keys = ON");  // until the commit: the tables' order is none
-  for (const TravellingTable& table : std::views::reverse(travelling_tables())) {
+  for (const TravellingTable& table : case_last()) {
     const std::vector<std::string> columns = columns_of(library, table.name);
     Statement insert = insertion(library, table.name, columns);
     for (Statement row = rows_of(rows, table, case_id); row.step();) {

@@ -69,6 +69,8 @@ template <typename... Cases>
 struct OfKind : Cases... {
   using Cases::operator()...;
 };
+template <typename... Cases>
+OfKind(Cases...) -> OfKind<Cases...>;
 
 template <auto member, auto... further>
 constexpr auto& part_of(auto& whole) {

@@ -34,7 +34,7 @@ const GuidanceKind& guidance_kind(cases::Modality modality) noexcept {
     case cases::Modality::ultrasound:
       return kUltrasoundGuidance;
   }
-  CHECK(!"a modality of these");
+  CHECK(false && "a modality of these");
   return kSliceGuidance;
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 // Every level puts at most three children aside; the tree of pairs is at most 64 deep (mesh_index_build.cpp).
 constexpr int kStack = 3 * 64;
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
 using Four = float __attribute__((vector_size(16)));
 using FourSigns = std::int32_t __attribute__((vector_size(16)));

@@ -13,8 +13,12 @@
 
 #include "sim/imaging/xray/projection/packet.h"
 
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2")
+#endif
 #include "sim/imaging/xray/projection/packet_walk.h"
 
 namespace seldinger::imaging {
@@ -69,6 +73,10 @@ void project_tile_avx2(const PacketJob& job, int column, int row) {
 }
 
 }  // namespace seldinger::imaging
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 #endif

@@ -13,8 +13,12 @@
 
 #include "sim/imaging/xray/projection/packet.h"
 
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx512f,avx512dq,avx512bw,avx512vl"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512bw,avx512vl")
+#endif
 #include "sim/imaging/xray/projection/packet_walk.h"
 
 namespace seldinger::imaging {
@@ -68,6 +72,10 @@ void project_tile_avx512(const PacketJob& job, int column, int row) {
 }
 
 }  // namespace seldinger::imaging
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
 #endif

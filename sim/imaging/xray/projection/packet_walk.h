@@ -311,7 +311,7 @@ void project_packet(const PacketJob& job, const double (&column)[V::kLanes], dou
     const double size_x = std::abs(x), size_y = std::abs(y), size_z = std::abs(z);
     const double y_way = y < 0.0 ? 4.0 : 1.0, z_way = z < 0.0 ? 5.0 : 2.0, x_way = x < 0.0 ? 3.0 : 0.0;
     const double rest = size_y >= size_z ? y_way : z_way;
-    way[l] = (size_x >= size_y) & (size_x >= size_z) ? x_way : rest;
+    way[l] = ((size_x >= size_y) & (size_x >= size_z)) ? x_way : rest;
   }
   for (int l = 0; l < W; ++l) used[static_cast<int>(way[l])] |= enter[l] < leave[l];
   // Lanes that run the same way walk together, the others idle.
