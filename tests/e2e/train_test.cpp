@@ -80,6 +80,23 @@ class TrainTest : public testing::Test {
     trainee_->click("To pass (A)");
     EXPECT_TRUE(shows("All values (A)"));
   }
+  // The same of a step, which before opened nothing; and its mark has a legend.
+  void ask_what_a_step_is() {
+    const auto shows = [&](const char* name) { return fixtures::until([&] { return trainee_->shows(name); }); };
+    EXPECT_TRUE(shows("Legend of the steps"));
+    trainee_->click("Place the probe on the skin at the entry");
+    EXPECT_TRUE(shows("Definition of Place the probe on the skin at the entry")) << now();
+    look();
+    trainee_->screen().press("Up");
+    EXPECT_TRUE(shows("Definition of Choose the probe and check its orientation: move it and look")) << now();
+    trainee_->screen().press("Escape");
+    EXPECT_TRUE(shows("Legend of the steps"));
+    EXPECT_EQ(now()["screen"], "debrief");
+    trainee_->screen().press("Up");
+    EXPECT_TRUE(shows("Definition of Sign out")) << "the last: " << now();
+    trainee_->click("Back to the steps (Esc)");
+    EXPECT_TRUE(shows("Legend of the steps"));
+  }
   fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
   static inline std::optional<fixtures::CommandLibrary> library_;
@@ -137,6 +154,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
   ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
+  ASSERT_NO_FATAL_FAILURE(ask_what_a_step_is());
   trainee_->screen().press("w");
   ASSERT_TRUE(trainee_->reaches("watch"));
   const auto again = trainee_->place_of("picture");
