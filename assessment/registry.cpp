@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assessment/metrics/tables.h"
+#include "assessment/signals/need_words.h"
 
 namespace seldinger::assessment {
 namespace {
@@ -33,9 +34,7 @@ const char* words(Direction direction) {
 }
 
 std::string needs_of(const MetricInfo& info) {
-  std::string text;
-  for (const NeedInfo& need : needs())
-    if ((info.needs & need.need) != 0) text += (text.empty() ? "" : ", ") + std::string(need.words);
+  const std::string text = words_of_needs(info.needs);
   return text.empty() ? "–" : text;
 }
 

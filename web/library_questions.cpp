@@ -112,6 +112,11 @@ class LibraryQuestions final : public Questions {
     return casedb::Grader(pages_.library).look_at(row);
   }
 
+  std::vector<assessment::StepResult> list_steps(const std::string& attempt_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_steps(pages_.library, attempt_id);
+  }
+
   std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) override {
     const std::lock_guard lock(pages_.mutex);
     casedb::Grader grader(pages_.library);

@@ -54,6 +54,8 @@ class Questions {
   virtual std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
+  virtual std::vector<assessment::StepResult> list_steps(
+      const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
 };

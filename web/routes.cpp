@@ -166,7 +166,7 @@ Response show_attempt(Site& site, const Call& call) {
   const auto recording = site.questions.load_recording(row->attempt_id);
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
   const reports::AttemptView view{*row, operator_label(call.reader->account.role, relations, *row, account_of),
-                                  site.questions.look_at(*row)};
+                                  site.questions.look_at(*row), site.questions.list_steps(row->attempt_id)};
   return html_response(200, reports::attempt_page(call.reader->visitor(), view,
                                                   recording.has_value() ? &recording.value() : nullptr));
 }

@@ -10,6 +10,7 @@
 #include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
+#include "reports/words/step_card.h"
 #include "session/attempt/interrupted_attempt.h"
 
 namespace seldinger::app {
@@ -31,12 +32,11 @@ std::string who(const casedb::AttemptRow& attempt) {
 
 void print_course(const Course& course) {
   for (const assessment::StepResult& step : course.steps) {
-    const assessment::StepInfo* info = assessment::find_step(step.id);
     if (step.state == assessment::StepState::not_asked) continue;
     char when[16] = "       –";
     if (step.t_s) std::snprintf(when, sizeof when, "%6.1f s", *step.t_s);
-    std::printf("  %-8s %s  %s%s\n", std::string(assessment::name_of(step.state)).c_str(), when,
-                info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
+    std::printf("  %-8s %s  %s\n", std::string(assessment::name_of(step.state)).c_str(), when,
+                reports::step_text(step).c_str());
   }
   for (const cases::Event& event : course.events.value_or(std::vector<cases::Event>{}))
     if (const cases::EventInfo* info = cases::find_event(event.kind))

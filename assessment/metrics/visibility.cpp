@@ -103,7 +103,11 @@ constexpr MetricInfo kVisibilityMetrics[] = {
      kTarget | kSkin | kPictures,
      "As vis_needle, for the target. Null: as vis_needle; no_view_shows_target (fluoroscope: none did, and none "
      "could: "
-     "across its whole width the target takes off under 3 % more or less than what lies about it).",
+     "across its whole width the target takes off under 3 % more or less than what lies about it). Other guidance "
+     "is "
+     "never told so: a slice shows any target that lies in it, and in ultrasound one that echoes as what lies "
+     "about "
+     "it, or that bone or gas hides from everywhere, is not seen: 0.",
      kVidal, &share<&Shares::target_s, Shown::target>, kMedianShare, kShares,
      "1: of the time with a live picture alone, and 0 where no picture could show the target."},
     {"vis_joint_session", 2, "share", "Both visible, whole session", Group::picture, Direction::higher_is_better,

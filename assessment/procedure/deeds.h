@@ -25,7 +25,7 @@ std::optional<double> orientation_tested_s(const Signals& signals, double on_ski
 std::optional<double> depth_measured_s(const Signals& signals);
 
 // The first puncture, where the needle stood to the skin within kAngleDeg of the plan's angle. There are skin and
-// plan.
+// plan: without a way that is given no angle is right or wrong, and cases state no limits of their own.
 std::optional<double> angle_kept_s(const Signals& signals);
 
 // The trigger, where the needle was in by the depth that was last planned before the first puncture. Events are

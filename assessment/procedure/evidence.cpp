@@ -269,7 +269,7 @@ constexpr EvidenceInfo kEvidence[] = {
      kSeen | kPicturePlane | kSkin,
      [](const Signals& signals) { return orientation_tested_s(signals, kProbeOnSkinMm); }},
     {Evidence::needle_at_skin, "the tip was within 5 mm of the skin, or in it", kSkin, &needle_at_skin},
-    {Evidence::punctured, "the first puncture that skin_punctures counts", kSkin, &punctured},
+    {Evidence::punctured, "the skin was first punctured (as skin_punctures counts)", kSkin, &punctured},
     {Evidence::angle_kept, "at the first puncture the needle stood to the skin within 15° of the planned angle",
      kSkin | kPlan, &angle_kept_s},
     {Evidence::jiggled, "in tissue the tip went to and fro along the shaft, by 1 to 5 mm and within 2 s", kSkin,

@@ -1,5 +1,6 @@
 #include "assessment/procedure/steps.h"
 
+#include "assessment/signals/need_words.h"
 #include "assessment/signals/signals.h"
 #include "sim/base/check.h"
 #include "sim/base/names.h"
@@ -157,11 +158,6 @@ std::optional<StepHow> step_how_from(std::string_view name) noexcept {
   return base::from_name(kHows, name);
 }
 
-const char* how_text(const StepResult& step) noexcept {
-  if (step.how != StepHow::said) return "";
-  return step.state == StepState::done ? " (said)" : " (said, not shown)";
-}
-
 std::vector<StepResult> walk_steps(const Signals& signals) {
   const std::uint32_t unmet = unmet_needs(signals);
   const bool stopped_by_defer = first_s(deferred, signals) && !first_s(punctured, signals);
@@ -185,17 +181,6 @@ StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet)
   return counts;
 }
 
-namespace {
-
-std::string words_of_needs(std::uint32_t needs) {
-  std::string text;
-  for (const NeedInfo& need : assessment::needs())
-    if ((needs & need.need) != 0) text += (text.empty() ? "" : ", ") + std::string(need.words);
-  return text;
-}
-
-}  // namespace
-
 std::string steps_markdown() {
   const auto words = [](Evidence of) { return of == none ? std::string("–") : std::string(about(of).words); };
   std::string text =
@@ -211,6 +196,9 @@ std::string steps_markdown() {
       "is "
       "told\nand does not count. Where no deed can show it, the step is *said*: the trainee is taken at his word. "
       "`steps_shown`\nis the share done of the former.\n\n"
+      "The angle at the skin is right or wrong for a way that is given, and no case states limits of its own: "
+      "where "
+      "no\nentry is planned, `enter_at_angle` is not asked for.\n\n"
       "| id | step | by | asked for with | done when | before | violated when | graded | source |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const StepInfo& step : kSteps) {

@@ -55,8 +55,6 @@ std::string_view name_of(StepState state) noexcept;
 std::optional<StepState> step_state_from(std::string_view name) noexcept;
 std::string_view name_of(StepHow how) noexcept;
 std::optional<StepHow> step_how_from(std::string_view name) noexcept;
-// Behind a step's words: "", " (said)", " (said, not shown)".
-const char* how_text(const StepResult& step) noexcept;
 
 // Every step, in order.
 std::vector<StepResult> walk_steps(const Signals& signals);

@@ -5,6 +5,7 @@
 
 #include "assessment/procedure/steps.h"
 #include "reports/charts/recorded_events.h"
+#include "reports/words/step_card.h"
 
 namespace seldinger::reports {
 namespace {
@@ -63,12 +64,12 @@ Course course_of(const assessment::Signals& signals, const cases::Recording& rec
   // What was not listened to is no omission, and its step is not asked for.
   Lane steps{"Steps", {}};
   for (const assessment::StepResult& result : assessment::walk_steps(signals)) {
-    const assessment::StepInfo* info = assessment::find_step(result.id);
-    if (info == nullptr || result.state == assessment::StepState::not_asked) continue;
+    if (result.state == assessment::StepState::not_asked) continue;
     const bool done = result.state == assessment::StepState::done;
     const std::string state(assessment::name_of(result.state));
+    const StepMark& told = step_mark(result);
     const LaneMark mark{result.t_s.value_or(0.0), result.t_s.value_or(0.0), done ? "step" : state,
-                        std::string(info->words) + (done ? "" : " (" + state + ")") + assessment::how_text(result)};
+                        step_label(result.id) + " (" + told.words + ")", result.id};
     (result.t_s ? steps.marks : steps.timeless).push_back(mark);
   }
   std::stable_sort(steps.marks.begin(), steps.marks.end(),

@@ -38,6 +38,7 @@ struct LaneMark {
   double t0_s = 0.0, t1_s = 0.0;
   std::string kind;  // a class of drawing: hand, trainee, mentor, patient; step, skipped, violated
   std::string words;
+  std::string step_id{};  // of a step: what its words open
 };
 struct Lane {
   std::string name;

@@ -8,6 +8,7 @@
 #include "reports/pages/beam_table.h"
 #include "reports/pages/grade_section.h"
 #include "reports/pages/metric_details.h"
+#include "reports/pages/step_section.h"
 #include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
@@ -242,8 +243,10 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
   add_outcome(html, row);
   html.raw("<div class=\"columns\">\n");
   add_metrics(html, attempt);
+  html.raw("<div>\n");
   add_picture(html, row, recording);
-  html.raw("</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
+  html.add(step_section(attempt.steps))
+      .raw("</div>\n</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
   const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
   if (chart.empty()) {
     html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");

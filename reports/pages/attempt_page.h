@@ -1,4 +1,5 @@
-// One attempt: what came of it, its metrics, the picture at the moment of firing, and what it was made with.
+// One attempt: what came of it, its metrics, its steps, the picture at the moment of firing, and what it was made
+// with.
 #pragma once
 
 #include <string>

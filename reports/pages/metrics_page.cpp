@@ -2,6 +2,7 @@
 
 #include "assessment/registry.h"
 #include "reports/pages/metric_details.h"
+#include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {

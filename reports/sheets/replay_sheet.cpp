@@ -6,6 +6,7 @@
 #include "reports/markup/base64.h"
 #include "reports/pages/metric_details.h"
 #include "reports/pages/page.h"
+#include "reports/pages/step_section.h"
 #include "reports/words/metric_words.h"
 #include "reports/words/shown_metrics.h"
 
@@ -41,6 +42,9 @@ constexpr const char kStyle[] =
     "stroke-dasharray:5 3}.mark circle,.mark .lasting{fill:var(--soft)}.mark.mentor circle,.mark.violated .lasting,"
     ".mark.violated circle{fill:var(--unseen-way)}.mark.patient circle{fill:var(--skin)}.mark.trainee circle,"
     ".mark.step .lasting,.mark.step circle{fill:var(--seen)}"
+    ".dot::before{content:'';display:inline-block;width:.6em;height:.6em;border-radius:50%;background:var(--soft);"
+    "margin-right:.35em}.dot.step::before{background:var(--seen)}.dot.violated::before{background:"
+    "var(--unseen-way)}.dot{margin-right:1rem;white-space:nowrap}"
     ".planes .skin{stroke:#f2c79b;stroke-width:1.6}.planes .structure{stroke:#ffd54f;stroke-width:1}"
     ".planes .critical{stroke:#ff5252}.planes .major{stroke:#ff9f68}.planes .must_cross,.planes .organ,"
     ".planes .target-rule{stroke:#8fd3a8}"
@@ -218,6 +222,13 @@ void add_planes(Html& html, const ReplaySheet& sheet) {
   html.raw("</p></section>\n");
 }
 
+// A step's opens what it is.
+void add_mark(Html& html, const LaneMark& mark, const std::string& when) {
+  const std::string words = when + mark.words;
+  html.raw("<li>").add(mark.step_id.empty() ? Html{}.text(words) : step_details(mark.step_id, 0, words));
+  html.raw("</li>\n");
+}
+
 void add_timeline(Html& html, const ReplaySheet& sheet) {
   std::vector<double> moments_s;
   for (const SheetMoment& moment : sheet.moments) moments_s.push_back(moment.t_s);
@@ -235,16 +246,21 @@ void add_timeline(Html& html, const ReplaySheet& sheet) {
     html.add(metric_details("force_peak_axial")).raw("\n").add(metric_details("lateral_force_peak")).raw("\n");
 
   for (const Lane& lane : sheet.course.lanes) {
-    html.raw("<h3>").text(lane.name).raw("</h3><ol class=\"events\">\n");
+    html.raw("<h3>").text(lane.name).raw("</h3>");
+    if (std::any_of(lane.marks.begin(), lane.marks.end(),
+                    [](const LaneMark& mark) { return !mark.step_id.empty(); }))
+      html.raw(
+          "<p class=\"soft\"><span class=\"dot step\">done</span> <span class=\"dot\">too late</span> <span "
+          "class=\"dot violated\">wrong</span> (said): no deed can show it. A name opens what the step is.</p>");
+    html.raw("<ol class=\"events\">\n");
     for (const LaneMark& mark : lane.marks) {
-      html.raw("<li>").text(number_text(mark.t0_s, 1));
-      if (mark.t1_s > mark.t0_s) html.raw("–").text(number_text(mark.t1_s, 1));
-      html.raw(" s: ").text(mark.words).raw("</li>\n");
+      const std::string until = mark.t1_s > mark.t0_s ? "–" + number_text(mark.t1_s, 1) : "";
+      add_mark(html, mark, number_text(mark.t0_s, 1) + until + " s: ");
     }
     html.raw("</ol>\n");
     if (lane.timeless.empty()) continue;
     html.raw("<ul class=\"events\">\n");
-    for (const LaneMark& mark : lane.timeless) html.raw("<li>").text(mark.words).raw("</li>\n");
+    for (const LaneMark& mark : lane.timeless) add_mark(html, mark, "");
     html.raw("</ul>\n");
   }
   html.raw("</section>\n");

@@ -2,17 +2,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "casedb/grading/grading.h"
 
 namespace seldinger::reports {
 
 // An attempt, how its operator is called for this reader (whether a log-in name may be shown is not ours to say),
-// and what it is worth; a list needs no more of that than the grade.
+// what it is worth, and its steps; a list needs no more of that than the grade.
 struct AttemptView {
   casedb::AttemptRow row;
   std::string operator_label;
   casedb::AttemptGrade grade{};
+  std::vector<assessment::StepResult> steps{};
 };
 
 std::string instrument_text(const cases::Instrument& instrument);       // short: "Access needle"

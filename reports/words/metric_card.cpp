@@ -79,6 +79,10 @@ std::string null_words(const MetricInfo& info, std::string_view own) {
 
 }  // namespace
 
+std::string with_labels(std::string_view text) {
+  return with_codes_in_words(text, label_in_quotes);
+}
+
 std::string unit_words(std::string_view unit) {
   constexpr std::pair<std::string_view, std::string_view> kWords[] = {{"bool", "yes or no"},
                                                                       {"count", "number of times"},
@@ -96,8 +100,8 @@ std::string unit_words(std::string_view unit) {
   return std::string(unit);
 }
 
-MetricCard metric_card(std::string_view id, int version) {
-  MetricCard card{std::string(id), metric_label(id), 0, "", {}};
+Card metric_card(std::string_view id, int version) {
+  Card card{std::string(id), metric_label(id), 0, "", {}};
   const MetricInfo* info = assessment::find_metric(std::string(id));
   if (info == nullptr) {
     card.definition = "This program does not know how it was measured: another version of it stored the value.";
@@ -106,17 +110,14 @@ MetricCard metric_card(std::string_view id, int version) {
   card.version = info->version;
   const std::string_view all = info->definition;
   const std::size_t null_at = all.find(kNull);
-  card.definition = with_codes_in_words(all.substr(0, null_at), label_in_quotes);
+  card.definition = with_labels(all.substr(0, null_at));
   while (card.definition.ends_with(' ')) card.definition.pop_back();
   card.lines.push_back({"Unit", unit_words(info->unit)});
   card.lines.push_back({"Better", direction_words(info->direction)});
   const std::string nulls = null_words(*info, null_at == all.npos ? "" : all.substr(null_at + kNull.size()));
   card.lines.push_back({"No value if", nulls.empty() ? "never: it always has one" : nulls});
-  std::string versions = std::to_string(info->version) + " (" + card.id + ")";
-  if (version > 0 && version != info->version)
-    versions += "; this value was measured by version " + std::to_string(version);
-  card.lines.push_back({"Version", versions});
-  if (*info->history != '\0') card.lines.push_back({"Before", with_codes_in_words(info->history, label_in_quotes)});
+  card.lines.push_back({"Version", version_words(card, version, "value was measured")});
+  if (*info->history != '\0') card.lines.push_back({"Before", with_labels(info->history)});
   card.lines.push_back({"Source", info->source});
   return card;
 }

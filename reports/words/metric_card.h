@@ -4,24 +4,17 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "reports/words/card.h"
 
 namespace seldinger::reports {
 
-struct CardLine {
-  std::string name, text;  // "Better", "lower"
-};
-
-struct MetricCard {
-  std::string id, label;
-  int version = 0;  // of the definition that is told: the registry's
-  std::string definition;
-  std::vector<CardLine> lines;
-};
-
 // `version`: of the value that is asked about; where the program has another definition by now, the card says so.
 // 0: no value is asked about. An id that the registry does not know has a card that says no more than that.
-MetricCard metric_card(std::string_view id, int version = 0);
+Card metric_card(std::string_view id, int version = 0);
+
+// A text in which metrics stand by their ids, with their labels in quotes instead.
+std::string with_labels(std::string_view text);
 
 // "mm", "percent", "yes or no", "number of times": a unit as one says it.
 std::string unit_words(std::string_view unit);

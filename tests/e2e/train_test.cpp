@@ -39,9 +39,10 @@ class TrainTest : public testing::Test {
     ASSERT_TRUE(library.has_value());
     const auto row = casedb::find_case(*library, case_id_);
     const cases::MeshIndex skin(casedb::load_skin(*library, *row).value());
-    const glm::dvec3 target = casedb::list_lesions(*library, case_id_).front().lesion.center_lps_mm;
-    const cases::Closest entry = skin.closest_skin(target);
-    depth_mm_ = glm::length(target - entry.point_lps_mm);
+    target_lps_mm_ = casedb::list_lesions(*library, case_id_).front().lesion.center_lps_mm;
+    needle_mm_ = row->instrument.length_mm;
+    const cases::Closest entry = skin.closest_skin(target_lps_mm_);
+    depth_mm_ = glm::distance(target_lps_mm_, entry.point_lps_mm);
     char place[96];
     std::snprintf(place, sizeof place, "%.3f,%.3f,%.3f", entry.point_lps_mm.x, entry.point_lps_mm.y,
                   entry.point_lps_mm.z);
@@ -79,11 +80,29 @@ class TrainTest : public testing::Test {
     trainee_->click("To pass (A)");
     EXPECT_TRUE(shows("All values (A)"));
   }
+  // The same of a step, which before opened nothing; and its mark has a legend.
+  void ask_what_a_step_is() {
+    const auto shows = [&](const char* name) { return fixtures::until([&] { return trainee_->shows(name); }); };
+    EXPECT_TRUE(shows("Legend of the steps"));
+    trainee_->click("Place the probe on the skin at the entry");
+    EXPECT_TRUE(shows("Definition of Place the probe on the skin at the entry")) << now();
+    look();
+    trainee_->screen().press("Up");
+    EXPECT_TRUE(shows("Definition of Choose the probe and check its orientation: move it and look")) << now();
+    trainee_->screen().press("Escape");
+    EXPECT_TRUE(shows("Legend of the steps"));
+    EXPECT_EQ(now()["screen"], "debrief");
+    trainee_->screen().press("Up");
+    EXPECT_TRUE(shows("Definition of Sign out")) << "the last: " << now();
+    trainee_->click("Back to the steps (Esc)");
+    EXPECT_TRUE(shows("Legend of the steps"));
+  }
   fixtures::RgbPicture look() { return fixtures::read_png(trainee_->keep_picture()); }
 
   static inline std::optional<fixtures::CommandLibrary> library_;
   static inline std::string case_id_;
-  static inline double depth_mm_ = 0.0;
+  static inline double depth_mm_ = 0.0, needle_mm_ = 0.0;
+  static inline glm::dvec3 target_lps_mm_{0.0};
   std::filesystem::path folder_;
   std::unique_ptr<fixtures::Trainee> trainee_;
 };
@@ -121,7 +140,10 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   trainee_->test_side();
   // Also a click into the picture: Tab, which then takes the needle, would go to a slider's number, and Space with
   // it.
-  ASSERT_NO_FATAL_FAILURE(trainee_->measure_depth(depth_mm_));
+  const Json face = now()["probe_lps_mm"];
+  ASSERT_NO_FATAL_FAILURE(
+      trainee_->measure_depth(glm::distance(target_lps_mm_, glm::dvec3(face[0], face[1], face[2]))));
+  trainee_->plan_depth(depth_mm_ / needle_mm_);
   const auto scanning = look();
   EXPECT_GT(share(scanning, picture, grey), 0.20) << "speckle on the monitor";
   EXPECT_GT(share(scanning, room, skin), 0.10) << "a patient in the room";
@@ -132,6 +154,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
   ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
+  ASSERT_NO_FATAL_FAILURE(ask_what_a_step_is());
   trainee_->screen().press("w");
   ASSERT_TRUE(trainee_->reaches("watch"));
   const auto again = trainee_->place_of("picture");
@@ -150,7 +173,8 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   for (const Json& step : shown["steps"])
     if (step["state"] == "done") how[step["id"].get<std::string>()] = step["how"];
   for (const char* step : {"sign_in", "decide", "anaesthetise", "sign_out"}) EXPECT_EQ(how[step], "said") << step;
-  for (const char* step : {"check_probe", "insert"})
+  // The two of depth by calipers and slider: clicks beside the picture had measured nothing, and they were skipped.
+  for (const char* step : {"check_probe", "note_depth", "insert", "insert_to_depth"})
     EXPECT_EQ(how[step], "shown") << step << ": " << shown["steps"];
   EXPECT_EQ(library_->ask("replay " + mine + " --verify")["verified"], true);
 }

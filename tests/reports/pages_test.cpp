@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
@@ -124,6 +125,42 @@ TEST(AttemptPage, TellsForHowLongItLayInterrupted) {
   EXPECT_THAT(attempt_page(kMentor, view, nullptr), Not(HasSubstr("Interrupted")));
   view.row.away_s = 754.0;
   EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("Interrupted, and gone on with after 13 min."));
+}
+
+// Before, the page did not tell of the steps at all.
+TEST(AttemptPage, EveryStepOpensWhatItIsAndEveryMarkHasItsLegend) {
+  using assessment::StepHow;
+  using assessment::StepState;
+  AttemptView view = sample_attempt();
+  EXPECT_THAT(attempt_page(kMentor, view, nullptr), HasSubstr("No steps are stored with this attempt."));
+  const int now = assessment::kStepsVersion;
+  view.steps = {{"sign_in", now, StepState::done, 1.3, "", StepHow::said},
+                {"check_probe", now, StepState::skipped, std::nullopt, "", StepHow::said},
+                {"place_probe", now, StepState::done, 2.0, "", StepHow::shown},
+                {"find_target", now, StepState::skipped, 40.0, "", std::nullopt},
+                {"insert", now - 1, StepState::violated, 30.0, "", std::nullopt},
+                {"jiggle", now, StepState::skipped, std::nullopt, "", std::nullopt},
+                {"nick", now, StepState::not_asked, std::nullopt, "not_a_core_needle", std::nullopt},
+                {"of_tomorrow", now, StepState::done, 31.0, "", StepHow::shown}};
+  const std::string html = attempt_page(kMentor, view, nullptr);
+  EXPECT_EQ(first_unbalanced_tag(html), "");
+  const std::size_t from = html.find("<section class=\"steps\"");
+  ASSERT_NE(from, html.npos);
+  const std::string section = html.substr(from, html.find("</section>", from) - from);
+  for (const assessment::StepResult& step : view.steps) {
+    const assessment::StepInfo* info = assessment::find_step(step.id);
+    if (info == nullptr) continue;
+    EXPECT_EQ(count_of(section, "<details class=\"metric\"><summary>" + escaped(info->words) + "</summary>"), 1U);
+    EXPECT_THAT(section, HasSubstr("(" + step.id + ")")) << "the card";
+  }
+  EXPECT_THAT(section, HasSubstr("<th scope=\"row\">of tomorrow</th>"));
+  EXPECT_THAT(section, HasSubstr("<td class=\"number\">1.3 s</td><td><span class=\"yes\">✓ said</span>"));
+  for (const char* mark : {"✓ shown", "✓ said", "– left out", "– said, not shown", "– too late", "✗ wrong"}) {
+    EXPECT_GE(count_of(section, ">" + std::string(mark) + "</span>"), 1U) << mark;
+    EXPECT_EQ(count_of(section, "<dt>" + std::string(mark) + "</dt>"), 1U) << mark;
+  }
+  EXPECT_THAT(section, HasSubstr("this result was told by version " + std::to_string(now - 1)));
+  EXPECT_THAT(section, HasSubstr("<dd>the needle is not a core needle</dd>"));
 }
 
 TEST(MetricsPage, HoldsEveryMetricUnderItsAnchor) {

@@ -95,6 +95,7 @@ class FakeQuestions final : public Questions {
     return base::Error{"no_attempt", "there is no such attempt"};
   }
   casedb::AttemptGrade look_at(const casedb::AttemptRow&) override { return grade; }
+  std::vector<assessment::StepResult> list_steps(const std::string&) override { return {}; }
   std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) override {
     return std::vector<assessment::Grade>(rows.size(), grade.grade);
   }

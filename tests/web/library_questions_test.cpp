@@ -60,6 +60,7 @@ std::string add_small_attempt(casedb::Library& library, std::optional<std::strin
     attempt.recording.poses.push_back(pose);
   }
   attempt.metrics = {{"hit", 1, 1.0, "bool", ""}, {"vis_joint", 1, std::nullopt, "share", "no_endpoint"}};
+  attempt.steps = {{"insert", assessment::kStepsVersion, assessment::StepState::violated, 0.4, ""}};
   for (const unsigned char c : std::string_view("\x89PNG\r\n\x1a\nrest"))
     attempt.picture_png.push_back(std::byte{c});
   return casedb::add_attempt(library, attempt).value();
@@ -136,6 +137,7 @@ TEST(LibraryQuestions, AStoredAttemptIsListedShownAndItsPictureServed) {
   for (const char* piece :
        {"Kidney &lt;b&gt;A&lt;/b&gt;", "Simulated expert", "<dd>Yes</dd>",
         "— <span class=\"why\">the needle was never fired</span>", "From 4.9 mm at the start to 0.0 mm at the end",
+        "Insert the needle, through skin that is numb</summary>", "<span class=\"no\">✗ wrong</span>",
         "LPS (4.0, 4.0, 4.0) mm, diameter 4.0 mm"}) {
     EXPECT_THAT(page, HasSubstr(piece));
   }

@@ -13,12 +13,15 @@
 #include "reports/words/attempt_words.h"
 #include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
+#include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 #include "reports/words/shown_metrics.h"
+#include "reports/words/step_card.h"
 
 namespace seldinger::app {
 namespace {
 
+constexpr float kSignPx = 28.0F;  // where a step's words begin, behind its sign
 const ImVec4 kQuiet = {0.62F, 0.66F, 0.70F, 1.0F}, kLink = {0.62F, 0.86F, 0.97F, 1.0F};
 
 ImVec4 colour_of(assessment::Verdict verdict) {
@@ -71,17 +74,25 @@ void wrapped(const ImVec4& colour, const std::string& words) {
   ImGui::PopStyleColor();
 }
 
-void draw_steps(const Debrief& debrief) {
-  for (const assessment::StepResult& step : debrief.steps) {
-    if (step.state == assessment::StepState::not_asked) continue;
-    const assessment::StepInfo* info = assessment::find_step(step.id);
-    const char* mark = step.state == assessment::StepState::done      ? "✓"
-                       : step.state == assessment::StepState::skipped ? "–"
-                                                                      : "✗";
-    ImGui::Text("%s", mark);
-    ImGui::SameLine(28.0F);
-    ImGui::TextWrapped("%s%s", info != nullptr ? info->words : step.id.c_str(), assessment::how_text(step));
+ImVec4 colour_of(assessment::StepState state) {
+  if (state == assessment::StepState::done) return {0.45F, 0.85F, 0.55F, 1.0F};
+  if (state == assessment::StepState::violated) return {0.96F, 0.58F, 0.40F, 1.0F};
+  return {0.80F, 0.82F, 0.84F, 1.0F};
+}
+
+bool was_asked(const assessment::StepResult& step) {
+  return step.state != assessment::StepState::not_asked;
+}
+
+void draw_legend(const std::vector<assessment::StepResult>& steps) {
+  for (const reports::StepMark* mark : reports::step_legend(steps)) {
+    ImGui::TextColored(kQuiet, "%s", mark->sign);
+    ImGui::SameLine(kSignPx);
+    const std::string words = mark->told ? "(" + std::string(mark->words) + ")" : mark->words;
+    wrapped(kQuiet, words + ": " + mark->meaning);
   }
+  note_item("Legend of the steps");
+  ImGui::Separator();
 }
 
 void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
@@ -123,10 +134,12 @@ Wish draw_buttons(Trainer& trainer, const Keys& keys, bool escapes) {
 
 }  // namespace
 
-void DebriefPanel::line(const char* name, std::string_view metric_id, int version, std::string words,
-                        bool underlined) {
-  const int own = static_cast<int>(lines_.size());
-  lines_.push_back({std::string(metric_id), std::move(words), version});
+void DebriefPanel::line(const char* name, Line line, bool underlined) {
+  lines_.push_back(std::move(line));
+  hear(name, static_cast<int>(lines_.size()) - 1, underlined);
+}
+
+void DebriefPanel::hear(const char* name, int own, bool underlined) {
   note_item(name);
   const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -165,7 +178,7 @@ void DebriefPanel::draw_sentences(const Debrief& debrief) {
     const std::string name = "Sentence " + std::to_string(++number);
     ImGui::Bullet();
     ImGui::TextWrapped("%s", sentence.text.c_str());
-    if (!sentence.metric_id.empty()) line(name.c_str(), sentence.metric_id, 0, sentence.text, false);
+    if (!sentence.metric_id.empty()) line(name.c_str(), {Of::metric, sentence.metric_id, sentence.text}, false);
   }
 }
 
@@ -187,8 +200,9 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     wrapped(kLink, label);
-    line(label.c_str(), criterion.metric, criterion.version,
-         result.value ? "Yours: " + own : "Yours: no value, as " + assessment::reason_words(result.reason), true);
+    const std::string yours =
+        result.value ? "Yours: " + own : "Yours: no value, as " + assessment::reason_words(result.reason);
+    line(label.c_str(), {Of::metric, criterion.metric, yours, criterion.version}, true);
     ImGui::TableNextColumn();
     ImGui::TextWrapped("%s", assessment::limit_text(criterion, result.unit).c_str());
     ImGui::TableNextColumn();
@@ -223,8 +237,8 @@ void DebriefPanel::draw_values(const Debrief& debrief) {
       ImGui::TableNextRow();
       ImGui::TableNextColumn();
       wrapped(kLink, label);
-      line(label.c_str(), metric->id, metric->version, why.empty() ? "Yours: " + own : "Yours: no value, as " + why,
-           true);
+      const std::string yours = why.empty() ? "Yours: " + own : "Yours: no value, as " + why;
+      line(label.c_str(), {Of::metric, metric->id, yours, metric->version}, true);
       ImGui::TableNextColumn();
       if (why.empty())
         ImGui::TextWrapped("%s", own.c_str());
@@ -244,13 +258,38 @@ void DebriefPanel::draw_measured(const Debrief& debrief, const gpu::ScreenPictur
   draw_picture(debrief, picture);
 }
 
+void DebriefPanel::add_steps(const Debrief& debrief) {
+  for (const assessment::StepResult& step : debrief.steps)
+    if (was_asked(step)) lines_.push_back({Of::step, step.id, reports::step_result_text(step), step.version});
+}
+
+void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
+  heading("Steps");
+  if (std::none_of(debrief.steps.begin(), debrief.steps.end(), was_asked)) {
+    quiet("None is asked for here.");
+    return;
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});  // a whole procedure at a glance
+  draw_legend(debrief.steps);
+  for (const assessment::StepResult& step : debrief.steps) {
+    if (!was_asked(step)) continue;
+    ImGui::TextColored(colour_of(step.state), "%s", reports::step_mark(step).sign);
+    ImGui::SameLine(kSignPx);
+    ImGui::TextWrapped("%s", reports::step_text(step).c_str());
+    hear(reports::step_label(step.id).c_str(), first++, false);
+  }
+  ImGui::PopStyleVar();
+}
+
 void DebriefPanel::draw_definition() {
   const Line& about = lines_[static_cast<std::size_t>(asked_)];
-  if (card_.id != about.metric_id || about_.version != about.version || about_.words != about.words) {
-    card_ = reports::metric_card(about.metric_id, about.version);
+  if (about_ != about) {
+    card_ = about.of == Of::step ? reports::step_card(about.id, about.version)
+                                 : reports::metric_card(about.id, about.version);
     about_ = about;
+    ImGui::SetScrollY(0.0F);
   }
-  heading(card_.label.c_str());
+  wrapped(kLink, card_.label);
   note_item(("Definition of " + card_.label).c_str());
   ImGui::TextWrapped("%s", about_.words.c_str());
   ImGui::Spacing();
@@ -294,22 +333,23 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   }
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  quiet("Click on a line, or press Down, for what was measured and how.");
+  quiet("Click on a line or a step, or press Down, for what it means and how it is told.");
   const float high = ImGui::GetContentRegionAvail().y - 50.0F;
   const float wide = ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("criteria", {0.60F * wide - 8.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_measured(debrief, picture);
   ImGui::EndChild();
   ImGui::SameLine();
+  const int first_step = static_cast<int>(lines_.size());
+  add_steps(debrief);
   asked_ = std::min(asked_, static_cast<int>(lines_.size()) - 1);
+  if (asked_ >= first_step) sought_ = false;  // its definition is what is seen
   ImGui::BeginChild(asked_ < 0 ? "steps" : "definition", {0.0F, high}, false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding);
-  if (asked_ < 0) {
-    heading("Steps");
-    draw_steps(debrief);
-  } else {
+  if (asked_ < 0)
+    draw_steps(debrief, first_step);
+  else
     draw_definition();
-  }
   ImGui::EndChild();
   const Wish wish = draw_buttons(trainer, keys, escapes);
   end_screen();

@@ -78,6 +78,8 @@ void MonitorPanel::draw_marks(float left, float top, float zoom, float ruler_x) 
   const auto y_of = [&](double mm) {
     return top + zoom * static_cast<float>(pixel_of(shown_, false, {0.0, mm}).y + 0.5);
   };
+  const float across = zoom * static_cast<float>(shown_.picture.width_px), face = y_of(0.0);
+  note_part("depth below the face", left, face, across, y_of(shown_.console.depth_mm) - face);
   for (const double mm : depth_marks_mm(shown_)) {
     const bool is_long = std::lround(mm) % 50 == 0;
     const float y = y_of(mm);
@@ -91,7 +93,6 @@ void MonitorPanel::draw_marks(float left, float top, float zoom, float ruler_x) 
     draw->AddTriangleFilled({ruler_x - 14.0F, y}, {ruler_x, y - 7.0F}, {ruler_x, y + 7.0F}, kCaliper);
   }
   // The side of the probe's marker (lateral) is left.
-  const float across = zoom * static_cast<float>(shown_.picture.width_px);
   draw->AddCircleFilled({left + (knobs_.screen.flip ? across - 14.0F : 14.0F), top + 14.0F}, 5.0F, kCaliper);
 }
 

@@ -30,6 +30,11 @@ void forget_items() {
 }
 
 void note_item(const char* name) {
+  const ImVec2 from = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
+  note_part(name, from.x, from.y, size.x, size.y);
+}
+
+void note_part(const char* name, float left, float top, float width, float height) {
   if (!noted().wanted) return;
   if (!ImGui::IsItemVisible() || (ImGui::GetItemFlags() & ImGuiItemFlags_Disabled) != 0) return;
   std::string own(name);
@@ -39,9 +44,8 @@ void note_item(const char* name) {
     return item.name == own || (item.name.starts_with(own) && item.name.compare(own.size(), 1, "#") == 0);
   });
   if (same > 0) own.append("#").append(std::to_string(same + 1));
-  const ImVec2 from = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
   const ImVec2 window = ImGui::GetMainViewport()->Pos;
-  items.push_back({own, from.x - window.x, from.y - window.y, size.x, size.y});
+  items.push_back({own, left - window.x, top - window.y, width, height});
 }
 
 const std::vector<ShownItem>& noted_items() {

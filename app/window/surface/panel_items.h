@@ -17,6 +17,8 @@ void note_items(bool wanted);
 void forget_items();  // before each frame
 // After an item of Dear ImGui: nothing where it is disabled or cannot be seen. Text after "##" is no name.
 void note_item(const char* name);
+// A part of the last item, in Dear ImGui's coordinates: where in it something stands.
+void note_part(const char* name, float left, float top, float width, float height);
 // The frame's, in the order in which they were drawn.
 const std::vector<ShownItem>& noted_items();
 

@@ -90,6 +90,19 @@ TEST(ReplaySheet, NeedsNothingBesideItAndRunsNothing) {
   EXPECT_GT(sources, 0);
 }
 
+// Before, the names of steps opened nothing, and the dots of their lane had no legend.
+TEST(ReplaySheet, EveryStepOpensWhatItIs) {
+  ReplaySheet sheet = sample_sheet();
+  EXPECT_EQ(replay_sheet(sheet).find("class=\"dot violated\""), std::string::npos);
+  sheet.course.lanes.push_back({"Steps",
+                                {{3.0, 3.0, "violated", "Insert (wrong)", "insert"}},
+                                {{0.0, 0.0, "skipped", "Jiggle (left out)", "jiggle"}}});
+  const std::string page = replay_sheet(sheet);
+  EXPECT_EQ(count(page, "<li><details class=\"metric\"><summary>3.0 s: Insert (wrong)</summary>"), 1U);
+  EXPECT_EQ(count(page, "<li><details class=\"metric\"><summary>Jiggle (left out)</summary>"), 1U);
+  EXPECT_EQ(count(page, "class=\"dot violated\""), 1U);
+}
+
 TEST(ReplaySheet, WordsStayWords) {
   ReplaySheet sheet = sample_sheet();
   sheet.attempt.row.case_title = "<img src=x onerror=alert(1)>";

@@ -12,7 +12,7 @@
 namespace seldinger::reports {
 namespace {
 
-std::string line_of(const MetricCard& card, std::string_view name) {
+std::string line_of(const Card& card, std::string_view name) {
   const auto found =
       std::find_if(card.lines.begin(), card.lines.end(), [&](const CardLine& line) { return line.name == name; });
   return found == card.lines.end() ? "" : found->text;
@@ -20,7 +20,7 @@ std::string line_of(const MetricCard& card, std::string_view name) {
 
 TEST(MetricCardTest, EveryMetricTellsAllThereIsToAsk) {
   for (const assessment::MetricInfo& info : assessment::registry()) {
-    const MetricCard card = metric_card(info.id);
+    const Card card = metric_card(info.id);
     EXPECT_EQ(card.label, info.label);
     EXPECT_FALSE(card.definition.empty()) << info.id;
     for (const char* name : {"Unit", "Better", "No value if", "Version", "Source"})
@@ -39,7 +39,7 @@ TEST(MetricCardTest, NoCodeIsLeftForAReader) {
     return found;
   };
   for (const assessment::MetricInfo& info : assessment::registry()) {
-    const MetricCard card = metric_card(info.id);
+    const Card card = metric_card(info.id);
     EXPECT_EQ(codes_in(card.definition), "") << card.definition;
     EXPECT_EQ(card.definition.find("Null:"), std::string::npos) << card.definition;
     const std::string nulls = line_of(card, "No value if");
@@ -49,7 +49,7 @@ TEST(MetricCardTest, NoCodeIsLeftForAReader) {
 
 TEST(MetricCardTest, SaysWhenAValueIsNullAndWhichDefinitionItIsOf) {
   const int now = assessment::find_metric("time_puncture_to_target")->version;
-  MetricCard card = metric_card("time_puncture_to_target", now);
+  Card card = metric_card("time_puncture_to_target", now);
   const std::string nulls = line_of(card, "No value if");
   EXPECT_NE(nulls.find("the needle was never fired"), std::string::npos) << nulls;
   EXPECT_NE(nulls.find("the skin was never punctured"), std::string::npos) << nulls;
@@ -67,7 +67,7 @@ TEST(MetricCardTest, AnotherMetricIsCalledByItsName) {
 }
 
 TEST(MetricCardTest, OfAnUnknownMetricSaysThatItIsUnknown) {
-  const MetricCard card = metric_card("of_tomorrow", 3);
+  const Card card = metric_card("of_tomorrow", 3);
   EXPECT_EQ(card.label, "of tomorrow");
   EXPECT_TRUE(card.lines.empty());
   EXPECT_NE(card.definition.find("does not know"), std::string::npos);

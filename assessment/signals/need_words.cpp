@@ -1,0 +1,14 @@
+#include "assessment/signals/need_words.h"
+
+#include "assessment/signals/needs.h"
+
+namespace seldinger::assessment {
+
+std::string words_of_needs(std::uint32_t needs) {
+  std::string text;
+  for (const NeedInfo& need : assessment::needs())
+    if ((needs & need.need) != 0) text += (text.empty() ? "" : ", ") + std::string(need.words);
+  return text;
+}
+
+}  // namespace seldinger::assessment
