@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/version.h"
+#include "app/commands.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {

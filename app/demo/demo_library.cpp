@@ -23,8 +23,9 @@ base::Result<Passwords> add_missing_accounts(casedb::Library& library,
   Passwords passwords;
   const auto accounts = casedb::list_users(library);
   for (const auto& [name, role] : wanted) {
-    const bool there = std::any_of(accounts.begin(), accounts.end(),
-                                   [&](const casedb::Account& one) { return one.login_name == name; });
+    const bool there =
+        std::any_of(accounts.begin(), accounts.end(),
+                    [wanted_name = name](const casedb::Account& one) { return one.login_name == wanted_name; });
     if (there) continue;
     const std::string password = casedb::random_password();
     const auto added = casedb::add_user(library, name, role, password);

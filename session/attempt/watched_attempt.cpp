@@ -87,7 +87,8 @@ void WatchedAttempt::play() {
     phase_.store(tick < ticks ? Phase::playing : Phase::over, std::memory_order_release);
     const double speed = tick < ticks ? speed_.load() : 0.0;
     if (speed > 0.0) {
-      for (const std::size_t end = std::min(ticks, tick + piece); tick < end;) advance();
+      const std::size_t end = std::min(ticks, tick + piece);
+      while (tick < end) advance();
       show();
     }
     // A machine that cannot keep up shows it slower, and does not leap.

@@ -27,8 +27,7 @@ constexpr std::size_t kProbe = 0, kNeedle = 1;
 class Rig {
  public:
   Rig(const cases::Case& scene, const TrialPlace& place)
-      : scene_(scene),
-        tissue_(scene),
+      : tissue_(scene),
         hands_(scene, {haptics::HandSettings{*haptics::find_arm_model("omni")},
                        haptics::HandSettings{*haptics::find_arm_model("omni")}}) {
     inputs_[kProbe].tool = haptics::Tool::probe;
@@ -70,7 +69,6 @@ class Rig {
   double tissue_mj() const { return tissue_mj_; }
 
  private:
-  const cases::Case& scene_;
   engine::MovingTissue tissue_;
   haptics::TwoHands hands_;
   haptics::HandInputs inputs_{};
