@@ -125,6 +125,8 @@ Utc utc_from(std::int64_t time_us) {
   return {year_month_day(day), hh_mm_ss<seconds>(seconds_since - day)};
 }
 std::string utc_written(std::int64_t time_us, const char* format) {
+  constexpr std::int64_t kDayUs = 86'400'000'000;
+  if (time_us % kDayUs == 0) format = "%04d-%02u-%02u";
   const Utc utc = utc_from(time_us);
   std::array<char, 64> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, static_cast<int>(utc.date.year()),
