@@ -29,8 +29,11 @@ std::string reason_text(const casedb::MetricValue& metric);
 // Fixed digits with a true minus sign, and no minus before a rounded zero.
 std::string number_text(double value, int digits);
 
-// "2026-03-01 14:05 UTC" and "2026-03-01T14:05:09Z"; "2026-03-01" of a whole day, where no more is told.
+// "2026-03-01 14:05 UTC" and "2026-03-01T14:05:09Z".
 std::string utc_text(std::int64_t time_us);
 std::string utc_machine_text(std::int64_t time_us);
+// The same of a time that may have been cut to its day for the reader: "2026-03-01" of one that was.
+std::string told_text(std::int64_t time_us);
+std::string told_machine_text(std::int64_t time_us);
 
 }  // namespace seldinger::reports
