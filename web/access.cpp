@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "casedb/cases/setting_table.h"
 #include "reports/words/attempt_words.h"
 
 namespace seldinger::web {
@@ -40,6 +41,47 @@ bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum)
 
 bool may_see_experts(casedb::Role role) noexcept {
   return may(role, Action::see_standard_attempts);
+}
+
+namespace {
+
+constexpr std::int64_t kDayUs = 86'400'000'000;
+
+std::int64_t day_of(std::int64_t time_us) noexcept {
+  return time_us - (time_us % kDayUs + kDayUs) % kDayUs;
+}
+
+bool reads_all(casedb::Role role) noexcept {
+  return may(role, Action::see_free_text);
+}
+
+}  // namespace
+
+void withhold(casedb::Role role, casedb::AttemptRow& row) {
+  if (reads_all(role)) return;
+  row.case_title = reports::case_text(row.case_id);
+  row.started_us = day_of(row.started_us);
+  if (row.synthetic()) row.operator_name = std::string(reports::own_or_known_operator(row.operator_name));
+}
+
+void withhold(casedb::Role role, casedb::CaseRow& row) {
+  if (reads_all(role)) return;
+  row.title = reports::case_text(row.case_id);
+  for (const casedb::SettingRow& setting : casedb::kSettingRows)
+    if (const auto* words = std::get_if<casedb::TextField>(&setting.field)) words->set(row, {});
+}
+
+void withhold(casedb::Role role, casedb::CaseParts& parts) {
+  if (!may(role, Action::see_case_notes))
+    for (casedb::Decision& one : parts.decisions) one.note.clear();
+  withhold(role, parts.row);
+  if (reads_all(role)) return;
+  for (casedb::Decision& one : parts.decisions) one.decided_us = day_of(one.decided_us);
+  for (casedb::StructureRow& one : parts.structures) one.name = cases::name_of(one.rule);
+}
+
+void withhold(casedb::Role role, casedb::ItemState& item) {
+  if (!reads_all(role)) item.title = reports::case_text(item.case_id);
 }
 
 std::string operator_label(casedb::Role role, const Relations& relations, const casedb::AttemptRow& row,

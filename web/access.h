@@ -10,6 +10,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/grading/curriculum.h"
+#include "casedb/json/case_json.h"
 #include "casedb/people/people.h"
 
 namespace seldinger::web {
@@ -30,6 +31,13 @@ bool may_see_curriculum(casedb::Role role, const casedb::Curriculum& curriculum)
 
 // Whether a role reads which attempts set a standard.
 bool may_see_experts(casedb::Role role) noexcept;
+
+// Takes from it what this reader is not told: who may not read free text gets ids for titles, the case's kind for a
+// structure's name, nothing for other words, and times cut to the day (UTC).
+void withhold(casedb::Role role, casedb::AttemptRow& row);
+void withhold(casedb::Role role, casedb::CaseRow& row);
+void withhold(casedb::Role role, casedb::CaseParts& parts);
+void withhold(casedb::Role role, casedb::ItemState& item);
 
 // How the operator is called for this reader: the log-in name where it may be read, else a pseudonym. `account_of`
 // answers none for a person whose account is gone.

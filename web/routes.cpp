@@ -143,8 +143,12 @@ Response list_attempts(Site& site, const Call& call) {
   std::erase_if(rows,
                 [&](const casedb::AttemptRow& row) { return !may_see_attempt(account.role, relations, row); });
   std::vector<reports::AttemptView> views;
-  for (casedb::AttemptRow& row : rows)
-    views.push_back({row, operator_label(account.role, relations, row, account_of)});
+  for (const casedb::AttemptRow& row : rows) {
+    casedb::AttemptRow told = row;
+    withhold(account.role, told);
+    std::string label = operator_label(account.role, relations, told, account_of);
+    views.push_back({std::move(told), std::move(label)});
+  }
   const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
   for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
   const reports::ListPart part{page, pages, total, account.role == casedb::Role::trainee};
@@ -160,13 +164,16 @@ std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) 
 }
 
 Response show_attempt(Site& site, const Call& call) {
-  const auto row = visible_attempt(site, call);
+  auto row = visible_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
+  const casedb::Role role = call.reader->account.role;
+  const casedb::AttemptGrade grade = site.questions.look_at(*row);
+  withhold(role, *row);
   const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
   const auto recording = site.questions.load_recording(row->attempt_id);
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
-  const reports::AttemptView view{*row, operator_label(call.reader->account.role, relations, *row, account_of),
-                                  site.questions.look_at(*row), site.questions.list_steps(row->attempt_id)};
+  const reports::AttemptView view{*row, operator_label(role, relations, *row, account_of), grade,
+                                  site.questions.list_steps(row->attempt_id)};
   return html_response(200, reports::attempt_page(call.reader->visitor(), view,
                                                   recording.has_value() ? &recording.value() : nullptr));
 }
@@ -210,15 +217,17 @@ Response show_grade(Site& site, const Call& call) {
 Response list_cases(Site& site, const Call& call) {
   std::vector<casedb::CaseRow> seen;
   for (casedb::CaseRow& row : site.questions.list_cases())
-    if (may_see_case(call.reader->account.role, row)) seen.push_back(std::move(row));
+    if (may_see_case(call.reader->account.role, row)) {
+      withhold(call.reader->account.role, row);
+      seen.push_back(std::move(row));
+    }
   return html_response(200, reports::cases_page(call.reader->visitor(), seen));
 }
 
 std::optional<casedb::CaseParts> visible_case(Site& site, const Call& call) {
   auto parts = site.questions.find_case(call.id);
   if (!parts.has_value() || !may_see_case(call.reader->account.role, parts->row)) return std::nullopt;
-  if (!casedb::may(call.reader->account.role, casedb::Action::see_case_notes))
-    for (casedb::Decision& one : parts->decisions) one.note.clear();
+  withhold(call.reader->account.role, *parts);
   return std::move(*parts);
 }
 
@@ -254,6 +263,8 @@ Response list_curricula(Site& site, const Call& call) {
   const bool own = casedb::may(account.role, casedb::Action::see_own_progress);
   auto views = site.questions.list_curricula(own ? std::optional(account.person_id) : std::nullopt);
   std::erase_if(views, [&](const auto& one) { return !may_see_curriculum(account.role, one.curriculum); });
+  for (auto& view : views)
+    for (casedb::ItemState& item : view.items) withhold(account.role, item);
   return html_response(200, reports::curricula_page(call.reader->visitor(), views));
 }
 

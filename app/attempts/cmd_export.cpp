@@ -54,6 +54,7 @@ int run_export(const Arguments& arguments) {
       return refuse(allowed.error());
   }
   const std::string key_file = arguments.text("--key");
+  choice.exact = choice.study_id.has_value() && !key_file.empty();
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
   auto key = key_from_file(key_file);
   if (!key) return refuse(key.error());
@@ -69,6 +70,10 @@ int run_export(const Arguments& arguments) {
   }
   std::printf("%zu attempts (%zu of simulated operators) of %zu people, %zu values, %zu files\n", done->attempts,
               done->synthetic, done->people, done->metrics, done->files);
+  if (!choice.exact && done->attempts > done->synthetic)
+    std::puts(
+        "Numbers of people's attempts have two significant digits, and their recordings stay: --study with --key "
+        "writes them as they are.");
   return kDone;
 }
 
@@ -81,7 +86,7 @@ constexpr Option kExportOptions[] = {
     {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
     {"--key", "FILE",
      "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
-     "Keep it apart from what you pass on"},
+     "Keep it apart from what you pass on. With --study people's numbers are exact and their recordings are in it"},
     kJson};
 
 }  // namespace

@@ -18,6 +18,7 @@ enum class Action {
   // Attempts.
   see_attempt,
   see_operator_name,  // the log-in name of the person who made it; without it, a pseudonym
+  see_free_text,      // what somebody typed, and the time of day of what was done
   practise_case,      // a draft only once attempts have frozen it (casedb/grading/choices.h)
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
@@ -160,6 +161,10 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::trainee, Role::mentor}, {}, Whose::own},
       {{Role::mentor}, {}, Whose::own_cohorts},
       {{Role::director}, {}, Whose::own_programmes}}},
+    {Action::see_free_text,
+     "see_free_text",
+     "a researcher reads days, and nothing that somebody typed",
+     {{{Role::trainee, Role::mentor, Role::director, Role::admin}}}},
     {Action::practise_case,
      "practise_case",
      "everybody practises what is published for them, a mentor also a frozen draft",

@@ -32,8 +32,8 @@ struct Account {
 // What add_user would refuse in any library: `bad_name`, `weak_password`.
 base::Result<void> check_new_user(const std::string& name, const std::string& password);
 
-// `bad_name` (1–64 printable characters, no leading or trailing space), `name_taken`, `weak_password` (8–128
-// bytes). Names compare without regard to ASCII case.
+// `bad_name` (1–64 printable characters, no leading or trailing space), `name_taken`, `weak_password`
+// (password_rules.h). Names compare without regard to ASCII case.
 base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
                                    const std::string& password);
 std::vector<Account> list_users(Library& library);  // oldest first; those who have a name

@@ -7,6 +7,7 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "casedb/people/login_name.h"
+#include "casedb/people/password_rules.h"
 #include "casedb/people/people.h"
 #include "sim/base/check.h"
 #include "sim/base/names.h"
@@ -44,12 +45,6 @@ constexpr auto kLevels = base::names<Level>(
 
 std::string mark_of(const std::string& password_hash) {
   return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
-}
-
-base::Result<void> check_password(const std::string& password) {
-  if (password.size() < 8 || password.size() > 128)
-    return base::Error{"weak_password", "a password has 8 to 128 bytes"};
-  return {};
 }
 
 void add_account(Sqlite& database, const std::string& person_id, Role role, const std::string& hash) {
@@ -123,7 +118,7 @@ std::optional<Level> level_from(const std::string& name) {
 base::Result<void> check_new_user(const std::string& name, const std::string& password) {
   if (!is_login_name(name))
     return base::Error{"bad_name", "a user name has 1 to 64 printable characters and no space at its ends"};
-  return check_password(password);
+  return check_password(password, name);
 }
 
 base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
@@ -166,7 +161,7 @@ std::vector<Account> list_users(Library& library) {
 base::Result<void> set_password(Library& library, const std::string& name, const std::string& password) {
   const auto identity = find_identity(library, name);
   if (!identity) return kNoUser;
-  if (const auto fit = check_password(password); !fit) return fit.error();
+  if (const auto fit = check_password(password, identity->name); !fit) return fit.error();
   store_hash(library, identity->person_id, hash_password(password), std::nullopt);
   return {};
 }

@@ -9,6 +9,14 @@ namespace {
 
 constexpr std::string_view kFormulaStarts("=+-@\t\r\0", 7);
 
+// To two significant digits.
+double coarse(double value) noexcept {
+  char digits[32];
+  const auto end = std::to_chars(std::begin(digits), std::end(digits), value, std::chars_format::scientific, 1).ptr;
+  std::from_chars(digits, end, value);
+  return value;
+}
+
 }  // namespace
 
 CsvLine& CsvLine::cell(std::string_view text) {
@@ -33,6 +41,7 @@ CsvLine& CsvLine::text(std::string_view text) {
 
 CsvLine& CsvLine::number(double value) {
   if (!std::isfinite(value)) return nothing();
+  if (precision_ == Precision::coarse) value = coarse(value);
   char digits[32];
   const auto end = std::to_chars(std::begin(digits), std::end(digits), value).ptr;
   return cell({digits, static_cast<std::size_t>(end - digits)});

@@ -9,12 +9,17 @@
 
 namespace seldinger::reports {
 
+// How numbers are written: each as its own bits, or to two significant digits (docs/export.md says of whom).
+enum class Precision { exact, coarse };
+
 class CsvLine {
  public:
+  explicit CsvLine(Precision precision = Precision::exact) : precision_(precision) {}
   // Quoted where it must be. A spreadsheet takes what begins with = + - @ tab, CR or NUL for a formula: such text
   // gets an apostrophe before it (OWASP ASVS 5.0, 1.2.10). Numbers stay bare.
   CsvLine& text(std::string_view text);
-  CsvLine& number(double value);  // the shortest digits that read back as the same bits; nothing when not finite
+  // The shortest digits that read back as the same bits, of what precision leaves; nothing when not finite.
+  CsvLine& number(double value);
   CsvLine& number(const std::optional<double>& value) { return value ? number(*value) : nothing(); }
   CsvLine& whole(std::int64_t value);
   CsvLine& whole(std::uint64_t value);
@@ -26,6 +31,7 @@ class CsvLine {
 
  private:
   CsvLine& cell(std::string_view text);
+  Precision precision_;
   std::string line_;
   bool first_ = true;
 };

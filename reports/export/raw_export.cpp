@@ -43,6 +43,12 @@ class Table {
   std::string text_;
 };
 
+// Whole ones, rounded down, where numbers are coarse.
+double days(std::int64_t from_us, std::int64_t to_us, Precision precision) {
+  const double exact = static_cast<double>(to_us - from_us) / kDayUs;
+  return precision == Precision::exact ? exact : std::floor(exact);
+}
+
 void write_whole(const fs::path& file, const std::string& text) {
   Table(file, text).close();
 }
@@ -67,6 +73,7 @@ struct Place {
   std::string person, attempt;
   int person_attempt = 0;
   double days = 0.0;
+  Precision precision = Precision::exact;
 };
 
 std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const RawChoice& choice, const Names& names,
@@ -82,12 +89,13 @@ std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const Raw
     // What a simulated operator made is about nobody.
     if (!key.synthetic && !(key.person_id && consenting.contains(*key.person_id))) continue;
     Place place{&key, {}, names.of("A-", key.attempt_id)};
+    if (!key.synthetic && !choice.exact) place.precision = Precision::coarse;
     if (key.person_id) {
       auto [at, is_new] = people.try_emplace(*key.person_id);
       if (is_new) at->second = {key.started_us, 0, names.of("P-", *key.person_id)};
       place.person = at->second.name;
       place.person_attempt = ++at->second.attempts;
-      place.days = static_cast<double>(key.started_us - at->second.first_us) / kDayUs;
+      place.days = days(at->second.first_us, key.started_us, place.precision);
     }
     if (!choice.case_id || key.case_id == *choice.case_id) places.push_back(std::move(place));
   }
@@ -108,7 +116,7 @@ void write_samples(const fs::path& file, const std::vector<Column<Row>>& columns
 }
 
 void write_recording(const fs::path& folder, const RawChoice& choice, const std::string& attempt,
-                     const cases::Recording& recording, Table* events, RawExport& sum) {
+                     const cases::Recording& recording, Precision precision, Table* events, RawExport& sum) {
   const std::string name = attempt + ".csv";
   if (choice.poses) {
     write_samples(folder / "poses" / name, pose_columns(), pose_facts(attempt, recording));
@@ -135,12 +143,12 @@ void write_recording(const fs::path& folder, const RawChoice& choice, const std:
   }
   if (events != nullptr)
     for (const RecordedEvent& event : recorded_events(recording))
-      events->add(line_of(event_columns(), EventFact{&attempt, event}));
+      events->add(line_of(event_columns(), EventFact{&attempt, event}, precision));
 }
 
 // What those people said of themselves, in the order of their names; times since the person's first attempt.
 void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> keys, const Names& names,
-                 const std::set<std::string>& people, Table& table) {
+                 const std::set<std::string>& people, Precision precision, Table& table) {
   std::map<std::string, std::int64_t> first_us;
   for (const casedb::AttemptKey& key : keys)
     if (key.person_id && !key.synthetic) first_us.try_emplace(*key.person_id, key.started_us);
@@ -148,9 +156,8 @@ void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> k
   for (const std::string& person_id : people) by_name.emplace(names.of("P-", person_id), person_id);
   for (const auto& [name, person_id] : by_name)
     for (const casedb::FactGiven& one : casedb::list_facts(library, person_id))
-      table.add(
-          line_of(fact_columns(),
-                  PersonFact{&name, &one, static_cast<double>(one.given_us - first_us.at(person_id)) / kDayUs}));
+      table.add(line_of(fact_columns(),
+                        PersonFact{&name, &one, days(first_us.at(person_id), one.given_us, precision)}, precision));
 }
 
 }  // namespace
@@ -202,23 +209,25 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       if (!place.key->synthetic) people.insert(*place.key->person_id);
       person_before = place.person;
     }
-    attempts.add(attempt_line(facts));
+    attempts.add(attempt_line(facts, place.precision));
     for (const casedb::MetricValue& metric : casedb::list_metric_versions(library, row->attempt_id)) {
-      metrics.add(line_of(metric_columns(), MetricFact{&place.attempt, &metric}));
+      metrics.add(line_of(metric_columns(), MetricFact{&place.attempt, &metric}, place.precision));
       ++sum.metrics;
     }
     for (const assessment::StepResult& step : casedb::list_steps(library, row->attempt_id))
-      steps.add(line_of(step_columns(), StepFact{&place.attempt, &step}));
+      steps.add(line_of(step_columns(), StepFact{&place.attempt, &step}, place.precision));
     if (recorded) {
       const auto recording = casedb::load_recording(library, row->attempt_id);
       if (!recording) return recording.error();
-      write_recording(at, choice, place.attempt, *recording, events ? &*events : nullptr, sum);
+      RawChoice of_row = choice;
+      if (place.precision == Precision::coarse) of_row.poses = of_row.forces = of_row.frames = false;
+      write_recording(at, of_row, place.attempt, *recording, place.precision, events ? &*events : nullptr, sum);
     }
     ++sum.attempts;
     if (row->synthetic()) ++sum.synthetic;
   }
   Table facts(at / "facts.csv", header_of(fact_columns()));
-  write_facts(library, keys, names, people, facts);
+  write_facts(library, keys, names, people, choice.exact ? Precision::exact : Precision::coarse, facts);
   facts.close();
   attempts.close();
   metrics.close();

@@ -1,17 +1,15 @@
 #include "reports/export/raw_tables.h"
 
 #include <algorithm>
-#include <array>
 
 #include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
 #include "casedb/attempts/condition_table.h"
+#include "reports/words/attempt_words.h"
 
 namespace seldinger::reports {
 namespace {
 
-constexpr std::array<std::string_view, 4> kOperators = {"novice", "intermediate", "expert",
-                                                        casedb::kPersonOperator};
 constexpr const char* kNotInUse = "another modality";
 constexpr const char* kNoBeam = "no pulse of a fluoroscope (another modality, or a held image)";
 constexpr const char* kNoPlane = "another modality than ultrasound, or recorded before it was kept";
@@ -20,13 +18,6 @@ constexpr const char* kAtRest = "tissue at the tip is where it is at rest: at th
 constexpr const char* kRestTip =
     "where the tissue at the tip lies in a patient at rest, as CT, lesions and structures do, LPS";
 constexpr const char* kAttemptName = "key to attempts.csv";
-
-// A simulated operator's own name is text of a file that somebody wrote.
-std::string_view operator_of(const casedb::AttemptRow& row) {
-  for (const std::string_view known : kOperators)
-    if (row.operator_name == known) return known;
-  return "custom";
-}
 
 bool core(const casedb::AttemptRow& row) {
   return row.instrument.kind == cases::InstrumentKind::core;
@@ -81,7 +72,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) { line.flag(f.row->synthetic()); }},
       {{"operator", "text", "", "",
         "person, or the simulated operator: novice, intermediate, expert, custom (somebody's own file)"},
-       [](CsvLine& line, const Facts& f) { line.text(operator_of(*f.row)); }},
+       [](CsvLine& line, const Facts& f) { line.text(own_or_known_operator(f.row->operator_name)); }},
       {{"seed", "integer", "", "a person's attempt", "the simulated operator's, unsigned 64 bits"},
        [](CsvLine& line, const Facts& f) {
          f.row->synthetic() ? line.whole(std::uint64_t{f.row->seed}) : line.nothing();
@@ -445,8 +436,8 @@ std::string attempts_header() {
   return line.take();
 }
 
-std::string attempt_line(const AttemptFacts& facts) {
-  CsvLine line;
+std::string attempt_line(const AttemptFacts& facts, Precision precision) {
+  CsvLine line(precision);
   for (const auto& column : attempt_columns()) column.write(line, facts);
   for (const casedb::ConditionRow& row : casedb::condition_rows())
     write_condition(line, row, row.read(facts.row->conditions));
@@ -518,10 +509,21 @@ const std::vector<TableInfo>& raw_tables() {
   return tables;
 }
 
+namespace {
+
+// What an export without key and study has in the place of a person's exact value; empty: the value itself.
+std::string_view coarse_rule(const TableInfo& table, const ColumnInfo& column) {
+  if (table.file.find('/') != std::string::npos) return "no file";
+  if (column.name == "days_since_first") return "whole days, two significant digits";
+  return column.type == "number" ? "two significant digits" : "";
+}
+
+}  // namespace
+
 std::string data_dictionary() {
   CsvLine line;
   for (const char* name : {"file", "column", "type", "unit", "version", "empty_when", "description", "better",
-                           "scale", "without_endpoint", "of_a_person"})
+                           "scale", "without_endpoint", "of_a_person", "of_people_without_key_and_study"})
     line.text(name);
   std::string text = line.take();
   for (const TableInfo& table : raw_tables())
@@ -531,6 +533,8 @@ std::string data_dictionary() {
       line.text(column.missing.empty() ? "never" : column.missing).text(column.what);
       for (const std::string* one : {&column.better, &column.scale, &column.without_endpoint, &column.of_a_person})
         one->empty() ? line.nothing() : line.text(*one);
+      const std::string_view coarse = coarse_rule(table, column);
+      coarse.empty() ? line.nothing() : line.text(coarse);
       text += line.take();
     }
   return text;
@@ -546,13 +550,21 @@ std::string raw_readme() {
       "also "
       "how people are compared by it: which way is better, its scale, what an attempt without an endpoint counts "
       "as, "
-      "how a person's attempts become one value (those with procedure_performed = 1)\n\n"
+      "how a person's attempts become one value (those with procedure_performed = 1); and what it is of people in "
+      "an "
+      "export without key and study\n\n"
       "CSV as RFC 4180: UTF-8, comma, '.' decimals, LF, header in the first line. Numbers read back bit for bit. "
       "An "
       "empty cell is a missing value and never 0. Text that a spreadsheet would take for a formula begins with an "
       "apostrophe. Lengths in mm, coordinates LPS (x to the patient's left, y to the back, z to the head), times "
       "in "
       "seconds.\n\n"
+      "Made without --key and --study, numbers of people's attempts (synthetic = 0) have two significant digits, "
+      "days "
+      "are whole, and there are no files of their poses, forces and frames: good for trying an analysis and for "
+      "teaching, not for a result. Those who hold two exports, rounded or not, can still join them by their "
+      "values: "
+      "keep this folder as personal data.\n\n"
       "Names of attempts, people, cases and targets are made for this export. Rows with synthetic = 1 come from "
       "simulated operators: leave them out of every statement about people.\n";
   return text;

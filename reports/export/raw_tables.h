@@ -96,7 +96,7 @@ const std::vector<Column<PersonFact>>& fact_columns();
 const std::vector<ColumnInfo>& attempt_metrics();
 
 std::string attempts_header();
-std::string attempt_line(const AttemptFacts& facts);
+std::string attempt_line(const AttemptFacts& facts, Precision precision = Precision::exact);
 
 template <typename Row>
 std::string header_of(const std::vector<Column<Row>>& columns) {
@@ -105,8 +105,9 @@ std::string header_of(const std::vector<Column<Row>>& columns) {
   return line.take();
 }
 template <typename Row>
-std::string line_of(const std::vector<Column<Row>>& columns, const Row& row) {
-  CsvLine line;
+std::string line_of(const std::vector<Column<Row>>& columns, const Row& row,
+                    Precision precision = Precision::exact) {
+  CsvLine line(precision);
   for (const Column<Row>& column : columns) column.write(line, row);
   return line.take();
 }

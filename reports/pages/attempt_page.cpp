@@ -209,7 +209,7 @@ void add_details(Html& html, const AttemptView& attempt) {
   if (row.picture.modality != cases::Modality::xray) add_detail(html, "Approach", approach_text(row.approach));
   add_detail(html, "Target", lesion_text(row.lesion));
   add_detail(html, "Picture", picture_text(row.picture));
-  add_detail(html, "Started", utc_text(row.started_us));
+  add_detail(html, "Started", told_text(row.started_us));
   if (const std::string away = away_text(row); !away.empty()) add_detail(html, "Interruption", away);
   std::string recorded = number_text(row.duration_s, 1) + " s";
   if (row.conditions.paused_s.value_or(0.0) > 0.0)
@@ -235,9 +235,9 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
       .raw(" · ")
       .text(instrument_text(row.instrument))
       .raw(" · <time datetime=\"")
-      .text(utc_machine_text(row.started_us))
+      .text(told_machine_text(row.started_us))
       .raw("\">")
-      .text(utc_text(row.started_us))
+      .text(told_text(row.started_us))
       .raw("</time></p>\n");
   html.add(grade_section(attempt.grade));
   add_outcome(html, row);

@@ -50,9 +50,9 @@ void add_row(Html& html, const AttemptView& view) {
   html.raw("<tr><th scope=\"row\"><a href=\"/attempts/")
       .text(row.attempt_id)
       .raw("\"><time datetime=\"")
-      .text(utc_machine_text(row.started_us))
+      .text(told_machine_text(row.started_us))
       .raw("\">")
-      .text(utc_text(row.started_us))
+      .text(told_text(row.started_us))
       .raw("</time></a></th><td data-label=\"Case\">")
       .name(row.case_title)
       .raw("</td><td data-label=\"Operator\">")
@@ -120,7 +120,8 @@ std::string no_attempts_page(const Visitor& visitor) {
   Html html;
   html.raw(
       "<div class=\"message\">\n<h1>No individual attempts</h1>\n<p>Your role does not see individual attempts. "
-      "Trainees see their own; mentors and researchers see them all.</p>\n</div>\n");
+      "Trainees see their own; mentors, directors and researchers those of the people who are theirs to "
+      "see.</p>\n</div>\n");
   return page("No individual attempts", visitor, html);
 }
 

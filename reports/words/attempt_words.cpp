@@ -65,9 +65,27 @@ std::string away_text(const casedb::AttemptHead& attempt) {
   return "Interrupted, and gone on with after " + number_text(*attempt.away_s / 86400.0, 0) + " days.";
 }
 
+namespace {
+
+// The end of a UUIDv7 is random; its beginning would tell when it was made.
+std::string label_of(const std::string& id) {
+  return id.substr(id.size() < 6 ? 0 : id.size() - 6);
+}
+
+}  // namespace
+
 std::string person_text(const std::string& person_id) {
-  // The end of a UUIDv7 is random; its beginning would tell when the account was made.
-  return "Person " + person_id.substr(person_id.size() < 6 ? 0 : person_id.size() - 6);
+  return "Person " + label_of(person_id);
+}
+
+std::string case_text(const std::string& case_id) {
+  return case_id.empty() ? "A case" : "Case " + label_of(case_id);
+}
+
+std::string_view own_or_known_operator(std::string_view operator_name) {
+  for (const std::string_view known : {"novice", "intermediate", "expert"})
+    if (operator_name == known) return known;
+  return operator_name == casedb::kPersonOperator ? casedb::kPersonOperator : "custom";
 }
 
 std::string simulated_operator_text(const std::string& operator_name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casedb/grading/grading.h"
@@ -25,7 +26,10 @@ std::string approach_text(cases::Approach approach);         // "In plane"
 std::string position_text(cases::PatientPosition position);  // "on the left side"
 // "Interrupted, and gone on with after 12 min."; empty: it was not, or nobody knows.
 std::string away_text(const casedb::AttemptHead& attempt);
-std::string person_text(const std::string& person_id);                  // "Person 3f20ab": no name
+std::string person_text(const std::string& person_id);  // "Person 3f20ab": no name
+std::string case_text(const std::string& case_id);      // "Case 3f20ab": no title
+// The name of one that the program brings; else "custom": somebody's own file has somebody's words.
+std::string_view own_or_known_operator(std::string_view operator_name);
 std::string simulated_operator_text(const std::string& operator_name);  // "Simulated expert"
 
 }  // namespace seldinger::reports

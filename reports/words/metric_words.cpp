@@ -133,6 +133,10 @@ std::string utc_written(std::int64_t time_us, const char* format) {
                 static_cast<int>(utc.time.seconds().count()));
   return buffer.data();
 }
+constexpr const char* kDay = "%04d-%02u-%02u";
+bool is_whole_day(std::int64_t time_us) {
+  return time_us % 86'400'000'000 == 0;
+}
 }  // namespace
 
 std::string utc_text(std::int64_t time_us) {
@@ -140,6 +144,12 @@ std::string utc_text(std::int64_t time_us) {
 }
 std::string utc_machine_text(std::int64_t time_us) {
   return utc_written(time_us, "%04d-%02u-%02uT%02d:%02d:%02dZ");
+}
+std::string told_text(std::int64_t time_us) {
+  return is_whole_day(time_us) ? utc_written(time_us, kDay) : utc_text(time_us);
+}
+std::string told_machine_text(std::int64_t time_us) {
+  return is_whole_day(time_us) ? utc_written(time_us, kDay) : utc_machine_text(time_us);
 }
 
 }  // namespace seldinger::reports

@@ -32,5 +32,8 @@ std::string number_text(double value, int digits);
 // "2026-03-01 14:05 UTC" and "2026-03-01T14:05:09Z".
 std::string utc_text(std::int64_t time_us);
 std::string utc_machine_text(std::int64_t time_us);
+// The same of a time that may have been cut to its day for the reader: "2026-03-01" of one that was.
+std::string told_text(std::int64_t time_us);
+std::string told_machine_text(std::int64_t time_us);
 
 }  // namespace seldinger::reports

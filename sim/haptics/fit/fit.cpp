@@ -1,13 +1,12 @@
 #include "sim/haptics/fit/fit.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "sim/base/check.h"
 #include "sim/base/rng.h"
+#include "sim/haptics/fit/least_squares.h"
 
 namespace seldinger::haptics {
 namespace {
@@ -25,34 +24,8 @@ double way_mm(const Points& points) {
   return points.back().depth_mm - points.front().depth_mm;
 }
 
-// Model - measured at each point. `Force` takes parameters, depth, gradient or nullptr.
-template <typename Force>
-class Residuals : public ceres::CostFunction {
- public:
-  Residuals(const Points& points, std::size_t parameters, Force force) : points_(points), force_(std::move(force)) {
-    set_num_residuals(static_cast<int>(points.size()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(parameters));
-  }
-
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-    double* gradient = jacobians != nullptr ? jacobians[0] : nullptr;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      residuals[i] = force_(parameters[0], points_[i].depth_mm, gradient) - points_[i].force_n;
-      if (gradient != nullptr) gradient += parameter_block_sizes()[0];
-    }
-    return true;
-  }
-
- private:
-  const Points& points_;
-  Force force_;
-};
-
-struct Bounds {
-  Parameters least, most;
-};
-
-// A fit from each start; the best by least squares, the earliest of equals.
+// `Force` takes parameters, depth, gradient or nullptr. A fit from each start; the best by least squares, the
+// earliest of equals.
 template <typename Force>
 class Search {
  public:
@@ -60,25 +33,12 @@ class Search {
       : points_(points), bounds_(std::move(bounds)), force_(std::move(force)) {}
 
   void from(Parameters start) {
-    for (std::size_t i = 0; i < start.size(); ++i)
-      start[i] = std::clamp(start[i], bounds_.least[i], bounds_.most[i]);
-    ceres::Problem problem;
-    pose(problem, start);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.logging_type = ceres::SILENT;
-    options.num_threads = 1;  // sums in one order
-    options.max_num_iterations = 300;
-    options.function_tolerance = 1e-12;
-    options.gradient_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-12;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
-    const double rmse_n = std::sqrt(2.0 * summary.final_cost / static_cast<double>(points_.size()));
+    Minimum minimum = least_squares(residuals(), points_.size(), bounds_, std::move(start));
+    const double rmse_n = std::sqrt(minimum.squares / static_cast<double>(points_.size()));
     if (!std::isfinite(rmse_n)) return;
     rmse_n_.push_back(rmse_n);
     if (best_.empty() || rmse_n < best_rmse_n_) {
-      best_ = start;
+      best_ = std::move(minimum.parameters);
       best_rmse_n_ = rmse_n;
     }
   }
@@ -96,39 +56,24 @@ class Search {
   }
 
   // Of each parameter at the best; NaN for one at its bound, and where they cannot be told apart.
-  Parameters standard_error() {
-    Parameters errors(best_.size(), std::numeric_limits<double>::quiet_NaN());
-    std::vector<int> bound;
-    for (std::size_t i = 0; i < best_.size(); ++i)
-      if (best_[i] <= bounds_.least[i] || best_[i] >= bounds_.most[i]) bound.push_back(static_cast<int>(i));
-    const std::size_t free = best_.size() - bound.size();
-    if (points_.size() <= best_.size() || free == 0) return errors;
-    ceres::Problem problem;
-    pose(problem, best_);
-    if (!bound.empty())
-      problem.SetManifold(best_.data(), new ceres::SubsetManifold(static_cast<int>(best_.size()), bound));
-    ceres::Covariance::Options options;
-    options.algorithm_type = ceres::DENSE_SVD;
-    options.null_space_rank = -1;
-    ceres::Covariance covariance(options);
-    if (!covariance.Compute(std::vector<const double*>{best_.data()}, &problem)) return errors;
-    Parameters matrix(best_.size() * best_.size());
-    covariance.GetCovarianceBlock(best_.data(), best_.data(), matrix.data());
-    const double variance = best_rmse_n_ * best_rmse_n_ * static_cast<double>(points_.size()) /
-                            static_cast<double>(points_.size() - free);
-    for (std::size_t i = 0; i < errors.size(); ++i)
-      if (std::find(bound.begin(), bound.end(), static_cast<int>(i)) == bound.end())
-        errors[i] = std::sqrt(variance * matrix[i * errors.size() + i]);
+  Parameters standard_error() const {
+    Parameters errors = unit_errors(residuals(), points_.size(), bounds_, best_);
+    const auto free = std::count_if(errors.begin(), errors.end(), [](double error) { return !std::isnan(error); });
+    const double left_over = static_cast<double>(points_.size()) - static_cast<double>(free);
+    const double sigma_n = best_rmse_n_ * std::sqrt(static_cast<double>(points_.size()) / left_over);
+    for (double& error : errors) error *= sigma_n;
     return errors;
   }
 
  private:
-  void pose(ceres::Problem& problem, Parameters& parameters) const {
-    problem.AddResidualBlock(new Residuals<Force>(points_, parameters.size(), force_), nullptr, parameters.data());
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      problem.SetParameterLowerBound(parameters.data(), static_cast<int>(i), bounds_.least[i]);
-      problem.SetParameterUpperBound(parameters.data(), static_cast<int>(i), bounds_.most[i]);
-    }
+  // Model - measured at each point.
+  Residuals residuals() const {
+    return [this](const double* parameters, std::vector<double>& residuals, double* gradient) {
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        residuals[i] = force_(parameters, points_[i].depth_mm, gradient) - points_[i].force_n;
+        if (gradient != nullptr) gradient += bounds_.least.size();
+      }
+    };
   }
 
   const Points& points_;

@@ -24,7 +24,7 @@ class StoreAttemptsTest : public testing::Test {
 
 TEST_F(StoreAttemptsTest, AnAttemptComesBackAsItWentIn) {
   NewAttempt attempt = sample();
-  attempt.person_id = add_user(library_, "ann", Role::trainee, "password").value();
+  attempt.person_id = add_user(library_, "ann", Role::trainee, "a password").value();
   const std::string attempt_id = add(attempt);
   Library again = open_library(folder_);
   const AttemptRow row = find_attempt(again, attempt_id).value();
@@ -169,8 +169,8 @@ TEST_F(StoreAttemptsTest, OfAMetricTheNewestVersionIsShown) {
 }
 
 TEST_F(StoreAttemptsTest, AttemptsAreListedNewestFirstEachWithItsOwnScores) {
-  const std::string ann = add_user(library_, "ann", Role::trainee, "password").value();
-  const std::string bob = add_user(library_, "bob", Role::trainee, "password").value();
+  const std::string ann = add_user(library_, "ann", Role::trainee, "a password").value();
+  const std::string bob = add_user(library_, "bob", Role::trainee, "a password").value();
   NewAttempt attempt = sample();
   attempt.recording = sample_recording(20);
   std::vector<std::string> ids, of_ann;

@@ -56,7 +56,7 @@ TEST_F(LibraryTest, IsMadeInAnEmptyFolder) {
 TEST_F(LibraryTest, NamesAreReadableByTheirOwnerOnly) {
   const mode_t mask = ::umask(0);
   auto library = open_library(library_);
-  static_cast<void>(add_user(library, "ann", Role::trainee, "password").value());
+  static_cast<void>(add_user(library, "ann", Role::trainee, "a password").value());
   ::umask(mask);
   struct stat about {};
   for (const char* file : {"identities.sqlite", "identities.sqlite-wal", "identities.sqlite-shm"}) {

@@ -132,7 +132,7 @@ TEST_F(FullDiskTest, AnAccountThatDoesNotFitIsNotThereByHalf) {
                        Library library = open_library(library_);
                        for (int i = 0; i < 20; ++i)
                          static_cast<void>(
-                             add_user(library, "user " + std::to_string(i), Role::trainee, "password").value());
+                             add_user(library, "user " + std::to_string(i), Role::trainee, "a password").value());
                      }),
       kDiskFailure);
   Library library = open_library(library_);

@@ -26,7 +26,7 @@ class BackupTest : public testing::Test {
     const std::string case_id = add_case(library, sample_case());
     const std::string lesion_id = add_lesion(library, case_id, sample_lesion()).value();
     static_cast<void>(add_attempt(library, sample_attempt(case_id, lesion_id)).value());
-    static_cast<void>(add_user(library, "ann", Role::mentor, "password").value());
+    static_cast<void>(add_user(library, "ann", Role::mentor, "a password").value());
   }
   std::string backed_up() {
     Library library = open_library(folder_);
@@ -55,7 +55,7 @@ TEST_F(BackupTest, ComesBackAsItWas) {
   EXPECT_EQ(load_volume(library, row).value().hu, sample_volume().hu);
   const AttemptRow attempt = list_attempts(library).front();
   EXPECT_EQ(difference(load_recording(library, attempt.attempt_id).value(), sample_recording()), "");
-  ASSERT_TRUE(log_in(library, "ann", "password").has_value());
+  ASSERT_TRUE(log_in(library, "ann", "a password").has_value());
   // It is a library like any other.
   static_cast<void>(add_lesion(library, row.case_id, sample_lesion()).value());
 }

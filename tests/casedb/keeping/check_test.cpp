@@ -24,7 +24,7 @@ class CheckTest : public testing::Test {
     const std::string case_id = add_case(library, sample_case());
     const std::string lesion_id = add_lesion(library, case_id, sample_lesion()).value();
     attempt_id_ = add_attempt(library, sample_attempt(case_id, lesion_id)).value();
-    static_cast<void>(add_user(library, "ann", Role::trainee, "password").value());
+    static_cast<void>(add_user(library, "ann", Role::trainee, "a password").value());
     volume_sha256_ = find_case(library, case_id).value().volume_sha256;
   }
   // What is not kept by the schema's own triggers.

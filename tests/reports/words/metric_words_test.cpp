@@ -56,6 +56,9 @@ TEST(Times, AreUtcAndSaySo) {
   EXPECT_EQ(utc_text(0), "1970-01-01 00:00 UTC");
   EXPECT_EQ(utc_text(1772373909000000), "2026-03-01 14:05 UTC");
   EXPECT_EQ(utc_machine_text(1772373909999999), "2026-03-01T14:05:09Z");
+  EXPECT_EQ(told_text(1709164800000000), "2024-02-29") << "cut to its day";
+  EXPECT_EQ(told_machine_text(1709164800000000), "2024-02-29");
+  EXPECT_EQ(told_text(1709164800000000 + 61'000'000), "2024-02-29 00:01 UTC");
   EXPECT_EQ(utc_text(1709164800000000), "2024-02-29 00:00 UTC");  // a leap day
   EXPECT_EQ(utc_machine_text(-1), "1969-12-31T23:59:59Z");
 }
