@@ -119,7 +119,8 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
     const auto bytes = read_asset(file, *asset("skin_sha256"));
     if (!bytes) return bytes.error();
     if (!plausible(base::claimed_size(*bytes).value_or(0), bytes->size())) return kTooLarge;
-    if (!cases::mesh_from_bytes(*bytes)) return kDamaged;
+    const auto skin = cases::mesh_from_bytes(*bytes);
+    if (!skin || skin->triangles.empty()) return kDamaged;
   }
   if (!row.is_null("labels_sha256")) {
     const auto bytes = read_asset(file, *asset("labels_sha256"));

@@ -58,7 +58,9 @@ TEST(HiddenBits, WhatIsNotThePixelsIsCleared) {
   EXPECT_EQ(cleared({16, 12, 11, true}, {0x7FFF, 0x0800, 0xF7FF, 0xF800}), cells({0xFFFF, 0xF800, 0x07FF, 0xF800}));
   EXPECT_EQ(cleared({16, 12, 15, false}, {0x123F, 0xFFFF, 0x0001, 0xABC0}), cells({0x1230, 0xFFF0, 0x0000, 0xABC0}))
       << "below the pixel's";
-  EXPECT_EQ(cleared({32, 20, 19, false}, {0x12345678, 0}), cells({0x5678}) + cells({0, 0, 0}));
+  DicomDataSet wide = picture({32, 20, 19, false}, cells({0x12345678, 0xFFFFF}, false, 4));
+  EXPECT_EQ(clear_hidden_bits(wide, kLittle).value(), 1);
+  EXPECT_EQ(pixels(wide), cells({0x00045678, 0xFFFFF}, false, 4));
 }
 
 TEST(HiddenBits, EightBitsAndBigEndianAndIcons) {
