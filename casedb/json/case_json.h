@@ -17,8 +17,8 @@ struct CaseParts {
   std::vector<LesionRow> lesions;
   std::vector<StructureRow> structures;
   std::vector<Decision> decisions;
-  std::optional<Received> received;  // it came in a bundle
-  bool provisional = true;           // too few consultants have set the standard
+  std::optional<Received> received{};  // it came in a bundle
+  bool provisional = true;             // too few consultants have set the standard
 };
 base::Result<CaseParts> load_parts(Library& library, const std::string& case_id);  // `no_case`
 CaseParts load_parts(Library& library, CaseRow row);
