@@ -2,6 +2,7 @@
 // a code, or harmless to all that looks at the case afterwards.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -207,6 +208,10 @@ TEST_F(BundledValues, EachIsRefusedOrHarmless) {
         };
         auto values = values_for(type);
         values.insert(values.begin(), "NULL");
+        if (std::getenv("SELDINGER_FUZZ") == nullptr)  // NOLINT: every third, another third in each column
+          for (std::size_t at = values.size(); at-- > 0;)
+            if (at % 3 != static_cast<std::size_t>(columns) % 3)
+              values.erase(values.begin() + static_cast<long>(at));
         const int taken_before = taken_;
         for (const std::string& value : values) {
           if (is_seen_enough(type, taken_before)) break;
