@@ -33,6 +33,8 @@ namespace seldinger::app {
   ROW(bundle_export)            \
   ROW(bundle_import)            \
   ROW(bundle_check)             \
+  ROW(bundle_key)               \
+  ROW(bundle_trust)             \
   ROW(backup)                   \
   ROW(restore)                  \
   ROW(check)                    \

@@ -104,6 +104,15 @@ CREATE TABLE case_label_map (
   UNIQUE (case_id, labels_sha256)
 ) STRICT;
 
+CREATE TABLE case_received (
+  case_id TEXT NOT NULL PRIMARY KEY REFERENCES training_case (case_id) ON DELETE CASCADE,
+  received_us INTEGER NOT NULL,
+  state TEXT NOT NULL CHECK (state IN ('draft', 'review', 'published', 'retired')),
+  face_state TEXT NOT NULL CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')),
+  burned_in_checked_us INTEGER, -- null: the sender does not say that anybody looked
+  signing_key TEXT CHECK (length(signing_key) = 64) -- the public key, in hexadecimal; null: unsigned
+) STRICT;
+
 CREATE TABLE case_warning (
   case_id TEXT NOT NULL REFERENCES training_case (case_id),
   position INTEGER NOT NULL CHECK (position >= 0),
@@ -439,6 +448,12 @@ CREATE TABLE training_case (
   CHECK (breath_depth BETWEEN 0 AND 2), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
   CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom'))) STRICT;
 
+CREATE TABLE trusted_key (
+  public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),
+  label TEXT NOT NULL UNIQUE CHECK (label <> ''),
+  added_us INTEGER NOT NULL
+) STRICT;
+
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
 CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
@@ -526,6 +541,11 @@ CREATE TRIGGER case_decision_is_kept BEFORE DELETE ON case_decision
 WHEN OLD.case_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a decision cannot be deleted');
+END;
+
+CREATE TRIGGER case_received_is_immutable BEFORE UPDATE ON case_received
+BEGIN
+  SELECT RAISE(ABORT, 'what a sender said cannot be changed');
 END;
 
 CREATE TRIGGER consent_is_kept BEFORE DELETE ON consent

@@ -58,6 +58,7 @@ int run_case_show(const Arguments& arguments) {
   for (const base::Problem& warning : row.warnings)
     std::printf("warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   std::fputs(privacy_text(row).c_str(), stdout);
+  if (parts->received) std::fputs(received_text(*parts->received).c_str(), stdout);
   for (const casedb::LesionRow& lesion : parts->lesions) {
     const cases::LesionForm& form = lesion.form;
     std::printf("lesion   %s at %.1f,%.1f,%.1f mm, %s, radius %.1f mm, %s%.0f HU\n", lesion.lesion_id.c_str(),

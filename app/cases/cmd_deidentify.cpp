@@ -25,7 +25,7 @@ int run_deidentify(const Arguments& arguments) {
   for (const auto& [what, count] : done->counts)
     std::printf("%-10s %lld elements\n", what.c_str(), static_cast<long long>(count));
   for (const auto& [code, count] : done->left_out) std::printf("left out: %s: %d files\n", code.c_str(), count);
-  std::puts("Pixels are as they were: look through them for text and faces before you pass them on.");
+  std::puts("What the pixels show is as it was: look through them for text and faces before you pass them on.");
   return kDone;
 }
 
@@ -44,7 +44,7 @@ Command deidentify_command() {
           .options = kDeidentifyOptions,
           .summary =
               "Writes DICOM without identity (PS3.15 Basic Profile 2024b): a file, or a folder with all below it, "
-              "into a new folder. Pixels stay as they are.",
+              "into a new folder. What the pixels show stays; other bits of their cells are cleared.",
           .run = &run_deidentify};
 }
 

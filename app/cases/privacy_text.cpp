@@ -4,6 +4,22 @@
 
 namespace seldinger::app {
 
+namespace {
+
+std::string sender_of(const casedb::Received& received) {
+  if (!received.signing_key) return "unsigned";
+  return received.trusted_as ? "signed by " + *received.trusted_as
+                             : "signed by " + *received.signing_key + ", which is not trusted here";
+}
+
+}  // namespace
+
+std::string received_text(const casedb::Received& received) {
+  return "came in a bundle, " + sender_of(received) + "; its sender says: " + casedb::name_of(received.state) +
+         ", face " + casedb::name_of(received.face_state) + ", burned-in text " +
+         (received.burned_in_checked_us ? "none" : "not looked for") + "\n";
+}
+
 std::string privacy_text(const casedb::CaseRow& row) {
   std::map<std::string, std::int64_t> by_reason;
   std::int64_t all = 0;

@@ -11,5 +11,7 @@ namespace seldinger::app {
 // A random one for an empty path; made, readable by its owner only, when there is no such file. Refused: `bad_key`,
 // and as read_text. Throws base::Failure("disk").
 base::Result<casedb::HashKey> key_from_file(const std::string& path);
+// None is made: `bad_key`, and as read_text.
+base::Result<casedb::HashKey> existing_key(const std::string& path);
 
 }  // namespace seldinger::app

@@ -35,13 +35,27 @@ std::string json_of_bundle(const casedb::Bundle& bundle) {
                {"program_version", bundle.program_version},
                {"cases", bundle.case_ids},
                {"assets", bundle.assets},
-               {"bytes", bundle.bytes}})
+               {"bytes", bundle.bytes},
+               {"signing_key", bundle.signing_key ? Json(*bundle.signing_key) : Json(nullptr)}})
              .dump(2) +
          "\n";
 }
 
 std::string json_of_unbundled(const casedb::Unbundled& cases) {
-  return Json({{"stored", cases.stored}, {"present", cases.present}}).dump(2) + "\n";
+  return Json({{"stored", cases.stored},
+               {"present", cases.present},
+               {"for_review", cases.for_review},
+               {"signing_key", cases.signing_key ? Json(*cases.signing_key) : Json(nullptr)},
+               {"trusted_as", cases.trusted_as ? Json(*cases.trusted_as) : Json(nullptr)}})
+             .dump(2) +
+         "\n";
+}
+
+std::string json_of_trusted_keys(const std::vector<casedb::TrustedKey>& keys) {
+  Json list = Json::array();
+  for (const casedb::TrustedKey& key : keys)
+    list.push_back({{"public_key", key.public_key}, {"label", key.label}, {"added_us", key.added_us}});
+  return Json({{"trusted_keys", list}}).dump(2) + "\n";
 }
 
 }  // namespace seldinger::app

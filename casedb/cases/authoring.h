@@ -41,9 +41,6 @@ base::Result<void> remove_structure(Library& library, const std::string& case_id
 base::Result<void> put_structure(Library& library, const StructureRow& structure);
 std::vector<StructureRow> list_structures(Library& library, const std::string& case_id);  // in their order
 
-// Whether structures and setting of a case can be read: asked of rows that come from outside.
-bool authored_rows_are_sound(Sqlite& database, const std::string& case_id);
-
 // A label map beside the case's volume: voxels as many. Adding it changes nothing yet; a structure may be one of
 // its labels. Answers its SHA-256. Refused: `no_case`, `not_a_draft`, `has_attempts`, `bad_labels` (size, names).
 base::Result<std::string> add_label_map(Library& library, const std::string& case_id,
@@ -57,6 +54,7 @@ base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const 
 
 // `no_case`, `not_a_draft`, `has_attempts`, `bad_setting`.
 base::Result<void> set_setting(Library& library, const std::string& case_id, const CaseSetting& setting);
+base::Result<void> check_case_title(const std::string& title);  // `bad_title`: not 1 to 100 bytes on one line
 base::Result<void> set_title(Library& library, const std::string& case_id,
                              const std::string& title);  // `bad_title`
 

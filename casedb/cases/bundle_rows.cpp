@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <map>
 #include <set>
 #include <string_view>
 
-#include "casedb/cases/authoring.h"
+#include "casedb/cases/case_rows.h"
+#include "casedb/cases/received.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/migrate.h"
+#include "casedb/database/question.h"
 #include "casedb/database/tables.h"
 #include "casedb/database/utf8.h"
+#include "casedb/database/uuid.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -234,7 +238,8 @@ base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte
     if (!from.empty() || count_of(*database, travelling_tables().front().name) != 1) return damaged;
     transaction.commit();
     build(*database, schema, newest_version(schema));
-    if (!authored_rows_are_sound(*database, case_id)) return damaged;
+    if (!rows_are_sound(*database, case_id))
+      return base::Error{"bundle_values", "a value in a case of the bundle is none that this program stores"};
   } catch (const Damaged&) {
     return damaged;
   } catch (const DatabaseFailure& failure) {
@@ -286,17 +291,39 @@ Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id) {
   return Presence::same;
 }
 
-void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id) {
+void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id,
+                 const std::optional<std::string>& signing_key) {
   CHECK(library.in_transaction());
+  const CaseRow sent = read_cases(rows, case_id).at(0);
+  // Nobody here has looked yet.
+  const std::map<std::string_view, std::optional<std::string>> here = {
+      {"state", name_of(arriving(sent.state))},
+      {"audience", "everyone"},
+      {"face_state", name_of(FaceState::unchecked)},
+      {"burned_in_checked_us", std::nullopt}};
   library.run("PRAGMA defer_foreign_keys = ON");  // until the commit: the tables' order is none
   for (const TravellingTable& table : case_last()) {
+    const bool is_case = table.name == travelling_tables().front().name;
     const std::vector<std::string> columns = columns_of(library, table.name);
     Statement insert = insertion(library, table.name, columns);
     for (Statement row = rows_of(rows, table, case_id); row.step();) {
-      for (const std::string& column : columns) bind_value(insert, row, column);
+      for (const std::string& column : columns)
+        if (const auto ours = here.find(column); is_case && ours != here.end())
+          insert.bind(column, ours->second);
+        else
+          bind_value(insert, row, column);
       insert.run();
     }
   }
+  question(library, "add_received")
+      .bind("case_id", case_id)
+      .bind("received_us", now_us())
+      .bind("state", name_of(sent.state))
+      .bind("face_state", name_of(sent.face_state))
+      .bind("burned_in_checked_us",
+            sent.burned_in_checked ? std::optional(sent.burned_in_checked->checked_us) : std::nullopt)
+      .bind("signing_key", signing_key)
+      .run();
 }
 
 }  // namespace seldinger::casedb

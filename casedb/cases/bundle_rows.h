@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ class RowsReader {
  public:
   explicit RowsReader(int version);
   // A database in memory that holds these rows and no others, brought to the newest schema. Every constraint of the
-  // schema holds in it. Refused: `damaged`.
+  // schema holds in it. Refused: `damaged`, `bundle_values` (rows_are_sound).
   base::Result<std::unique_ptr<Sqlite>> read(std::span<const std::byte> bytes, const std::string& case_id);
 
  private:
@@ -39,7 +40,10 @@ enum class Presence { absent, same, different };
 // and what was added to it in the library make no difference.
 Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id);
 
-// In a transaction of the library's.
-void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id);
+// In a transaction of the library's. What was published arrives in review, and what the sender says of its own
+// review, of faces and of burned-in text is kept beside the case, as the sender's, with the key that signed it, if
+// any.
+void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id,
+                 const std::optional<std::string>& signing_key = {});
 
 }  // namespace seldinger::casedb

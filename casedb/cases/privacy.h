@@ -8,7 +8,8 @@
 
 namespace seldinger::casedb {
 
-// `unchecked`: stored before schema 7.
+// `unchecked`: stored before schema 7, or come in a bundle, whose sender may have done something
+// (casedb/cases/received.h).
 enum class FaceState { unchecked, none, cropped, defaced };
 
 inline const char* name_of(FaceState state) noexcept {

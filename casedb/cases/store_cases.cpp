@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/case_rows.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/changeable_case.h"
 #include "casedb/cases/setting_columns.h"
@@ -126,60 +127,11 @@ std::vector<CaseRow> read_heads(Sqlite& database, const std::optional<std::strin
   return rows;
 }
 
-std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
-  std::vector<CaseRow> rows = read_heads(database, case_id);
-  std::unordered_map<std::string, std::size_t> place;
-  for (std::size_t at = 0; at < rows.size(); ++at) place.emplace(rows[at].case_id, at);
-  // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
-  CaseRow* row = nullptr;
-  const auto belongs = [&](const Statement& from) {
-    const std::string_view id = from.view("case_id");
-    if (row != nullptr && row->case_id == id) return true;
-    const auto at = place.find(std::string(id));
-    row = at == place.end() ? nullptr : &rows[at->second];
-    return row != nullptr;
-  };
-  Statement attributes = question(database, "case_attributes");
-  for (attributes.bind("case_id", case_id); attributes.step();)
-    if (belongs(attributes)) row->attributes.emplace_back(attributes.text("name"), attributes.text("value"));
-  Statement warnings = question(database, "case_warnings");
-  for (warnings.bind("case_id", case_id); warnings.step();)
-    if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
-  Statement dropped = question(database, "case_dropped");
-  for (dropped.bind("case_id", case_id); dropped.step();)
-    if (belongs(dropped))
-      row->dropped.push_back(
-          {dropped.text("tag"), dropped.text("keyword"), dropped.text("reason"), dropped.integer("count")});
-  return rows;
-}
-
-bool sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
-  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
-  // A target larger than the volume is a mistake in the unit.
-  const double diagonal_mm = glm::length(glm::dvec3(row.size_voxels) * row.spacing_mm);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(form.radii_mm[axis] > 0.0 && form.radii_mm[axis] <= diagonal_mm)) return false;
-    if (!std::isfinite(form.center_lps_mm[axis])) return false;
-  }
-  // What a voxel can hold; what is added may also take away.
-  if (!(form.hu >= (form.adds ? -4000.0 : -1024.0) && form.hu <= 32767.0)) return false;
-  if (!(form.roughness >= 0.0 && form.roughness <= cases::kMostRoughness)) return false;
-  if (!(form.edge_mm >= 0.0 && form.edge_mm <= 2.0 * std::min({form.radii_mm.x, form.radii_mm.y, form.radii_mm.z})))
-    return false;
-  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(form.center_lps_mm, 1.0)));
-}
-
-// The ball of its volume; an irregular one's is known with its shape.
-double radius_of(const cases::LesionForm& form) {
-  if (form.kind != cases::LesionKind::ellipsoid) return form.radii_mm.x;
-  return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
-}
-
 base::Result<void> check_lesion(Library& library, const std::string& case_id, const cases::LesionForm& form) {
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
   if (row->state != CaseState::draft) return kNotADraft;
-  if (!sound_lesion(*row, form))
+  if (!is_sound_lesion(*row, form))
     return base::Error{"bad_lesion",
                        "a lesion needs a centre inside the volume, a radius above 0 that the volume can hold, HU "
                        "from -1024 to 32767, roughness from 0 to 0.3 and an edge no wider than the lesion"};
@@ -210,6 +162,33 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
 }
 
 }  // namespace
+
+std::vector<CaseRow> read_cases(Sqlite& database, const std::optional<std::string>& case_id) {
+  std::vector<CaseRow> rows = read_heads(database, case_id);
+  std::unordered_map<std::string, std::size_t> place;
+  for (std::size_t at = 0; at < rows.size(); ++at) place.emplace(rows[at].case_id, at);
+  // They come case by case, so that a case is looked up once; one added between two questions is not in `place`.
+  CaseRow* row = nullptr;
+  const auto belongs = [&](const Statement& from) {
+    const std::string_view id = from.view("case_id");
+    if (row != nullptr && row->case_id == id) return true;
+    const auto at = place.find(std::string(id));
+    row = at == place.end() ? nullptr : &rows[at->second];
+    return row != nullptr;
+  };
+  Statement attributes = question(database, "case_attributes");
+  for (attributes.bind("case_id", case_id); attributes.step();)
+    if (belongs(attributes)) row->attributes.emplace_back(attributes.text("name"), attributes.text("value"));
+  Statement warnings = question(database, "case_warnings");
+  for (warnings.bind("case_id", case_id); warnings.step();)
+    if (belongs(warnings)) row->warnings.push_back({warnings.text("code"), warnings.text("text")});
+  Statement dropped = question(database, "case_dropped");
+  for (dropped.bind("case_id", case_id); dropped.step();)
+    if (belongs(dropped))
+      row->dropped.push_back(
+          {dropped.text("tag"), dropped.text("keyword"), dropped.text("reason"), dropped.integer("count")});
+  return rows;
+}
 
 std::string name_of(cases::Modality modality) {
   return std::string(base::name_of(cases::kModalityNames, modality));
@@ -292,16 +271,24 @@ base::Result<volume::LabelMap> load_labels(Library& library, const CaseRow& row)
 }
 
 base::Result<std::vector<volume::TissueClass>> load_classes(Library& library, const CaseRow& row) {
+  return load_classes([&](const std::string& sha256) { return library.load_asset(sha256); }, row);
+}
+
+base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& load, const CaseRow& row) {
   if (!row.classes_sha256.empty()) {
-    const auto bytes = library.load_asset(row.classes_sha256);
+    const auto bytes = load(row.classes_sha256);
     if (!bytes) return bytes.error();
     const glm::dvec3 size(row.size_voxels);
     return volume::classes_from_bytes(*bytes, static_cast<std::size_t>(size.x * size.y * size.z));
   }
-  const auto volume = load_volume(library, row);
+  const auto volume_bytes = load(row.volume_sha256);
+  if (!volume_bytes) return volume_bytes.error();
+  const auto volume = volume::volume_from_bytes(*volume_bytes);
   if (!volume) return volume.error();
   if (row.labels_sha256.empty()) return volume::tissue_classes(*volume);
-  const auto labels = load_labels(library, row);
+  const auto label_bytes = load(row.labels_sha256);
+  if (!label_bytes) return label_bytes.error();
+  const auto labels = volume::labels_from_bytes(*label_bytes);
   if (!labels) return labels.error();
   if (labels->label.size() != volume->hu.size())
     return base::Error{"damaged", "the stored labels are not the volume's"};
@@ -361,8 +348,12 @@ base::Result<void> put_lesion(Library& library, const LesionRow& lesion) {
 }
 
 std::vector<LesionRow> list_lesions(Library& library, const std::optional<std::string>& case_id) {
+  return read_lesions(library.database(), case_id);
+}
+
+std::vector<LesionRow> read_lesions(Sqlite& database, const std::optional<std::string>& case_id) {
   std::vector<LesionRow> rows;
-  Statement lesions = question(library.database(), "lesions_of_case");
+  Statement lesions = question(database, "lesions_of_case");
   for (lesions.bind("case_id", case_id); lesions.step();) {
     LesionRow& row = rows.emplace_back();
     row.lesion_id = lesions.text("lesion_id");

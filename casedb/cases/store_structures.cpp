@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/case_rows.h"
 #include "casedb/cases/changeable_case.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/cases/structure_json.h"
@@ -19,66 +20,6 @@ namespace {
 
 constexpr auto kKinds = base::names<StructureKind>(
     {{StructureKind::tissue_class, "class"}, {StructureKind::label, "label"}, {StructureKind::drawn, "drawn"}});
-constexpr std::size_t kMostName = 100;  // bytes
-
-bool sound_name(const std::string& name) {
-  if (name.empty() || name.size() > kMostName || name.front() == ' ' || name.back() == ' ') return false;
-  return std::none_of(name.begin(), name.end(),
-                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
-
-base::Error bad(const char* text) {
-  return {"bad_structure", text};
-}
-
-// Whether its box and the volume's overlap.
-bool touches(const cases::Shape& shape, const CaseRow& row) {
-  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
-  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(grid);
-  const cases::Bounds bounds = cases::bounds_of(shape);
-  glm::dvec3 low(1e300), high(-1e300);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 share(corner & 1, (corner >> 1) & 1, corner >> 2);
-    const glm::dvec3 p = bounds.low_lps_mm + share * (bounds.high_lps_mm - bounds.low_lps_mm);
-    const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
-    low = glm::min(low, index);
-    high = glm::max(high, index);
-  }
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(high[axis] >= -0.5 && low[axis] <= row.size_voxels[axis] - 0.5)) return false;
-  return true;
-}
-
-base::Result<void> check_place(Library& library, const CaseRow& row, const StructureRow& structure) {
-  switch (structure.kind) {
-    case StructureKind::drawn:
-      if (const auto fit = check_drawn(structure.drawn); !fit) return fit.error();
-      if (structure.hu && !(*structure.hu >= volume::kAirHu && *structure.hu <= 32767.0))
-        return bad("HU are from -1024 to 32767");
-      if (!touches(structure.drawn, row)) return bad("the structure lies beside the volume");
-      return {};
-    case StructureKind::tissue_class: {
-      const auto classes = load_classes(library, row);
-      if (!classes) return classes.error();
-      if (std::find(classes->begin(), classes->end(), structure.tissue) == classes->end())
-        return bad("no voxel of the case is of this class");
-      return {};
-    }
-    case StructureKind::label: {
-      const auto maps = load_label_maps(library, row);
-      if (!maps) return maps.error();
-      for (const StoredLabels& map : *maps) {
-        if (map.sha256 != structure.labels_sha256) continue;
-        const auto& voxels = map.labels.label;
-        if (structure.label >= 1 && structure.label <= 255 &&
-            std::find(voxels.begin(), voxels.end(), static_cast<std::uint8_t>(structure.label)) != voxels.end())
-          return {};
-      }
-      return bad("no voxel of the case's label maps has this label");
-    }
-  }
-  CHECK(false);
-}
 
 // Nothing when a text in it is not one that the store writes.
 std::optional<StructureRow> read_structure(const Statement& from) {
@@ -108,12 +49,17 @@ std::optional<StructureRow> read_structure(const Statement& from) {
   return row;
 }
 
+LoadAsset asset_loader(const Library& library) {
+  return [&library](const std::string& sha256) { return library.load_asset(sha256); };
+}
+
 // Reading classes and labels takes a moment: not to be asked under the write lock.
 base::Result<void> check_structure(Library& library, const StructureRow& structure) {
-  if (!sound_name(structure.name)) return bad("a name has 1 to 100 bytes on one line");
+  if (!is_sound_name(structure.name)) return base::Error{"bad_structure", "a name has 1 to 100 bytes on one line"};
   const auto row = find_case(library, structure.case_id);
   if (!row) return row.error();
-  return check_place(library, *row, structure);
+  CaseContents contents(library.database(), asset_loader(library), *row);
+  return check_place(contents, *row, structure);
 }
 
 const base::Error kNameTaken{"name_taken", "the case has a structure of that name"};
@@ -204,32 +150,21 @@ base::Result<void> remove_structure(Library& library, const std::string& case_id
   return {};
 }
 
-std::vector<StructureRow> list_structures(Library& library, const std::string& case_id) {
+std::optional<std::vector<StructureRow>> read_structures(Sqlite& database, const std::string& case_id) {
   std::vector<StructureRow> rows;
-  Statement from = question(library.database(), "structures_of_case");
+  Statement from = question(database, "structures_of_case");
   for (from.bind("case_id", case_id); from.step();) {
     auto row = read_structure(from);
-    if (!row) throw base::Failure("database", "a stored structure cannot be read");
+    if (!row) return std::nullopt;
     rows.push_back(std::move(*row));
   }
   return rows;
 }
 
-bool authored_rows_are_sound(Sqlite& database, const std::string& case_id) {
-  Statement structures = question(database, "structures_of_case");
-  for (structures.bind("case_id", case_id); structures.step();)
-    if (!read_structure(structures)) return false;
-  Statement cases = question(database, "cases");
-  for (cases.bind("case_id", case_id); cases.step();) {
-    CaseSetting setting;
-    try {
-      read_setting(cases, setting);
-    } catch (const base::Failure&) {  // its rule
-      return false;
-    }
-    if (!check_setting(setting)) return false;
-  }
-  return true;
+std::vector<StructureRow> list_structures(Library& library, const std::string& case_id) {
+  auto rows = read_structures(library.database(), case_id);
+  if (!rows) throw base::Failure("database", "a stored structure cannot be read");
+  return std::move(*rows);
 }
 
 base::Result<std::string> add_label_map(Library& library, const std::string& case_id,
@@ -238,14 +173,7 @@ base::Result<std::string> add_label_map(Library& library, const std::string& cas
   {
     const auto row = find_case(library, case_id);
     if (!row) return row.error();
-    const glm::dvec3 size(row->size_voxels);
-    if (labels.names.empty() || labels.names.size() > 256 ||
-        static_cast<double>(labels.label.size()) != size.x * size.y * size.z)
-      return unsound;
-    for (std::size_t i = 1; i < labels.names.size(); ++i)
-      if (!sound_name(labels.names[i])) return unsound;
-    for (const std::uint8_t label : labels.label)
-      if (label >= labels.names.size()) return unsound;
+    if (!is_sound_label_map(*row, labels)) return unsound;
   }
   NewAssets assets(library);
   std::string sha256 = assets.add(volume::bytes_from_labels(labels));
@@ -268,13 +196,18 @@ base::Result<std::string> add_label_map(Library& library, const std::string& cas
 }
 
 base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row) {
+  return load_label_maps(library.database(), asset_loader(library), row);
+}
+
+base::Result<std::vector<StoredLabels>> load_label_maps(Sqlite& database, const LoadAsset& load,
+                                                        const CaseRow& row) {
   std::vector<std::string> names;
   if (!row.labels_sha256.empty()) names.push_back(row.labels_sha256);
-  Statement added = question(library.database(), "label_maps_of_case");
+  Statement added = question(database, "label_maps_of_case");
   for (added.bind("case_id", row.case_id); added.step();) names.push_back(added.text("labels_sha256"));
   std::vector<StoredLabels> maps;
   for (const std::string& sha256 : names) {
-    const auto bytes = library.load_asset(sha256);
+    const auto bytes = load(sha256);
     if (!bytes) return bytes.error();
     auto labels = volume::labels_from_bytes(*bytes);
     if (!labels) return labels.error();
@@ -294,7 +227,7 @@ base::Result<void> set_setting(Library& library, const std::string& case_id, con
 }
 
 base::Result<void> set_title(Library& library, const std::string& case_id, const std::string& title) {
-  if (!sound_name(title)) return base::Error{"bad_title", "a title has 1 to 100 bytes on one line"};
+  if (const auto fit = check_case_title(title); !fit) return fit.error();
   Transaction transaction(library.database());
   const auto row = find_case(library, case_id);
   if (!row) return row.error();

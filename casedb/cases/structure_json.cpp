@@ -11,10 +11,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kLeastRadiusMm = 0.1, kMostRadiusMm = 500.0;  // a capillary is nothing to hit, no body is larger
+constexpr double kFarthestMm = 2e6;                            // no volume that import takes reaches there
 constexpr std::size_t kMostPoints = 1000;
 const base::Error kBad{
     "bad_geometry",
-    "a drawn structure is a sphere, an ellipsoid or a tube with finite coordinates and radii from "
+    "a drawn structure is a sphere, an ellipsoid or a tube with coordinates within 2 km and radii from "
     "0.1 to 500 mm"};
 
 Json json_of(const glm::dvec3& p) {
@@ -31,23 +32,23 @@ std::optional<glm::dvec3> point_of(const Json& json) {
   return p;
 }
 
-bool finite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+bool near(const glm::dvec3& p) {
+  return std::abs(p.x) <= kFarthestMm && std::abs(p.y) <= kFarthestMm && std::abs(p.z) <= kFarthestMm;
 }
 bool sound(double radius_mm) {
   return radius_mm >= kLeastRadiusMm && radius_mm <= kMostRadiusMm;
 }
 
 bool sound(const cases::Sphere& sphere) {
-  return finite(sphere.center_lps_mm) && sound(sphere.radius_mm);
+  return near(sphere.center_lps_mm) && sound(sphere.radius_mm);
 }
 bool sound(const cases::Ellipsoid& one) {
-  return finite(one.center_lps_mm) && sound(one.radii_mm.x) && sound(one.radii_mm.y) && sound(one.radii_mm.z);
+  return near(one.center_lps_mm) && sound(one.radii_mm.x) && sound(one.radii_mm.y) && sound(one.radii_mm.z);
 }
 bool sound(const cases::Tube& tube) {
   if (tube.points_lps_mm.empty() || tube.points_lps_mm.size() > kMostPoints || !sound(tube.radius_mm)) return false;
   for (const glm::dvec3& point : tube.points_lps_mm)
-    if (!finite(point)) return false;
+    if (!near(point)) return false;
   return true;
 }
 bool sound(const cases::VoxelSet&) {

@@ -74,11 +74,14 @@ const Decision* last_of(const std::vector<Decision>& decisions, DecisionKind kin
   return found;
 }
 
-// Whether it is the own work of who wants it.
+// Whether it is the own work of who wants it. What came in a bundle nobody here has made or submitted: there, who
+// approved it stands for that, so that two people of this library have seen it.
 bool made_or_submitted(const Wish& wish) {
+  const bool came = last_of(wish.decisions, DecisionKind::submitted) == nullptr;
   return std::any_of(wish.decisions.begin(), wish.decisions.end(), [&](const Decision& one) {
-    return (one.kind == DecisionKind::made || one.kind == DecisionKind::submitted) &&
-           one.person_id == wish.by.person_id;
+    const bool counts = one.kind == DecisionKind::made || one.kind == DecisionKind::submitted ||
+                        (came && one.kind == DecisionKind::approved);
+    return counts && one.person_id == wish.by.person_id;
   });
 }
 
@@ -171,9 +174,9 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
   const Action action = approve ? Action::approve_case : Action::return_case;
   if (const auto allowed = allow(wanted->by.role, action); !allowed) return allowed.error();
   if (wanted->row.state != CaseState::review) return bad_state("the case is not in review");
-  // Whoever submitted it may take it back, but not approve it.
+  // Whoever submitted it may take it back, but not approve it. Nobody here submitted what came in a bundle.
   const Decision* submitted = last_of(wanted->decisions, DecisionKind::submitted);
-  const bool own = submitted == nullptr || submitted->person_id == wanted->by.person_id;
+  const bool own = submitted != nullptr && submitted->person_id == wanted->by.person_id;
   if (const auto allowed = allow(wanted->by.role, action, Subject::whose(own)); !allowed) return allowed.error();
   decide(library, *wanted, approve ? DecisionKind::approved : DecisionKind::returned, note);
   if (!approve) set_state(library, *wanted, CaseState::draft, false);

@@ -7,6 +7,7 @@
 
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
+#include "sim/base/hex.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -98,6 +99,50 @@ std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) 
                      reinterpret_cast<const unsigned char*>(text.data()), text.size(),
                      reinterpret_cast<const unsigned char*>(key.data()), key.size());
   return hash;
+}
+
+namespace {
+
+static_assert(std::tuple_size_v<HashKey> == crypto_sign_SEEDBYTES);
+static_assert(std::tuple_size_v<Signature> == crypto_sign_BYTES);
+
+struct KeyPair {
+  explicit KeyPair(const HashKey& seed) noexcept {
+    start_sodium();
+    crypto_sign_seed_keypair(open.data(), secret.data(), reinterpret_cast<const unsigned char*>(seed.data()));
+  }
+  ~KeyPair() { sodium_memzero(secret.data(), secret.size()); }
+  std::array<unsigned char, crypto_sign_PUBLICKEYBYTES> open{};
+  std::array<unsigned char, crypto_sign_SECRETKEYBYTES> secret{};
+};
+
+}  // namespace
+
+std::string public_key_of(const HashKey& secret_key) noexcept {
+  const KeyPair keys(secret_key);
+  return base::hex_from_bytes(std::as_bytes(std::span(keys.open)));
+}
+
+Signature sign(const HashKey& secret_key, std::span<const std::byte> bytes) noexcept {
+  const KeyPair keys(secret_key);
+  Signature signature{};
+  crypto_sign_detached(reinterpret_cast<unsigned char*>(signature.data()), nullptr,
+                       reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), keys.secret.data());
+  return signature;
+}
+
+bool is_signed_by(const std::string& public_key, std::span<const std::byte> bytes,
+                  const Signature& signature) noexcept {
+  start_sodium();
+  std::array<unsigned char, crypto_sign_PUBLICKEYBYTES> key{};
+  std::size_t length = 0;
+  if (sodium_hex2bin(key.data(), key.size(), public_key.data(), public_key.size(), nullptr, &length, nullptr) !=
+          0 ||
+      length != key.size() || public_key.size() != 2 * key.size())
+    return false;
+  return crypto_sign_verify_detached(reinterpret_cast<const unsigned char*>(signature.data()),
+                                     reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
+                                     key.data()) == 0;
 }
 
 void wipe(std::string& secret) noexcept {

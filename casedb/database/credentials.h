@@ -1,4 +1,4 @@
-// Passwords, random numbers that nobody guesses, and SHA-256: the door of libsodium.
+// Passwords, random numbers that nobody guesses, SHA-256 and signatures: the door of libsodium.
 #pragma once
 
 #include <array>
@@ -39,6 +39,15 @@ class Sha256 {
 // 16 bytes that say nothing of `text` to who does not know the key (BLAKE2b, RFC 7693, keyed).
 using HashKey = std::array<std::byte, 32>;
 std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) noexcept;
+// Signatures by Ed25519 (RFC 8032). The secret key is 32 random bytes; the public one is told as 64 digits of
+// lower-case hexadecimal.
+using Signature = std::array<std::byte, 64>;
+std::string public_key_of(const HashKey& secret_key) noexcept;
+Signature sign(const HashKey& secret_key, std::span<const std::byte> bytes) noexcept;
+// False also for what is no public key.
+bool is_signed_by(const std::string& public_key, std::span<const std::byte> bytes,
+                  const Signature& signature) noexcept;
+
 void wipe(std::string& secret) noexcept;  // overwrites, then empties
 
 }  // namespace seldinger::casedb

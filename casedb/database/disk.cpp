@@ -222,7 +222,7 @@ NewFolders::~NewFolders() {
 NewFolder::NewFolder(const fs::path& folder) : folder_(fs::absolute(folder).lexically_normal()) {
   if (!folder_.has_filename()) folder_ = folder_.parent_path();  // "a/"
   unfinished_ = folder_;
-  unfinished_ += ".unfinished";
+  unfinished_ += kUnfinished;
   for (int round = 0; round < 10; ++round) {
     if (::mkdir(unfinished_.c_str(), 0700) != 0 && errno != EEXIST) fail("a folder cannot be made", errno);
     descriptor_ = ::open(unfinished_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

@@ -88,6 +88,7 @@ class NewFolders {
 // A folder that appears whole under its name, or not at all: made as `<name>.unfinished` beside it, readable by its
 // owner only, synced with all it holds when it is kept, and taken away with it unless. One left by a killed process
 // is replaced.
+inline constexpr const char* kUnfinished = ".unfinished";
 class NewFolder {
  public:
   explicit NewFolder(const std::filesystem::path& folder);

@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::string_view kAssetEnding = "_sha256";
 constexpr std::string_view kOfCase = "case_id = :case_id";
-// Also that somebody looked for burned-in text: here, or in the library that it came from.
-constexpr std::array<std::string_view, 5> kChanging{"title", "state", "audience", "burned_in_checked_us",
-                                                    "burned_in_checked_by"};
+// Also what was done about faces and burned-in text: here, or in the library that it came from.
+constexpr std::array<std::string_view, 6> kChanging{
+    "title", "state", "audience", "face_state", "burned_in_checked_us", "burned_in_checked_by"};
 
 constexpr TravellingTable kTravelling[] = {
     {"training_case", kOfCase, kChanging}, {"case_attribute", kOfCase, {}}, {"case_warning", kOfCase, {}},
@@ -35,6 +35,8 @@ constexpr std::string_view kStaying[] = {"person",
                                          "enrolment",
                                          "programme_director",
                                          "case_cohort",
+                                         "case_received",
+                                         "trusted_key",
                                          "person_fact",
                                          "study",
                                          "study_researcher",

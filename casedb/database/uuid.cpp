@@ -40,4 +40,8 @@ std::string new_uuid() {
          hex.substr(20);
 }
 
+bool is_uuid(std::string_view text) noexcept {
+  return text.size() == 36 && text.find_first_not_of("0123456789abcdef-") == std::string_view::npos;
+}
+
 }  // namespace seldinger::casedb

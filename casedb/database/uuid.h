@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace seldinger::casedb {
 
@@ -12,5 +13,6 @@ std::int64_t now_us();
 
 // Strictly increasing within the process.
 std::string new_uuid();
+bool is_uuid(std::string_view text) noexcept;  // of its form: 36 lower-case hexadecimal digits and dashes
 
 }  // namespace seldinger::casedb

@@ -7,9 +7,8 @@
 #include <system_error>
 
 #include "casedb/database/disk.h"
-#include "sim/base/check.h"
+#include "casedb/database/leftovers.h"
 #include "sim/base/failure.h"
-#include "sim/base/hex.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -17,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 100000;
+const base::Error kExists{"exists", "there is already something of that name, and it is not an empty folder"};
 
 // Not whole, so that something might be missing from what is handed on without a word.
 bool refuses_all(const std::string& code) {
@@ -39,28 +39,12 @@ base::Result<std::vector<fs::path>> files_below(const fs::path& folder) {
   return files;
 }
 
-// Beside what it becomes, so that one rename makes it appear; gone again unless it became that.
-class Unfinished {
- public:
-  explicit Unfinished(const fs::path& out) {
-    std::array<std::byte, 8> random;
-    fill_random(random);
-    const fs::path whole = fs::absolute(out).lexically_normal();
-    path_ = (whole.has_filename() ? whole : whole.parent_path()).string() + ".unfinished-" +
-            base::hex_from_bytes(random);
-    fs::create_directories(path_);
-  }
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  const fs::path& path() const noexcept { return path_; }
-
- private:
-  fs::path path_;
-};
+// What a run that was killed leaves: its new files.
+bool is_of_a_run(const std::string& name) {
+  const std::string file = name.substr(0, name.find(".dcm"));
+  return (file.starts_with("new_image_") || file.starts_with("image_")) &&
+         (name == file + ".dcm" || is_temporary_name(name));
+}
 
 std::string numbered_name(std::size_t number) {
   std::array<char, 32> name;
@@ -71,7 +55,10 @@ std::string numbered_name(std::size_t number) {
 base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>& files, const fs::path& out,
                                 const HashKey& key) {
   const bool one_file = !fs::is_directory(in);
-  const Unfinished unfinished(out);
+  NewFolders parents(fs::absolute(out).lexically_normal().parent_path());
+  NewFolder made(out);
+  const fs::path& unfinished = made.unfinished();
+  remove_leftover_folders(unfinished.parent_path(), &is_of_a_run);
   Deidentified done;
   std::vector<std::pair<std::string, fs::path>> written;  // by new UID, which is as good as shuffled
   std::map<std::string, base::Problem> refusals;
@@ -86,7 +73,7 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
     }
     if (!refusals.empty()) continue;
     for (const auto& [what, count] : clean->counts) done.counts[what] += count;
-    const fs::path path = unfinished.path() / numbered_name(written.size() + 1).insert(0, "new_");
+    const fs::path path = unfinished / numbered_name(written.size() + 1).insert(0, "new_");
     write_durably(path, std::as_bytes(std::span(clean->bytes)));
     written.emplace_back(std::move(clean->sop_instance_uid), path);
   }
@@ -105,14 +92,13 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
   }
   std::sort(written.begin(), written.end());
   done.files = static_cast<int>(written.size());
-  for (std::size_t i = 0; i < written.size(); ++i)
-    fs::rename(written[i].second, unfinished.path() / numbered_name(i + 1));
+  for (std::size_t i = 0; i < written.size(); ++i) fs::rename(written[i].second, unfinished / numbered_name(i + 1));
   if (one_file && out.extension() == ".dcm") {
-    fs::rename(unfinished.path() / numbered_name(1), out);
-  } else {
-    sync_folder(unfinished.path());
-    fs::rename(unfinished.path(), fs::absolute(out).lexically_normal());
+    fs::rename(unfinished / numbered_name(1), out);
+  } else if (!made.keep()) {
+    return kExists;
   }
+  parents.keep();
   return done;
 }
 
@@ -121,8 +107,7 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
 base::Result<Deidentified> deidentify(const fs::path& in, const fs::path& out, const HashKey& key) {
   try {
     if (!fs::exists(in)) return base::Error{"not_found", "there is no such file or folder"};
-    if (fs::exists(out) && !(fs::is_directory(out) && fs::is_empty(out)))
-      return base::Error{"exists", "there is already something of that name, and it is not an empty folder"};
+    if (fs::exists(out) && !(fs::is_directory(out) && fs::is_empty(out))) return kExists;
     std::vector<fs::path> files{in};
     if (fs::is_directory(in)) {
       auto found = files_below(in);

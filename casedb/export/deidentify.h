@@ -23,13 +23,14 @@ struct CleanFile {
 };
 
 // One file. The transfer syntax stays (deflated becomes explicit little endian, its data set unpacked), and with it
-// every byte of the pixels. The same key gives the same UIDs; who does not have it cannot tell which belonged to
-// which. Refused, with texts that name no file and no value: `not_dicom`, `not_readable`, `truncated`, `damaged`,
-// `too_deep`, `too_large`, `unknown_syntax`, `no_instance`; and what the profile cannot make safe, since it does
-// not read pixels, reports or documents: `burned_in` (said so, or a screen picture), `secondary_capture`,
-// `may_have_text` (ultrasound, photographs, video, which usually carry text, unless BurnedInAnnotation is NO),
-// `report` (SR, encapsulated documents, presentation states), `dicomdir`, `unknown_object` (no SOP
-// class of the standard, or raw data).
+// every pixel; bits of their cells that are not the pixels' are cleared (casedb/export/hidden_bits.h). The same key
+// gives the same UIDs; who does not have it cannot tell which belonged to which. Refused, with texts that name no
+// file and no value: `not_dicom`, `not_readable`, `truncated`, `damaged`, `too_deep`, `too_large`,
+// `unknown_syntax`, `no_instance`; and what the profile cannot make safe, since it does not read pixels, reports or
+// documents: `burned_in` (said so, or a screen picture), `secondary_capture`, `may_have_text` (ultrasound,
+// photographs, video, which usually carry text, unless BurnedInAnnotation is NO), `report` (SR, encapsulated
+// documents, presentation states), `dicomdir`, `unknown_object` (no SOP class of the standard, or raw data),
+// `hidden_bits`.
 base::Result<CleanFile> deidentify_file(const std::filesystem::path& file, const HashKey& key);
 
 struct Deidentified {

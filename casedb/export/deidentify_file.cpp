@@ -7,6 +7,7 @@
 #include "casedb/export/clean_data_set.h"
 #include "casedb/export/deidentify.h"
 #include "casedb/export/dicom_tree.h"
+#include "casedb/export/hidden_bits.h"
 #include "casedb/import/dicom/dicom_file.h"
 #include "casedb/import/files/byte_count.h"
 
@@ -194,6 +195,8 @@ base::Result<CleanFile> deidentify_file(const std::filesystem::path& file, const
   if (!parsed) return parsed.error();
   if (auto error = why_not(*parsed)) return *error;
   if (parsed->sop_instance.empty()) return base::Error{"no_instance", "a file without the UID of what it holds"};
+  const auto hidden_bits = clear_hidden_bits(parsed->data_set, parsed->format);
+  if (!hidden_bits) return hidden_bits.error();
   DataSetCleaner cleaner(key);
   cleaner.clean(parsed->data_set);
   CleanFile clean;
@@ -202,6 +205,7 @@ base::Result<CleanFile> deidentify_file(const std::filesystem::path& file, const
   say_so(parsed->data_set, parsed->format);
   clean.bytes = meta_bytes(*parsed, clean.sop_instance_uid) + bytes_of(parsed->data_set, parsed->format);
   clean.counts = cleaner.counts();
+  if (*hidden_bits > 0) clean.counts["hidden_bits"] = *hidden_bits;
   return clean;
 }
 

@@ -60,6 +60,7 @@ CaseParts load_parts(Library& library, CaseRow row) {
   parts.lesions = list_lesions(library, row.case_id);
   parts.structures = list_structures(library, row.case_id);
   parts.decisions = list_decisions(library, row.case_id);
+  parts.received = find_received(library, row.case_id);
   parts.provisional = !has_standard(library, row);
   parts.row = std::move(row);
   return parts;
@@ -106,6 +107,17 @@ Json json_of_rule_of(const assessment::PassRule& rule) {
   return Json::parse(assessment::json_of_rule(rule)).at("criteria");
 }
 
+Json json_of_received(const std::optional<Received>& received) {
+  if (!received) return nullptr;
+  return {{"received_us", received->received_us},
+          {"signing_key", maybe(received->signing_key)},
+          {"trusted_as", maybe(received->trusted_as)},
+          {"sender_says",
+           {{"state", name_of(received->state)},
+            {"face_state", name_of(received->face_state)},
+            {"burned_in_checked_us", maybe(received->burned_in_checked_us)}}}};
+}
+
 void add_authoring(const CaseParts& parts, Json& json) {
   const CaseRow& row = parts.row;
   Json structures = Json::array(), decisions = Json::array();
@@ -121,6 +133,7 @@ void add_authoring(const CaseParts& parts, Json& json) {
   json["audience"] = row.own_cohort_only ? "own_cohort" : "everyone";
   json["reviewed_by"] = review ? Json(review->pseudonym) : Json(nullptr);
   json["decisions"] = decisions;
+  json["received"] = json_of_received(parts.received);
   add_setting(row, json);
   json["provisional"] = parts.provisional;
   json["structures"] = structures;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <vector>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/received.h"
 #include "casedb/cases/versions.h"
 
 namespace seldinger::casedb {
@@ -15,7 +17,8 @@ struct CaseParts {
   std::vector<LesionRow> lesions;
   std::vector<StructureRow> structures;
   std::vector<Decision> decisions;
-  bool provisional = true;  // too few consultants have set the standard
+  std::optional<Received> received{};  // it came in a bundle
+  bool provisional = true;             // too few consultants have set the standard
 };
 base::Result<CaseParts> load_parts(Library& library, const std::string& case_id);  // `no_case`
 CaseParts load_parts(Library& library, CaseRow row);
@@ -23,7 +26,8 @@ CaseParts load_parts(Library& library, CaseRow row);
 nlohmann::ordered_json json_of_lesion(const LesionRow& lesion);
 nlohmann::ordered_json json_of_structure(const StructureRow& structure);
 nlohmann::ordered_json json_of_rule_of(const assessment::PassRule& rule);
-// Fields of the setting, the version and who decided (by pseudonym) are added to `json`.
+nlohmann::ordered_json json_of_received(const std::optional<Received>& received);
+// Fields of the setting, the version, who decided (by pseudonym) and where it came from are added to `json`.
 void add_authoring(const CaseParts& parts, nlohmann::ordered_json& json);
 
 }  // namespace seldinger::casedb

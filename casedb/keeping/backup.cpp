@@ -7,6 +7,7 @@
 
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
+#include "casedb/database/leftovers.h"
 #include "casedb/database/migrate.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
@@ -142,12 +143,24 @@ base::Result<bool> copy_assets(Library& library, const fs::path& folder, List& l
   return true;
 }
 
+// What a backup that was killed holds: parts of it, finished or not.
+bool is_of_a_backup(const std::string& name) {
+  const std::string assets = std::string(kAssetsFolder) + "/";
+  if (name.starts_with(assets)) {
+    const std::string asset = name.substr(assets.size());
+    return is_asset_name(asset) || (is_temporary_name(asset) && is_asset_name(asset.substr(0, 64)));
+  }
+  return name == kAssetsFolder || name.starts_with(kDatabaseFile) || name.starts_with(kIdentitiesFile) ||
+         name.starts_with(kListFile);
+}
+
 base::Result<Copied> backed_up(Library& library, const fs::path& out, const std::string& program_version) {
   const base::Error exists{"exists", "something has the backup's name already"};
   if (fs::exists(fs::symlink_status(out))) return exists;
   NewFolders parents(fs::absolute(out).lexically_normal().parent_path());
   NewFolder made(out);
   const fs::path& folder = made.unfinished();
+  remove_leftover_folders(folder.parent_path(), &is_of_a_backup);
   List list;
   for (int round = 0; round < 5; ++round) {
     list.clear();

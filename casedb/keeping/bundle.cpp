@@ -7,14 +7,18 @@
 #include <set>
 
 #include "casedb/cases/bundle_rows.h"
+#include "casedb/cases/case_rows.h"
+#include "casedb/cases/case_state.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
+#include "casedb/database/leftovers.h"
 #include "casedb/database/migrate.h"
 #include "casedb/database/new_assets.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
 #include "casedb/keeping/bundle_file.h"
+#include "casedb/keeping/trusted_keys.h"
 #include "sim/base/check.h"
 #include "sim/base/codec.h"
 #include "sim/case/form/mesh.h"
@@ -32,6 +36,7 @@ constexpr std::size_t kBundlePiece = std::size_t{1} << 20;
 constexpr std::uint64_t kMostShrinking = 1000;
 
 const base::Error kDamaged{"damaged", "the bundle is damaged"};
+const base::Error kBadValues{"bundle_values", "a value in a case of the bundle is none that this program stores"};
 const base::Error kTooLarge{"too_large", "the bundle would unpack to far more than a CT does"};
 
 bool plausible(std::uint64_t unpacked, std::uint64_t packed) {
@@ -69,6 +74,28 @@ bool fits(const volume::Volume& volume, const Statement& row) {
   return true;
 }
 
+// Label maps that were added to a case are such as `case label` adds, and its structures are in its files.
+base::Result<void> check_authored_files(const OpenFile& file, Sqlite& rows, const std::string& case_id,
+                                        const Assets& assets, std::uint64_t voxels) {
+  const CaseRow row = read_cases(rows, case_id).at(0);
+  Statement maps = question(rows, "label_maps_of_case");
+  for (maps.bind("case_id", case_id); maps.step();) {
+    const auto bytes = read_asset(file, *assets.at(maps.text("labels_sha256")));
+    if (!bytes) return bytes.error();
+    if (!plausible(voxels, bytes->size())) return kTooLarge;
+    if (volume::stored_voxels(*bytes) != voxels) return kDamaged;
+    const auto labels = volume::labels_from_bytes(*bytes);
+    if (!labels || !is_sound_label_map(row, *labels)) return kDamaged;
+  }
+  CaseContents contents(
+      rows, [&](const std::string& sha256) { return read_asset(file, *assets.at(sha256)); }, row);
+  const auto structures = read_structures(rows, case_id);
+  CHECK(structures);  // rows_are_sound
+  for (const StructureRow& structure : *structures)
+    if (!check_place(contents, row, structure)) return kBadValues;
+  return {};
+}
+
 // The files of a case are what they are used as.
 base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::string& case_id,
                                const Assets& assets) {
@@ -92,7 +119,8 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
     const auto bytes = read_asset(file, *asset("skin_sha256"));
     if (!bytes) return bytes.error();
     if (!plausible(base::claimed_size(*bytes).value_or(0), bytes->size())) return kTooLarge;
-    if (!cases::mesh_from_bytes(*bytes)) return kDamaged;
+    const auto skin = cases::mesh_from_bytes(*bytes);
+    if (!skin || skin->triangles.empty()) return kDamaged;
   }
   if (!row.is_null("labels_sha256")) {
     const auto bytes = read_asset(file, *asset("labels_sha256"));
@@ -108,7 +136,7 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
     if (!plausible(count, bytes->size())) return kTooLarge;
     if (!volume::classes_from_bytes(*bytes, static_cast<std::size_t>(count))) return kDamaged;
   }
-  return {};
+  return check_authored_files(file, rows, case_id, assets, count);
 }
 
 base::Result<std::unique_ptr<Sqlite>> read_rows(const OpenFile& file, RowsReader& reader, const BundledCase& part) {
@@ -149,7 +177,7 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list, con
 }
 
 Bundle told(const BundleList& list, std::uint64_t bytes) {
-  Bundle bundle{list.schema, list.program_version, {}, list.assets.size(), bytes};
+  Bundle bundle{list.schema, list.program_version, {}, list.assets.size(), bytes, list.signing_key};
   for (const BundledCase& part : list.cases) bundle.case_ids.push_back(part.case_id);
   return bundle;
 }
@@ -167,6 +195,8 @@ base::Result<Compared> compared(Library& library, const OpenFile& file, const Bu
     switch (presence(rows, library.database(), part.case_id)) {
       case Presence::absent:
         found.cases.stored.push_back(part.case_id);
+        if (read_cases(rows, part.case_id).at(0).state == CaseState::published)
+          found.cases.for_review.push_back(part.case_id);
         found.assets.insert(names.begin(), names.end());
         break;
       case Presence::same:
@@ -207,7 +237,7 @@ base::Result<bool> store(Library& library, const OpenFile& file, const BundleLis
     const auto rows = read_rows(file, reader, part);
     if (!rows) return rows.error();
     if (presence(**rows, library.database(), part.case_id) != Presence::absent) return false;
-    insert_rows(**rows, library.database(), part.case_id);
+    insert_rows(**rows, library.database(), part.case_id, list.signing_key);
   }
   transaction.commit();
   assets.keep();
@@ -215,7 +245,7 @@ base::Result<bool> store(Library& library, const OpenFile& file, const BundleLis
 }
 
 base::Result<Bundle> written(Library& library, std::vector<std::string> case_ids, const fs::path& out,
-                             const std::string& program_version) {
+                             const std::string& program_version, const std::optional<HashKey>& secret_key) {
   const base::Error too_large{"too_large", "there is more in it than a bundle takes"};
   Sqlite& database = library.database();
   BundleList list;
@@ -246,8 +276,9 @@ base::Result<Bundle> written(Library& library, std::vector<std::string> case_ids
     if (!library.has_asset(name)) return missing;
     list.assets.push_back({name, fs::file_size(library.folder() / kAssetsFolder / name), 0});
   }
+  remove_leftover_files(out.parent_path(), kBundleMagic);
   NewFile made(out);
-  const std::vector<std::byte> head = bundle_head(list);
+  const std::vector<std::byte> head = bundle_head(list, secret_key);
   std::uint64_t bytes = head.size();
   made.write(head);
   for (const std::vector<std::byte>& part : parts) {
@@ -277,8 +308,8 @@ base::Error not_found() {
 }  // namespace
 
 base::Result<Bundle> write_bundle(Library& library, std::vector<std::string> case_ids, const fs::path& out,
-                                  const std::string& program_version) {
-  return without_paths([&] { return written(library, std::move(case_ids), out, program_version); });
+                                  const std::string& program_version, const std::optional<HashKey>& secret_key) {
+  return without_paths([&] { return written(library, std::move(case_ids), out, program_version, secret_key); });
 }
 
 base::Result<Bundle> check_bundle(const fs::path& file) {
@@ -300,8 +331,11 @@ base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
     if (!list) return list.error();
     try {
       for (;;) {
-        const auto found = compared(library, in, *list);
+        auto found = compared(library, in, *list);
         if (!found) return found.error();
+        found->cases.signing_key = list->signing_key;
+        for (TrustedKey& one : list_trusted_keys(library))
+          if (one.public_key == list->signing_key) found->cases.trusted_as = std::move(one.label);
         if (found->cases.stored.empty()) return found->cases;
         const auto stored = store(library, in, *list, *found);
         if (!stored) return stored.error();

@@ -93,8 +93,16 @@ TEST_F(KeepTest, ACaseGoesToAnotherSite) {
   const auto again = command("bundle import " + at("all.sdbundle") + " --json" + other);
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(Json::parse(again.out).at("present").at(0), case_id_);
-  EXPECT_EQ(command("case show " + case_id_ + " --json" + other).out,
-            command("case show " + case_id_ + " --json --library " + library_).out);
+  Json here = Json::parse(command("case show " + case_id_ + " --json --library " + library_).out);
+  Json there = Json::parse(command("case show " + case_id_ + " --json" + other).out);
+  EXPECT_TRUE(here.at("received").is_null());
+  EXPECT_EQ(there.at("received").at("sender_says").at("face_state"), here.at("face_state"));
+  EXPECT_EQ(there.at("face_state"), "unchecked");
+  for (const char* own : {"received", "face_state"}) {
+    here.erase(own);
+    there.erase(own);
+  }
+  EXPECT_EQ(there, here);
   EXPECT_EQ(command("check" + other).exit_code, 0);
 
   const auto before = fixtures::fingerprint(scratch_ / "other");
@@ -106,6 +114,46 @@ TEST_F(KeepTest, ACaseGoesToAnotherSite) {
   expect_refused("case bundle " + std::string(36, '0') + " --out " + at("b") + other, "no_case");
   EXPECT_EQ(fixtures::fingerprint(scratch_ / "other"), before);
   EXPECT_FALSE(fs::exists(scratch_ / "b"));
+}
+
+TEST_F(KeepTest, ASignedBundleTellsWhoSent) {
+  const std::string other = " --library " + at("other"), to_b = "bundle import " + at("b.sdbundle");
+  const auto key = command("bundle key " + at("site.key"));
+  ASSERT_EQ(key.exit_code, 0) << key.err;
+  const std::string open_key = key.out.substr(0, 64);
+  EXPECT_EQ(key.out, open_key + "\n");
+  EXPECT_EQ(command("bundle key " + at("site.key")).out, key.out) << "the same key again";
+  EXPECT_EQ(fs::status(at("site.key")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  const std::string write = "case bundle " + case_id_ + " --out " + at("b.sdbundle") + " --library " + library_;
+  expect_refused(write + " --sign " + at("nowhere.key"), "not_found");
+  const auto written = command(write + " --json --sign " + at("site.key"));
+  ASSERT_EQ(written.exit_code, 0) << written.err;
+  EXPECT_EQ(Json::parse(written.out).at("signing_key"), open_key);
+  EXPECT_NE(command("bundle check " + at("b.sdbundle")).out.find("signed by " + open_key), std::string::npos);
+
+  // Into a new library, which is not made for what is refused.
+  expect_refused(to_b + other, "no_library");
+  std::string bytes = fixtures::whole_file(at("b.sdbundle")), bad = bytes;
+  bad[bad.size() - 1] = static_cast<char>(bad.back() ^ 1);
+  std::ofstream(at("b.sdbundle"), std::ios::binary) << bad;
+  expect_refused(to_b + " --new-library" + other, "damaged");
+  EXPECT_FALSE(fs::exists(at("other")));
+  std::ofstream(at("b.sdbundle"), std::ios::binary) << bytes;
+  const auto unknown = command(to_b + " --new-library" + other);
+  ASSERT_EQ(unknown.exit_code, 0) << unknown.err;
+  EXPECT_NE(unknown.out.find("signed by " + open_key + ", which is not trusted here"), std::string::npos);
+
+  ASSERT_EQ(command("bundle trust add " + open_key + " --label 'Site A'" + other).exit_code, 0);
+  expect_refused("bundle trust add " + open_key + " --label 'Site B'" + other, "key_known");
+  EXPECT_EQ(Json::parse(command("bundle trust list --json" + other).out).at("trusted_keys").at(0).at("label"),
+            "Site A");
+  EXPECT_EQ(Json::parse(command(to_b + " --json" + other).out).at("trusted_as"), "Site A");
+  EXPECT_NE(command("case show " + case_id_ + other).out.find("signed by Site A; its sender says: draft"),
+            std::string::npos);
+  EXPECT_EQ(command("bundle trust remove 'Site A'" + other).exit_code, 0);
+  expect_refused("bundle trust remove 'Site A'" + other, "no_key");
+  EXPECT_EQ(command("bundle trust forget" + other).exit_code, 2);
+  EXPECT_EQ(command("bundle trust add" + other).exit_code, 2);
 }
 
 // The page's own lines, with its paths put below the scratch folder.

@@ -157,7 +157,7 @@ void EditorPanel::draw_actions(Trainer& trainer) {
   const casedb::CaseRow& row = editor.row();
   const bool draft = row.state == casedb::CaseState::draft, review = row.state == casedb::CaseState::review;
   if (!editor.locked().empty() && draft) quiet(editor.locked().c_str());
-  if (draft && row.origin == "import" && !row.burned_in_checked &&
+  if ((draft || review) && row.origin == "import" && !row.burned_in_checked &&
       noted_button("I looked: no slice holds text", -1.0F))
     editor.confirm_no_burned_in_text();
   if (draft || review) {

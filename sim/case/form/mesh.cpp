@@ -11,6 +11,7 @@ namespace {
 constexpr std::uint32_t kMagic = 0x4d4c4453;  // "SDLM"
 constexpr std::uint32_t kFormat = 1;
 constexpr std::uint32_t kMaxCount = 20'000'000;  // 20 million triangles are 500 MB: no skin needs more
+constexpr float kFarthestVertexMm = 1e7F;              // ten times what import takes of an origin
 
 struct Header {
   std::uint32_t magic, format, vertices, triangles;
@@ -59,7 +60,8 @@ base::Result<Mesh> mesh_from_bytes(std::span<const std::byte> bytes) {
   get(mesh.triangles.data(), mesh.triangles.size() * 12);
   get(mesh.cut.data(), mesh.cut.size());
   for (const glm::vec3& vertex : mesh.vertices_lps_mm)
-    if (!(std::isfinite(vertex.x) && std::isfinite(vertex.y) && std::isfinite(vertex.z))) return damaged;
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(vertex[axis]) <= kFarthestVertexMm)) return damaged;
   for (const glm::uvec3& triangle : mesh.triangles)
     if (triangle.x >= header.vertices || triangle.y >= header.vertices || triangle.z >= header.vertices)
       return damaged;

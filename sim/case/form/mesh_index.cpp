@@ -14,8 +14,15 @@ namespace {
 
 // Every level puts at most three children aside; the tree of pairs is at most 64 deep (mesh_index_build.cpp).
 constexpr int kStack = 3 * 64;
+// The boxes are tried in float, where the square of more than 1e19 is infinite and the difference of two infinities
+// no number, which every box, also an empty one, would seem to be near to.
+constexpr double kFarthestMm = 1e15;
 
 using Four = float __attribute__((vector_size(16)));
+bool is_far(const glm::dvec3& p) {  // or no point
+  return !(std::abs(p.x) <= kFarthestMm && std::abs(p.y) <= kFarthestMm && std::abs(p.z) <= kFarthestMm);
+}
+
 using FourSigns = std::int32_t __attribute__((vector_size(16)));
 
 Four four(float value) {
@@ -108,7 +115,7 @@ void MeshIndex::visit(const glm::dvec3& p, bool skin_only, Nearest& nearest) con
 
 Closest MeshIndex::answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept {
   CHECK(!triangles_.empty());
-  CHECK(p.x == p.x && p.y == p.y && p.z == p.z);  // every box would seem to be near
+  if (is_far(p)) return far_answer(p, hint, skin_only);
   Nearest nearest;
   const std::uint32_t at = position_[hint < position_.size() ? hint : 0];
   if (!(skin_only && triangles_[at].cut)) {
@@ -128,6 +135,20 @@ Closest MeshIndex::answer(const glm::dvec3& p, std::uint32_t hint, bool skin_onl
   return {inside ? -distance : distance, nearest.point, triangle.id};
 }
 
+// Beyond where the boxes can be asked: the triangle nearest to the place on the way there, the distance to p
+// itself.
+Closest MeshIndex::far_answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept {
+  glm::dvec3 near(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+    if (!std::isnan(p[axis])) near[axis] = std::clamp(p[axis], -kFarthestMm, kFarthestMm);
+  Closest found = answer(near, hint, skin_only);
+  const double distance =
+      std::hypot(p.x - found.point_lps_mm.x, p.y - found.point_lps_mm.y, p.z - found.point_lps_mm.z);
+  const bool is_point = !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z);
+  found.distance_mm = is_point ? std::copysign(distance, found.distance_mm) : std::nan("");
+  return found;
+}
+
 Closest MeshIndex::closest(const glm::dvec3& p, std::uint32_t hint) const noexcept {
   return answer(p, hint, false);
 }
@@ -136,7 +157,7 @@ Closest MeshIndex::closest_skin(const glm::dvec3& p, std::uint32_t hint) const n
   const Closest whole = answer(p, hint, false);
   if (!triangles_[position_[whole.triangle]].cut) return whole;
   Closest skin = answer(p, hint, true);
-  if (!std::isfinite(skin.distance_mm)) return whole;  // there are only caps
+  if (triangles_[position_[skin.triangle]].cut) return whole;  // there are only caps
   skin.distance_mm = whole.distance_mm < 0.0 ? -std::abs(skin.distance_mm) : std::abs(skin.distance_mm);
   return skin;
 }
@@ -184,7 +205,7 @@ void MeshIndex::walk(const Ray& ray, double& best_mm, Visit visit) const noexcep
 
 std::optional<RayHit> MeshIndex::first_hit(const glm::dvec3& p, const glm::dvec3& direction,
                                            double max_mm) const noexcept {
-  if (triangles_.empty()) return std::nullopt;
+  if (triangles_.empty() || is_far(p) || !(max_mm > 0.0)) return std::nullopt;
   double best = max_mm;
   const Triangle* hit = nullptr;
   walk(Ray(p, direction, box_error_mm(p)), best, [&](const Triangle& triangle) {
@@ -216,7 +237,7 @@ std::optional<BallTouch> MeshIndex::first_touch(const glm::dvec3& p, const glm::
                                                 double radius_mm, double slack_mm,
                                                 std::uint32_t hint) const noexcept {
   CHECK(slack_mm > 0.0 && slack_mm < radius_mm);
-  if (triangles_.empty()) return std::nullopt;
+  if (triangles_.empty() || is_far(p) || std::isnan(length_mm)) return std::nullopt;
   const double least_mm = radius_mm - slack_mm, near_mm = 0.25 * slack_mm;
   double best = length_mm;  // where the nearest triangle so far comes nearer than least_mm
   std::optional<BallTouch> touch;

@@ -39,7 +39,8 @@ class MeshIndex {
   bool empty() const noexcept { return triangles_.empty(); }
 
   // Sign by angle-weighted pseudonormals (Bærentzen and Aanæs, IEEE TVCG 11, 2005), right at edges and vertices
-  // too. `hint` is any triangle; a near one (the last answer) makes the query faster and never changes it.
+  // too. `hint` is any triangle; a near one (the last answer) makes the query faster and never changes it. Bears
+  // any doubles: the distance is NaN where one of them is; rays and balls from farther than 10¹⁵ mm meet nothing.
   Closest closest(const glm::dvec3& p_lps_mm, std::uint32_t hint = 0) const noexcept;
 
   // As closest, among the triangles that are skin (not cut caps): the sign is that of the whole closed mesh.
@@ -91,6 +92,7 @@ class MeshIndex {
   void walk(const Ray& ray, double& best_mm, Visit visit) const noexcept;
   void visit(const glm::dvec3& p, bool skin_only, Nearest& nearest) const noexcept;
   Closest answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept;
+  Closest far_answer(const glm::dvec3& p, std::uint32_t hint, bool skin_only) const noexcept;
 
   std::vector<Node> nodes_;
   double reach_mm_ = 0.0;                // greatest coordinate, ±

@@ -470,5 +470,21 @@ TEST(Deidentify, NothingIsLeftBehindByARefusal) {
   EXPECT_TRUE(fs::is_regular_file(folder / "new/one/image_000001.dcm"));
 }
 
+// Its folder bore a random name, so that no later run could know it.
+TEST(Deidentify, TheNextRunTakesWhatAKilledOneLeft) {
+  const fs::path folder = scratch();
+  plant_series(folder / "in", PlantedSyntax::explicit_le);
+  write(folder / "monday.unfinished/new_image_000001.dcm", "half");
+  write(folder / "monday.unfinished/image_000002.dcm.tmp-4194305-1", "half");
+  write(folder / "mine.unfinished/image_000001.dcm", "whole");
+  write(folder / "mine.unfinished/notes.txt", "mine");
+  write(folder / "out.unfinished/new_image_000001.dcm", "half");
+  ASSERT_TRUE(deidentify(folder / "in", folder / "out", key_of(1)).has_value());
+  EXPECT_FALSE(fs::exists(folder / "monday.unfinished"));
+  EXPECT_TRUE(fs::exists(folder / "mine.unfinished/image_000001.dcm"));
+  EXPECT_FALSE(fs::exists(folder / "out.unfinished"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "out"), {}), 3);
+}
+
 }  // namespace
 }  // namespace seldinger::casedb

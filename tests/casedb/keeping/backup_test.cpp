@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "casedb/database/credentials.h"
+#include "casedb/database/disk.h"
 #include "casedb/keeping/check.h"
 #include "tests/casedb/library_samples.h"
 
@@ -221,6 +222,35 @@ TEST_F(BackupTest, LeftByAKilledProcessIsReplaced) {
   EXPECT_EQ(backed_up(), "none");
   EXPECT_FALSE(fs::exists(scratch_ / "backup.unfinished"));
   EXPECT_EQ(refusal(), "none");
+}
+
+// Yesterday's, which was killed, stayed for ever, with names in it: today's has another name. What is being
+// written, what holds something else, what is empty and what a link leads to is left alone.
+TEST_F(BackupTest, TheNextBackupTakesWhatAKilledOneLeft) {
+  make();
+  const auto left = [&](const char* name, std::initializer_list<const char*> files) {
+    const fs::path folder = scratch_ / name;
+    fs::create_directories(folder / "assets");
+    for (const char* file : files) std::ofstream(folder / file) << "half";
+    return folder;
+  };
+  const std::string asset = "assets/" + std::string(64, 'a');
+  const fs::path killed = left("2026-01-01.unfinished", {"seldinger.sqlite", "identities.sqlite", asset.c_str(),
+                                                         (asset + ".tmp-4194305-3").c_str(), "backup.txt.tmp-1-1"}),
+                 foreign = left("essay.unfinished", {"seldinger.sqlite", "chapter1.txt"}),
+                 other = left("2026-01-02", {"seldinger.sqlite"}),
+                 linked = left("real.unfinished", {"seldinger.sqlite"});
+  fs::create_symlink(other / "seldinger.sqlite", linked / "identities.sqlite");
+  fs::create_directory(scratch_ / "empty.unfinished");
+  fs::create_directory_symlink(other, scratch_ / "link.unfinished");
+  NewFolder running(scratch_ / "running");
+  std::ofstream(running.unfinished() / "seldinger.sqlite") << "half";
+  EXPECT_EQ(backed_up(), "none");
+  EXPECT_FALSE(fs::exists(killed));
+  for (const fs::path& path :
+       {foreign, other, linked, scratch_ / "empty.unfinished", scratch_ / "link.unfinished", running.unfinished()})
+    EXPECT_TRUE(fs::exists(path)) << path;
+  EXPECT_EQ(fixtures::whole_file(foreign / "chapter1.txt"), "half");
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
   const std::size_t bound = 2 * most_bytes(file, code) + (std::size_t{64} << 20);
   ASSERT_EQ(code, "none");
 
-  const std::set<std::string> known = {"damaged", "too_large", "not_a_bundle", "bundle_version", "newer_schema"};
+  const std::set<std::string> known = {"damaged",        "too_large",    "not_a_bundle",
+                                       "bundle_version", "newer_schema", "bundle_values"};
   const auto before = state_of(away);
   base::Rng rng(77);
   fixtures::Outcomes outcomes;

@@ -238,6 +238,37 @@ TEST(MeshIndex, ATriangleWithoutAreaIsItsEdges) {
   }
 }
 
+// A centre of 1e155 mm, out of a bundle, made every box seem near, also those that are empty: the search left its
+// stack (SIGSEGV), and a NaN ended the program by a CHECK.
+TEST(MeshIndex, AnyDoubleIsBorne) {
+  Mesh mesh = fixtures::sphere_mesh({3, -2, 5}, 40.0, 3, 4.0);
+  for (std::size_t t = 0; t < mesh.cut.size(); t += 3) mesh.cut[t] = 1;
+  const MeshIndex index(mesh);
+  constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+  const double values[] = {0.0,    1e15,  -1e15, 1.1e15, -1e19, 1e20,  1e38,   -1e39,  1e154,
+                           -1e155, 1e300, kInf,  -kInf,  kNan,  1e308, -1e308, 5e-324, 1.7976931348623157e308};
+  for (const double x : values)
+    for (const double y : values)
+      for (const double z : values) {
+        const glm::dvec3 p(x, y, z);
+        const bool is_point = !std::isnan(x) && !std::isnan(y) && !std::isnan(z);
+        for (const Closest& one : {index.closest(p, 7), index.closest_skin(p)}) {
+          ASSERT_LT(one.triangle, mesh.triangles.size());
+          ASSERT_EQ(std::isnan(one.distance_mm), !is_point) << x << " " << y << " " << z;
+          const double far = std::max({std::abs(x), std::abs(y), std::abs(z)});
+          if (is_point && far > 0.0 && far <= 1e300)
+            ASSERT_NEAR(one.distance_mm / std::hypot(x, y, z), 1.0, far < 1.0 ? 1e308 : 1e-9);
+          if (is_point && far > 1e300) ASSERT_GE(one.distance_mm, 1e300);
+        }
+        const auto hit = index.first_hit(p, {0, 0, 1}, kInf);
+        ASSERT_TRUE(!hit || hit->triangle < mesh.triangles.size());
+        if (!is_point) ASSERT_FALSE(hit.has_value());
+        ASSERT_FALSE(index.first_hit({0, 0, 0}, {0, 0, 1}, kNan).has_value());
+        const auto touch = index.first_touch(p, {0, 1, 0}, 1e9, 1.0, 0.1);
+        ASSERT_TRUE(!touch || touch->triangle < mesh.triangles.size());
+      }
+}
+
 TEST(MeshBytes, RoundTripAndDamage) {
   Mesh mesh = fixtures::sphere_mesh({1, 2, 3}, 30.0, 2, 1.0);
   mesh.cut[5] = 1;
@@ -256,6 +287,11 @@ TEST(MeshBytes, RoundTripAndDamage) {
     if (read) {
       EXPECT_EQ(read->triangles, mesh.triangles) << i;  // a bit that means nothing
     }
+  }
+  for (const float far : {1e8F, -3e38F, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    Mesh other = mesh;
+    other.vertices_lps_mm[3].y = far;
+    EXPECT_FALSE(mesh_from_bytes(bytes_from_mesh(other)).has_value()) << far;
   }
   mesh.triangles[0].x = 9999;
   EXPECT_FALSE(mesh_from_bytes(bytes_from_mesh(mesh)).has_value());

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <string_view>
+
+#include "casedb/cases/case_rows.h"
+#include "casedb/cases/setting_columns.h"
+#include "casedb/cases/structure_json.h"
+#include "casedb/database/tables.h"
+#include "casedb/database/uuid.h"
+#include "sim/base/check.h"
+#include "sim/volume/volume_bytes.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr std::size_t kMostName = 100;                            // bytes
+constexpr std::size_t kMostText = 1000;                           // bytes of a text
+constexpr std::size_t kMostDocument = std::size_t{256} << 10;     // of JSON: a tube has up to 1000 points
+constexpr std::int64_t kEarliestUs = -62'135'596'800'000'000;     // the year 1
+constexpr std::int64_t kLatestUs = 253'402'300'799'000'000;       // the end of the year 9999
+constexpr double kFarthestOriginMm = 1e6;                         // as import takes it
+constexpr std::int64_t kMostOfAKind = 1000;                       // lesions, structures of a case
+constexpr double kNearlyPerpendicular = 0.01, kNearlyOne = 0.01;  // of directions that a scanner rounded
+
+bool on_one_line(std::string_view text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+}
+
+bool is_whole(std::string_view column, std::int64_t value) {
+  if (column.ends_with("_us")) return value >= kEarliestUs && value <= kLatestUs;
+  if (column == "seed") return true;  // any 64 bits
+  return value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max();
+}
+
+bool is_sound_text(std::string_view column, std::string_view text) {
+  if (column.ends_with("_sha256")) return is_asset_name(std::string(text));
+  if (column.ends_with("_id")) return is_uuid(text);
+  if (column == "geometry" || column == "pass_rule") return text.size() <= kMostDocument;
+  return text.size() <= kMostText && on_one_line(text);
+}
+
+// By what the schema says of the columns, so that one of a later migration is asked too.
+bool values_are_sound(Sqlite& database, const TravellingTable& table, const std::string& case_id) {
+  const std::vector<std::string> columns = columns_of(database, table.name);
+  Statement rows =
+      database.prepare("SELECT * FROM " + std::string(table.name) + " WHERE " + std::string(table.of_case));
+  std::int64_t count = 0;
+  for (rows.bind("case_id", case_id); rows.step(); ++count)
+    for (const std::string& column : columns) {
+      const Statement::Kind kind = rows.kind(column);
+      if (kind == Statement::Kind::real && !std::isfinite(rows.real(column))) return false;
+      if (kind == Statement::Kind::integer && !is_whole(column, rows.integer(column))) return false;
+      if (kind == Statement::Kind::text && !is_sound_text(column, rows.view(column))) return false;
+      if (kind == Statement::Kind::blob) return false;
+    }
+  return count <= kMostOfAKind;
+}
+
+bool is_sound_grid(const CaseRow& row) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double spacing_mm = row.spacing_mm[axis];
+    const glm::dvec3 along(row.lps_from_voxel[axis]), next(row.lps_from_voxel[(axis + 1) % 3]);
+    if (!(spacing_mm >= volume::kMinSpacingMm && spacing_mm <= volume::kMaxSpacingMm)) return false;
+    if (!(std::abs(glm::length(along) / spacing_mm - 1.0) <= kNearlyOne)) return false;
+    if (!(std::abs(glm::dot(along, next)) <= kNearlyPerpendicular * glm::length(along) * glm::length(next)))
+      return false;
+    if (!(std::abs(row.lps_from_voxel[3][axis]) <= kFarthestOriginMm)) return false;
+  }
+  return true;
+}
+
+base::Error bad(const char* text) {
+  return {"bad_structure", text};
+}
+
+// Whether its box and the volume's overlap.
+bool touches(const cases::Shape& shape, const CaseRow& row) {
+  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(grid);
+  const cases::Bounds bounds = cases::bounds_of(shape);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 share(corner & 1, (corner >> 1) & 1, corner >> 2);
+    const glm::dvec3 p = bounds.low_lps_mm + share * (bounds.high_lps_mm - bounds.low_lps_mm);
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
+    low = glm::min(low, index);
+    high = glm::max(high, index);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(high[axis] >= -0.5 && low[axis] <= row.size_voxels[axis] - 0.5)) return false;
+  return true;
+}
+
+base::Result<void> check_drawn_place(const CaseRow& row, const StructureRow& structure) {
+  if (const auto fit = check_drawn(structure.drawn); !fit) return fit.error();
+  if (structure.hu && !(*structure.hu >= volume::kAirHu && *structure.hu <= 32767.0))
+    return bad("HU are from -1024 to 32767");
+  if (!touches(structure.drawn, row)) return bad("the structure lies beside the volume");
+  return {};
+}
+
+}  // namespace
+
+bool is_sound_name(const std::string& name) {
+  return !name.empty() && name.size() <= kMostName && name.front() != ' ' && name.back() != ' ' &&
+         on_one_line(name);
+}
+
+base::Result<void> check_case_title(const std::string& title) {
+  if (!is_sound_name(title)) return base::Error{"bad_title", "a title has 1 to 100 bytes on one line"};
+  return {};
+}
+
+bool is_sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
+  const volume::Volume grid{row.size_voxels, row.spacing_mm, row.lps_from_voxel, {}};
+  // A target larger than the volume is a mistake in the unit.
+  const double diagonal_mm = glm::length(glm::dvec3(row.size_voxels) * row.spacing_mm);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(form.radii_mm[axis] > 0.0 && form.radii_mm[axis] <= diagonal_mm)) return false;
+    if (!std::isfinite(form.center_lps_mm[axis])) return false;
+  }
+  // What a voxel can hold; what is added may also take away.
+  if (!(form.hu >= (form.adds ? -4000.0 : -1024.0) && form.hu <= 32767.0)) return false;
+  if (!(form.roughness >= 0.0 && form.roughness <= cases::kMostRoughness)) return false;
+  if (!(form.edge_mm >= 0.0 && form.edge_mm <= 2.0 * std::min({form.radii_mm.x, form.radii_mm.y, form.radii_mm.z})))
+    return false;
+  return volume::inside(grid, glm::dvec3(volume::voxel_from_lps(grid) * glm::dvec4(form.center_lps_mm, 1.0)));
+}
+
+double radius_of(const cases::LesionForm& form) {
+  if (form.kind != cases::LesionKind::ellipsoid) return form.radii_mm.x;
+  return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
+}
+
+bool is_sound_label_map(const CaseRow& row, const volume::LabelMap& labels) {
+  const glm::dvec3 size(row.size_voxels);
+  if (labels.names.empty() || labels.names.size() > 256 ||
+      static_cast<double>(labels.label.size()) != size.x * size.y * size.z)
+    return false;
+  return std::all_of(labels.names.begin() + 1, labels.names.end(), is_sound_name) &&
+         std::all_of(labels.label.begin(), labels.label.end(),
+                     [&](std::uint8_t label) { return label < labels.names.size(); });
+}
+
+base::Result<bool> CaseContents::has(volume::TissueClass tissue) {
+  if (!classes_) {
+    const auto classes = load_classes(load_, row_);
+    if (!classes) return classes.error();
+    classes_.emplace().fill(false);
+    for (const volume::TissueClass one : *classes) (*classes_)[static_cast<std::uint8_t>(one)] = true;
+  }
+  return (*classes_)[static_cast<std::uint8_t>(tissue)];
+}
+
+base::Result<bool> CaseContents::has(const std::string& labels_sha256, int label) {
+  if (!labels_) {
+    const auto maps = load_label_maps(database_, load_, row_);
+    if (!maps) return maps.error();
+    labels_.emplace();
+    for (const StoredLabels& map : *maps) {
+      Present& present = (*labels_)[map.sha256];
+      present.fill(false);
+      for (const std::uint8_t one : map.labels.label) present[one] = true;
+    }
+  }
+  const auto map = labels_->find(labels_sha256);
+  return map != labels_->end() && label >= 1 && label <= 255 && map->second[static_cast<std::size_t>(label)];
+}
+
+base::Result<void> check_place(CaseContents& contents, const CaseRow& row, const StructureRow& structure) {
+  if (structure.kind == StructureKind::drawn) return check_drawn_place(row, structure);
+  const bool is_label = structure.kind == StructureKind::label;
+  const auto there =
+      is_label ? contents.has(structure.labels_sha256, structure.label) : contents.has(structure.tissue);
+  if (!there) return there.error();
+  if (!*there)
+    return bad(is_label ? "no voxel of the case's label maps has this label"
+                        : "no voxel of the case is of this class");
+  return {};
+}
+
+bool rows_are_sound(Sqlite& database, const std::string& case_id) {
+  for (const TravellingTable& table : travelling_tables())
+    if (!values_are_sound(database, table, case_id)) return false;
+  std::vector<CaseRow> found;
+  try {
+    found = read_cases(database, case_id);
+  } catch (const base::Failure&) {  // its rule
+    return false;
+  }
+  if (found.size() != 1) return false;
+  const CaseRow& row = found.front();
+  if (!is_sound_grid(row) || !check_setting(row)) return false;
+  for (const LesionRow& lesion : read_lesions(database, case_id)) {
+    const double radius_mm = radius_of(lesion.form);
+    if (!is_sound_lesion(row, lesion.form) || !(std::abs(lesion.lesion.radius_mm / radius_mm - 1.0) <= 1e-6))
+      return false;
+  }
+  const auto structures = read_structures(database, case_id);
+  return structures && std::all_of(structures->begin(), structures->end(), [&](const StructureRow& one) {
+           return is_sound_name(one.name) &&
+                  (one.kind != StructureKind::drawn || check_drawn_place(row, one).has_value());
+         });
+}
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,1 @@
+DELETE FROM trusted_key WHERE public_key = :key OR label = :key
