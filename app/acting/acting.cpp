@@ -64,8 +64,9 @@ base::Result<std::optional<Account>> by_session(casedb::Library& library, const 
 base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone where_none, uid_t uid) {
   const std::string folder = arguments.required("--library");
   if (arguments.has("--password-file")) arguments.required("--by");
-  auto library =
-      where_none == WhereNone::create ? casedb::Library::open_or_create(folder) : casedb::Library::open(folder);
+  // Nobody is known to a library that is only being made.
+  const bool create = where_none == WhereNone::create && !arguments.has("--by") && !arguments.has("--token-file");
+  auto library = create ? casedb::Library::open_or_create(folder) : casedb::Library::open(folder);
   if (!library) return library;
   const bool owner = owns(*library, uid);
   auto proven = by_password(*library, arguments);

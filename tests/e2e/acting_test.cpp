@@ -25,6 +25,7 @@ TEST_F(ActingCommands, OneShellNoLongerLooksLikeThreePeople) {
 
   // Nobody is asked for a password. Before: three decisions under three names, and no log.
   const std::string alone = next_version(demo, "mona");
+  library_.done("case setting " + alone + " --pass 'hit >= 1'");
   library_.done("case review " + alone + " --by mona");
   library_.done("case review " + alone + " --approve --by rolf");
   library_.done("case publish " + alone + " --by dora");
@@ -43,6 +44,7 @@ TEST_F(ActingCommands, OneShellNoLongerLooksLikeThreePeople) {
     return " --by " + user + " --token-file '" + folder + "/" + user + "'";
   };
   const std::string together = library_.ask("case version " + demo + by("mona"))["case_id"];
+  library_.done("case setting " + together + " --pass 'hit >= 1'" + by("mona"));
   library_.done("case review " + together + by("mona"));
   EXPECT_EQ(library_.call("case review " + together + " --approve" + by("mona")).exit_code, 3) << "two people";
   library_.done("case review " + together + " --approve" + by("rolf"));
