@@ -59,7 +59,11 @@ constexpr ErrorCode kLibraryCodes[] = {
     {"incomplete", kRefuses | kFinds, "A piece of a recording is missing.", "Restore a backup."},
     {"recording_version", kRefuses, "A recording has a format that this program does not know.",
      "Update this program."},
-    {"name_without_person", kFinds, "A name belongs to a person who is not in the library.", "Restore a backup."}};
+    {"name_without_person", kFinds, "A name belongs to a person who is not in the library.", "Restore a backup."},
+    {"audit_changed", kFinds, "A row of the audit log is not as it was written.",
+     "Compare with a backup; somebody changed the database, or the disk did."},
+    {"audit_missing", kFinds, "A row within the audit log is gone.", "Compare with a backup."},
+    {"audit_cut", kFinds, "The end of the audit log is gone.", "Compare with a backup."}};
 
 constexpr ErrorCode kCaseCodes[] = {
     {"no_case", kRefuses, "There is no such case, or none at all.", "`seldinger case list` lists them."},
@@ -129,6 +133,16 @@ constexpr ErrorCode kPeopleCodes[] = {
     {"weak_password", kRefuses,
      "A password is shorter than 8 characters, longer than 128 bytes, or among those that are guessed first.",
      "Choose another, such as four words that have nothing to do with each other."},
+    {"bad_log_in", kRefuses, "Name or password is not right, or the account is closed.",
+     "Try again; an admin sets a new one."},
+    {"no_session", kRefuses, "The session is over, is another person's, or there is none.", "`seldinger login`."},
+    {"bad_token_file", kRefuses, "A session's file is not one, or others can read it.",
+     "Delete it and log in again."},
+    {"not_proven", kRefuses,
+     "The library belongs to another account of this machine, and nobody has proven who they are.",
+     "`seldinger login`, or `--by` with `--password-file`."},
+    {"last_admin", kRefuses, "The only admin whose account is open would no longer be one.",
+     "Make another admin first."},
     {"not_allowed", kRefuses, "The account's role may not do this.",
      "Ask somebody whose role may; the message names it."},
     {"too_few_consultants", kRefuses, "Too few consultants have made enough attempts for a standard.",

@@ -1,6 +1,7 @@
 // case bundle, bundle export, bundle import, bundle check, bundle key, bundle trust.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
 #include "app/cli/version.h"
@@ -23,15 +24,22 @@ int print_bundle(const Arguments& arguments, const base::Result<casedb::Bundle>&
 }
 
 int write_bundle_of(const Arguments& arguments, const std::vector<std::string>& case_ids) {
-  const std::string folder = arguments.required("--library"), out = arguments.required("--out");
+  arguments.required("--library");
+  const std::string out = arguments.required("--out");
   std::optional<casedb::HashKey> secret_key;
   if (arguments.has("--sign")) {
     const auto key = existing_key(arguments.text("--sign"));
     if (!key) return refuse(key.error());
     secret_key = *key;
   }
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::hand_out_case); !by) return refuse(by.error());
+  // Before anything leaves.
+  if (case_ids.empty()) casedb::audit_alone(*library, casedb::Act::export_cases);
+  for (const std::string& case_id : case_ids)
+    if (const auto row = casedb::find_case(*library, case_id))
+      casedb::audit_alone(*library, casedb::Act::export_cases, {"case", row->case_id});
   return print_bundle(arguments, casedb::write_bundle(*library, case_ids, out, kVersion, secret_key));
 }
 
@@ -48,12 +56,13 @@ int run_bundle_check(const Arguments& arguments) {
 }
 
 int run_bundle_import(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), file = arguments.positional(0);
+  const std::string file = arguments.positional(0);
   const bool may_make = arguments.has("--new-library");
   if (may_make)  // a library is not made for what is refused
     if (const auto sound = casedb::check_bundle(file); !sound) return refuse(sound.error());
-  auto library = may_make ? casedb::Library::open_or_create(folder) : casedb::Library::open(folder);
+  auto library = open_acting(arguments, may_make ? WhereNone::create : WhereNone::refuse);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   const auto cases = casedb::import_bundle(*library, file);
   if (!cases) return refuse(cases.error());
   if (arguments.has("--json")) {
@@ -85,9 +94,12 @@ int run_bundle_trust(const Arguments& arguments) {
   const bool list = what == "list", add = what == "add";
   if (!list && !add && what != "remove") throw UsageError("bundle trust add KEY --label NAME, list, or remove KEY");
   if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no key" : "which key?");
-  const std::string folder = arguments.required("--library"), label = add ? arguments.required("--label") : "";
-  auto library = casedb::Library::open(folder);
+  arguments.required("--library");
+  const std::string label = add ? arguments.required("--label") : "";
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (!list)
+    if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
   if (!list) {
     const auto done = add ? casedb::add_trusted_key(*library, arguments.positional(1), label)
                           : casedb::remove_trusted_key(*library, arguments.positional(1));
@@ -124,6 +136,7 @@ Command case_bundle_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kBundleOptions,
+          .acts = true,
           .summary = "Writes a case as one checked file for another library; attempts and people stay.",
           .run = &run_case_bundle};
 }
@@ -131,6 +144,7 @@ Command case_bundle_command() {
 Command bundle_export_command() {
   return {.name = "bundle export",
           .options = kBundleOptions,
+          .acts = true,
           .summary = "Writes every case of a library as one such file.",
           .run = &run_bundle_export};
 }
@@ -141,6 +155,7 @@ Command bundle_import_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kImportOptions,
+          .acts = true,
           .summary =
               "Checks such a file and takes its cases into the library, all or none; a case that is there already "
               "stays. What its sender published is in review here.",
@@ -173,6 +188,7 @@ Command bundle_trust_command() {
           .min_positionals = 1,
           .max_positionals = 2,
           .options = kTrustOptions,
+          .acts = true,
           .summary = "Keeps the public keys whose signatures are known in a library, each with a name.",
           .run = &run_bundle_trust};
 }

@@ -1,6 +1,8 @@
 // backup, restore, check.
+#include <cmath>
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/cli/version.h"
 #include "app/library/keep_json.h"
@@ -17,8 +19,10 @@ void print_copied(const Arguments& arguments, const char* done, const casedb::Co
 }
 
 int run_backup(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
+  casedb::audit_alone(*library, casedb::Act::back_up);
   const auto copied = casedb::back_up(*library, arguments.positional(0), kVersion);
   if (!copied) return refuse(copied.error());
   print_copied(arguments, "backed up", *copied);
@@ -32,9 +36,35 @@ int run_restore(const Arguments& arguments) {
   return kDone;
 }
 
+// "1042:HASH", as `seldinger audit` prints count and hash.
+std::optional<casedb::AuditHead> noted_head(const Arguments& arguments) {
+  if (!arguments.has("--audit-head")) return std::nullopt;
+  const std::string text = arguments.text("--audit-head");
+  const std::size_t colon = text.find(':');
+  const auto count = parse_number(text.substr(0, colon));
+  if (colon == text.npos || !count || *count < 0.0 || *count > 1e15 || *count != std::floor(*count) ||
+      text.size() - colon - 1 != 64)
+    throw UsageError("--audit-head is COUNT:HASH, as `seldinger audit` prints them");
+  return casedb::AuditHead{static_cast<std::int64_t>(*count), text.substr(colon + 1)};
+}
+
 int run_check(const Arguments& arguments) {
-  const auto report = casedb::check_library(arguments.required("--library"), arguments.has("--repair"));
+  const auto noted = noted_head(arguments);
+  if (arguments.has("--repair")) {
+    auto library = open_acting(arguments);
+    // Of a damaged one nobody can be asked, and nothing is taken away.
+    if (!library && library.error().code != "damaged") return refuse(library.error());
+    if (library) {
+      if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
+      casedb::audit_alone(*library, casedb::Act::repair);
+    }
+  }
+  auto report = casedb::check_library(arguments.required("--library"), arguments.has("--repair"));
   if (!report) return refuse(report.error());
+  if (noted)
+    if (auto library = casedb::Library::open(arguments.text("--library"));
+        library && !casedb::still_stands(*library, *noted))
+      report->findings.push_back({"audit_cut", "the audit log does not hold the row that was noted as its last"});
   if (arguments.has("--json")) {
     std::fputs(json_of_check(*report).c_str(), stdout);
   } else {
@@ -51,6 +81,8 @@ int run_check(const Arguments& arguments) {
 constexpr Option kCheckOptions[] = {
     kLibrary,
     {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
+    {"--audit-head", "COUNT:HASH",
+     "tells whether the row that `seldinger audit` once printed as the last still stands"},
     kJson};
 
 }  // namespace
@@ -61,6 +93,7 @@ Command backup_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryJson,
+          .acts = true,
           .summary =
               "Copies a library, also one in use, into a new folder and checks the copy. It holds names: keep it "
               "as safe.",
@@ -80,6 +113,7 @@ Command restore_command() {
 Command check_command() {
   return {.name = "check",
           .options = kCheckOptions,
+          .acts = true,
           .summary =
               "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not "
               "hold.",

@@ -145,6 +145,10 @@ bool is_signed_by(const std::string& public_key, std::span<const std::byte> byte
                                      key.data()) == 0;
 }
 
+void wipe(std::span<char> secret) noexcept {
+  sodium_memzero(secret.data(), secret.size());
+}
+
 void wipe(std::string& secret) noexcept {
   sodium_memzero(secret.data(), secret.size());
   secret.clear();

@@ -49,5 +49,6 @@ bool is_signed_by(const std::string& public_key, std::span<const std::byte> byte
                   const Signature& signature) noexcept;
 
 void wipe(std::string& secret) noexcept;  // overwrites, then empties
+void wipe(std::span<char> secret) noexcept;
 
 }  // namespace seldinger::casedb

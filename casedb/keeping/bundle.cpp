@@ -9,6 +9,7 @@
 #include "casedb/cases/bundle_rows.h"
 #include "casedb/cases/case_rows.h"
 #include "casedb/cases/case_state.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/leftovers.h"
@@ -238,6 +239,7 @@ base::Result<bool> store(Library& library, const OpenFile& file, const BundleLis
     if (!rows) return rows.error();
     if (presence(**rows, library.database(), part.case_id) != Presence::absent) return false;
     insert_rows(**rows, library.database(), part.case_id, list.signing_key);
+    audit(library, Act::import_cases, {"case", part.case_id});
   }
   transaction.commit();
   assets.keep();

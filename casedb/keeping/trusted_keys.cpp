@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
@@ -30,6 +31,7 @@ base::Result<void> add_trusted_key(Library& library, const std::string& public_k
       .bind("label", label)
       .bind("added_us", now_us())
       .run();
+  audit(library, Act::trust_key, {});
   transaction.commit();
   return {};
 }
@@ -42,6 +44,7 @@ base::Result<void> remove_trusted_key(Library& library, const std::string& key_o
       }))
     return base::Error{"no_key", "no trusted key has that value or label"};
   question(library.database(), "remove_trusted_key").bind("key", key_or_label).run();
+  audit(library, Act::distrust_key, {});
   transaction.commit();
   return {};
 }
