@@ -1,5 +1,4 @@
 // backup, restore, check.
-#include <cmath>
 #include <cstdio>
 
 #include "app/acting/acting.h"
