@@ -51,13 +51,18 @@ int run_restore(const Arguments& arguments) {
 }
 
 int run_check(const Arguments& arguments) {
-  const auto report = casedb::check_library(arguments.required("--library"), arguments.has("--repair"));
+  const bool repair = arguments.has("--repair");
+  const std::string from = arguments.text("--from");
+  if (!from.empty() && !repair) throw UsageError("--from goes with --repair");
+  const auto report = casedb::check_library(arguments.required("--library"), repair, from);
   if (!report) return refuse(report.error());
   if (arguments.has("--json")) {
     std::fputs(json_of_check(*report).c_str(), stdout);
   } else {
     for (const base::Problem& problem : report->repaired)
       std::printf("removed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
+    for (const base::Problem& problem : report->healed)
+      std::printf("healed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     for (const base::Problem& problem : report->findings)
       std::printf("finding: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     std::printf("%zu cases, %zu attempts, %zu files: %s\n", report->cases, report->attempts, report->assets,
@@ -88,6 +93,7 @@ int run_bundle_import(const Arguments& arguments) {
     return kDone;
   }
   for (const std::string& case_id : cases->stored) std::printf("case %s stored\n", case_id.c_str());
+  if (cases->healed > 0) std::printf("%zu damaged files of cases here are whole again\n", cases->healed);
   for (const std::string& case_id : cases->present)
     std::printf("case %s is here already; nothing was done\n", case_id.c_str());
   return kDone;
@@ -99,6 +105,7 @@ constexpr Option kBundleOptions[] = {
 constexpr Option kCheckOptions[] = {
     kLibrary,
     {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
+    {"--from", "BACKUP", "with --repair: files and values that are hurt come back from this backup of the library"},
     kJson};
 
 }  // namespace
@@ -168,8 +175,8 @@ Command check_command() {
   return {.name = "check",
           .options = kCheckOptions,
           .summary =
-              "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not "
-              "hold.",
+              "Checks a library: pages, references, files, values, recordings, leftovers, names; 1 when something "
+              "does not hold.",
           .run = &run_check};
 }
 

@@ -25,7 +25,8 @@ std::string json_of_check(const casedb::CheckReport& report) {
                {"attempts", report.attempts},
                {"assets", report.assets},
                {"findings", problems_json(report.findings)},
-               {"repaired", problems_json(report.repaired)}})
+               {"repaired", problems_json(report.repaired)},
+               {"healed", problems_json(report.healed)}})
              .dump(2) +
          "\n";
 }
@@ -41,7 +42,7 @@ std::string json_of_bundle(const casedb::Bundle& bundle) {
 }
 
 std::string json_of_unbundled(const casedb::Unbundled& cases) {
-  return Json({{"stored", cases.stored}, {"present", cases.present}}).dump(2) + "\n";
+  return Json({{"stored", cases.stored}, {"present", cases.present}, {"healed", cases.healed}}).dump(2) + "\n";
 }
 
 }  // namespace seldinger::app

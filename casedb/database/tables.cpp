@@ -48,7 +48,8 @@ constexpr std::string_view kStaying[] = {"person",
                                          "replay_watched",
                                          "standard",
                                          "standard_attempt",
-                                         "standard_band"};
+                                         "standard_band",
+                                         "digest"};
 
 }  // namespace
 

@@ -32,7 +32,8 @@ base::Result<Bundle> check_bundle(const std::filesystem::path& file);
 
 struct Unbundled {
   std::vector<std::string> stored;
-  std::vector<std::string> present;  // were there already, with the same content: nothing was done
+  std::vector<std::string> present;  // were there already, with the same content
+  std::size_t healed = 0;            // files of those that were missing or damaged here and are whole again
 };
 
 // Checks it as check_bundle, then stores all cases or none. Refused also: `case_differs` (a case is there with
