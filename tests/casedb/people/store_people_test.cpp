@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "casedb/database/uuid.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/login_name.h"
 #include "casedb/people/people.h"
