@@ -60,6 +60,19 @@ void compare(Sqlite& database, const std::string& table, std::map<DigestOf, std:
   every_digest(name);
 }
 
+// A column that was added with a default is left out of the rows that were there, and SQLite's hook tells of such a
+// row as if it were null. Written anew, it is in them.
+void complete_rows(Sqlite& database) {
+  const Sqlite::Unguarded rows_that_do_not_change(database);
+  for (const std::string& table : tables_of(database)) {
+    Statement added = database.prepare(
+        "SELECT name FROM pragma_table_info(:name) WHERE dflt_value IS NOT NULL ORDER BY cid DESC LIMIT 1");
+    if (!added.bind("name", table).step()) continue;
+    const std::string column = added.text("name");
+    database.run("UPDATE " + table + " SET " + column + " = " + column);
+  }
+}
+
 // What is printed of an id: ids, names of metrics and numbers, nothing that a person typed.
 std::string printable(const std::string& id) {
   const bool plain =
@@ -109,6 +122,7 @@ std::vector<base::Problem> damaged_values(Sqlite& database) {
 
 void renew_digests(Sqlite& database, const std::map<DigestOf, std::uint64_t>& differences) {
   CHECK(database.in_transaction());
+  complete_rows(database);
   database.run("DELETE FROM digest");
   Statement insert = database.prepare("INSERT INTO digest (of_table, of_id, sum) VALUES (:of_table, :of_id, :sum)");
   for (const std::string& table : tables_with_digests(database)) {

@@ -99,14 +99,14 @@ void sync_folder(const fs::path& folder) {
   sync_descriptor(Descriptor(folder, O_RDONLY | O_DIRECTORY).get());
 }
 
-NewFile::NewFile(const fs::path& file, Reader reader) : file_(file) {
+NewFile::NewFile(const fs::path& file, FileAccess access) : file_(file) {
   static std::atomic<unsigned> next{0};
   // Another round when somebody took our file for an abandoned one before it was locked, or has its name.
   for (int round = 0; round < 100; ++round) {
     temporary_ = file;
     temporary_ += kTemporary + std::to_string(::getpid()) + "-" + std::to_string(next++);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                         reader == Reader::owner ? 0600 : 0660);
+                         access == FileAccess::owner ? 0600 : 0660);
     if (descriptor_ < 0 && errno == EEXIST) continue;  // of a process that was killed, or planted
     if (descriptor_ < 0) fail("a file cannot be opened", errno);
     struct stat about {};
@@ -162,8 +162,8 @@ bool is_abandoned(const fs::path& temporary, bool remove) {
   return free;
 }
 
-void write_durably(const fs::path& file, std::span<const std::byte> bytes, Reader reader) {
-  NewFile made(file, reader);
+void write_durably(const fs::path& file, std::span<const std::byte> bytes, FileAccess access) {
+  NewFile made(file, access);
   made.write(bytes);
   made.keep();
 }

@@ -34,14 +34,14 @@ void sync_folder(const std::filesystem::path& folder);
 
 // Whom a new file is for: what holds people's doings is its owner's alone, whatever the umask; what somebody asked
 // to be written out is as their umask says.
-enum class Reader { owner, as_umask };
+enum class FileAccess { owner, as_umask };
 
 // A file that appears whole under its name, or not at all: temporary name beside it, fsync, rename, fsync of the
 // folder. The temporary one is new (O_EXCL: no link is followed), locked (flock) as long as somebody writes it, and
 // goes when it is not kept.
 class NewFile {
  public:
-  explicit NewFile(const std::filesystem::path& file, Reader reader = Reader::owner);
+  explicit NewFile(const std::filesystem::path& file, FileAccess access = FileAccess::owner);
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
@@ -59,7 +59,7 @@ bool is_temporary_name(const std::string& name) noexcept;
 bool is_abandoned(const std::filesystem::path& temporary, bool remove = false);
 
 void write_durably(const std::filesystem::path& file, std::span<const std::byte> bytes,
-                   Reader reader = Reader::owner);
+                   FileAccess access = FileAccess::owner);
 std::vector<std::byte> read_whole(const std::filesystem::path& file);
 
 // What has a name, without opening it: a link, a FIFO or a folder in a file's place is not followed, waited for or

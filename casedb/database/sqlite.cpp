@@ -360,7 +360,6 @@ void Sqlite::write_digests() {
 }
 
 Sqlite::Unguarded::Unguarded(Sqlite& database) : database_(database) {
-  CHECK(!database.in_transaction());
   guard(false);
 }
 

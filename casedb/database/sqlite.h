@@ -106,7 +106,7 @@ class Sqlite {
 
   // From here on a Transaction is refused: `read_only`.
   void refuse_writing() noexcept { read_only_ = true; }
-  // Triggers and foreign keys rest in its lifetime, outside of transactions: for what was checked otherwise.
+  // Triggers and foreign keys rest in its lifetime: for what was checked otherwise.
   class Unguarded;
   // Writes the digests of the rows changed so far by the transaction under way, as its commit does.
   void write_digests();

@@ -260,7 +260,7 @@ base::Result<Bundle> written(Library& library, std::vector<std::string> case_ids
     if (!library.has_asset(name)) return missing;
     list.assets.push_back({name, fs::file_size(library.folder() / kAssetsFolder / name), 0});
   }
-  NewFile made(out, Reader::as_umask);
+  NewFile made(out, FileAccess::as_umask);
   const std::vector<std::byte> head = bundle_head(list);
   std::uint64_t bytes = head.size();
   made.write(head);
