@@ -195,6 +195,13 @@ CREATE TABLE curriculum_item (
   UNIQUE (curriculum_id, family_id)
 ) STRICT;
 
+CREATE TABLE digest (
+  of_table TEXT NOT NULL,
+  of_id TEXT NOT NULL, -- the first column of the rows; of what an attempt has many of, the first two
+  sum INTEGER NOT NULL, -- XOR of the rows' digests (casedb/database/digests.h)
+  PRIMARY KEY (of_table, of_id)
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE enrolment (
   cohort_id TEXT NOT NULL REFERENCES cohort (cohort_id),
   person_id TEXT NOT NULL REFERENCES person (person_id),

@@ -20,7 +20,7 @@ base::Result<std::string> read_text(const std::filesystem::path& path, std::size
 }
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
-  casedb::write_durably(path, std::as_bytes(std::span(text)));
+  casedb::write_durably(path, std::as_bytes(std::span(text)), casedb::FileAccess::as_umask);
 }
 
 }  // namespace seldinger::app

@@ -75,6 +75,7 @@ int run_bundle_import(const Arguments& arguments) {
   for (const std::string& case_id : cases->stored) std::printf("case %s stored\n", case_id.c_str());
   for (const std::string& case_id : cases->for_review)
     std::printf("case %s was published by its sender: it is in review here\n", case_id.c_str());
+  if (cases->healed > 0) std::printf("%zu damaged files of cases here are whole again\n", cases->healed);
   for (const std::string& case_id : cases->present)
     std::printf("case %s is here already; nothing was done\n", case_id.c_str());
   return kDone;

@@ -1,4 +1,5 @@
 // backup, restore, check.
+#include <cmath>
 #include <cstdio>
 
 #include "app/acting/acting.h"
@@ -49,7 +50,10 @@ std::optional<casedb::AuditHead> noted_head(const Arguments& arguments) {
 
 int run_check(const Arguments& arguments) {
   const auto noted = noted_head(arguments);
-  if (arguments.has("--repair")) {
+  const bool repair = arguments.has("--repair");
+  const std::string from = arguments.text("--from");
+  if (!from.empty() && !repair) throw UsageError("--from goes with --repair");
+  if (repair) {
     auto library = open_acting(arguments);
     // Of a damaged one nobody can be asked, and nothing is taken away.
     if (!library && library.error().code != "damaged") return refuse(library.error());
@@ -58,7 +62,7 @@ int run_check(const Arguments& arguments) {
       casedb::audit_alone(*library, casedb::Act::repair);
     }
   }
-  auto report = casedb::check_library(arguments.required("--library"), arguments.has("--repair"));
+  auto report = casedb::check_library(arguments.required("--library"), repair, from);
   if (!report) return refuse(report.error());
   if (noted)
     if (auto library = casedb::Library::open(arguments.text("--library"));
@@ -69,6 +73,8 @@ int run_check(const Arguments& arguments) {
   } else {
     for (const base::Problem& problem : report->repaired)
       std::printf("removed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
+    for (const base::Problem& problem : report->healed)
+      std::printf("healed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     for (const base::Problem& problem : report->findings)
       std::printf("finding: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     std::printf("%zu cases, %zu attempts, %zu files: %s\n", report->cases, report->attempts, report->assets,
@@ -82,6 +88,7 @@ constexpr Option kCheckOptions[] = {
     {"--repair", nullptr, "remove what is nobody's: files that no row names, temporary files without a writer"},
     {"--audit-head", "COUNT:HASH",
      "tells whether the row that `seldinger audit` once printed as the last still stands"},
+    {"--from", "BACKUP", "with --repair: files and values that are hurt come back from this backup of the library"},
     kJson};
 
 }  // namespace
@@ -114,8 +121,8 @@ Command check_command() {
           .options = kCheckOptions,
           .acts = true,
           .summary =
-              "Checks a library: pages, references, files, recordings, leftovers, names; 1 when something does not "
-              "hold.",
+              "Checks a library: pages, references, files, values, recordings, leftovers, names; 1 when something "
+              "does not hold.",
           .run = &run_check};
 }
 

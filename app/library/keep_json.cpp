@@ -25,7 +25,8 @@ std::string json_of_check(const casedb::CheckReport& report) {
                {"attempts", report.attempts},
                {"assets", report.assets},
                {"findings", problems_json(report.findings)},
-               {"repaired", problems_json(report.repaired)}})
+               {"repaired", problems_json(report.repaired)},
+               {"healed", problems_json(report.healed)}})
              .dump(2) +
          "\n";
 }
@@ -44,6 +45,7 @@ std::string json_of_bundle(const casedb::Bundle& bundle) {
 std::string json_of_unbundled(const casedb::Unbundled& cases) {
   return Json({{"stored", cases.stored},
                {"present", cases.present},
+               {"healed", cases.healed},
                {"for_review", cases.for_review},
                {"signing_key", cases.signing_key ? Json(*cases.signing_key) : Json(nullptr)},
                {"trusted_as", cases.trusted_as ? Json(*cases.trusted_as) : Json(nullptr)}})

@@ -28,7 +28,8 @@ int run_render(const Arguments& arguments) {
     if (backend == "cpu" || backend == "reference") throw UsageError("a room is drawn by --backend gpu alone");
     const auto room = paint_room(*scene, arguments.text("--library"));
     if (!room) return refuse(room.error());
-    casedb::write_durably(out, png_from_rgb(room->rgb, room->width_px, room->height_px));
+    casedb::write_durably(out, png_from_rgb(room->rgb, room->width_px, room->height_px),
+                          casedb::FileAccess::as_umask);
     for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (arguments.has("--json"))
       std::fputs(json_of_room(*room).c_str(), stdout);
@@ -46,7 +47,8 @@ int run_render(const Arguments& arguments) {
   if (out.extension() == ".mha")
     write_file(out, meta_image(picture.values, picture.plane));
   else
-    casedb::write_durably(out, png_from_grey(picture.grey, picture.plane.width_px, picture.plane.height_px));
+    casedb::write_durably(out, png_from_grey(picture.grey, picture.plane.width_px, picture.plane.height_px),
+                          casedb::FileAccess::as_umask);
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const auto [min, max] = std::minmax_element(picture.values.begin(), picture.values.end());
   if (arguments.has("--json"))

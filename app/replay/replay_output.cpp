@@ -186,7 +186,7 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
       std::snprintf(name, sizeof name, "frame_%06zu.png", ++number);
       wait();
       writing = std::async(std::launch::async, [file = folder.unfinished() / name, drawn = std::move(canvas)] {
-        casedb::NewFile whole(file);
+        casedb::NewFile whole(file, casedb::FileAccess::as_umask);
         whole.write(png_from_rgb(drawn.rgb(), drawn.width_px(), drawn.height_px()));
         whole.keep_unsynced();
       });

@@ -85,26 +85,6 @@ Statement insertion(Sqlite& database, std::string_view table, const std::vector<
                           joined(columns, ":") + ")");
 }
 
-void bind_value(Statement& to, const Statement& from, const std::string& column) {
-  switch (from.kind(column)) {
-    case Kind::null:
-      to.bind_null(column);
-      break;
-    case Kind::integer:
-      to.bind(column, from.integer(column));
-      break;
-    case Kind::real:
-      to.bind(column, from.real(column));
-      break;
-    case Kind::text:
-      to.bind(column, from.view(column));
-      break;
-    case Kind::blob:
-      to.bind(column, std::span<const std::byte>(from.bytes(column)));
-      break;
-  }
-}
-
 // --- reading
 struct Damaged {};
 
@@ -283,7 +263,7 @@ Presence presence(Sqlite& rows, Sqlite& library, const std::string& case_id) {
     }
     Statement same = library.prepare("SELECT count(*) AS same FROM " + std::string(table.name) + " WHERE " + where);
     for (Statement row = rows_of(rows, table, case_id); row.step(); same.rewind()) {
-      for (const std::string& column : compared) bind_value(same, row, column);
+      for (const std::string& column : compared) same.bind_value(column, row);
       CHECK(same.step());
       if (same.integer("same") == 0) return Presence::different;
     }
@@ -311,7 +291,7 @@ void insert_rows(Sqlite& rows, Sqlite& library, const std::string& case_id,
         if (const auto ours = here.find(column); is_case && ours != here.end())
           insert.bind(column, ours->second);
         else
-          bind_value(insert, row, column);
+          insert.bind_value(column, row);
       insert.run();
     }
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -98,13 +99,15 @@ void sync_folder(const fs::path& folder) {
   sync_descriptor(Descriptor(folder, O_RDONLY | O_DIRECTORY).get());
 }
 
-NewFile::NewFile(const fs::path& file, unsigned mode) : file_(file) {
+NewFile::NewFile(const fs::path& file, FileAccess access) : file_(file) {
   static std::atomic<unsigned> next{0};
-  // A second round only when somebody took our file for an abandoned one before it was locked.
-  for (int round = 0; round < 10; ++round) {
+  // Another round when somebody took our file for an abandoned one before it was locked, or has its name.
+  for (int round = 0; round < 100; ++round) {
     temporary_ = file;
     temporary_ += kTemporary + std::to_string(::getpid()) + "-" + std::to_string(next++);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, static_cast<mode_t>(mode));
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                         access == FileAccess::owner ? 0600 : 0660);
+    if (descriptor_ < 0 && errno == EEXIST) continue;  // of a process that was killed, or planted
     if (descriptor_ < 0) fail("a file cannot be opened", errno);
     struct stat about {};
     lock_ = ::dup(descriptor_);  // shares the lock and outlives the closing, until the file has its name
@@ -115,6 +118,7 @@ NewFile::NewFile(const fs::path& file, unsigned mode) : file_(file) {
     if (lock_ >= 0) ::close(lock_);
     descriptor_ = lock_ = -1;
   }
+  temporary_.clear();  // not ours
   throw base::Failure("disk", "a file cannot be written");
 }
 
@@ -149,7 +153,8 @@ bool is_temporary_name(const std::string& name) noexcept {
 }
 
 bool is_abandoned(const fs::path& temporary, bool remove) {
-  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (what_is(temporary) != Place::file) return false;
+  const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return false;
   const bool free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
   if (free && remove) ::unlink(temporary.c_str());  // still locked: nobody begins to write it meanwhile
@@ -157,13 +162,30 @@ bool is_abandoned(const fs::path& temporary, bool remove) {
   return free;
 }
 
-void write_durably(const fs::path& file, std::span<const std::byte> bytes) {
-  NewFile made(file);
+void write_durably(const fs::path& file, std::span<const std::byte> bytes, FileAccess access) {
+  NewFile made(file, access);
   made.write(bytes);
   made.keep();
 }
 
-OpenFile::OpenFile(const fs::path& file) : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+Place what_is(const fs::path& path) noexcept {
+  struct stat about {};
+  if (::lstat(path.c_str(), &about) != 0) return errno == ENOENT ? Place::nothing : Place::something_else;
+  return S_ISREG(about.st_mode) ? Place::file : Place::something_else;
+}
+
+bool can_write(const fs::path& folder) noexcept {
+  return ::access(folder.c_str(), W_OK) == 0;  // also for root, EROFS on a read-only disk
+}
+
+void make_private(const fs::path& path) noexcept {
+  struct stat about {};
+  if (::lstat(path.c_str(), &about) != 0 || about.st_uid != ::geteuid() || (about.st_mode & 077U) == 0) return;
+  if (S_ISREG(about.st_mode) || S_ISDIR(about.st_mode)) ::chmod(path.c_str(), about.st_mode & 0700U);
+}
+
+OpenFile::OpenFile(const fs::path& file)
+    : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)) {
   if (descriptor_ < 0) fail("a file cannot be opened", errno);
   struct stat about {};
   if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
@@ -201,12 +223,12 @@ std::vector<std::byte> read_whole(const fs::path& file) {
 NewFolders::NewFolders(const fs::path& folder) {
   std::vector<fs::path> missing;  // innermost first
   std::error_code ignored;
-  for (fs::path path = fs::absolute(folder).lexically_normal(); !fs::exists(path, ignored);
-       path = path.parent_path())
-    missing.push_back(path);
-  for (auto path = missing.rbegin(); path != missing.rend(); ++path) {
-    if (::mkdir(path->c_str(), 0777) == 0)
-      made_.push_back(*path);
+  fs::path path = fs::absolute(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();  // "a/"
+  for (; !fs::exists(path, ignored); path = path.parent_path()) missing.push_back(path);
+  for (auto next = missing.rbegin(); next != missing.rend(); ++next) {
+    if (::mkdir(next->c_str(), std::next(next) == missing.rend() ? 0700 : 0777) == 0)
+      made_.push_back(*next);
     else if (errno != EEXIST) {  // another process may have made it
       const int error = errno;
       for (auto made = made_.rbegin(); made != made_.rend(); ++made) ::rmdir(made->c_str());

@@ -32,11 +32,16 @@ bool lies_on_network(const std::filesystem::path& folder);
 void sync_file(const std::filesystem::path& file);
 void sync_folder(const std::filesystem::path& folder);
 
+// Whom a new file is for: what holds people's doings is its owner's alone, whatever the umask; what somebody asked
+// to be written out is as their umask says.
+enum class FileAccess { owner, as_umask };
+
 // A file that appears whole under its name, or not at all: temporary name beside it, fsync, rename, fsync of the
-// folder. The temporary one is locked (flock) as long as somebody writes it, and goes when it is not kept.
+// folder. The temporary one is new (O_EXCL: no link is followed), locked (flock) as long as somebody writes it, and
+// goes when it is not kept.
 class NewFile {
  public:
-  explicit NewFile(const std::filesystem::path& file, unsigned mode = 0660);
+  explicit NewFile(const std::filesystem::path& file, FileAccess access = FileAccess::owner);
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
   ~NewFile();
@@ -53,10 +58,20 @@ bool is_temporary_name(const std::string& name) noexcept;
 // A temporary file whose writer is gone; with `remove`, it goes too.
 bool is_abandoned(const std::filesystem::path& temporary, bool remove = false);
 
-void write_durably(const std::filesystem::path& file, std::span<const std::byte> bytes);
+void write_durably(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                   FileAccess access = FileAccess::owner);
 std::vector<std::byte> read_whole(const std::filesystem::path& file);
 
-// An existing file, read in pieces.
+// What has a name, without opening it: a link, a FIFO or a folder in a file's place is not followed, waited for or
+// listed.
+enum class Place { nothing, file, something_else };
+Place what_is(const std::filesystem::path& path) noexcept;
+// Whether this process may make files there: not on a disk that is mounted read-only, nor without the permission.
+bool can_write(const std::filesystem::path& folder) noexcept;
+// Takes everybody else's rights away from what is the caller's own.
+void make_private(const std::filesystem::path& path) noexcept;
+
+// An existing file, read in pieces. Only a regular one is opened: a link is not followed, a FIFO not waited for.
 class OpenFile {
  public:
   explicit OpenFile(const std::filesystem::path& file);
@@ -72,7 +87,8 @@ class OpenFile {
   std::uint64_t size_ = 0;
 };
 
-// Makes the folder and its missing parents, and takes back those it made unless kept and as long as they are empty.
+// Makes the folder, its owner's alone, and its missing parents, and takes back those it made unless kept and as
+// long as they are empty.
 class NewFolders {
  public:
   explicit NewFolders(const std::filesystem::path& folder);

@@ -2,8 +2,10 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <system_error>
 
 #include "casedb/database/credentials.h"
@@ -41,9 +43,9 @@ void remove_database(const fs::path& file) noexcept {
 }
 
 // Makes a database under a temporary name; it is whole, closed and on disk when this returns.
-void make_database(const fs::path& file, const Schema& schema, mode_t mode) {
+void make_database(const fs::path& file, const Schema& schema) {
   remove_database(file);  // of a process that was killed
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (descriptor < 0) throw base::Failure("disk", "the library's folder cannot be written");
   ::close(descriptor);
   {
@@ -80,8 +82,8 @@ void create_in(const fs::path& folder) {
     // Until the last rename, names lie under their own name only beside the other's temporary one, so that
     // may_become_library() knows them as ours.
     remove_database(identities);
-    make_database(new_database, library_schema(), 0660);
-    make_database(new_identities, identities_schema(), 0600);
+    make_database(new_database, library_schema());
+    make_database(new_identities, identities_schema());
     NewFolders assets(folder / kAssetsFolder);
     fs::rename(new_identities, identities);
     sync_folder(folder);
@@ -104,32 +106,155 @@ struct Library::Parts {
   fs::path folder;
   Sqlite database;
   Sqlite identities;
+  bool read_only = false;
   Actor actor{};
+
+  static std::unique_ptr<Parts> make(const fs::path& folder, const fs::path& databases, Sqlite::Mode mode) {
+    return std::make_unique<Parts>(Parts{fs::absolute(folder), Sqlite(databases / kDatabaseFile, mode),
+                                         Sqlite(databases / kIdentitiesFile, mode)});
+  }
+  // Refused as Library::open. False: there is something to migrate.
+  base::Result<bool> is_newest() {
+    bool newest = true;
+    for (const auto& [file, schema] :
+         {std::pair(&database, library_schema()), std::pair(&identities, identities_schema())}) {
+      const auto version = schema_version(*file, schema);
+      if (!version) return version.error();
+      // Databases appear under their names only when whole, so an empty one is not ours.
+      if (*version == 0) return base::Error{"not_a_library", "the database there is empty"};
+      newest = newest && *version == newest_version(schema);
+    }
+    return newest;
+  }
+  base::Result<void> migrated() {
+    for (const auto& [file, schema] :
+         {std::pair(&database, library_schema()), std::pair(&identities, identities_schema())})
+      if (const auto walked = migrate(*file, schema); !walked) return walked.error();
+    return {};
+  }
+  void refuse_writing() {
+    read_only = true;
+    for (Sqlite* file : {&database, &identities}) {
+      file->run("PRAGMA query_only = ON");
+      file->refuse_writing();
+    }
+  }
+
+  static base::Result<std::unique_ptr<Parts>> open_for_writing(const fs::path& folder);
+  static base::Result<std::unique_ptr<Parts>> open_for_reading(const fs::path& folder);
+  static base::Result<std::unique_ptr<Parts>> open_copy(const fs::path& folder);
 };
+
+namespace {
+
+// SQLite follows links and waits for a FIFO.
+base::Result<void> check_places(const fs::path& folder) {
+  for (const char* file : {kDatabaseFile, kIdentitiesFile}) {
+    if (what_is(folder / file) == Place::nothing)
+      return base::Error{"damaged", "the library's database of names is missing; restore a backup"};
+    for (const char* part : {"", "-wal", "-shm", "-journal"})
+      if (what_is(folder / (std::string(file) + part)) == Place::something_else)
+        return base::Error{"damaged", "in the place of the library's file " + std::string(file) + part +
+                                          " lies something else; it was not opened"};
+  }
+  if (what_is(folder / kAssetsFolder) == Place::file)
+    return base::Error{"damaged", "in the place of the library's folder assets lies a file"};
+  return {};
+}
+
+bool has_log(const fs::path& folder) {
+  std::error_code none;
+  for (const char* file : {kDatabaseFile, kIdentitiesFile})
+    for (const char* part : {"-wal", "-journal"})
+      if (const auto size = fs::file_size(folder / (std::string(file) + part), none); !none && size > 0)
+        return true;
+  return false;
+}
+
+// Private, and gone with all it holds.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "seldinger-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw base::Failure("disk", "a temporary folder cannot be made");
+    path_ = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  const fs::path& path() const noexcept { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+base::Result<std::unique_ptr<Library::Parts>> Library::Parts::open_for_writing(const fs::path& folder) {
+  require_room(folder);
+  for (const char* part : {"", kAssetsFolder, kDatabaseFile, kIdentitiesFile}) make_private(folder / part);
+  for (const char* file : {kDatabaseFile, kIdentitiesFile})
+    for (const char* part : {"-wal", "-shm"}) make_private(folder / (std::string(file) + part));
+  auto parts = make(folder, folder, Sqlite::Mode::existing);
+  if (const auto newest = parts->is_newest(); !newest) return newest.error();
+  parts->identities.run("PRAGMA secure_delete = ON");  // an erased name is overwritten
+  const FolderLock lock(folder);                       // one process backs up and migrates
+  if (const auto migrated = parts->migrated(); !migrated) return migrated.error();
+  if (::mkdir((folder / kAssetsFolder).c_str(), 0700) != 0 && errno != EEXIST)
+    throw base::Failure("disk", "the library's folder cannot be written");
+  return parts;
+}
+
+base::Result<std::unique_ptr<Library::Parts>> Library::Parts::open_for_reading(const fs::path& folder) {
+  struct statvfs about {};
+  const bool nobody_writes = ::statvfs(folder.c_str(), &about) == 0 && (about.f_flag & ST_RDONLY) != 0;
+  try {
+    auto parts =
+        make(folder, folder, nobody_writes && !has_log(folder) ? Sqlite::Mode::immutable : Sqlite::Mode::read_only);
+    const auto newest = parts->is_newest();
+    if (!newest) return newest.error();
+    if (*newest) {
+      parts->refuse_writing();
+      return parts;
+    }
+  } catch (const DatabaseFailure& failure) {
+    if (failure.kind() != DatabaseFailure::Kind::disk) throw;  // SQLite wants to write an index of the log
+  }
+  return open_copy(folder);
+}
+
+base::Result<std::unique_ptr<Library::Parts>> Library::Parts::open_copy(const fs::path& folder) {
+  const TemporaryFolder copy;
+  for (const char* file : {kDatabaseFile, kIdentitiesFile})
+    for (const char* part : {"", "-wal", "-journal"}) {
+      const std::string name = std::string(file) + part;
+      if (what_is(folder / name) == Place::nothing) continue;
+      constexpr std::size_t kPiece = std::size_t{1} << 20;
+      const OpenFile in(folder / name);
+      NewFile out(copy.path() / name);
+      for (std::uint64_t at = 0; at < in.size(); at += kPiece) out.write(in.read(at, kPiece));
+      out.keep_unsynced();
+    }
+  auto parts = make(folder, copy.path(), Sqlite::Mode::existing);
+  if (const auto newest = parts->is_newest(); !newest) return newest.error();
+  if (const auto migrated = parts->migrated(); !migrated) return migrated.error();
+  parts->refuse_writing();
+  return parts;
+}
 
 base::Result<Library> Library::open(const fs::path& folder) {
   return without_paths([&]() -> base::Result<Library> {
-    if (!fs::is_directory(folder) || !fs::exists(folder / kDatabaseFile)) return kNoLibrary;
+    if (!fs::is_directory(folder) || what_is(folder / kDatabaseFile) == Place::nothing) return kNoLibrary;
     if (lies_on_network(folder)) return kNetwork;
-    require_room(folder);
-    if (!fs::exists(folder / kIdentitiesFile))
-      return base::Error{"damaged", "the library's database of names is missing; restore a backup"};
-    auto parts = std::make_unique<Parts>(
-        Parts{fs::absolute(folder), Sqlite(folder / kDatabaseFile), Sqlite(folder / kIdentitiesFile), {}});
-    const auto version = schema_version(parts->database, library_schema());
-    if (!version) return version.error();
-    const auto identities_version = schema_version(parts->identities, identities_schema());
-    if (!identities_version) return identities_version.error();
-    // Databases appear under their names only when whole, so an empty one is not ours.
-    if (*version == 0 || *identities_version == 0)
-      return base::Error{"not_a_library", "the database there is empty"};
-    parts->identities.run("PRAGMA secure_delete = ON");  // an erased name is overwritten
-    const FolderLock lock(folder);                       // one process backs up and migrates
-    for (auto [database, schema] :
-         {std::pair(&parts->database, library_schema()), std::pair(&parts->identities, identities_schema())})
-      if (const auto migrated = migrate(*database, schema); !migrated) return migrated.error();
-    fs::create_directory(folder / kAssetsFolder);
-    return Library(std::move(parts));
+    if (const auto places = check_places(folder); !places) return places.error();
+    const bool writable =
+        can_write(folder) && can_write(folder / kDatabaseFile) && can_write(folder / kIdentitiesFile);
+    auto parts = writable ? Parts::open_for_writing(folder) : Parts::open_for_reading(folder);
+    if (!parts) return parts.error();
+    return Library(std::move(parts.value()));
   });
 }
 
@@ -184,17 +309,22 @@ void Library::act_for(Actor actor) noexcept {
 const fs::path& Library::folder() const noexcept {
   return parts_->folder;
 }
+bool Library::read_only() const noexcept {
+  return parts_->read_only;
+}
 
 Library::StoredAsset Library::store_asset(std::span<const std::byte> bytes) {
+  if (parts_->read_only)
+    throw base::Failure("read_only", "the library can only be read: its disk or its folder is write-protected");
   StoredAsset stored{sha256_hex(bytes), false};
   const fs::path file = parts_->folder / kAssetsFolder / stored.sha256;
-  std::error_code missing;
-  const auto size = fs::file_size(file, missing);
-  if (!missing && size == bytes.size()) {
+  const AssetState state = asset_state(stored.sha256);
+  if (state == AssetState::sound) {
     sync_folder(file.parent_path());  // another process may just have named it
     return stored;
   }
-  stored.created = static_cast<bool>(missing);  // one of a wrong size is replaced; cases may refer to it
+  stored.created = state == AssetState::missing;            // what was there is replaced; cases may refer to it
+  if (state == AssetState::no_file) ::rmdir(file.c_str());  // an empty folder; what is in a full one is somebody's
   write_durably(file, bytes);
   return stored;
 }
@@ -204,10 +334,28 @@ void Library::remove_asset(const std::string& sha256) noexcept {
 }
 
 bool Library::has_asset(const std::string& sha256) const noexcept {
-  return is_asset_name(sha256) && ::access((parts_->folder / kAssetsFolder / sha256).c_str(), F_OK) == 0;
+  return is_asset_name(sha256) && what_is(parts_->folder / kAssetsFolder / sha256) == Place::file;
+}
+
+Library::AssetState Library::asset_state(const std::string& sha256) const {
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  const fs::path file = parts_->folder / kAssetsFolder / sha256;
+  const Place place = what_is(file);
+  if (place == Place::nothing) return AssetState::missing;
+  if (place == Place::something_else) return AssetState::no_file;
+  try {
+    const OpenFile in(file);
+    Sha256 hash;
+    for (std::uint64_t at = 0; at < in.size(); at += kPiece) hash.add(in.read(at, kPiece));
+    return hash.hex() == sha256 ? AssetState::sound : AssetState::damaged;
+  } catch (const base::Failure&) {
+    return AssetState::damaged;  // the disk cannot read it
+  }
 }
 
 base::Result<std::vector<std::byte>> Library::load_asset(const std::string& sha256) const {
+  if (is_asset_name(sha256) && what_is(parts_->folder / kAssetsFolder / sha256) == Place::something_else)
+    return base::Error{"asset_damaged", "in the place of a file of the library lies something else"};
   if (!has_asset(sha256)) return base::Error{"asset_missing", "a file of the library is missing"};
   std::vector<std::byte> bytes = read_whole(parts_->folder / kAssetsFolder / sha256);
   if (sha256_hex(bytes) != sha256) return base::Error{"asset_damaged", "a file of the library is damaged"};

@@ -1,11 +1,12 @@
 #include "casedb/database/migrate.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include <set>
 #include <string>
 
+#include "casedb/database/digests.h"
 #include "casedb/database/disk.h"
 #include "sim/base/check.h"
 
@@ -34,10 +35,46 @@ void check_step_names(const Schema& schema) {
 void walk(Sqlite& database, const Schema& schema, int step) {
   Transaction transaction(database);
   if (database.integer("PRAGMA user_version") >= step) return;  // another process was faster
+  const auto differences = digest_differences(database);        // damage stays damage
   if (step == 1) database.run("PRAGMA application_id = " + std::to_string(schema.application_id));
   database.run(std::string(schema.steps[static_cast<std::size_t>(step) - 1].content));
   database.run("PRAGMA user_version = " + std::to_string(step));
+  if (has_digests(database)) renew_digests(database, differences);
   transaction.commit();
+}
+
+// Every table, view, index and trigger, and the tables' columns.
+std::set<std::string> shape_of(Sqlite& database) {
+  std::set<std::string> shape;
+  for (Statement rows = database.prepare(
+           "SELECT type || ' ' || name || '.' || coalesce(column_name, '') AS part FROM sqlite_schema LEFT JOIN "
+           "(SELECT m.name AS table_name, c.name AS column_name FROM sqlite_schema m, pragma_table_info(m.name) c "
+           "WHERE m.type = 'table') ON table_name = name WHERE name NOT LIKE 'sqlite^_%' ESCAPE '^'");
+       rows.step();)
+    shape.insert(rows.text("part"));
+  return shape;
+}
+
+// The file is what a walk to its version makes, so that the next step finds what it expects.
+base::Result<void> fits(Sqlite& database, const Schema& schema, int version) {
+  const std::set<std::string> shape = shape_of(database);
+  Sqlite walked(":memory:", Sqlite::Mode::create);
+  int fitting = 0;
+  for (int step = 1; step <= newest_version(schema) && fitting != version; ++step) {
+    build(walked, schema, step);
+    if (shape_of(walked) == shape) fitting = step;
+  }
+  if (fitting == version) return {};
+  const std::string says = "the library's database says that it has schema " + std::to_string(version);
+  const std::string next(schema.steps[static_cast<std::size_t>(version)].name);
+  if (fitting > 0)
+    return base::Error{
+        "schema_mismatch",
+        says + " but has schema " + std::to_string(fitting) + ", so that migration " + next +
+            " cannot be walked; nothing was changed: restore a backup, or set PRAGMA user_version to " +
+            std::to_string(fitting)};
+  return base::Error{"schema_mismatch", says + " but does not hold its tables, so that migration " + next +
+                                            " cannot be walked; nothing was changed: restore a backup"};
 }
 
 }  // namespace
@@ -85,9 +122,12 @@ base::Result<int> schema_version(Sqlite& database, const Schema& schema) {
 base::Result<void> migrate(Sqlite& database, const Schema& schema) {
   const auto version = schema_version(database, schema);
   if (!version) return version.error();
+  const bool older = *version > 0 && *version < newest_version(schema);
+  if (older)
+    if (const auto fit = fits(database, schema, *version); !fit) return fit.error();
   if (database.text("PRAGMA journal_mode = WAL") != "wal")
     throw DatabaseFailure(DatabaseFailure::Kind::other, "the database cannot be set to write-ahead logging");
-  if (*version > 0 && *version < newest_version(schema)) {
+  if (older) {
     const std::string name = database.file().string() + ".v" + std::to_string(*version) + "-backup";
     std::string free_name = name;
     for (int i = 2; fs::exists(free_name); ++i) free_name = name + "-" + std::to_string(i);
@@ -104,12 +144,8 @@ void build(Sqlite& database, const Schema& schema, int version) {
 
 void copy_database(Sqlite& database, const fs::path& file) {
   const fs::path temporary = file.string() + ".tmp-" + std::to_string(::getpid());
-  // A copy of names must be as private as they are.
-  struct stat about {};
-  ::unlink(temporary.c_str());
-  const bool known = ::stat(database.file().c_str(), &about) == 0;
-  const int descriptor =
-      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, known ? about.st_mode & 0777U : 0600U);
+  ::unlink(temporary.c_str());  // of a process of that number that was killed
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (descriptor < 0) throw base::Failure("disk", "the copy of the database cannot be written");
   ::close(descriptor);
   try {

@@ -25,8 +25,9 @@ Schema identities_schema();
 base::Result<int> schema_version(Sqlite& database, const Schema& schema);
 
 // Walks the missing steps. A file with content is first copied beside itself, under its name with
-// `.v<version>-backup`. Refused as schema_version. Two processes may do this at once: each step is walked by one of
-// them.
+// `.v<version>-backup`. Refused as schema_version, and `schema_mismatch`: the file does not hold what its version
+// says (somebody set the number back, or changed a table). Two processes may do this at once: each step is walked
+// by one of them.
 base::Result<void> migrate(Sqlite& database, const Schema& schema);
 
 // Walks the missing steps up to a version and no further; copies nothing.

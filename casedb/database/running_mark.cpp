@@ -29,7 +29,7 @@ std::filesystem::path file_in(const std::filesystem::path& folder) {
 }  // namespace
 
 RunningMark::RunningMark(const std::filesystem::path& folder, const std::string& attempt_id)
-    : descriptor_(::open(file_in(folder).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    : descriptor_(::open(file_in(folder).c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600)) {
   struct flock lock = lock_of(attempt_id, F_WRLCK);
   if (descriptor_ >= 0 && ::fcntl(descriptor_, F_OFD_SETLK, &lock) == 0) return;
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -41,7 +41,7 @@ RunningMark::~RunningMark() {
 }
 
 bool is_running(const std::filesystem::path& folder, const std::string& attempt_id) {
-  const int descriptor = ::open(file_in(folder).c_str(), O_RDWR | O_CLOEXEC);
+  const int descriptor = ::open(file_in(folder).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
   struct flock lock = lock_of(attempt_id, F_WRLCK);
   const bool asked = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0;

@@ -1,10 +1,14 @@
 #include "casedb/database/sqlite.h"
 
+// Debian's SQLite has the hook; its header tells of it only so.
+#define SQLITE_ENABLE_PREUPDATE_HOOK 1
 #include <sqlite3.h>
 
 #include <limits>
+#include <span>
 
 #include "sim/base/check.h"
+#include "sim/base/hash.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -38,7 +42,81 @@ DatabaseFailure failure(int code, const std::string& message) {
   throw failure(code, connection != nullptr ? sqlite3_errmsg(connection) : sqlite3_errstr(code));
 }
 
+// --- Digests of rows
+
+std::uint64_t hash_of(std::uint64_t hash, const void* bytes, int size) {
+  return base::hash_bytes({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)}, hash);
+}
+
+// A null adds nothing, so that a column that is added later changes no digest. A whole number is the same as an
+// integer and as a real: SQLite stores it as it likes.
+std::uint64_t with_value(std::uint64_t hash, int column, bool without_blobs, sqlite3_value* value) {
+  const int type = sqlite3_value_type(value);
+  if (type == SQLITE_NULL || (without_blobs && type == SQLITE_BLOB)) return hash;
+  hash = base::hash_combine(hash, static_cast<std::uint64_t>(column));
+  if (type == SQLITE_INTEGER)
+    return base::hash_combine(hash, static_cast<std::uint64_t>(sqlite3_value_int64(value)));
+  if (type == SQLITE_FLOAT) {
+    constexpr double kWhole = 9007199254740992.0;  // 2^53
+    const double real = sqlite3_value_double(value);
+    if (real >= -kWhole && real <= kWhole && real == static_cast<double>(static_cast<std::int64_t>(real)))
+      return base::hash_combine(hash, static_cast<std::uint64_t>(static_cast<std::int64_t>(real)));
+    return base::hash_combine(hash, real);
+  }
+  hash = base::hash_combine(hash, static_cast<std::uint64_t>(type));
+  return type == SQLITE_TEXT ? hash_of(hash, sqlite3_value_text(value), sqlite3_value_bytes(value))
+                             : hash_of(hash, sqlite3_value_blob(value), sqlite3_value_bytes(value));
+}
+
+std::string text_of(sqlite3_value* value) {
+  const unsigned char* text = sqlite3_value_text(value);
+  return text == nullptr ? std::string()
+                         : std::string(reinterpret_cast<const char*>(text),
+                                       static_cast<std::size_t>(sqlite3_value_bytes(value)));
+}
+
+template <typename Value>
+std::pair<std::string, std::uint64_t> digest_of(std::string_view table, int columns, const Value& value) {
+  const bool has_checksum = table.ends_with("_chunk");  // of its bytes, which need not be read again
+  std::pair<std::string, std::uint64_t> digest{text_of(value(0)), 0};
+  if (told_by_two(table)) digest.first += '/' + text_of(value(1));
+  for (int i = 0; i < columns; ++i) digest.second = with_value(digest.second, i, has_checksum, value(i));
+  return digest;
+}
+
 }  // namespace
+
+bool has_digest(std::string_view table) noexcept {
+  return table != "digest" && table != "erasing";  // empty but within a transaction
+}
+
+bool told_by_two(std::string_view table) noexcept {
+  return table == "metric_value" || table == "attempt_step" || table == "attempt_condition";
+}
+
+// What the transaction under way changed: for whom, and by how much the digests of table and id differ.
+struct Sqlite::Changes {
+  std::map<std::pair<std::string, std::string>, std::uint64_t> digests;
+  bool watched = false;
+
+  static void note(void* self, sqlite3* connection, int operation, const char* schema, const char* table_name,
+                   sqlite3_int64, sqlite3_int64) {
+    auto& changes = *static_cast<Changes*>(self);
+    const std::string_view table(table_name);
+    if (!changes.watched || std::string_view(schema) != "main" || !has_digest(table)) return;
+    const int columns = sqlite3_preupdate_count(connection);
+    const auto add = [&](auto read) {
+      const auto [id, hash] = digest_of(table, columns, [&](int column) {
+        sqlite3_value* value = nullptr;
+        CHECK(read(connection, column, &value) == SQLITE_OK);
+        return value;
+      });
+      changes.digests[{std::string(table), id}] ^= hash;
+    };
+    if (operation != SQLITE_INSERT) add(&sqlite3_preupdate_old);
+    if (operation != SQLITE_DELETE) add(&sqlite3_preupdate_new);
+  }
+};
 
 // --- Statement
 // ----------------------------------------------------------------------------------------------------
@@ -102,6 +180,12 @@ Statement& Statement::bind(std::string_view name, std::span<const std::byte> byt
 
 Statement& Statement::bind_null(std::string_view name) {
   check(sqlite3_bind_null(statement_.get(), parameter(name)));
+  return *this;
+}
+
+Statement& Statement::bind_value(std::string_view name, const Statement& from) {
+  check(sqlite3_bind_value(statement_.get(), parameter(name),
+                           sqlite3_column_value(from.statement_.get(), from.column(name))));
   return *this;
 }
 
@@ -175,19 +259,47 @@ Statement::Kind Statement::kind(std::string_view name) const {
   }
 }
 
+std::pair<std::string, std::uint64_t> Statement::digest(std::string_view table) const {
+  return digest_of(table, sqlite3_column_count(statement_.get()),
+                   [&](int column) { return sqlite3_column_value(statement_.get(), column); });
+}
+
 // --- Sqlite
 // -------------------------------------------------------------------------------------------------------
 void Sqlite::Close::operator()(sqlite3* connection) const noexcept {
   sqlite3_close(connection);
 }
 
-Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : file_(file) {
+namespace {
+
+// The name as a URI, in which no letter of it means anything (sqlite.org/uri.html).
+std::string immutable_uri(const std::filesystem::path& file) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string uri = "file:";
+  for (const char letter : std::filesystem::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (letter == '/')
+      uri += letter;
+    else
+      (uri += '%') += {kDigits[byte >> 4U], kDigits[byte & 15U]};
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : file_(file), changes_(std::make_shared<Changes>()) {
   sqlite3* connection = nullptr;
-  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_EXRESCODE | SQLITE_OPEN_FULLMUTEX |
+  const bool reads_only = mode == Mode::read_only || mode == Mode::immutable;
+  const int flags = SQLITE_OPEN_EXRESCODE | SQLITE_OPEN_FULLMUTEX |
+                    (reads_only ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI : SQLITE_OPEN_READWRITE) |
                     (mode == Mode::create ? SQLITE_OPEN_CREATE : 0);
-  const int code = sqlite3_open_v2(file.c_str(), &connection, flags, nullptr);
+  const std::string name = mode == Mode::immutable ? immutable_uri(file) : file.string();
+  const int code = sqlite3_open_v2(name.c_str(), &connection, flags, nullptr);
   connection_.reset(connection);
   if (code != SQLITE_OK) fail(connection, code);
+  read_only_ = reads_only;
+  sqlite3_preupdate_hook(connection, &Changes::note, changes_.get());
   sqlite3_busy_timeout(connection, 5000);
   // A damaged or hostile file must not make SQLite run code of its own or write through its schema.
   sqlite3_db_config(connection, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -227,6 +339,39 @@ std::string Sqlite::text(std::string_view sql) {
   return data == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(data));
 }
 
+void Sqlite::forget_changes() noexcept {
+  changes_->digests.clear();
+}
+
+void Sqlite::write_digests() {
+  const auto changed = std::exchange(changes_->digests, {});
+  if (changed.empty() || integer("SELECT count(*) FROM sqlite_schema WHERE name = 'digest'") == 0) return;
+  // XOR, whose order does not matter and which takes away what it added.
+  Statement add = prepare(
+      "INSERT INTO digest (of_table, of_id, sum) VALUES (:of_table, :of_id, :sum) "
+      "ON CONFLICT DO UPDATE SET sum = (sum | excluded.sum) - (sum & excluded.sum)");
+  Statement drop = prepare("DELETE FROM digest WHERE of_table = :of_table AND of_id = :of_id AND sum = 0");
+  for (const auto& [whose, sum] : changed) {
+    if (sum == 0) continue;
+    add.bind("of_table", whose.first).bind("of_id", whose.second);
+    add.bind("sum", static_cast<std::int64_t>(sum)).run();
+    drop.bind("of_table", whose.first).bind("of_id", whose.second).run();
+  }
+}
+
+Sqlite::Unguarded::Unguarded(Sqlite& database) : database_(database) {
+  guard(false);
+}
+
+Sqlite::Unguarded::~Unguarded() {
+  guard(true);
+}
+
+void Sqlite::Unguarded::guard(bool on) noexcept {
+  sqlite3_db_config(database_.connection_.get(), SQLITE_DBCONFIG_ENABLE_TRIGGER, on ? 1 : 0, nullptr);
+  sqlite3_db_config(database_.connection_.get(), SQLITE_DBCONFIG_ENABLE_FKEY, on ? 1 : 0, nullptr);
+}
+
 bool Sqlite::in_transaction() const noexcept {
   return sqlite3_get_autocommit(connection_.get()) == 0;
 }
@@ -254,10 +399,15 @@ void Sqlite::copy_to(Sqlite& other) {
 // --------------------------------------------------------------------------------------------------
 Transaction::Transaction(Sqlite& database) : database_(database) {
   CHECK(!database.in_transaction());
+  if (database.read_only_)
+    throw base::Failure("read_only", "the library can only be read: its disk or its folder is write-protected");
   database.run("BEGIN IMMEDIATE");
+  database.forget_changes();
+  database.changes_->watched = true;
 }
 
 Transaction::~Transaction() {
+  database_.changes_->watched = false;
   if (!database_.in_transaction()) return;  // committed, or SQLite itself rolled back
   try {
     database_.run("ROLLBACK");
@@ -267,6 +417,7 @@ Transaction::~Transaction() {
 }
 
 void Transaction::commit() {
+  database_.write_digests();
   database_.run("COMMIT");
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/base/failure.h"
@@ -32,6 +33,10 @@ class DatabaseFailure : public base::Failure {
   Kind kind_;
 };
 
+bool has_digest(std::string_view table) noexcept;
+// Digests tell the rows of a table by their first column, and those of which an attempt has many by two.
+bool told_by_two(std::string_view table) noexcept;
+
 // One prepared question. Parameters and columns go by name: `:case_id` in SQL is bind("case_id", …).
 class Statement {
  public:
@@ -43,6 +48,7 @@ class Statement {
   Statement& bind(std::string_view name, double value);
   Statement& bind(std::string_view name, std::span<const std::byte> bytes);
   Statement& bind_null(std::string_view name);
+  Statement& bind_value(std::string_view column, const Statement& from);  // as it is in the other's row
   template <typename T>
   Statement& bind(std::string_view name, const std::optional<T>& value) {
     return value.has_value() ? bind(name, *value) : bind_null(name);
@@ -62,6 +68,9 @@ class Statement {
 
   enum class Kind { null, integer, real, text, blob };
   Kind kind(std::string_view column) const;
+  // Of a row with all columns of a table in the table's order: whose it is, and the digest of what it holds
+  // (digests.h).
+  std::pair<std::string, std::uint64_t> digest(std::string_view table) const;
 
  private:
   friend class Sqlite;
@@ -80,7 +89,8 @@ class Statement {
 
 class Sqlite {
  public:
-  enum class Mode { existing, create };
+  // Immutable: nobody at all writes the file, so that neither locks nor a log are needed.
+  enum class Mode { existing, create, read_only, immutable };
   // Foreign keys are enforced, writes are durable when they return, another writer is waited for up to 5 s.
   explicit Sqlite(const std::filesystem::path& file, Mode mode = Mode::existing);
 
@@ -95,16 +105,41 @@ class Sqlite {
   // backup). Whatever was in `other` is gone.
   void copy_to(Sqlite& other);
 
+  // From here on a Transaction is refused: `read_only`.
+  void refuse_writing() noexcept { read_only_ = true; }
+  // Triggers and foreign keys rest in its lifetime: for what was checked otherwise.
+  class Unguarded;
+  // Writes the digests of the rows changed so far by the transaction under way, as its commit does.
+  void write_digests();
+  void forget_changes() noexcept;  // somebody else writes their digests
+
  private:
+  friend class Transaction;
+  struct Changes;  // by the transaction under way
   struct Close {
     void operator()(sqlite3* connection) const noexcept;
   };
   std::filesystem::path file_;
+  bool read_only_ = false;
+  std::shared_ptr<Changes> changes_;  // outlives the connection
   std::unique_ptr<sqlite3, Close> connection_;
 };
 
+class Sqlite::Unguarded {
+ public:
+  explicit Unguarded(Sqlite& database);
+  Unguarded(const Unguarded&) = delete;
+  Unguarded& operator=(const Unguarded&) = delete;
+  ~Unguarded();
+
+ private:
+  void guard(bool on) noexcept;
+  Sqlite& database_;
+};
+
 // A write transaction: takes the write lock at once, so that what it reads still holds when it writes. Rolled back
-// unless committed.
+// unless committed, and with it go the digests of what it changed. Throws Failure("read_only") where nothing can be
+// written.
 class Transaction {
  public:
   explicit Transaction(Sqlite& database);

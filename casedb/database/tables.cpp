@@ -58,7 +58,8 @@ constexpr std::string_view kStaying[] = {"person",
                                          "standard_band",
                                          "login_session",
                                          "audit",
-                                         "audit_head"};
+                                         "audit_head",
+                                         "digest"};
 
 }  // namespace
 

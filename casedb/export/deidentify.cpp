@@ -74,7 +74,7 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
     if (!refusals.empty()) continue;
     for (const auto& [what, count] : clean->counts) done.counts[what] += count;
     const fs::path path = unfinished / numbered_name(written.size() + 1).insert(0, "new_");
-    write_durably(path, std::as_bytes(std::span(clean->bytes)));
+    write_durably(path, std::as_bytes(std::span(clean->bytes)), FileAccess::as_umask);
     written.emplace_back(std::move(clean->sop_instance_uid), path);
   }
   if (!refusals.empty()) {

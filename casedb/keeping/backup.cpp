@@ -31,9 +31,9 @@ struct Listed {
 using List = std::map<std::string, Listed>;  // by the name below the folder
 
 // Copies a file into a new folder and tells what was copied.
-Listed copy_file(const fs::path& from, const fs::path& to, unsigned mode) {
+Listed copied_file(const fs::path& from, const fs::path& to) {
   const OpenFile in(from);
-  NewFile out(to, mode);
+  NewFile out(to);
   Sha256 hash;
   Listed copied;
   for (std::uint64_t at = 0; at < in.size(); at += kPiece) {
@@ -47,10 +47,6 @@ Listed copy_file(const fs::path& from, const fs::path& to, unsigned mode) {
   return copied;
 }
 
-unsigned mode_of(const std::string& name) {
-  return name == kIdentitiesFile ? 0600 : 0660;
-}
-
 std::string text_of(const List& list, const std::string& program_version) {
   std::string text = std::string(kFirstLine) + "\nprogram " + program_version + "\n";
   for (const auto& [name, file] : list)
@@ -62,7 +58,7 @@ base::Result<List> read_list(const fs::path& folder) {
   const base::Error no_backup{"no_backup", "there is no backup in that folder"};
   const base::Error damaged{"damaged", "the backup's list of files is damaged"};
   const fs::path file = folder / kListFile;
-  if (!fs::is_regular_file(file)) return no_backup;
+  if (what_is(file) != Place::file) return no_backup;
   if (fs::file_size(file) > kMostListBytes) return damaged;
   const std::vector<std::byte> bytes = read_whole(file);
   std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -123,7 +119,8 @@ base::Result<void> check_copy(const fs::path& folder, const List& list) {
 
 // Copies what the copied database names. False: a case went meanwhile, so that another state is to be copied.
 base::Result<bool> copy_assets(Library& library, const fs::path& folder, List& list) {
-  fs::create_directory(folder / kAssetsFolder);
+  NewFolders assets(folder / kAssetsFolder);
+  assets.keep();
   std::set<std::string> named;
   {
     Sqlite copy(folder / kDatabaseFile);
@@ -131,8 +128,10 @@ base::Result<bool> copy_assets(Library& library, const fs::path& folder, List& l
   }
   for (const std::string& name : named) {
     Listed copied;
-    const bool there = library.has_asset(name);
-    if (there) copied = copy_file(library.folder() / kAssetsFolder / name, folder / kAssetsFolder / name, 0660);
+    const Place place = what_is(library.folder() / kAssetsFolder / name);
+    const bool there = place != Place::nothing;
+    if (place == Place::file)
+      copied = copied_file(library.folder() / kAssetsFolder / name, folder / kAssetsFolder / name);
     if (copied.sha256 != name) {
       if (!assets_named(library.database()).contains(name)) return false;
       return there ? base::Error{"asset_damaged", "the file " + name + " of assets/ is damaged; see check"}
@@ -196,14 +195,14 @@ base::Result<Copied> restored(const fs::path& in, const fs::path& folder) {
     return exists;
   NewFolders parents(fs::absolute(folder).lexically_normal().parent_path());
   NewFolder made(folder);
-  fs::create_directory(made.unfinished() / kAssetsFolder);
+  NewFolders assets(made.unfinished() / kAssetsFolder);
+  assets.keep();
   for (const auto& [name, file] : *list) {
     const base::Error damaged{"damaged", "the backup's file " + name + " is not what was backed up"};
-    if (!fs::is_regular_file(in / name) || fs::file_size(in / name) != file.bytes) return damaged;
-    if (copy_file(in / name, made.unfinished() / name, mode_of(name)).sha256 != file.sha256) return damaged;
+    if (what_is(in / name) != Place::file || fs::file_size(in / name) != file.bytes) return damaged;
+    if (copied_file(in / name, made.unfinished() / name).sha256 != file.sha256) return damaged;
   }
   if (const auto sound = check_copy(made.unfinished(), *list); !sound) return sound.error();
-  fs::permissions(made.unfinished(), fs::perms(0750));
   if (!made.keep()) return exists;
   parents.keep();
   return sum_of(*list);

@@ -18,14 +18,15 @@ struct Copied {
 };
 
 // One state of the library, checked before it gets its name: whole under `out`, or nothing is there. It holds names
-// of people; only its owner can read it. Refused: `exists` (something has that name), `damaged`, `asset_missing`,
-// `asset_damaged` (the library itself is not whole).
+// of people; only its owner can read it. Refused: `exists` (something has that name), `damaged` (a page, a
+// reference, a stored value, a recording: each in `problems`), `asset_missing`, `asset_damaged` (the library itself
+// is not whole).
 base::Result<Copied> back_up(Library& library, const std::filesystem::path& out,
                              const std::string& program_version);
 
 // Every byte is checked before the library gets its name. Refused: `no_backup`, `damaged` (a file is missing or
-// another, a reference is broken), `newer_schema`, `exists` (there is something where the library is to be),
-// `network_file_system`.
+// another, a page, a reference, a value or a recording is hurt), `newer_schema`, `exists` (there is something where
+// the library is to be), `network_file_system`.
 base::Result<Copied> restore(const std::filesystem::path& in, const std::filesystem::path& folder);
 
 }  // namespace seldinger::casedb

@@ -187,6 +187,7 @@ Bundle told(const BundleList& list, std::uint64_t bytes) {
 struct Compared {
   Unbundled cases;
   std::set<std::string> assets;          // that the absent cases need
+  std::set<std::string> hurt;            // of the present ones, missing or damaged here
   std::vector<base::Problem> different;  // cases that are there with other content
 };
 
@@ -202,6 +203,8 @@ base::Result<Compared> compared(Library& library, const OpenFile& file, const Bu
         break;
       case Presence::same:
         found.cases.present.push_back(part.case_id);
+        for (const std::string& name : names)
+          if (library.asset_state(name) != Library::AssetState::sound) found.hurt.insert(name);
         break;
       case Presence::different:
         found.different.push_back(
@@ -246,6 +249,17 @@ base::Result<bool> store(Library& library, const OpenFile& file, const BundleLis
   return true;
 }
 
+// Files of cases that are here already take the place of those that are damaged; read_asset looked at every byte.
+base::Result<void> heal(Library& library, const OpenFile& file, const BundleList& list, const Compared& found) {
+  for (const BundledAsset& asset : list.assets) {
+    if (!found.hurt.contains(asset.sha256)) continue;
+    const auto bytes = read_asset(file, asset);
+    if (!bytes) return bytes.error();
+    library.store_asset(*bytes);
+  }
+  return {};
+}
+
 base::Result<Bundle> written(Library& library, std::vector<std::string> case_ids, const fs::path& out,
                              const std::string& program_version, const std::optional<HashKey>& secret_key) {
   const base::Error too_large{"too_large", "there is more in it than a bundle takes"};
@@ -279,7 +293,7 @@ base::Result<Bundle> written(Library& library, std::vector<std::string> case_ids
     list.assets.push_back({name, fs::file_size(library.folder() / kAssetsFolder / name), 0});
   }
   remove_leftover_files(out.parent_path(), kBundleMagic);
-  NewFile made(out);
+  NewFile made(out, FileAccess::as_umask);
   const std::vector<std::byte> head = bundle_head(list, secret_key);
   std::uint64_t bytes = head.size();
   made.write(head);
@@ -317,7 +331,7 @@ base::Result<Bundle> write_bundle(Library& library, std::vector<std::string> cas
 base::Result<Bundle> check_bundle(const fs::path& file) {
   return without_paths([&]() -> base::Result<Bundle> {
     if (!fs::is_regular_file(file)) return not_found();
-    const OpenFile in(file);
+    const OpenFile in(fs::canonical(file));
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
     if (const auto sound = check_parts(in, *list, [](const auto&...) {}); !sound) return sound.error();
@@ -328,7 +342,7 @@ base::Result<Bundle> check_bundle(const fs::path& file) {
 base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
   return without_paths([&]() -> base::Result<Unbundled> {
     if (!fs::is_regular_file(file)) return not_found();
-    const OpenFile in(file);
+    const OpenFile in(fs::canonical(file));
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
     try {
@@ -338,6 +352,8 @@ base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
         found->cases.signing_key = list->signing_key;
         for (TrustedKey& one : list_trusted_keys(library))
           if (one.public_key == list->signing_key) found->cases.trusted_as = std::move(one.label);
+        if (const auto whole = heal(library, in, *list, *found); !whole) return whole.error();
+        found->cases.healed = found->hurt.size();
         if (found->cases.stored.empty()) return found->cases;
         const auto stored = store(library, in, *list, *found);
         if (!stored) return stored.error();

@@ -38,9 +38,10 @@ base::Result<Bundle> check_bundle(const std::filesystem::path& file);
 
 struct Unbundled {
   std::vector<std::string> stored;
-  std::vector<std::string> present;     // were there already, with the same content: nothing was done
+  std::vector<std::string> present;     // were there already, with the same content
   std::vector<std::string> for_review;  // of those stored: published by the sender, to be reviewed here
   std::optional<std::string> signing_key, trusted_as;  // the key, and its label where it is trusted here
+  std::size_t healed = 0;  // files of those that were missing or damaged here and are whole again
 };
 
 // Checks it as check_bundle, then stores all cases or none. What the sender says of its own review, of faces and of

@@ -2,16 +2,19 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "casedb/database/audit.h"
-#include "casedb/database/credentials.h"
+#include "casedb/database/digests.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/library.h"
 #include "casedb/database/question.h"
 #include "casedb/database/tables.h"
+#include "casedb/keeping/heal.h"
 #include "sim/base/hash.h"
 
 namespace seldinger::casedb {
@@ -19,38 +22,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kCheckedPiece = std::size_t{1} << 20;
-
-std::string sha256_of(const fs::path& file) {
-  const OpenFile in(file);
-  Sha256 hash;
-  for (std::uint64_t at = 0; at < in.size(); at += kCheckedPiece) hash.add(in.read(at, kCheckedPiece));
-  return hash.hex();
-}
-
 // Files that no row names and temporary files whose writer is gone.
 void check_files_in_assets(Library& library, bool repair, CheckReport& report) {
   const fs::path folder = library.folder() / kAssetsFolder;
   std::vector<std::string> names;
+  std::set<std::string> no_files;  // under a name that a file of ours has
   std::size_t unknown = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (is_temporary_name(name) && is_asset_name(name.substr(0, 64))) {
+    const bool file = what_is(entry.path()) == Place::file;
+    if (file && is_temporary_name(name) && is_asset_name(name.substr(0, 64))) {
       if (is_abandoned(entry.path(), repair))
         (repair ? report.repaired : report.findings)
             .push_back({"leftover_file", "a temporary file of assets/ was left behind"});
-    } else if (is_asset_name(name) && entry.is_regular_file()) {
-      names.push_back(name);
+    } else if (is_asset_name(name)) {
+      if (file)
+        names.push_back(name);
+      else
+        no_files.insert(name);
     } else {
       ++unknown;
     }
   }
+  // Asked after the files were listed: a file whose row came meanwhile is named.
+  const std::set<std::string> named = assets_named(library.database());
+  for (const std::string& name : no_files) unknown += named.contains(name) ? 0 : 1;  // the others: check_assets
   if (unknown > 0)
     report.findings.push_back({"unknown_file", "assets/ holds " + std::to_string(unknown) +
                                                    (unknown == 1 ? " thing that is" : " things that are") +
                                                    " not the library's"});
-  // Asked after the files were listed: a file whose row came meanwhile is named.
-  const std::set<std::string> named = assets_named(library.database());
   for (const std::string& name : names) {
     if (named.contains(name)) continue;
     if (repair) {
@@ -71,13 +71,17 @@ void check_assets(Library& library, CheckReport& report) {
   std::vector<std::string> bad;
   for (const std::string& name : assets_named(library.database())) {
     ++report.assets;
-    if (!library.has_asset(name)) {
+    using State = Library::AssetState;
+    const State state = library.asset_state(name);
+    if (state == State::sound) continue;
+    bad.push_back(name);
+    if (state == State::missing)
       found.push_back({"asset_missing", "the file " + name + " of assets/ is missing"});
-      bad.push_back(name);
-    } else if (sha256_of(library.folder() / kAssetsFolder / name) != name) {
+    else if (state == State::damaged)
       found.push_back({"asset_damaged", "the file " + name + " of assets/ is damaged"});
-      bad.push_back(name);
-    }
+    else
+      found.push_back({"asset_damaged", "in the place of the file " + name +
+                                            " of assets/ lies a link, a folder or another thing that is no file"});
   }
   if (bad.empty()) return;
   const std::set<std::string> still_named = assets_named(library.database());  // a case may have gone meanwhile
@@ -85,11 +89,10 @@ void check_assets(Library& library, CheckReport& report) {
     if (still_named.contains(bad[i])) report.findings.push_back(std::move(found[i]));
 }
 
-// By the two questions: how many pieces each recording has, and all of them. How many recordings there are.
-std::size_t check_recordings(Statement sizes, Statement chunks, CheckReport& report) {
-  std::size_t recordings = 0;
+// By the two questions: how many pieces each recording has, and all of them.
+void check_recordings(Statement sizes, Statement chunks, std::vector<base::Problem>& problems) {
   bool more = chunks.step();
-  for (; sizes.step(); ++recordings) {
+  while (sizes.step()) {
     const std::string attempt_id = sizes.text("attempt_id");
     std::int64_t count = 0;
     bool in_order = true, sound = true;
@@ -100,12 +103,9 @@ std::size_t check_recordings(Statement sizes, Statement chunks, CheckReport& rep
               std::bit_cast<std::uint64_t>(chunks.integer("checksum")) == base::hash_bytes(chunks.bytes("data"));
     }
     if (!in_order || count != sizes.integer("recording_chunks"))
-      report.findings.push_back(
-          {"incomplete", "a piece of the recording of attempt " + attempt_id + " is missing"});
-    if (!sound)
-      report.findings.push_back({"recording_damaged", "the recording of attempt " + attempt_id + " is damaged"});
+      problems.push_back({"incomplete", "a piece of the recording of attempt " + attempt_id + " is missing"});
+    if (!sound) problems.push_back({"recording_damaged", "the recording of attempt " + attempt_id + " is damaged"});
   }
-  return recordings;
 }
 
 void check_people(Library& library, CheckReport& report) {
@@ -137,14 +137,33 @@ void check_files_beside(const Library& library, bool repair, CheckReport& report
   }
 }
 
-base::Result<CheckReport> checked(const fs::path& folder, bool repair) {
+// What can be said of the values of a library that cannot be opened.
+void tell_values(const fs::path& folder, CheckReport& report) {
+  for (const char* file : {kDatabaseFile, kIdentitiesFile}) try {
+      if (what_is(folder / file) != Place::file) continue;
+      Sqlite database(folder / file, Sqlite::Mode::read_only);
+      for (base::Problem& problem : damaged_values(database)) report.findings.push_back(std::move(problem));
+    } catch (const DatabaseFailure&) {
+      // A page that cannot be read; that the database is damaged is told.
+    }
+}
+
+base::Result<CheckReport> checked(const fs::path& folder, bool repair, const fs::path& from) {
   CheckReport report;
+  if (!from.empty()) {
+    auto healed = heal_values(folder, from);
+    if (!healed) return healed.error();
+    report.healed = std::move(*healed);
+  }
   auto library = Library::open(folder);
   if (!library) {
     if (library.error().code != "damaged") return library.error();
     report.findings.push_back({"database_damaged", library.error().text});
+    tell_values(folder, report);
     return report;
   }
+  if (repair && library->read_only())
+    throw base::Failure("read_only", "the library can only be read: its disk or its folder is write-protected");
   for (Sqlite* database : {&library->database(), &library->identities()})
     for (base::Problem& problem : problems_of(*database)) report.findings.push_back(std::move(problem));
   // Of a damaged database nothing else can be said, and nothing may be taken away.
@@ -152,15 +171,11 @@ base::Result<CheckReport> checked(const fs::path& folder, bool repair) {
     if (problem.code == "database_damaged") return report;
   for (Statement rows = question(library->database(), "case_ids"); rows.step();) ++report.cases;
   check_files_beside(*library, repair, report);
+  if (!from.empty())
+    for (base::Problem& problem : heal_assets(*library, from)) report.healed.push_back(std::move(problem));
   check_files_in_assets(*library, repair, report);
   check_assets(*library, report);
-  {
-    Sqlite& database = library->database();
-    const Snapshot snapshot(database);
-    report.attempts = check_recordings(question(database, "recording_sizes"),
-                                       question(database, "every_recording_chunk"), report);
-    check_recordings(question(database, "open_recording_sizes"), question(database, "every_open_chunk"), report);
-  }
+  for (Statement rows = question(library->database(), "recording_sizes"); rows.step();) ++report.attempts;
   check_people(*library, report);
   for (base::Problem& problem : problems_of_audit(*library)) report.findings.push_back(std::move(problem));
   return report;
@@ -179,15 +194,24 @@ std::vector<base::Problem> problems_of(Sqlite& database) {
       tables.insert(rows.text("name"));
     for (const std::string& table : tables)
       problems.push_back({"reference_broken", "a row of " + table + " refers to one that is not there"});
+    const Snapshot one_state(database);
+    for (base::Problem& problem : damaged_values(database)) problems.push_back(std::move(problem));
+    const std::vector<std::string> there = tables_of(database);  // fewer in a copy of an older schema
+    for (const auto& [table, sizes, chunks] :
+         {std::tuple("recording_chunk", "recording_sizes", "every_recording_chunk"),
+          std::tuple("open_chunk", "open_recording_sizes", "every_open_chunk")})
+      if (std::ranges::find(there, table) != there.end())
+        check_recordings(question(database, sizes), question(database, chunks), problems);
   } catch (const DatabaseFailure& failure) {
     if (failure.kind() != DatabaseFailure::Kind::damaged) throw;
-    problems.push_back({"database_damaged", "a database is damaged; restore a backup"});
+    if (problems.empty() || problems.front().code != "database_damaged")
+      problems.insert(problems.begin(), {"database_damaged", "a database is damaged; restore a backup"});
   }
   return problems;
 }
 
-base::Result<CheckReport> check_library(const fs::path& folder, bool repair) {
-  return without_paths([&] { return checked(folder, repair); });
+base::Result<CheckReport> check_library(const fs::path& folder, bool repair, const fs::path& from) {
+  return without_paths([&] { return checked(folder, repair, from); });
 }
 
 }  // namespace seldinger::casedb

@@ -9,6 +9,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
+#include "casedb/database/digests.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
@@ -77,6 +78,7 @@ class Erasing {
         for (rows.bind("id", attempt_id); rows.step();) assets_.insert(rows.text("name"));
       }
     remove_with_what_refers(database_, "attempt", "attempt_id", attempt_id);
+    forget_digests(database_, attempt_id);  // also of what was damaged
     leave_empty_row(case_id);
   }
   void attempts_of(const std::string& person_id) {
@@ -93,6 +95,7 @@ class Erasing {
     for (const auto& [attempt_id, case_id] : open) {
       mark(attempt_id);
       remove_with_what_refers(database_, "open_attempt", "attempt_id", attempt_id);
+      forget_digests(database_, attempt_id);
       leave_empty_row(case_id);
     }
   }
@@ -253,6 +256,7 @@ base::Result<Erased> erase_case(Library& library, const std::string& case_id,
   erasing.mark(case_id);
   erasing.assets(assets_of_case(database, case_id));
   remove_with_what_refers(database, "training_case", "case_id", case_id);
+  forget_digests(database, case_id);
   erasing.commit();
   clean(library, erasing.sum);
   return erasing.sum;

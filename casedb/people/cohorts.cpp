@@ -96,7 +96,8 @@ base::Result<void> enrol(Library& library, const std::string& cohort_id, const s
   if (const auto cohort = find_cohort(library, cohort_id); !cohort) return cohort.error();
   const std::int64_t now = now_us();
   for (const Enrolment& one : list_enrolments(library, cohort_id))
-    if (one.person_id == person_id && one.post == post && one.to_us.value_or(now + 1) > now) return {};
+    if (one.person_id == person_id && one.post == post && one.from_us <= now && one.to_us.value_or(now + 1) > now)
+      return {};
   question(library.database(), "add_enrolment")
       .bind("cohort_id", cohort_id)
       .bind("person_id", person_id)

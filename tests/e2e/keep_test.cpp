@@ -76,6 +76,22 @@ TEST_F(KeepTest, CheckTellsAndRepairs) {
   expect_refused("check --library " + at("nowhere"), "no_library");
 }
 
+TEST_F(KeepTest, WhatIsHurtIsNamedAndComesBack) {
+  ASSERT_EQ(command("backup " + at("monday") + " --library " + library_).exit_code, 0);
+  const fs::path asset = fs::directory_iterator(fs::path(library_) / "assets")->path();
+  std::string bytes = fixtures::whole_file(asset);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(asset, std::ios::binary) << bytes;
+  expect_refused("backup " + at("tuesday") + " --library " + library_, "asset_damaged");
+  EXPECT_FALSE(fs::exists(at("tuesday")));
+  EXPECT_EQ(command("check --from " + at("monday") + " --library " + library_).exit_code, 2);
+  expect_refused("check --repair --from " + at("nowhere") + " --library " + library_, "no_backup");
+  const auto healed = command("check --repair --from " + at("monday") + " --library " + library_);
+  EXPECT_EQ(healed.exit_code, 0) << healed.err;
+  EXPECT_NE(healed.out.find("healed: asset_damaged: the file " + asset.filename().string()), std::string::npos);
+  EXPECT_EQ(command("backup " + at("tuesday") + " --library " + library_).exit_code, 0);
+}
+
 TEST_F(KeepTest, ACaseGoesToAnotherSite) {
   SELDINGER_NEEDS_SHARED_DATA();
   const auto written =

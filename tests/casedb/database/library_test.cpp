@@ -63,8 +63,78 @@ TEST_F(LibraryTest, NamesAreReadableByTheirOwnerOnly) {
     ASSERT_EQ(::stat((library_ / file).c_str(), &about), 0) << file;
     EXPECT_EQ(about.st_mode & 0777U, 0600U) << file;
   }
-  ASSERT_EQ(::stat((library_ / "seldinger.sqlite").c_str(), &about), 0);
-  EXPECT_EQ(about.st_mode & 07U, 0U);  // password hashes are nothing for everybody
+}
+
+// Was: folders 0777 and the database 0660 less the umask, so that with none everybody could write them.
+TEST_F(LibraryTest, AllOfItIsItsOwnersAloneWhateverTheUmask) {
+  const mode_t mask = ::umask(0);
+  {
+    auto library = open_library(library_ / "");
+    add_case(library, sample_case());
+  }
+  ::umask(mask);
+  const auto expect_private = [&] {
+    for (const auto& entry : fs::recursive_directory_iterator(library_)) {
+      struct stat about {};
+      ASSERT_EQ(::stat(entry.path().c_str(), &about), 0);
+      EXPECT_EQ(about.st_mode & 0777U, entry.is_directory() ? 0700U : 0600U) << entry.path().filename();
+    }
+    EXPECT_EQ(fs::status(library_).permissions(), fs::perms::owner_all);
+  };
+  expect_private();
+  // One of before, at its next opening.
+  fs::permissions(library_, fs::perms(0755));
+  fs::permissions(library_ / "assets", fs::perms(0755));
+  fs::permissions(library_ / "seldinger.sqlite", fs::perms(0640));
+  EXPECT_EQ(refusal_to_open(), "none");
+  expect_private();
+}
+
+// Was: a link planted under the temporary name was followed, and what it led to overwritten.
+TEST_F(LibraryTest, APlantedTemporaryNameIsNotFollowed) {
+  const fs::path victim = folder_ / "victim";
+  std::ofstream(victim) << "theirs";
+  make();
+  auto library = open_library(library_);
+  const std::vector<std::byte> abc{std::byte{'a'}, std::byte{'b'}, std::byte{'c'}};
+  const std::string name = sha256_hex(abc);
+  for (int number = 0; number < 80; ++number)
+    fs::create_symlink(
+        victim, library_ / "assets" / (name + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(number)));
+  EXPECT_EQ(library.store_asset(abc).sha256, name);
+  EXPECT_EQ(fixtures::whole_file(victim), "theirs");
+  EXPECT_EQ(library.load_asset(name).value(), abc);
+}
+
+// Was: `duplicate column name: subject`.
+TEST_F(LibraryTest, ASchemaVersionThatWasSetBackIsToldAndNothingIsChanged) {
+  make();
+  const auto newest = Sqlite(library_ / "seldinger.sqlite").integer("PRAGMA user_version");
+  { Sqlite(library_ / "seldinger.sqlite").run("PRAGMA user_version = 10"); }
+  const auto before = contents_of(library_);
+  const auto library = Library::open(library_);
+  ASSERT_FALSE(library.has_value());
+  EXPECT_EQ(library.error().code, "schema_mismatch");
+  EXPECT_NE(library.error().text.find("0011_subject"), std::string::npos) << library.error().text;
+  EXPECT_NE(library.error().text.find("user_version to " + std::to_string(newest)), std::string::npos);
+  EXPECT_EQ(contents_of(library_), before);
+  { Sqlite(library_ / "seldinger.sqlite").run("PRAGMA user_version = " + std::to_string(newest)); }
+  EXPECT_EQ(refusal_to_open(), "none");
+}
+
+TEST_F(LibraryTest, WhatIsNoFileInADatabasesPlaceIsRefusedAndNotOpened) {
+  for (const char* name : {"seldinger.sqlite", "identities.sqlite", "seldinger.sqlite-wal"}) {
+    fs::remove_all(library_);
+    make();
+    const fs::path place = library_ / name;
+    fs::remove(place);
+    ASSERT_EQ(::mkfifo(place.c_str(), 0600), 0);
+    EXPECT_EQ(refusal_to_open(), "damaged") << name;
+    fs::remove(place);
+    fs::create_symlink(folder_ / "elsewhere", place);
+    EXPECT_EQ(refusal_to_open(), "damaged") << name;
+    fs::remove(place);
+  }
 }
 
 TEST_F(LibraryTest, GivesBackThePagesItKeeps) {
@@ -245,6 +315,17 @@ TEST_F(LibraryTest, ATruncatedAssetIsReplacedButNotTakenBack) {
   auto library = open_library(library_);
   const auto stored = library.store_asset(some_bytes(1000));
   fs::resize_file(library_ / "assets" / stored.sha256, 10);
+  EXPECT_FALSE(library.store_asset(some_bytes(1000)).created);
+  EXPECT_EQ(library.load_asset(stored.sha256).value(), some_bytes(1000));
+}
+
+// Was: the damaged bytes stayed, and storing said success.
+TEST_F(LibraryTest, ADamagedAssetOfTheRightSizeIsReplaced) {
+  auto library = open_library(library_);
+  const auto stored = library.store_asset(some_bytes(1000));
+  std::string bytes = fixtures::whole_file(library_ / "assets" / stored.sha256);
+  bytes[500] = static_cast<char>(bytes[500] ^ 1);
+  std::ofstream(library_ / "assets" / stored.sha256, std::ios::binary) << bytes;
   EXPECT_FALSE(library.store_asset(some_bytes(1000)).created);
   EXPECT_EQ(library.load_asset(stored.sha256).value(), some_bytes(1000));
 }

@@ -4,6 +4,7 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
@@ -70,10 +71,14 @@ TEST_F(BackupTest, IsReadableByItsOwnerOnly) {
   struct stat about {};
   ASSERT_EQ(::stat(backup_.c_str(), &about), 0);
   EXPECT_EQ(about.st_mode & 0777U, 0700U);
-  for (const fs::path& folder : {backup_, restored_}) {
-    ASSERT_EQ(::stat((folder / "identities.sqlite").c_str(), &about), 0);
-    EXPECT_EQ(about.st_mode & 0777U, 0600U);
-  }
+  // Was: the restored one 0750, its database 0640.
+  for (const fs::path& folder : {backup_, restored_})
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      ASSERT_EQ(::stat(entry.path().c_str(), &about), 0);
+      EXPECT_EQ(about.st_mode & 0777U, entry.is_directory() ? 0700U : 0600U) << entry.path();
+    }
+  ASSERT_EQ(::stat(restored_.c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777U, 0700U);
 }
 
 TEST_F(BackupTest, NothingIsOverwritten) {
@@ -139,6 +144,51 @@ TEST_F(BackupTest, OfADamagedLibraryIsRefusedAndLeavesNothing) {
   fs::remove(asset);
   EXPECT_EQ(backed_up(), "asset_missing");
   EXPECT_EQ(std::distance(fs::directory_iterator(scratch_), {}), 1);
+}
+
+// Was: "all checked", and the restored library failed its check.
+TEST_F(BackupTest, OfALibraryWithAHurtRecordingOrValueIsRefusedAndNamesIt) {
+  make();
+  const auto hurt = [&](const fs::path& file, const std::string& sql) {
+    Sqlite database(file);
+    database.run(sql);
+  };
+  const std::string good = fixtures::whole_file(folder_ / "seldinger.sqlite");
+  for (const auto& [table, code] :
+       {std::pair("recording_chunk", "recording_damaged"), {"metric_value", "value_damaged"}}) {
+    const std::string name = table;
+    hurt(folder_ / "seldinger.sqlite", "DROP TRIGGER " + name + "_is_immutable; UPDATE " + name +
+                                           (name == "metric_value" ? " SET value = 2 WHERE value = 4.321"
+                                                                   : " SET data = x'00' WHERE sequence = 1"));
+    Library library = open_library(folder_);
+    const auto copied = back_up(library, backup_, "0.1.0");
+    ASSERT_FALSE(copied.has_value());
+    EXPECT_EQ(copied.error().code, "damaged");
+    EXPECT_TRUE(std::ranges::any_of(copied.error().findings, [&](const auto& one) { return one.code == code; }));
+    EXPECT_FALSE(fs::exists(backup_));
+    std::ofstream(folder_ / "seldinger.sqlite", std::ios::binary) << good;
+  }
+}
+
+// A backup made before backups looked at recordings: restore does.
+TEST_F(BackupTest, ABackupWithAHurtRecordingIsNotRestored) {
+  make();
+  ASSERT_EQ(backed_up(), "none");
+  const fs::path file = backup_ / "seldinger.sqlite";
+  {
+    Sqlite database(file);
+    database.run(
+        "DROP TRIGGER recording_chunk_is_immutable; UPDATE recording_chunk SET data = x'00' WHERE sequence = 1");
+  }
+  std::string list = fixtures::whole_file(backup_ / "backup.txt");
+  const std::string bytes = fixtures::whole_file(file);
+  const std::size_t at = list.find("file seldinger.sqlite ");
+  list.replace(
+      at, list.find('\n', at) - at,
+      "file seldinger.sqlite " + std::to_string(bytes.size()) + " " + sha256_hex(std::as_bytes(std::span(bytes))));
+  std::ofstream(backup_ / "backup.txt") << list;
+  EXPECT_EQ(refusal(), "damaged");
+  EXPECT_FALSE(fs::exists(restored_));
 }
 
 TEST_F(BackupTest, AnyChangedByteIsRefusedAndNothingIsThere) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "casedb/database/uuid.h"
+#include "casedb/people/facts.h"
 #include "casedb/people/login_name.h"
 #include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
@@ -257,5 +259,24 @@ TEST_F(StorePeopleTest, OfProcessesThatTakeANameAtOnceOneWins) {
   EXPECT_EQ(library_.database().integer("SELECT count(*) FROM person"), 1);
 }
 
+// The clock was once a year ahead and is right again. Was: `user level` answered 0 and changed nothing.
+TEST_F(StorePeopleTest, AClockThatWasAheadHoldsNoChangeBack) {
+  const std::string person_id = add("ann");
+  const std::int64_t ahead_us = now_us() + 365 * 86'400'000'000;
+  {
+    Transaction transaction(library_.database());
+    library_.database().run("INSERT INTO person_level VALUES ('" + person_id + "', " + std::to_string(ahead_us) +
+                            ", 'student')");
+    library_.database().run("INSERT INTO person_fact VALUES ('" + person_id + "', 'handedness', " +
+                            std::to_string(ahead_us) + ", 'left')");
+    transaction.commit();
+  }
+  for (const Level level : {Level::trainee, Level::consultant}) {
+    ASSERT_TRUE(set_level(library_, "ann", level).has_value());
+    EXPECT_EQ(list_users(library_).at(0).level.value(), level);
+  }
+  ASSERT_TRUE(give_fact(library_, person_id, "handedness", "right").has_value());
+  EXPECT_EQ(newest_facts(list_facts(library_, person_id)).at("handedness").answer, "right");
+}
 }  // namespace
 }  // namespace seldinger::casedb
