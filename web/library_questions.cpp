@@ -1,5 +1,7 @@
 #include "web/library_questions.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -141,11 +143,18 @@ class LibraryQuestions final : public Questions {
     return casedb::load_parts(pages_.library, case_id);
   }
 
+  std::string case_mark(const std::string& case_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::content_mark(pages_.library, case_id);
+  }
+
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) override {
     if (!check_) return base::Error{"not_checked", "cases are not checked here"};
     auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
     if (!library) return library.error();
-    return check_(*library, row.case_id);
+    auto check = check_(*library, row.case_id);
+    ::malloc_trim(0);  // a case took hundreds of megabytes
+    return check;
   }
 
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {
@@ -158,9 +167,23 @@ class LibraryQuestions final : public Questions {
     return casedb::load_recording(pages_.library, attempt_id);
   }
 
+  casedb::Health health() override {
+    using Clock = std::chrono::steady_clock;
+    const std::lock_guard lock(health_mutex_);
+    if (!looked_ || Clock::now() - *looked_ >= std::chrono::seconds(1)) {
+      health_ = watch_.look();
+      looked_ = Clock::now();
+    }
+    return health_;
+  }
+
  private:
   Handle pages_, first_, second_;
   CaseChecker check_;
+  std::mutex health_mutex_;
+  casedb::HealthWatch watch_{pages_.library.folder()};
+  casedb::Health health_ = casedb::Health::ok;
+  std::optional<std::chrono::steady_clock::time_point> looked_;
 };
 
 }  // namespace

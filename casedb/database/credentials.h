@@ -39,6 +39,14 @@ class Sha256 {
 // 16 bytes that say nothing of `text` to who does not know the key (BLAKE2b, RFC 7693, keyed).
 using HashKey = std::array<std::byte, 32>;
 std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) noexcept;
-void wipe(std::string& secret) noexcept;  // overwrites, then empties
+void wipe(std::span<char> secret) noexcept;  // overwrites
+void wipe(std::string& secret) noexcept;     // overwrites all that it holds room for, then empties
+// Appends; what the text leaves behind when it moves for want of room is overwritten.
+void append_secret(std::string& secret, std::string_view more);
+// Overwritten when it goes.
+struct Secret {
+  std::string text{};
+  ~Secret() { wipe(text); }
+};
 
 }  // namespace seldinger::casedb

@@ -66,7 +66,6 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"imgui", {"app/window/surface/", "app/window/screens/"}},
     {"backends/imgui", {"app/window/surface/window.cpp"}},
     {"sqlite3.h", {"casedb/database/sqlite"}},
-    {"httplib.h", {"web/server"}},
     {"sodium.h", {"casedb/database/credentials"}},
     {"png.h", {"app/replay/png"}},
     {"zstd.h", {"sim/base/codec"}},
