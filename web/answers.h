@@ -1,5 +1,5 @@
-// Answers that take seconds and much memory to make: one is made at a time, and kept as long as what it is made from
-// stays the same.
+// Answers that take seconds and much memory to make: one is made at a time, and kept as long as what it is made
+// from stays the same.
 #pragma once
 
 #include <cstddef>

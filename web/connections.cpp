@@ -45,7 +45,10 @@ Response short_refusal(int status) {
 }
 
 Connections::Connections(int listening, Hooks hooks, const ConnectionLimits& limits)
-    : listening_(listening), hooks_(std::move(hooks)), limits_(limits), wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    : listening_(listening),
+      hooks_(std::move(hooks)),
+      limits_(limits),
+      wake_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   if (wake_ < 0) throw base::Failure("network", "no file is left for the server");
 }
 
@@ -98,7 +101,8 @@ bool Connections::make_room(const std::string& address) {
   const auto waits_for = [&](const Connection& one) {
     return one.state == State::reading && one.address == address;
   };
-  const auto own = std::count_if(table_.begin(), table_.end(), [&](const auto& one) { return waits_for(one.second); });
+  const auto own =
+      std::count_if(table_.begin(), table_.end(), [&](const auto& one) { return waits_for(one.second); });
   if (static_cast<std::size_t>(own) >= limits_.most_waiting_of_address) drop(oldest(waits_for));
   if (table_.size() < limits_.most) return true;
   std::map<std::string, std::size_t> held;
@@ -107,15 +111,15 @@ bool Connections::make_room(const std::string& address) {
   if (held.empty()) return false;
   const auto most =
       std::max_element(held.begin(), held.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  drop(oldest(
-      [&](const Connection& one) { return one.state != State::asking && one.address == most->first; }));
+  drop(oldest([&](const Connection& one) { return one.state != State::asking && one.address == most->first; }));
   return true;
 }
 
 void Connections::accept_one(int socket, std::string address) {
   if (!make_room(address)) {
     const std::string refused = bytes_of(short_refusal(503), true);
-    [[maybe_unused]] const ssize_t sent = ::send(socket, refused.data(), refused.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    [[maybe_unused]] const ssize_t sent =
+        ::send(socket, refused.data(), refused.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     ::close(socket);
     return;
   }
@@ -252,8 +256,8 @@ void Connections::bound_unsent() {
       held[one.address] += one.unsent.size();
     }
     if (in_all <= limits_.most_unsent_bytes) return;
-    const auto most =
-        std::max_element(held.begin(), held.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most = std::max_element(held.begin(), held.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
     drop(oldest([&](const Connection& one) { return one.state == State::writing && one.address == most->first; }));
   }
 }

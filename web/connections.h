@@ -26,7 +26,7 @@ struct ConnectionLimits {
   std::size_t most = 512;                    // in all; a process has 1024 files by default
   std::size_t most_waiting_of_address = 64;  // whose request has not come whole
   std::size_t most_asking_of_address = 256;  // whose request is being answered: half of all, so others find room
-  std::size_t most_unsent_bytes = std::size_t{32} << 20;
+  std::size_t most_unsent_bytes = std::size_t{16} << 20;
   std::chrono::milliseconds read{5000};    // the whole request
   std::chrono::milliseconds write{10000};  // the whole answer
   std::chrono::milliseconds linger{1000};  // until the other side has closed, too

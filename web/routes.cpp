@@ -90,8 +90,8 @@ Response log_in(Site& site, const Call& call) {
   const std::string place = site.place_of(call.request, name);
   if (const std::int64_t wait_s = site.delays.begin(name, place, site.surroundings.now_us()); wait_s > 0) {
     site.security.note("log-in delayed", call.request.from, account_id(site, name));
-    Response response = login_form(
-        site, call, 429, "Too many tries. Try again in " + std::to_string(wait_s) + " s.");
+    Response response =
+        login_form(site, call, 429, "Too many tries. Try again in " + std::to_string(wait_s) + " s.");
     response.headers.emplace_back("Retry-After", std::to_string(wait_s));
     return response;
   }
@@ -110,8 +110,8 @@ Response log_in(Site& site, const Call& call) {
   response.headers.emplace_back("Set-Cookie", set_cookie(site.cookies.session, id.text));
   response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.before_login));
   constexpr std::string_view kHalfAYear = "; Max-Age=15552000";
-  response.headers.emplace_back(
-      "Set-Cookie", set_cookie(site.cookies.known, site.known_browser(name)).append(kHalfAYear));
+  response.headers.emplace_back("Set-Cookie",
+                                set_cookie(site.cookies.known, site.known_browser(name)).append(kHalfAYear));
   return response;
 }
 
@@ -383,7 +383,8 @@ constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says s
 constexpr std::string_view kSelf = "of oneself";
 
 constexpr Route kRoutes[] = {
-    {"GET", "/healthz", kOpen, false, "", "`ok`, `moved`, `full` or `read_only` (503) as the library is, and the version, as JSON", healthz},
+    {"GET", "/healthz", kOpen, false, "",
+     "`ok`, `moved`, `full` or `read_only` (503) as the library is, and the version, as JSON", healthz},
     {"GET", "/style.css", kOpen, false, "", "the style sheet", style},
     {"GET", "/", kOpen, true, "", "goes on to /attempts or /login", start},
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},

@@ -1,5 +1,5 @@
-// What whoever watches over the server wants to know, as lines of its log: who it was stands there as an account's id
-// and an address as a hash that holds for this run only, so the log names nobody.
+// What whoever watches over the server wants to know, as lines of its log: who it was stands there as an account's
+// id and an address as a hash that holds for this run only, so the log names nobody.
 #pragma once
 
 #include <cstdint>

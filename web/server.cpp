@@ -1,6 +1,7 @@
 #include "web/server.h"
 
 #include <arpa/inet.h>
+#include <malloc.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -120,6 +121,7 @@ base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surround
   if (!is_loopback_address(options.host)) {
     return base::Error{"not_loopback", "the server listens on this machine only: 127.0.0.1, ::1 or localhost"};
   }
+  ::mallopt(M_ARENA_MAX, 2);  // each thread's own would keep what its largest answer took
   if (options.port < 0 || options.port > 65535) return base::Error{"bad_port", "a port is 0 to 65535"};
   const std::string address = options.host == "localhost" ? "127.0.0.1" : options.host;
   auto listening = listen_at(address, options.port);

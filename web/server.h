@@ -1,5 +1,5 @@
-// The embedded server: a listening socket, one thread that waits for every connection, and workers that answer whole
-// requests. They are read by our own guard and answered by Site.
+// The embedded server: a listening socket, one thread that waits for every connection, and workers that answer
+// whole requests. They are read by our own guard and answered by Site.
 #pragma once
 
 #include <memory>

@@ -54,7 +54,8 @@ Response plain_error(int status) noexcept {
 Response refusal(int status, const Reader* reader, std::string_view fault_id) {
   const Words words = words_for(status);
   std::string message(words.message);
-  if (!fault_id.empty()) message.append(" The server\u2019s log has a line about it: ").append(fault_id).append(".");
+  if (!fault_id.empty())
+    message.append(" The server\u2019s log has a line about it: ").append(fault_id).append(".");
   const reports::Visitor visitor = reader != nullptr ? reader->visitor() : reports::Visitor{};
   return html_response(status, reports::message_page(words.title, message, visitor));
 }

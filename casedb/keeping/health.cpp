@@ -24,7 +24,8 @@ int write_probe(const std::filesystem::path& folder) noexcept {
   }
   if (file < 0) return errno;
   const std::array<char, 4096> page{};
-  const bool written = ::write(file, page.data(), page.size()) == static_cast<ssize_t>(page.size()) && ::fsync(file) == 0;
+  const bool written =
+      ::write(file, page.data(), page.size()) == static_cast<ssize_t>(page.size()) && ::fsync(file) == 0;
   const int error = written ? 0 : errno == 0 ? ENOSPC : errno;
   ::close(file);
   return error;

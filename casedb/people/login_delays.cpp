@@ -38,13 +38,16 @@ std::int64_t LoginDelays::begin(std::string_view name, std::string_view place, s
     tries_.erase(found);
     found = tries_.end();
   }
-  if (found != tries_.end() && ready_us(found->second) > now_us) return whole_seconds(ready_us(found->second) - now_us);
+  if (found != tries_.end() && ready_us(found->second) > now_us)
+    return whole_seconds(ready_us(found->second) - now_us);
   if (found == tries_.end() && tries_.size() >= kMostKept) {
-    std::erase_if(tries_, [&](const auto& one) { return now_us - one.second.last_us >= kForgotten_us; });
-    // Whoever may try soonest is forgotten: a long wait stays.
+    // Those that delay nobody are forgotten first, so that no crowd of names washes a long wait away.
+    std::erase_if(tries_, [&](const auto& one) {
+      return one.second.failures < kFreeTries || now_us - one.second.last_us >= kForgotten_us;
+    });
     if (tries_.size() >= kMostKept)
       tries_.erase(std::min_element(tries_.begin(), tries_.end(), [&](const auto& a, const auto& b) {
-        return ready_us(a.second) < ready_us(b.second);
+        return a.second.last_us < b.second.last_us;
       }));
   }
   Tries& tries = tries_[key];

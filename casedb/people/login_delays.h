@@ -12,8 +12,8 @@ namespace seldinger::casedb {
 
 // Five tries of a name from one place are free; from then on each failure doubles the wait, 1 s up to 60 s, and an
 // hour without a try forgets. A place is an address, or what proves that its owner has been logged in under that
-// name, so that nobody shuts out who has it: who fails elsewhere delays themselves. Names that do not exist count as
-// well, so the answer does not tell. There is no count of all names together: hashing bounds how many are tried.
+// name, so that nobody shuts out who has it: who fails elsewhere delays themselves. Names that do not exist count
+// as well, so the answer does not tell. There is no count of all names together: hashing bounds how many are tried.
 // Tries of several threads at once.
 class LoginDelays {
  public:

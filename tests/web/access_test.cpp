@@ -91,7 +91,8 @@ TEST(AccessMatrix, EveryRouteAnswersEveryRoleAndRelationAsTheTableSays) {
         if (is_change) {
           const std::string token = form_token(browser.get("/me").body, "/me/facts");
           fake.questions.done.clear();
-          const int status = browser.post(path, "sure=yes&answer=give&text=x&person=person-of-trainee&token=" + token).status;
+          const int status =
+              browser.post(path, "sure=yes&answer=give&text=x&person=person-of-trainee&token=" + token).status;
           EXPECT_EQ(status, may ? 303 : 404) << words;
           if (route.scope == "of oneself") {
             EXPECT_EQ(!fake.questions.done.empty(), may) << words;

@@ -41,10 +41,14 @@ TEST(Answers, SixtyAtOnceMakeOneAndNeverTwoAtATime) {
 TEST(Answers, WhatHasChangedMeanwhileAndWhatIsRefusedIsNotKept) {
   Answers answers;
   int made = 0;
-  const Answers::Make changing = [&]() -> base::Result<Answers::Made> { return Answers::Made{std::to_string(++made), false}; };
+  const Answers::Make changing = [&]() -> base::Result<Answers::Made> {
+    return Answers::Made{std::to_string(++made), false};
+  };
   EXPECT_EQ(answers.get("a", changing).value(), "1");
   EXPECT_EQ(answers.get("a", changing).value(), "2");
-  const Answers::Make refusing = []() -> base::Result<Answers::Made> { return base::Error{"damaged", "is damaged"}; };
+  const Answers::Make refusing = []() -> base::Result<Answers::Made> {
+    return base::Error{"damaged", "is damaged"};
+  };
   EXPECT_EQ(answers.get("a", refusing).error().code, "damaged");
   EXPECT_EQ(answers.get("a", changing).value(), "3");
 }
@@ -53,7 +57,8 @@ TEST(Answers, TheLongestUnusedMakeRoom) {
   Answers answers(3500);
   std::atomic<int> made = 0;
   const std::string large(1000, 'x');
-  for (const char* key : {"a", "b", "a", "c", "d", "a"}) EXPECT_EQ(answers.get(key, making(large, made)).value(), large);
+  for (const char* key : {"a", "b", "a", "c", "d", "a"})
+    EXPECT_EQ(answers.get(key, making(large, made)).value(), large);
   EXPECT_EQ(made.load(), 4) << "a was used in between and kept";
   EXPECT_TRUE(answers.get("b", making(large, made)).has_value());
   EXPECT_EQ(made.load(), 5) << "b had gone";

@@ -126,7 +126,7 @@ class FakeQuestions final : public Questions {
     return base::Error{"damaged", "the recording is damaged"};
   }
 
-  std::mutex mutex;  // guards accounts and mark
+  std::mutex mutex;               // guards accounts and mark
   std::string mark = "as drawn";  // of every case
   std::atomic<casedb::Health> health_now = casedb::Health::ok;
   std::vector<casedb::Account> accounts;

@@ -51,7 +51,8 @@ class HeldTest : public ::testing::Test {
     client.send(bytes);
     return client.read_all();
   }
-  std::string get(const std::string& path, const std::string& more = "", const std::string& from = "127.0.0.1") const {
+  std::string get(const std::string& path, const std::string& more = "",
+                  const std::string& from = "127.0.0.1") const {
     return ask("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" + more + "\r\n", from);
   }
   // How long the slowest of so many good requests took.
@@ -65,7 +66,8 @@ class HeldTest : public ::testing::Test {
     return worst;
   }
   // The whole answer to a log-in; `cookie` what to send with it beside the form's.
-  std::string log_in(const std::string& name, const std::string& password, const std::string& from = "127.0.0.1") const {
+  std::string log_in(const std::string& name, const std::string& password,
+                     const std::string& from = "127.0.0.1") const {
     const std::string form = get("/login", "", from);
     const std::size_t at = form.find("Set-Cookie: ");
     if (at == form.npos) return form;
@@ -146,12 +148,13 @@ TEST_F(HeldTest, AnswersThatNobodyReadsHoldUpNobody) {
   const std::string session = session_of(log_in("trainee", "correct+horse+battery"));
   const double before_mb = resident_mb();
   std::vector<std::unique_ptr<RawClient>> deaf;
-  for (int i = 0; i < 160; ++i) {
+  for (int i = 0; i < 400; ++i) {
     deaf.push_back(std::make_unique<RawClient>(port()));
-    deaf.back()->send("GET /attempts/" + kOwnAttempt + "/picture.png HTTP/1.1\r\nHost: localhost\r\n" + session + "\r\n");
+    deaf.back()->send("GET /attempts/" + kOwnAttempt + "/picture.png HTTP/1.1\r\nHost: localhost\r\n" + session +
+                      "\r\n");
   }
-  for (const char* from : {"127.0.0.1", "127.0.0.9"}) EXPECT_LT(slowest(10, from), kGood) << from;
-  EXPECT_LT(resident_mb() - before_mb, 64.0) << "of 160 MB";
+  EXPECT_LT(slowest(10, "127.0.0.9"), kGood) << "of that address it would wait for its own questions";
+  EXPECT_LT(resident_mb() - before_mb, 128.0) << "of 400 MB";
 }
 
 // Was: 60 at once took 5.2 GB, and other pages 2.4 s.
@@ -215,11 +218,13 @@ TEST_F(HeldTest, WhoTriesRandomNamesAllTheTimeKeepsNobodyOut) {
   std::vector<std::thread> attackers;
   for (int i = 0; i < 30; ++i)
     attackers.emplace_back([&, i] {
-      for (int n = 0; !over.load(); ++n) log_in("x" + std::to_string(i) + "-" + std::to_string(n), "wrong-password");
+      for (int n = 0; !over.load(); ++n)
+        log_in("x" + std::to_string(i) + "-" + std::to_string(n), "wrong-password");
     });
   int in = 0;
   for (int i = 0; i < 14; ++i)
-    in += log_in("mentor", "correct+horse+battery", i % 2 == 0 ? "127.0.0.1" : "127.0.0.5").starts_with("HTTP/1.1 303");
+    in += log_in("mentor", "correct+horse+battery", i % 2 == 0 ? "127.0.0.1" : "127.0.0.5")
+              .starts_with("HTTP/1.1 303");
   over = true;
   for (std::thread& thread : attackers) thread.join();
   EXPECT_EQ(in, 14);

@@ -223,10 +223,12 @@ TEST_F(LoginTest, TheLogTellsWhatHappenedAndNamesNobody) {
   for (const std::string& line : fake.log) all += line + "\n";
   EXPECT_THAT(all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}; account person-of-mentor\n"));
   EXPECT_THAT(all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}\n"));
-  EXPECT_THAT(all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}; account person-of-mentor; 4 times more\n"));
+  EXPECT_THAT(
+      all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}; account person-of-mentor; 4 times more\n"));
   EXPECT_THAT(all, ContainsRegex("security: log-in delayed; address [0-9a-f]{8}; account person-of-mentor\n"));
   EXPECT_THAT(all, ContainsRegex("security: logged in; address [0-9a-f]{8}; account person-of-trainee\n"));
-  EXPECT_THAT(all, ContainsRegex("security: sessions ended: the account was changed; .*account person-of-trainee\n"));
+  EXPECT_THAT(all,
+              ContainsRegex("security: sessions ended: the account was changed; .*account person-of-trainee\n"));
   EXPECT_THAT(all, Not(HasSubstr("127.0.0.1")));
   EXPECT_THAT(all, Not(HasSubstr("nobody")));
 }
@@ -255,11 +257,13 @@ TEST_F(LoginTest, ACheckIsMadeOnceForEachVersionOfACase) {
 
 TEST_F(LoginTest, HealthTellsWhatTheLibraryCannotDo) {
   using casedb::Health;
-  for (const auto& [health, status] : {std::pair{Health::ok, 200}, {Health::moved, 503}, {Health::full, 503}, {Health::read_only, 503}}) {
+  for (const auto& [health, status] :
+       {std::pair{Health::ok, 200}, {Health::moved, 503}, {Health::full, 503}, {Health::read_only, 503}}) {
     fake.questions.health_now = health;
     const Response response = browser.get("/healthz");
     EXPECT_EQ(response.status, status);
-    EXPECT_EQ(response.body, "{\"status\":\"" + std::string(casedb::name_of(health)) + "\",\"version\":\"9.8.7\"}\n");
+    EXPECT_EQ(response.body,
+              "{\"status\":\"" + std::string(casedb::name_of(health)) + "\",\"version\":\"9.8.7\"}\n");
   }
 }
 
