@@ -23,6 +23,12 @@ bool would_block() noexcept {
   return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
 }
 
+// Nobody waits for a thread that is gone.
+struct EndedLater {
+  std::function<void()> end;
+  ~EndedLater() { end(); }
+};
+
 // "127.0.0.1", "::1"; of a kind that we do not know: all are one.
 std::string address_text(const sockaddr_storage& from) {
   std::array<char, INET6_ADDRSTRLEN> text{};
@@ -71,12 +77,23 @@ void Connections::stop() noexcept {
   errno = before;
 }
 
-void Connections::answer(std::uint64_t connection, std::string bytes) {
-  {
-    const std::lock_guard lock(mutex_);
-    answers_.emplace_back(connection, std::move(bytes));
-  }
+void Connections::hand_over(std::uint64_t connection, std::string bytes) {
+  bytes_on_their_way_ += bytes.size();
+  answers_.emplace_back(connection, std::move(bytes));
   wake();
+}
+
+void Connections::answer(std::uint64_t connection, std::string bytes) {
+  std::unique_lock lock(mutex_);
+  taken_.wait(lock, [&] { return ended_ || bytes_on_their_way_ < limits_.most_unsent_bytes / 4; });
+  hand_over(connection, std::move(bytes));
+}
+
+void Connections::refuse(std::uint64_t id, Connection& connection, int status) {
+  casedb::wipe(connection.received);
+  connection.state = State::asking;
+  const std::lock_guard lock(mutex_);
+  hand_over(id, bytes_of(short_refusal(status), true));
 }
 
 Connections::Table::iterator Connections::close(Table::iterator which) {
@@ -155,35 +172,31 @@ void Connections::accept_all() {
   }
 }
 
-bool Connections::take_request(std::uint64_t id, Connection& connection) {
-  const auto refuse = [&](int status) {
-    casedb::wipe(connection.received);
-    connection.state = State::asking;
-    answer(id, bytes_of(short_refusal(status), true));
-    return true;
-  };
+void Connections::take_request(std::uint64_t id, Connection& connection) {
   const auto head_bytes = head_size(connection.received);
-  if (!head_bytes) return connection.received.size() < kMaxHeadBytes || refuse(431);
+  if (!head_bytes) {
+    if (connection.received.size() >= kMaxHeadBytes) refuse(id, connection, 431);
+    return;
+  }
   auto parsed = parse_head(std::string_view(connection.received).substr(0, *head_bytes));
-  if (const auto* refused = std::get_if<Refusal>(&parsed)) return refuse(refused->status);
+  if (const auto* refused = std::get_if<Refusal>(&parsed)) return refuse(id, connection, refused->status);
   Head& head = std::get<Head>(parsed);
   if (connection.received.size() < *head_bytes + head.body_bytes) {
     wipe(head.request);
-    return true;
+    return;
   }
   const auto asking = std::count_if(table_.begin(), table_.end(), [&](const auto& one) {
     return one.second.state == State::asking && one.second.address == connection.address;
   });
   if (static_cast<std::size_t>(asking) >= limits_.most_asking_of_address) {
     wipe(head.request);
-    return refuse(503);
+    return refuse(id, connection, 503);
   }
   head.request.body.assign(connection.received, *head_bytes, head.body_bytes);
   head.request.from = connection.address;
   casedb::wipe(connection.received);
   connection.state = State::asking;
   hooks_.on_request(id, std::move(head.request));
-  return true;
 }
 
 bool Connections::read(std::uint64_t id, Connection& connection) {
@@ -194,7 +207,8 @@ bool Connections::read(std::uint64_t id, Connection& connection) {
   const std::string_view came(buffer_.data(), static_cast<std::size_t>(count));
   casedb::append_secret(connection.received, came);
   casedb::wipe(std::span(buffer_.data(), came.size()));
-  return take_request(id, connection);
+  take_request(id, connection);
+  return true;
 }
 
 bool Connections::write(Connection& connection) {
@@ -228,7 +242,9 @@ void Connections::send_answers() {
   {
     const std::lock_guard lock(mutex_);
     answers.swap(answers_);
+    bytes_on_their_way_ = 0;
   }
+  taken_.notify_all();
   for (auto& [id, bytes] : answers) {
     const auto found = table_.find(id);
     CHECK(found != table_.end() && found->second.state == State::asking);
@@ -269,9 +285,7 @@ void Connections::pass_deadlines() {
     if (one.state == State::asking || one.deadline > now) {
       ++it;
     } else if (one.state == State::reading) {
-      casedb::wipe(one.received);
-      one.state = State::asking;
-      answer(it->first, bytes_of(short_refusal(408), true));
+      refuse(it->first, one, 408);
       ++it;
     } else {
       it = close(it);
@@ -302,6 +316,11 @@ void Connections::serve(const std::vector<std::pair<std::uint64_t, short>>& read
 }
 
 void Connections::run() {
+  const EndedLater ended{[this] {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    taken_.notify_all();
+  }};
   while (!stopping_.load()) {
     std::vector<pollfd> waited = {{wake_, POLLIN, 0}, {listening_, POLLIN, 0}};
     std::vector<std::uint64_t> ids = {0, 0};

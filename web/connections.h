@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -49,7 +50,8 @@ class Connections {
   // Until stop(). Throws base::Failure ("network") when the listening socket dies.
   void run();
   void stop() noexcept;  // from any thread, also from a signal handler; before run() too
-  // The whole answer to its request, from any thread; empty: the connection is closed without one.
+  // The whole answer to its request, from any thread but run()'s; empty: the connection is closed without one.
+  // Waits while many bytes are on their way.
   void answer(std::uint64_t connection, std::string bytes);
 
  private:
@@ -66,6 +68,8 @@ class Connections {
   using Table = std::map<std::uint64_t, Connection>;  // in the order in which they came
 
   void wake() noexcept;
+  void hand_over(std::uint64_t connection, std::string bytes);  // under mutex_
+  void refuse(std::uint64_t id, Connection& connection, int status);
   void accept_all();
   void accept_one(int socket, std::string address);
   bool make_room(const std::string& address);
@@ -74,7 +78,7 @@ class Connections {
   Table::iterator oldest(const std::function<bool(const Connection&)>& of_those);
   // False: it is closed.
   bool read(std::uint64_t id, Connection& connection);
-  bool take_request(std::uint64_t id, Connection& connection);
+  void take_request(std::uint64_t id, Connection& connection);
   bool write(Connection& connection);
   bool linger(Connection& connection);
   void send_answers();
@@ -91,8 +95,11 @@ class Connections {
   Table table_;
   std::uint64_t next_id_ = 1;
   std::array<char, 16 * 1024> buffer_{};
-  std::mutex mutex_;
-  std::vector<std::pair<std::uint64_t, std::string>> answers_;  // guarded by mutex_
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable taken_;
+  std::vector<std::pair<std::uint64_t, std::string>> answers_;
+  std::size_t bytes_on_their_way_ = 0;
+  bool ended_ = false;
 };
 
 // Refused before there is a page for it.
