@@ -20,6 +20,11 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr milliseconds kGood{1000};
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kOthersMemory_mb = 1000.0;  // a sanitizer keeps what is freed
+#else
+constexpr double kOthersMemory_mb = 0.0;
+#endif
 
 milliseconds since(Clock::time_point start) {
   return std::chrono::duration_cast<milliseconds>(Clock::now() - start);
@@ -116,7 +121,7 @@ TEST_F(HeldTest, TwoHundredConnectionsOfOneAddressAndFiveHundredOfFiftyHoldUpNob
     for (const char* from : {"127.0.0.1", "127.0.0.101", "127.0.0.9"}) EXPECT_LT(slowest(2, from), kGood) << from;
     for (int i = round; i < 700; i += 10) held[static_cast<std::size_t>(i)] = hold(i);  // opened anew
   }
-  EXPECT_LT(resident_mb() - before_mb, 64.0);
+  EXPECT_LT(resident_mb() - before_mb, 64.0 + kOthersMemory_mb);
   EXPECT_THAT(fake_.log_text(), HasSubstr("security: connection dropped; address "));
 }
 
@@ -154,7 +159,7 @@ TEST_F(HeldTest, AnswersThatNobodyReadsHoldUpNobody) {
                       "\r\n");
   }
   EXPECT_LT(slowest(10, "127.0.0.9"), kGood) << "of that address it would wait for its own questions";
-  EXPECT_LT(resident_mb() - before_mb, 128.0) << "of 400 MB";
+  EXPECT_LT(resident_mb() - before_mb, 128.0 + kOthersMemory_mb) << "of 400 MB";
 }
 
 // Was: 60 at once took 5.2 GB, and other pages 2.4 s.

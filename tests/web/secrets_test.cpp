@@ -32,6 +32,7 @@ int count_in_memory(const std::string& disguised_text) {
     const std::uint64_t from = std::stoull(line, &end_at, 16),
                         to = std::stoull(line.substr(end_at + 1), &end_at, 16);
     if (line.find(" rw") == line.npos || line.find("[v") != line.npos) continue;
+    if (to - from > (std::uint64_t{1} << 32)) continue;  // a sanitizer's notes
     std::array<char, 4096> page{};
     std::size_t at = 0;
     for (std::uint64_t place = from; place < to; place += page.size()) {
