@@ -20,8 +20,8 @@ std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade
   return casedb::line(json);
 }
 
-std::string health_json(const std::string& program_version) {
-  return casedb::line({{"status", "ok"}, {"version", program_version}});
+std::string health_json(casedb::Health health, const std::string& program_version) {
+  return casedb::line({{"status", casedb::name_of(health)}, {"version", program_version}});
 }
 
 }  // namespace seldinger::web

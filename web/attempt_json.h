@@ -4,11 +4,12 @@
 #include <string>
 
 #include "casedb/grading/grading.h"
+#include "casedb/keeping/health.h"
 
 namespace seldinger::web {
 
 std::string metrics_json(const casedb::AttemptRow& row);
 std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade, bool with_expert_attempts);
-std::string health_json(const std::string& program_version);
+std::string health_json(casedb::Health health, const std::string& program_version);
 
 }  // namespace seldinger::web

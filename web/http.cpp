@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "casedb/database/credentials.h"
 #include "sim/base/check.h"
 
 namespace seldinger::web {
@@ -67,6 +68,7 @@ int hex_digit(char c) {
 
 std::optional<std::string> form_decoded(std::string_view encoded) {
   std::string out;
+  out.reserve(encoded.size());  // a password leaves no pieces behind
   for (std::size_t i = 0; i < encoded.size(); ++i) {
     if (encoded[i] == '+') {
       out += ' ';
@@ -98,6 +100,18 @@ Response redirect(std::string_view path) {
   return {.status = 303, .headers = {{"Location", std::string(path)}}};
 }
 
+void wipe(std::map<std::string, std::string>& form) noexcept {
+  for (auto& [name, value] : form) casedb::wipe(value);
+}
+void wipe(Request& request) noexcept {
+  casedb::wipe(request.body);
+  wipe(request.headers);
+}
+void wipe(Response& response) noexcept {
+  casedb::wipe(response.body);
+  for (auto& [name, value] : response.headers) casedb::wipe(value);
+}
+
 const std::vector<std::pair<std::string_view, std::string_view>>& security_headers() {
   static const std::vector<std::pair<std::string_view, std::string_view>> headers = {
       {"Content-Security-Policy",
@@ -114,7 +128,11 @@ const std::vector<std::pair<std::string_view, std::string_view>>& security_heade
 }
 
 std::string bytes_of(const Response& response, bool with_body) {
-  std::string out = "HTTP/1.1 " + std::to_string(response.status) + " ";
+  std::size_t size = 1024 + (with_body ? response.body.size() : 0);  // 1024: the first line and the headers of all
+  for (const auto& [name, value] : response.headers) size += name.size() + value.size() + 4;
+  std::string out;
+  out.reserve(size);
+  out += "HTTP/1.1 " + std::to_string(response.status) + " ";
   out += status_text(response.status);
   out += "\r\n";
   const auto add = [&](std::string_view name, std::string_view value) {
@@ -138,16 +156,20 @@ std::optional<std::map<std::string, std::string>> form_fields(std::string_view e
     encoded.remove_prefix(std::min(encoded.size(), pair.size() + 1));
     if (pair.empty()) continue;
     const std::size_t equals = pair.find('=');
-    const auto name = form_decoded(pair.substr(0, equals));
-    const auto value = form_decoded(equals == pair.npos ? "" : pair.substr(equals + 1));
-    if (!name.has_value() || !value.has_value() || !fields.emplace(*name, *value).second) return std::nullopt;
+    auto name = form_decoded(pair.substr(0, equals));
+    auto value = form_decoded(equals == pair.npos ? "" : pair.substr(equals + 1));
+    if (!name.has_value() || !value.has_value() || !fields.emplace(std::move(*name), std::move(*value)).second) {
+      wipe(fields);
+      return std::nullopt;
+    }
+    casedb::wipe(*value);  // a short one was copied, not moved
   }
   return fields;
 }
 
 std::string cookie(const Request& request, std::string_view name) {
-  const std::string all = request.header("cookie");
-  std::string_view rest = all;
+  const auto all = request.headers.find("cookie");
+  std::string_view rest = all == request.headers.end() ? std::string_view() : all->second;
   std::string found;
   bool seen = false;
   while (!rest.empty()) {

@@ -16,6 +16,7 @@ struct Request {
   std::string query;                           // after the ?, not decoded
   std::map<std::string, std::string> headers;  // names in lower case; only those the guard lets through
   std::string body;
+  std::string from{};  // the address that sent it
 
   std::string header(const std::string& lower_case_name) const;  // empty when absent
 };
@@ -29,6 +30,11 @@ struct Response {
 
 Response html_response(int status, std::string body);
 Response redirect(std::string_view path);  // 303: the browser asks again with GET
+
+// Overwrites what may be secret: bodies, cookies.
+void wipe(Request& request) noexcept;
+void wipe(std::map<std::string, std::string>& form) noexcept;
+void wipe(Response& response) noexcept;
 
 // The headers every response carries: content security policy, no sniffing, no referrer, no framing, no caching.
 const std::vector<std::pair<std::string_view, std::string_view>>& security_headers();

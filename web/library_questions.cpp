@@ -1,5 +1,7 @@
 #include "web/library_questions.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -36,8 +38,12 @@ class ActingFor {
 
 class LibraryQuestions final : public Questions {
  public:
-  LibraryQuestions(casedb::Library pages, casedb::Library first, casedb::Library second, CaseChecker check)
-      : pages_(std::move(pages)), first_(std::move(first)), second_(std::move(second)), check_(std::move(check)) {}
+  LibraryQuestions(std::array<casedb::Library, 4> handles, CaseChecker check)
+      : pages_(std::move(handles[0])),
+        recordings_(std::move(handles[1])),
+        first_(std::move(handles[2])),
+        second_(std::move(handles[3])),
+        check_(std::move(check)) {}
 
   std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
     std::unique_lock first(first_.mutex, std::try_to_lock);
@@ -169,11 +175,18 @@ class LibraryQuestions final : public Questions {
     return casedb::load_parts(pages_.library, case_id);
   }
 
+  std::string case_mark(const std::string& case_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::content_mark(pages_.library, case_id);
+  }
+
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) override {
     if (!check_) return base::Error{"not_checked", "cases are not checked here"};
     auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
     if (!library) return library.error();
-    return check_(*library, row.case_id);
+    auto check = check_(*library, row.case_id);
+    ::malloc_trim(0);  // a case took hundreds of megabytes
+    return check;
   }
 
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {
@@ -182,24 +195,42 @@ class LibraryQuestions final : public Questions {
   }
 
   base::Result<cases::Recording> load_recording(const std::string& attempt_id) override {
-    const std::lock_guard lock(pages_.mutex);
-    return casedb::load_recording(pages_.library, attempt_id);
+    const std::lock_guard lock(recordings_.mutex);
+    return casedb::load_recording(recordings_.library, attempt_id);
+  }
+
+  casedb::Health health() override {
+    using Clock = std::chrono::steady_clock;
+    const std::lock_guard lock(health_mutex_);
+    if (!looked_ || Clock::now() - *looked_ >= std::chrono::seconds(1)) {
+      health_ = watch_.look();
+      looked_ = Clock::now();
+    }
+    return health_;
   }
 
  private:
-  Handle pages_, first_, second_;
+  Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
+  Handle first_, second_;      // a password is long to hash
   CaseChecker check_;
+  std::mutex health_mutex_;
+  casedb::HealthWatch watch_{pages_.library.folder()};
+  casedb::Health health_ = casedb::Health::ok;
+  std::optional<std::chrono::steady_clock::time_point> looked_;
 };
 
 }  // namespace
 
 base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check) {
+  auto recordings = casedb::Library::open(library.folder());
+  if (!recordings.has_value()) return recordings.error();
   auto first = casedb::Library::open(library.folder());
   if (!first.has_value()) return first.error();
   auto second = casedb::Library::open(library.folder());
   if (!second.has_value()) return second.error();
-  return std::unique_ptr<Questions>(std::make_unique<LibraryQuestions>(std::move(library), std::move(*first),
-                                                                       std::move(*second), std::move(check)));
+  return std::unique_ptr<Questions>(std::make_unique<LibraryQuestions>(
+      std::array{std::move(library), std::move(*recordings), std::move(*first), std::move(*second)},
+      std::move(check)));
 }
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,

@@ -10,8 +10,8 @@
 
 namespace seldinger::web {
 
-// Opens two further handles of the same library for log-ins, so that hashing a password holds up no page. Refused
-// as Library::open.
+// Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.
+// Refused as Library::open.
 // `check` looks at a case of a library of its own; empty: cases are not checked here.
 using CaseChecker = std::function<base::Result<casedb::CaseCheck>(casedb::Library&, const std::string& case_id)>;
 base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check = {});

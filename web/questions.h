@@ -13,6 +13,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
 #include "casedb/json/case_json.h"
+#include "casedb/keeping/health.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
@@ -53,12 +54,15 @@ class Questions {
   virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;  // `no_case`
   // With a person's states, or nobody's; oldest first.
   virtual std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) = 0;
+  // casedb::content_mark: another one when a check would look at something else.
+  virtual std::string case_mark(const std::string& case_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
   virtual std::vector<assessment::StepResult> list_steps(
       const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
+  virtual casedb::Health health() = 0;  // as it was a second ago at most
 };
 
 }  // namespace seldinger::web

@@ -1,6 +1,6 @@
-// What one connection may send. Read by our own strict parser, because that of Debian's cpp-httplib 0.11.4 accepts
-// chunked and compressed bodies past its limit, any number of headers, and its own REMOTE_ADDR from outside
-// (CVE-2025-46728, -53628, -66570, 2026-22776). Everything that is not needed is refused or dropped here.
+// What one connection may send. Everything that is not needed is refused or dropped here: what general parsers fell
+// to (chunked and compressed bodies past a limit, any number of headers, a REMOTE_ADDR from outside:
+// CVE-2025-46728, -53628, -66570, 2026-22776) is not understood.
 #pragma once
 
 #include <cstddef>

@@ -6,10 +6,12 @@
 #include <cstring>
 #include <set>
 
+#include "casedb/database/credentials.h"
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
 #include "reports/pages/case_page.h"
 #include "reports/pages/cohorts_page.h"
+#include "reports/pages/log_ins_page.h"
 #include "reports/pages/login_page.h"
 #include "reports/pages/me_page.h"
 #include "reports/pages/metrics_page.h"
@@ -24,11 +26,11 @@ namespace {
 constexpr std::size_t kRowsOfAPage = 50;
 
 std::string set_cookie(std::string_view name, std::string_view value) {
-  std::string text(name);
-  text += "=";
-  text += value;
   // No Secure: on the loopback there is no TLS. Without Max-Age the browser forgets it when it closes.
-  return text + "; Path=/; HttpOnly; SameSite=Strict";
+  constexpr std::string_view kRest = "; Path=/; HttpOnly; SameSite=Strict";
+  std::string text;
+  text.reserve(name.size() + 1 + value.size() + kRest.size());  // a session's id leaves no pieces behind
+  return std::move(text.append(name).append("=").append(value).append(kRest));
 }
 std::string drop_cookie(std::string_view name) {
   return set_cookie(name, "") + "; Max-Age=0";
@@ -42,7 +44,10 @@ Response start(Site&, const Call& call) {
 }
 
 Response healthz(Site& site, const Call&) {
-  return {.content_type = "application/json", .body = health_json(site.surroundings.program_version)};
+  const casedb::Health health = site.questions.health();
+  return {.status = health == casedb::Health::ok ? 200 : 503,
+          .content_type = "application/json",
+          .body = health_json(health, site.surroundings.program_version)};
 }
 
 Response style(Site&, const Call&) {
@@ -50,11 +55,11 @@ Response style(Site&, const Call&) {
 }
 
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {
-  std::string before_id = cookie(call.request, kBeforeLoginCookie);
+  std::string before_id = cookie(call.request, site.cookies.before_login);
   const bool is_new = site.login_token(before_id).empty();
   if (is_new) before_id = site.surroundings.random_id();
   Response response = html_response(status, reports::login_page(site.login_token(before_id), problem));
-  if (is_new) response.headers.emplace_back("Set-Cookie", set_cookie(kBeforeLoginCookie, before_id));
+  if (is_new) response.headers.emplace_back("Set-Cookie", set_cookie(site.cookies.before_login, before_id));
   return response;
 }
 
@@ -68,44 +73,54 @@ std::string field(const Call& call, const std::string& name) {
   return found == call.form.end() ? "" : found->second;
 }
 
+// Whose name it is; empty: nobody's.
+std::string account_id(Site& site, const std::string& name) {
+  const std::string folded = casedb::folded_name(name);
+  for (const casedb::Account& one : site.questions.list_accounts())
+    if (casedb::folded_name(one.login_name) == folded) return one.person_id;
+  return {};
+}
+
 Response log_in(Site& site, const Call& call) {
-  const std::string token = site.login_token(cookie(call.request, kBeforeLoginCookie));
+  const std::string token = site.login_token(cookie(call.request, site.cookies.before_login));
   if (token.empty() || !equal_in_constant_time(field(call, "token"), token)) {
     return login_form(site, call, 403, "The page was too old. Please try again.");
   }
-  const std::string name = field(call, "name"), password = field(call, "password");
-  if (const auto wait_s = site.throttle.begin(name); wait_s.has_value()) {
-    Response response = login_form(site, call, 429, "Too many tries. Wait a little, then try again.");
-    response.headers.emplace_back("Retry-After", std::to_string(*wait_s));
+  const std::string name = field(call, "name");
+  const std::string place = site.place_of(call.request, name);
+  if (const std::int64_t wait_s = site.delays.begin(name, place, site.surroundings.now_us()); wait_s > 0) {
+    site.security.note("log-in delayed", call.request.from, account_id(site, name));
+    Response response =
+        login_form(site, call, 429, "Too many tries. Try again in " + std::to_string(wait_s) + " s.");
+    response.headers.emplace_back("Retry-After", std::to_string(wait_s));
     return response;
   }
-  std::optional<casedb::Account> account;
-  {
-    const auto pass = site.gate.enter();
-    if (!pass.has_value()) {
-      Response response = login_form(site, call, 503, "Too many people log in at once. Try again in a moment.");
-      response.headers.emplace_back("Retry-After", "1");
-      return response;
-    }
-    account = site.questions.log_in(name, password);
-  }
+  const casedb::Secret password{field(call, "password")};
+  const std::optional<casedb::Account> account = site.questions.log_in(name, password.text);
   if (!account.has_value() || !account->enabled) {
+    site.security.note("log-in failed", call.request.from, account_id(site, name));
     return login_form(site, call, 403, "Name and password do not fit.");
   }
-  site.throttle.succeeded(name);
-  site.sessions.end(cookie(call.request, kSessionCookie));
+  site.delays.forget(name, place);
+  site.security.note("logged in", call.request.from, account->person_id);
+  const casedb::Secret old{cookie(call.request, site.cookies.session)};
+  site.sessions.end(old.text);
+  const casedb::Secret id{site.sessions.begin(account->person_id, account->password_mark)};
   Response response = redirect("/attempts");
-  response.headers.emplace_back(
-      "Set-Cookie", set_cookie(kSessionCookie, site.sessions.begin(account->person_id, account->password_mark)));
-  response.headers.emplace_back("Set-Cookie", drop_cookie(kBeforeLoginCookie));
+  response.headers.emplace_back("Set-Cookie", set_cookie(site.cookies.session, id.text));
+  response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.before_login));
+  constexpr std::string_view kHalfAYear = "; Max-Age=15552000";
+  response.headers.emplace_back("Set-Cookie",
+                                set_cookie(site.cookies.known, site.known_browser(name)).append(kHalfAYear));
   return response;
 }
 
 Response log_out(Site& site, const Call& call) {
   site.questions.log_out(call.reader->account.person_id);
-  site.sessions.end(cookie(call.request, kSessionCookie));
+  const casedb::Secret id{cookie(call.request, site.cookies.session)};
+  site.sessions.end(id.text);
   Response response = redirect("/login");
-  response.headers.emplace_back("Set-Cookie", drop_cookie(kSessionCookie));
+  response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.session));
   return response;
 }
 
@@ -189,9 +204,8 @@ Response show_picture(Site& site, const Call& call) {
   if (!row.has_value() || row->picture_sha256.empty()) return refusal(404, call.reader);
   const auto picture = site.questions.load_picture(*row);
   if (!picture.has_value() || !is_png(*picture)) {
-    site.surroundings.log("error: " + (picture.has_value() ? std::string("not_png") : picture.error().code) +
-                          ": a stored picture cannot be shown");
-    return refusal(500, call.reader);
+    const std::string code = picture.has_value() ? "not_png" : picture.error().code;
+    return site.fault(500, call.reader, code + ": a stored picture cannot be shown");
   }
   Response response{.content_type = "image/png"};
   response.body.resize(picture->size());
@@ -247,12 +261,15 @@ Response show_case_json(Site& site, const Call& call) {
 Response show_checks(Site& site, const Call& call) {
   const auto parts = visible_case(site, call);
   if (!parts.has_value()) return refusal(404, call.reader);
-  const auto check = site.questions.check_case(parts->row);
-  if (!check.has_value()) {
-    site.surroundings.log("error: " + check.error().code + ": a case cannot be checked");
-    return refusal(500, call.reader);
-  }
-  return {.content_type = "application/json", .body = checks_json(parts->row.case_id, *check)};
+  const std::string& case_id = parts->row.case_id;
+  const std::string mark = site.questions.case_mark(case_id);
+  auto checks = site.answers.get(case_id + " " + mark, [&]() -> base::Result<Answers::Made> {
+    const auto check = site.questions.check_case(parts->row);
+    if (!check) return check.error();
+    return Answers::Made{checks_json(case_id, *check), check->content_mark == mark};
+  });
+  if (!checks) return site.fault(500, call.reader, checks.error().code + ": a case cannot be checked");
+  return {.content_type = "application/json", .body = std::move(*checks)};
 }
 
 Response list_metrics(Site&, const Call& call) {
@@ -346,6 +363,25 @@ Response erase_own(Site& site, const Call& call) {
   return after(site, call, site.questions.erase_attempts_of(call.reader->account.person_id));
 }
 
+// --- log-ins
+// ----------------------------------------------------------------------------------------------------
+
+Response show_log_ins(Site& site, const Call& call) {
+  std::vector<reports::DelayedLogIn> delayed;
+  for (const casedb::Account& one : site.questions.list_accounts())
+    if (const auto wait_s = site.delays.longest_wait_s(one.login_name, site.surroundings.now_us()); wait_s > 0)
+      delayed.push_back({one.person_id, one.login_name, wait_s});
+  return html_response(200, reports::log_ins_page(call.reader->visitor(), delayed));
+}
+
+Response let_in_again(Site& site, const Call& call) {
+  const auto account = site.questions.find_account(field(call, "person"));
+  if (!account) return refusal(404, call.reader);
+  site.delays.forget(account->login_name);
+  site.security.note("let in again by an admin", call.request.from, account->person_id);
+  return redirect("/log-ins");
+}
+
 using casedb::Action;
 constexpr std::string_view kCurricula =
     "trainee: published, own states; mentor, director: all; researcher: no drafts";
@@ -359,11 +395,12 @@ constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says s
 constexpr std::string_view kSelf = "of oneself";
 
 constexpr Route kRoutes[] = {
-    {"GET", "/healthz", kOpen, false, "", "that the server answers, and its version, as JSON", healthz},
+    {"GET", "/healthz", kOpen, false, "",
+     "`ok`, `moved`, `full` or `read_only` (503) as the library is, and the version, as JSON", healthz},
     {"GET", "/style.css", kOpen, false, "", "the style sheet", style},
     {"GET", "/", kOpen, true, "", "goes on to /attempts or /login", start},
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
-    {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in},
+    {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in, Lane::log_in},
     {"POST", "/logout", kAnyRole, true, "", "ends the session: token", log_out},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
@@ -383,10 +420,13 @@ constexpr Route kRoutes[] = {
     {"GET", "/cases/{case_id}/case.json", Action::see_case, false, kCases, "as `case show` prints it",
      show_case_json},
     {"GET", "/cases/{case_id}/checks.json", Action::see_case, false, kCases,
-     "its checks as `case check` prints them", show_checks},
+     "its checks as `case check` prints them", show_checks, Lane::heavy},
     {"GET", "/cohorts", Action::see_cohort, true,
      "mentor: own cohorts by name; director: own programmes by name, of others counts of at least 5 people",
      "who is in which cohort, and what they did together", list_cohorts},
+    {"GET", "/log-ins", Action::let_in_again, true, "", "who has to wait before the next try", show_log_ins},
+    {"POST", "/log-ins", Action::let_in_again, true, "", "lets somebody try again at once: person, token",
+     let_in_again},
     {"GET", "/me", Action::answer_consent, true, kSelf, "consent, facts, deletion", show_me},
     {"POST", "/me/consent", Action::answer_consent, true, kSelf, "gives or withdraws: text, answer, delete, token",
      answer_consent},
@@ -410,6 +450,15 @@ bool is_uuid(std::string_view text) {
 
 std::span<const Route> routes() {
   return kRoutes;
+}
+
+Lane lane_of(const Request& request) {
+  std::string id;
+  for (const Route& route : routes())
+    if (route.method == (request.method == "HEAD" ? "GET" : request.method) &&
+        matches(route.pattern, request.path, id))
+      return route.lane;
+  return Lane::pages;
 }
 
 bool matches(std::string_view pattern, std::string_view path, std::string& id) {

@@ -8,6 +8,7 @@
 #include "casedb/cases/permissions.h"
 #include "web/http.h"
 #include "web/site.h"
+#include "web/workers.h"
 
 namespace seldinger::web {
 
@@ -41,9 +42,13 @@ struct Route {
   std::string_view scope;  // what the roles leave open, for docs/routes.md
   std::string_view summary;
   Response (*handle)(Site&, const Call&) = nullptr;
+  Lane lane = Lane::pages;
 };
 
 std::span<const Route> routes();
+
+// Which threads answer it; what is no route is a page.
+Lane lane_of(const Request& request);
 
 // Whether `path` fits; fills the pattern's id.
 bool matches(std::string_view pattern, std::string_view path, std::string& id);

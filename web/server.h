@@ -1,5 +1,5 @@
-// The embedded server: the one door of cpp-httplib, which listens, accepts and hands out connections. Requests are
-// read by our own guard and answered by Site. One request a connection, a deadline for the whole of it.
+// The embedded server: a listening socket, one thread that waits for every connection, and workers that answer
+// whole requests. They are read by our own guard and answered by Site.
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ class Server {
 
   // Answers until stop(). Throws base::Failure ("network") when the socket dies.
   void run();
-  // Makes run() return within about a third of a second. From any thread, also from a signal handler; before run()
+  // Makes run() return once what is being answered is. From any thread, also from a signal handler; before run()
   // too.
   void stop() noexcept;
 

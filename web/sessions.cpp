@@ -31,7 +31,7 @@ void Sessions::make_room(const std::string& person_id) {
 
 std::string Sessions::begin(const std::string& person_id, const std::string& password_mark) {
   const std::int64_t now_us = surroundings_.now_us();
-  const std::string id = surroundings_.random_id();
+  std::string id = surroundings_.random_id();
   const Session session{person_id, surroundings_.random_id(), now_us, now_us, password_mark};
   const std::lock_guard lock(mutex_);
   drop_dead(now_us);

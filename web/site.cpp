@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "casedb/database/credentials.h"
 #include "sim/base/failure.h"
 #include "web/routes.h"
 
@@ -33,9 +34,15 @@ Words words_for(int status) {
     case 503:
       return {"Not available", "The library cannot be read right now. Try again later."};
     default:
-      return {"Something went wrong", "The page could not be made. The server\u2019s log has a line about it."};
+      return {"Something went wrong", "The page could not be made."};
   }
 }
+
+// What a form held is overwritten when it is answered.
+struct WipedLater {
+  std::map<std::string, std::string>& form;
+  ~WipedLater() { wipe(form); }
+};
 
 // When not even a page can be made.
 Response plain_error(int status) noexcept {
@@ -44,17 +51,26 @@ Response plain_error(int status) noexcept {
 
 }  // namespace
 
-Response refusal(int status, const Reader* reader) {
+Response refusal(int status, const Reader* reader, std::string_view fault_id) {
   const Words words = words_for(status);
+  std::string message(words.message);
+  if (!fault_id.empty())
+    message.append(" The server\u2019s log has a line about it: ").append(fault_id).append(".");
   const reports::Visitor visitor = reader != nullptr ? reader->visitor() : reports::Visitor{};
-  return html_response(status, reports::message_page(words.title, words.message, visitor));
+  return html_response(status, reports::message_page(words.title, message, visitor));
 }
+
+CookieNames::CookieNames(int port)
+    : session("seldinger_" + std::to_string(port)),
+      before_login("seldinger_before_login_" + std::to_string(port)),
+      known("seldinger_known_" + std::to_string(port)) {}
 
 Site::Site(Questions& questions_in, const Surroundings& surroundings_in)
     : questions(questions_in),
       surroundings(surroundings_in),
+      cookies(surroundings_in.port),
       sessions(surroundings_in),
-      throttle(surroundings_in),
+      security(surroundings_in),
       secret_(surroundings_in.random_id()) {}
 
 std::string Site::login_token(const std::string& before_login_id) const {
@@ -62,15 +78,38 @@ std::string Site::login_token(const std::string& before_login_id) const {
   return before_login_id.size() == 64 ? surroundings.sha256_hex(secret_ + before_login_id) : "";
 }
 
+std::string Site::known_browser(const std::string& name) const {
+  const std::string id = surroundings.random_id();
+  return id + surroundings.sha256_hex(secret_ + id + casedb::folded_name(name));
+}
+
+std::string Site::place_of(const Request& request, const std::string& name) {
+  const std::string known = cookie(request, cookies.known), folded = casedb::folded_name(name);
+  if (known.size() == 128 &&
+      equal_in_constant_time(known.substr(64), surroundings.sha256_hex(secret_ + known.substr(0, 64) + folded)))
+    return "browser " + known.substr(0, 64);
+  const auto reader = reader_of(request);
+  if (reader && casedb::folded_name(reader->account.login_name) == folded)
+    return "session of " + reader->account.person_id;
+  return "address " + request.from;
+}
+
+Response Site::fault(int status, const Reader* reader, const std::string& what) const {
+  const std::string id = surroundings.random_id().substr(0, 8);
+  surroundings.log("error " + id + ": " + what);
+  return refusal(status, reader, id);
+}
+
 std::optional<Reader> Site::reader_of(const Request& request) {
-  const std::string id = cookie(request, kSessionCookie);
-  const auto session = sessions.find(id);
+  const casedb::Secret id{cookie(request, cookies.session)};
+  const auto session = sessions.find(id.text);
   if (!session.has_value()) return std::nullopt;
   // Asked every time, so that a disabled account or an old password is out at once and a changed role holds at
   // once.
   const auto account = questions.find_account(session->person_id);
   if (!account.has_value() || !account->enabled || account->password_mark != session->password_mark) {
     sessions.end_all_of(session->person_id);
+    security.note("sessions ended: the account was changed", request.from, session->person_id);
     return std::nullopt;
   }
   return Reader{*account, session->form_token};
@@ -101,6 +140,7 @@ Response Site::route(const Request& request) {
   }
 
   Call call{request, who, id};
+  const WipedLater wiped{call.form};
   if (is_change) {
     const std::string type = request.header("content-type");
     if (type.substr(0, type.find(';')) != "application/x-www-form-urlencoded") return refusal(415, who);
@@ -121,12 +161,10 @@ Response Site::answer(const Request& request) noexcept {
     try {
       return route(request);
     } catch (const base::Failure& failure) {
-      surroundings.log("error: " + failure.code() + ": " + failure.what());
-      return refusal(503, nullptr);
+      return fault(503, nullptr, failure.code() + ": " + failure.what());
     } catch (const std::exception&) {
       // Its text may hold anything, so it goes nowhere.
-      surroundings.log("error: internal: a page could not be made");
-      return refusal(500, nullptr);
+      return fault(500, nullptr, "internal: a page could not be made");
     }
   } catch (...) {
     return plain_error(500);

@@ -4,10 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "casedb/people/login_delays.h"
 #include "reports/pages/page.h"
+#include "web/answers.h"
 #include "web/http.h"
-#include "web/login_limits.h"
 #include "web/questions.h"
+#include "web/security_log.h"
 #include "web/sessions.h"
 #include "web/surroundings.h"
 
@@ -20,8 +22,16 @@ struct Reader {
   reports::Visitor visitor() const { return {account.login_name, casedb::name_of(account.role), form_token}; }
 };
 
+// What browsers call our cookies, for the server's port.
+struct CookieNames {
+  explicit CookieNames(int port);
+  std::string session;       // "seldinger_8080"
+  std::string before_login;  // of the log-in form
+  std::string known;         // that this browser has logged somebody in: see casedb::LoginDelays
+};
+
 // Answers from several threads at once. Never throws: a base::Failure becomes 503, anything else 500, both without
-// a word about the inside.
+// a word about the inside, but for an id that stands in the log as well.
 class Site {
  public:
   // Both outlive the site.
@@ -31,12 +41,20 @@ class Site {
 
   Questions& questions;
   const Surroundings& surroundings;
+  const CookieNames cookies;
   Sessions sessions;
-  LoginThrottle throttle;
-  LoginGate gate;
+  casedb::LoginDelays delays;
+  SecurityLog security;
+  Answers answers;  // heavy ones
 
   // The token of the log-in form, bound to the cookie of the browser that asked for it.
   std::string login_token(const std::string& before_login_id) const;
+  // What a browser keeps that has logged in under this name, so that it is told from those who only know the name.
+  std::string known_browser(const std::string& name) const;
+  // Where this request tries to log in from under this name.
+  std::string place_of(const Request& request, const std::string& name);
+  // Logs what happened (no patient data, no names) under an id, which the page carries.
+  Response fault(int status, const Reader* reader, const std::string& what) const;
 
  private:
   Response route(const Request& request);
@@ -45,10 +63,7 @@ class Site {
   std::string secret_;
 };
 
-inline constexpr std::string_view kSessionCookie = "seldinger_session";
-inline constexpr std::string_view kBeforeLoginCookie = "seldinger_before_login";
-
-// A page that says why not. `reader` may be null.
-Response refusal(int status, const Reader* reader);
+// A page that says why not. `reader` may be null; `fault_id` empty.
+Response refusal(int status, const Reader* reader, std::string_view fault_id = {});
 
 }  // namespace seldinger::web

@@ -14,6 +14,7 @@ struct Surroundings {
   std::function<std::string(std::string_view)> sha256_hex;  // 64 hex digits
   std::function<void(const std::string&)> log;              // one line; no patient data, no names
   std::string program_version;
+  int port = 0;  // cookies know no ports: their names tell ours from another program's on this machine
 };
 
 }  // namespace seldinger::web

@@ -1,5 +1,8 @@
 #include "app/library/serving.h"
 
+#include <sys/prctl.h>
+#include <sys/resource.h>
+
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -8,6 +11,7 @@
 #include "app/cli/version.h"
 #include "casedb/database/audit.h"
 #include "session/case/case_check.h"
+#include "sim/base/failure.h"
 #include "web/library_questions.h"
 
 namespace seldinger::app {
@@ -21,8 +25,15 @@ void on_signal(int) {
 
 }  // namespace
 
+void keep_memory_to_itself() {
+  const rlimit none{0, 0};
+  if (::setrlimit(RLIMIT_CORE, &none) != 0 || ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0)
+    throw base::Failure("memory", "the system does not let this process keep its memory to itself");
+}
+
 base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& at,
                                        const std::function<void(const std::string& url)>& ready) {
+  keep_memory_to_itself();
   const std::filesystem::path folder = library.folder();
   casedb::audit_alone(library, casedb::Act::start_server);
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };

@@ -16,6 +16,10 @@ struct ServeAt {
   bool any_port_if_taken = false;
 };
 
+// No picture of this process's memory is written when it dies, nor may another process of this user look into it:
+// passwords pass through it. Throws base::Failure ("memory") when the system refuses.
+void keep_memory_to_itself();
+
 // Blocks until SIGINT or SIGTERM. `ready` gets the address once the port is open. Refused as web::Server::open
 // refuses.
 base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& at,

@@ -321,13 +321,13 @@ std::vector<AttemptRow> list_attempts_on(Library& library, const std::string& ca
 std::vector<AttemptRow> list_expert_attempts(Library& library, const std::string& case_id,
                                              assessment::SetKind kind) {
   Sqlite& database = library.database();
-  Statement attempts = question(database, "expert_attempts");
-  Statement metrics = question(database, "metric_values_of_experts");
   const bool consultants = kind == assessment::SetKind::consultants;
-  for (Statement* part : {&attempts, &metrics})
-    part->bind("case_id", case_id)
-        .bind("kind", consultants ? "consultants" : "simulated")
-        .bind("most", consultants ? -1 : kMostSimulated);
+  Statement attempts = question(database, consultants ? "consultant_attempts" : "expert_attempts");
+  Statement metrics = question(database, consultants ? "metric_values_of_consultants" : "metric_values_of_experts");
+  for (Statement* part : {&attempts, &metrics}) {
+    part->bind("case_id", case_id);
+    if (!consultants) part->bind("most", kMostSimulated);
+  }
   const Snapshot one_state(database);
   return read_attempts(std::move(attempts), std::move(metrics));
 }

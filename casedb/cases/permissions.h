@@ -54,6 +54,7 @@ enum class Action {
   manage_studies,  // what they ask, who works on them
   export_study,    // attempts of those who consent, without names
   answer_consent,  // give and withdraw, and state facts of oneself
+  let_in_again,    // somebody whose log-in is delayed
   erase_attempts,
   erase_person,
   erase_case,
@@ -273,6 +274,10 @@ inline constexpr Permission kPermissions[] = {
      "a researcher exports the attempts of those who consent to an own study",
      {{{Role::researcher}, {}, Whose::own_studies}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
+    {Action::let_in_again,
+     "let_in_again",
+     "an admin lets somebody try again at once whose log-in is delayed",
+     {{{Role::admin}}}},
     {Action::erase_attempts,
      "erase_attempts",
      "an admin erases attempts, or whose they are",

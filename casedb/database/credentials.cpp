@@ -150,8 +150,20 @@ void wipe(std::span<char> secret) noexcept {
 }
 
 void wipe(std::string& secret) noexcept {
+  secret.resize(secret.capacity());  // allocates nothing
   sodium_memzero(secret.data(), secret.size());
   secret.clear();
+}
+
+void append_secret(std::string& secret, std::string_view more) {
+  if (secret.size() + more.size() > secret.capacity()) {
+    std::string roomier;
+    roomier.reserve(2 * (secret.size() + more.size()));
+    roomier = secret;
+    wipe(secret);
+    secret.swap(roomier);
+  }
+  secret += more;
 }
 
 }  // namespace seldinger::casedb

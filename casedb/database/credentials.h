@@ -48,7 +48,14 @@ Signature sign(const HashKey& secret_key, std::span<const std::byte> bytes) noex
 bool is_signed_by(const std::string& public_key, std::span<const std::byte> bytes,
                   const Signature& signature) noexcept;
 
-void wipe(std::string& secret) noexcept;  // overwrites, then empties
-void wipe(std::span<char> secret) noexcept;
+void wipe(std::span<char> secret) noexcept;  // overwrites
+void wipe(std::string& secret) noexcept;     // overwrites all that it holds room for, then empties
+// Appends; what the text leaves behind when it moves for want of room is overwritten.
+void append_secret(std::string& secret, std::string_view more);
+// Overwritten when it goes.
+struct Secret {
+  std::string text{};
+  ~Secret() { wipe(text); }
+};
 
 }  // namespace seldinger::casedb

@@ -112,15 +112,25 @@ class FakeQuestions final : public Questions {
       if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}, true};
     return base::Error{"no_case", "there is no such case"};
   }
+  std::string case_mark(const std::string&) override {
+    const std::lock_guard lock(mutex);
+    return mark;
+  }
+  casedb::Health health() override { return health_now; }
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow&) override {
-    return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}};
+    ++case_checks;
+    if (during_check) during_check();
+    if (check_refusal) return *check_refusal;
+    return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}, case_mark("")};
   }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
   base::Result<cases::Recording> load_recording(const std::string&) override {
     return base::Error{"damaged", "the recording is damaged"};
   }
 
-  std::mutex mutex;  // guards accounts
+  std::mutex mutex;               // guards accounts and mark
+  std::string mark = "as drawn";  // of every case
+  std::atomic<casedb::Health> health_now = casedb::Health::ok;
   std::vector<casedb::Account> accounts;
   std::map<std::string, std::string> passwords;                                        // by log-in name
   std::map<std::string, std::unordered_map<std::string, casedb::Relation>> relations;  // by reader
@@ -138,7 +148,9 @@ class FakeQuestions final : public Questions {
   std::vector<std::byte> picture;
   std::function<void()> fault;  // thrown from questions about attempts and accounts
   std::function<void()> during_log_in;
-  std::atomic<int> log_ins = 0;
+  std::function<void()> during_check;
+  std::optional<base::Error> check_refusal;
+  std::atomic<int> log_ins = 0, case_checks = 0;
 
  private:
   void fail_if_asked() const {
@@ -237,6 +249,7 @@ struct FakeSite {
       log.push_back(line);
     };
     surroundings.program_version = "9.8.7";
+    surroundings.port = 8080;
     site.emplace(questions, surroundings);
   }
   FakeSite(const FakeSite&) = delete;
@@ -279,6 +292,7 @@ class FakeBrowser {
     out.path = path.substr(0, path.find('?'));
     out.query = out.path.size() == path.size() ? "" : path.substr(out.path.size() + 1);
     out.headers["host"] = "127.0.0.1:8080";
+    out.from = from;
     if (method == "POST") {
       out.headers["origin"] = "null";  // what browsers send under our own referrer policy
       out.headers["sec-fetch-site"] = "same-origin";
@@ -317,6 +331,7 @@ class FakeBrowser {
   Response log_in_as(casedb::Role role) { return log_in(casedb::name_of(role), "correct+horse%20battery"); }
 
   std::map<std::string, std::string> cookies;
+  std::string from = "127.0.0.1";
 
  private:
   Site& site_;

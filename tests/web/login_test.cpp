@@ -8,7 +8,9 @@ namespace seldinger::web {
 namespace {
 
 using casedb::Role;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 using ::testing::Not;
 
 class LoginTest : public ::testing::Test {
@@ -29,10 +31,10 @@ TEST_F(LoginTest, TheStartLeadsToTheFormThenToTheAttempts) {
 
 TEST_F(LoginTest, CookiesAreHttpOnlyStrictAndHold256Bits) {
   const std::string set = header_of(browser.log_in_as(Role::mentor), "Set-Cookie");
-  EXPECT_THAT(set, HasSubstr("seldinger_session=" + browser.cookies["seldinger_session"] +
+  EXPECT_THAT(set, HasSubstr("seldinger_8080=" + browser.cookies["seldinger_8080"] +
                              "; Path=/; HttpOnly; SameSite=Strict\n"));
-  EXPECT_EQ(browser.cookies["seldinger_session"].size(), 64U);
-  EXPECT_EQ(browser.cookies.count("seldinger_before_login"), 0U);
+  EXPECT_EQ(browser.cookies["seldinger_8080"].size(), 64U);
+  EXPECT_EQ(browser.cookies.count("seldinger_before_login_8080"), 0U);
 }
 
 TEST_F(LoginTest, AnUnknownNameAndAWrongPasswordGetTheSamePage) {
@@ -52,7 +54,7 @@ TEST_F(LoginTest, NeedsTheTokenOfItsOwnForm) {
   for (const std::string& token : {std::string(), std::string(64, 'a'), foreign}) {
     const Response response = browser.post("/login", "name=trainee&password=correct+horse+battery&token=" + token);
     EXPECT_EQ(response.status, 403);
-    EXPECT_EQ(browser.cookies.count("seldinger_session"), 0U);
+    EXPECT_EQ(browser.cookies.count("seldinger_8080"), 0U);
   }
   EXPECT_EQ(fake.questions.log_ins.load(), 0);
 }
@@ -94,19 +96,19 @@ TEST_F(LoginTest, LogOutNeedsItsTokenAndEndsTheSession) {
   EXPECT_EQ(browser.get("/attempts").status, 200);
   const std::string token = form_token(browser.get("/attempts").body, "/logout");
   EXPECT_EQ(header_of(browser.post("/logout", "token=" + token), "Location"), "/login");
-  EXPECT_EQ(browser.cookies.count("seldinger_session"), 0U);
+  EXPECT_EQ(browser.cookies.count("seldinger_8080"), 0U);
   browser.cookies = cookies;  // a kept cookie opens nothing
   EXPECT_EQ(browser.get("/attempts").status, 303);
 }
 
 TEST_F(LoginTest, LoggingInAgainGivesANewSessionAndEndsTheOldOne) {
   browser.log_in_as(Role::trainee);
-  const std::string first = browser.cookies["seldinger_session"];
+  const std::string first = browser.cookies["seldinger_8080"];
   FakeBrowser second(*fake.site);
   const std::string token = form_token(second.get("/login").body, "/login");
-  second.cookies["seldinger_session"] = first;
+  second.cookies["seldinger_8080"] = first;
   second.post("/login", "name=mentor&password=correct+horse+battery&token=" + token);
-  EXPECT_NE(second.cookies["seldinger_session"], first);
+  EXPECT_NE(second.cookies["seldinger_8080"], first);
   EXPECT_EQ(browser.get("/attempts").status, 303);
   EXPECT_EQ(second.get("/attempts").status, 200);
 }
@@ -146,7 +148,7 @@ TEST_F(LoginTest, AChangedRoleHoldsAtOnce) {
   EXPECT_EQ(browser.get("/attempts/" + kOthersAttempt).status, 404);
 }
 
-TEST_F(LoginTest, AfterFiveFailuresEvenTheRightPasswordWaits) {
+TEST_F(LoginTest, AfterFiveFailuresEvenTheRightPasswordWaitsAtThatPlace) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(browser.log_in("mentor", "wrong-password").status, 403);
   const Response refused = browser.log_in_as(Role::mentor);
   EXPECT_EQ(refused.status, 429);
@@ -154,6 +156,115 @@ TEST_F(LoginTest, AfterFiveFailuresEvenTheRightPasswordWaits) {
   EXPECT_EQ(fake.questions.log_ins.load(), 5);  // no hash was computed
   fake.now_us += 1000000;
   EXPECT_EQ(browser.log_in_as(Role::mentor).status, 303);
+}
+
+// Was: victim 0 of 30 s, the wait rising to 15 min, for whoever knew a name.
+TEST_F(LoginTest, WhoKnowsANameShutsItsOwnerOutNeitherFromElsewhereNorFromABrowserThatWasIn) {
+  FakeBrowser known(*fake.site);
+  ASSERT_EQ(known.log_in_as(Role::mentor).status, 303);
+  ASSERT_EQ(known.post("/logout", "token=" + form_token(known.get("/attempts").body, "/logout")).status, 303);
+  FakeBrowser logged_in(*fake.site);
+  ASSERT_EQ(logged_in.log_in_as(Role::mentor).status, 303);
+  const std::string session = logged_in.cookies["seldinger_8080"];
+  for (int i = 0; i < 30; ++i) browser.log_in("mentor", "wrong-password");
+  ASSERT_EQ(browser.log_in_as(Role::mentor).status, 429);
+  FakeBrowser elsewhere(*fake.site);
+  elsewhere.from = "127.0.0.9";
+  EXPECT_EQ(elsewhere.log_in_as(Role::mentor).status, 303);
+  EXPECT_EQ(known.log_in_as(Role::mentor).status, 303) << "of the same address";
+  FakeBrowser with_session(*fake.site);
+  const std::string token = form_token(with_session.get("/login").body, "/login");
+  with_session.cookies["seldinger_8080"] = session;
+  EXPECT_EQ(with_session.post("/login", "name=mentor&password=correct+horse+battery&token=" + token).status, 303);
+  // It proves one name only, and its own failures count.
+  known.cookies.erase("seldinger_8080");
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(known.log_in("mentor", "wrong-password").status, 403);
+  EXPECT_EQ(known.log_in_as(Role::mentor).status, 429);
+  for (int i = 0; i < 6; ++i) browser.log_in("trainee", "wrong-password");
+  EXPECT_EQ(known.log_in_as(Role::trainee).status, 429);
+  FakeBrowser forging(*fake.site);
+  forging.cookies["seldinger_known_8080"] = std::string(128, 'a');
+  EXPECT_EQ(forging.log_in_as(Role::mentor).status, 429);
+}
+
+// Was: 60 tries of all names together, then one a second: the victim was in 7 times of 14.
+TEST_F(LoginTest, NamesThatNobodyHasShutNobodyOut) {
+  for (int i = 0; i < 500; ++i) browser.log_in("nobody" + std::to_string(i), "wrong-password");
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 303);
+}
+
+TEST_F(LoginTest, AnAdminLetsSomebodyTryAgainAtOnce) {
+  for (int i = 0; i < 7; ++i) browser.log_in("mentor", "wrong-password");
+  for (int i = 0; i < 7; ++i) browser.log_in("A password typed as a name", "wrong-password");
+  FakeBrowser admin(*fake.site);
+  ASSERT_EQ(admin.log_in_as(Role::admin).status, 303);
+  const std::string page = admin.get("/log-ins").body;
+  EXPECT_THAT(page, HasSubstr("person-of-mentor"));
+  EXPECT_THAT(page, Not(HasSubstr("typed as a name")));
+  ASSERT_EQ(browser.log_in_as(Role::mentor).status, 429);
+  const std::string token = form_token(page, "/log-ins");
+  EXPECT_EQ(admin.post("/log-ins", "person=nobody&token=" + token).status, 404);
+  EXPECT_EQ(admin.post("/log-ins", "person=person-of-mentor&token=" + token).status, 303);
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 303);
+  EXPECT_THAT(admin.get("/log-ins").body, HasSubstr("Nobody has to wait now."));
+}
+
+// Was: no line at all of any of it.
+TEST_F(LoginTest, TheLogTellsWhatHappenedAndNamesNobody) {
+  for (int i = 0; i < 7; ++i) browser.log_in("mentor", "wrong-password");
+  browser.log_in("nobody", "wrong-password");
+  FakeBrowser trainee(*fake.site);
+  trainee.log_in_as(Role::trainee);
+  for (casedb::Account& account : fake.questions.accounts) account.password_mark = "changed";
+  trainee.get("/attempts");
+  fake.now_us += 10000000;
+  browser.log_in("nobody", "wrong-password");
+  std::string all;
+  for (const std::string& line : fake.log) all += line + "\n";
+  EXPECT_THAT(all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}; account person-of-mentor\n"));
+  EXPECT_THAT(all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}\n"));
+  EXPECT_THAT(
+      all, ContainsRegex("security: log-in failed; address [0-9a-f]{8}; account person-of-mentor; 4 times more\n"));
+  EXPECT_THAT(all, ContainsRegex("security: log-in delayed; address [0-9a-f]{8}; account person-of-mentor\n"));
+  EXPECT_THAT(all, ContainsRegex("security: logged in; address [0-9a-f]{8}; account person-of-trainee\n"));
+  EXPECT_THAT(all,
+              ContainsRegex("security: sessions ended: the account was changed; .*account person-of-trainee\n"));
+  EXPECT_THAT(all, Not(HasSubstr("127.0.0.1")));
+  EXPECT_THAT(all, Not(HasSubstr("nobody")));
+}
+
+TEST_F(LoginTest, ACheckIsMadeOnceForEachVersionOfACase) {
+  browser.log_in_as(Role::mentor);
+  const std::string path = "/cases/" + kDraftCase + "/checks.json";
+  const std::string first = browser.get(path).body;
+  EXPECT_THAT(first, HasSubstr("lesion_present"));
+  EXPECT_EQ(browser.get(path).body, first);
+  EXPECT_EQ(fake.questions.case_checks.load(), 1);  // was: one each time
+  fake.questions.mark = "drawn anew";
+  EXPECT_EQ(browser.get(path).status, 200);
+  EXPECT_EQ(fake.questions.case_checks.load(), 2);
+  fake.questions.during_check = [&] { fake.questions.mark = "changed meanwhile"; };
+  fake.questions.mark = "once more";
+  browser.get(path);
+  fake.questions.during_check = {};
+  fake.questions.mark = "once more";
+  browser.get(path);
+  EXPECT_EQ(fake.questions.case_checks.load(), 4) << "what was found of another state is not kept";
+  fake.questions.mark = "damaged";
+  fake.questions.check_refusal = base::Error{"asset_damaged", "is damaged"};
+  EXPECT_EQ(browser.get(path).status, 500);
+}
+
+TEST_F(LoginTest, HealthTellsWhatTheLibraryCannotDo) {
+  using casedb::Health;
+  for (const auto& [health, status] :
+       {std::pair{Health::ok, 200}, {Health::moved, 503}, {Health::full, 503}, {Health::read_only, 503}}) {
+    fake.questions.health_now = health;
+    const Response response = browser.get("/healthz");
+    EXPECT_EQ(response.status, status);
+    EXPECT_EQ(response.body,
+              "{\"status\":\"" + std::string(casedb::name_of(health)) + "\",\"version\":\"9.8.7\"}\n");
+  }
 }
 
 TEST_F(LoginTest, OnlyFormsAreRead) {
@@ -190,9 +301,13 @@ TEST_F(LoginTest, FaultsOfTheLibrarySayNothingOfTheInside) {
   EXPECT_THAT(bytes_of(broken, true), Not(HasSubstr("SECRET")));
   fake.questions.fault = [] { throw 42; };
   EXPECT_EQ(browser.get("/attempts").status, 500);
-  ASSERT_EQ(fake.log.size(), 2U);
-  EXPECT_EQ(fake.log[0], "error: database: the database is busy");
-  EXPECT_THAT(fake.log[1], Not(HasSubstr("SECRET")));
+  ASSERT_EQ(fake.log.size(), 3U);
+  EXPECT_THAT(fake.log[0], HasSubstr("security: logged in"));
+  EXPECT_THAT(fake.log[1], MatchesRegex("error [0-9a-f]{8}: database: the database is busy"));
+  EXPECT_THAT(fake.log[2], Not(HasSubstr("SECRET")));
+  // Was: the page sent its reader to a line of the log that nothing tells from the others.
+  EXPECT_THAT(gone.body, HasSubstr("has a line about it: " + fake.log[1].substr(6, 8)));
+  EXPECT_THAT(broken.body, HasSubstr("has a line about it: " + fake.log[2].substr(6, 8)));
 }
 
 }  // namespace

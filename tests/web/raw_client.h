@@ -17,7 +17,8 @@ namespace seldinger::web {
 
 class RawClient {
  public:
-  explicit RawClient(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  // `from`: an address of the loopback.
+  explicit RawClient(int port, const std::string& from = "127.0.0.1") : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
@@ -25,7 +26,11 @@ class RawClient {
     sockaddr generic{};
     static_assert(sizeof generic == sizeof address);
     std::memcpy(&generic, &address, sizeof generic);
-    connected_ = ::connect(socket_, &generic, sizeof generic) == 0;
+    const sockaddr to = generic;
+    address.sin_port = 0;
+    ::inet_pton(AF_INET, from.c_str(), &address.sin_addr);
+    std::memcpy(&generic, &address, sizeof generic);
+    connected_ = ::bind(socket_, &generic, sizeof generic) == 0 && ::connect(socket_, &to, sizeof to) == 0;
   }
   ~RawClient() { ::close(socket_); }
   RawClient(const RawClient&) = delete;

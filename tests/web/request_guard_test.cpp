@@ -1,4 +1,4 @@
-// The guard: everything that is not a plain small request is refused, whatever cpp-httplib would have taken.
+// The guard: everything that is not a plain small request is refused.
 #include "web/request_guard.h"
 
 #include <gtest/gtest.h>

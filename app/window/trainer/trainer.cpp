@@ -1,6 +1,7 @@
 #include "app/window/trainer/trainer.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "app/attempts/this_program.h"
 #include "casedb/cases/changeable_case.h"
@@ -11,6 +12,7 @@ namespace seldinger::app {
 namespace {
 
 constexpr int kMostHelp = 2;
+constexpr const char* kThisStation = "station";
 
 }  // namespace
 
@@ -24,11 +26,18 @@ Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
 }
 
 void Trainer::log_in(const std::string& name, const std::string& password) {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+  if (const auto wait_s = delays_.begin(name, kThisStation, now_us); wait_s > 0) {
+    refusal_ = "Too many tries. Try again in " + std::to_string(wait_s) + " s.";
+    return;
+  }
   const auto account = casedb::log_in(library_, name, password);
   if (!account) {
     refusal_ = "Name or password is not right.";
     return;
   }
+  delays_.forget(name, kThisStation);
   refusal_.clear();
   account_ = *account;
   library_.act_for(casedb::Actor::person(account_.person_id));

@@ -17,6 +17,7 @@
 #include "casedb/cases/permissions.h"
 #include "casedb/grading/choices.h"
 #include "casedb/grading/grading.h"
+#include "casedb/people/login_delays.h"
 #include "casedb/people/people.h"
 #include "session/attempt/watched_attempt.h"
 
@@ -49,7 +50,7 @@ class Trainer {
   // The last thing that was refused, in words for the screen; empty: nothing was.
   const std::string& refusal() const noexcept { return refusal_; }
 
-  // Accounts as the dashboard's. A refusal does not say which of the two was wrong.
+  // Accounts and delays as the dashboard's. A refusal does not say which of the two was wrong.
   void log_in(const std::string& name, const std::string& password);
   void log_out();  // what runs is stopped and stored
   const casedb::Account& account() const noexcept { return account_; }
@@ -128,6 +129,7 @@ class Trainer {
   Debrief debrief_of_try();
 
   casedb::Library library_;
+  casedb::LoginDelays delays_;
   std::optional<Arms> arms_;
   session::PicturesBy by_ = session::PicturesBy::cpu;
   TrainerScreen screen_ = TrainerScreen::log_in;

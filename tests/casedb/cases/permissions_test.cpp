@@ -55,6 +55,7 @@ constexpr Row kMatrix[] = {
     {"manage_studies",            "",          "",                    "",                 "all",       "all"},
     {"export_study",              "",          "",                    "study",            "",          ""},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
+    {"let_in_again",              "",          "",                    "",                 "",          "all"},
     {"erase_attempts",            "own",       "own",                 "own",              "own",       "all"},
     {"erase_person",              "",          "",                    "",                 "",          "all"},
     {"erase_case",                "",          "d:all",               "",                 "",          "dx:all"},

@@ -10,6 +10,23 @@
 namespace seldinger::app {
 namespace {
 
+// Was: as many passwords as one likes, at once.
+TEST_F(TrainerTest, PasswordsAreTriedNoFasterThanOnTheDashboard) {
+  Trainer trainer(open());
+  for (int i = 0; i < 5; ++i) trainer.log_in("mona", "another password");
+  EXPECT_EQ(trainer.refusal(), "Name or password is not right.");
+  trainer.log_in("mona", kPassword);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::log_in);
+  EXPECT_EQ(trainer.refusal(), "Too many tries. Try again in 1 s.");
+  trainer.log_in("tina", kPassword);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose) << "another name does not wait";
+  trainer.log_out();
+  EXPECT_TRUE(until([&] {
+    trainer.log_in("mona", kPassword);
+    return trainer.screen() == TrainerScreen::choose;
+  }));
+}
+
 TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
   Trainer trainer(open());
   trainer.log_in("mona", "another password");

@@ -1,0 +1,56 @@
+// Threads that answer requests, in lanes of their own, so that what takes long holds up nothing that does not. In a
+// lane the addresses take turns: who sends many requests waits for themselves.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "web/http.h"
+
+namespace seldinger::web {
+
+enum class Lane {
+  pages,
+  log_in,  // a password's hash takes 64 MiB and 60 ms by design: two at once
+  heavy,   // what takes a whole case into memory: one at a time
+};
+
+struct Job {
+  std::uint64_t connection = 0;
+  Request request;
+};
+
+class Workers {
+ public:
+  // `work` may throw nothing.
+  explicit Workers(std::function<void(Job)> work);
+  ~Workers();  // what is being answered is finished, what waits is dropped
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  void add(Lane lane, Job job);  // how many can wait, connections bound
+
+ private:
+  struct Queue {
+    std::mutex mutex;
+    std::condition_variable arrived;
+    std::map<std::string, std::deque<Job>> of_address;
+    std::deque<std::string> turns;  // each address with something once
+    bool ended = false;
+  };
+  void run(Queue& queue);
+
+  const std::function<void(Job)> work_;
+  std::array<Queue, 3> queues_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace seldinger::web
