@@ -13,12 +13,12 @@
 
 namespace seldinger::app {
 
-// An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
+// `large`: up to kLargeCtFile. An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin,
                                           casedb::FaceChoice face = casedb::FaceChoice::refuse,
-                                          bool denoise = false);
+                                          bool denoise = false, bool large = false);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
 base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);

@@ -17,6 +17,10 @@ constexpr ErrorCode kFilesCodes[] = {
     {"bad_csv", kRefuses, "A CSV file lacks a column, or a row is not as its header says.",
      "Mend the rows that are named."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
+    {"reader_died", kRefuses,
+     "A file from outside stopped the process that read it, or made it ask for more memory or time than such a file "
+     "takes; nothing of it was taken.",
+     "Ask where the file came from; export it again."},
     {"damaged", kRefuses, "Stored or copied bytes are not what they must be.",
      "Restore a backup, or copy the file again."}};
 
@@ -337,6 +341,7 @@ constexpr ErrorCode kEnvironmentCodes[] = {
      "Free space; check permissions."},
     {"database", kFails, "The database cannot be used, or holds what this program cannot read.",
      "`seldinger check`."},
+    {"no_reader", kFails, "No process can be started to read a file from outside.", "Close other programs."},
     {"memory", kFails, "There is not enough memory.", "Close other programs, or use a smaller volume."},
     {"gl", kFails, "OpenGL 4.3 cannot be had or fails.",
      "`seldinger doctor`; `--backend cpu` where a command has it."},

@@ -15,7 +15,6 @@ namespace seldinger::casedb {
 namespace {
 
 constexpr std::uint32_t kFormat = 1;
-constexpr std::uint64_t kMostFileListBytes = std::uint64_t{16} << 20;  // of 20,000 cases with five files each
 
 struct Header {
   char magic[8] = {'S', 'D', 'B', 'U', 'N', 'D', 'L', 'E'};

@@ -16,6 +16,8 @@
 
 namespace seldinger::casedb {
 
+constexpr std::uint64_t kMostFileListBytes = std::uint64_t{16} << 20;  // of 20,000 cases with five files each
+
 struct BundledCase {
   std::string case_id;
   std::uint64_t packed_bytes = 0, bytes = 0;
