@@ -16,6 +16,7 @@
 namespace seldinger::casedb {
 namespace {
 
+const base::Error kNoMemory{"bad_size", "there is not enough memory for the volume"};
 constexpr int kTissueHu = -200;  // a CT of a patient without anything below is none, or not in HU
 
 std::string lower_extension(const std::filesystem::path& file) {
@@ -63,10 +64,12 @@ base::Result<Source> read_one_file(const std::filesystem::path& file, const std:
   return base::Error{"unknown_format", "the file is none of DICOM, NIfTI, NRRD and MetaImage"};
 }
 
+// Of a folder; nothing where the source is one file.
+using Files = std::optional<std::vector<std::filesystem::path>>;
+
 // In the jail.
 base::Result<Source> read_inside(const std::filesystem::path& source, const std::optional<std::string>& series,
-                                 const UnpackingLimit& limit,
-                                 const std::optional<std::vector<std::filesystem::path>>& files) {
+                                 const UnpackingLimit& limit, const Files& files) {
   try {
     auto result = files ? read_dicom_files(*files, series) : read_one_file(source, series, limit);
     if (!result) return result;
@@ -79,14 +82,13 @@ base::Result<Source> read_inside(const std::filesystem::path& source, const std:
                                                      "that is kept: the source may hold more"});
     return result;
   } catch (const std::bad_alloc&) {
-    return base::Error{"bad_size", "there is not enough memory for the volume"};
+    return kNoMemory;
   }
 }
 
 constexpr std::uint64_t kBytesOfAnEntry = 8192;  // what is kept of a slice until all are known
 
-JailInputs inputs_of(const std::filesystem::path& source,
-                     const std::optional<std::vector<std::filesystem::path>>& files) {
+JailInputs inputs_of(const std::filesystem::path& source, const Files& files) {
   JailInputs inputs;
   if (files)
     inputs.files.insert(files->begin(), files->end());
@@ -103,27 +105,42 @@ JailInputs inputs_of(const std::filesystem::path& source,
   return inputs;
 }
 
+base::Result<Files> files_of(const std::filesystem::path& source) {
+  std::error_code error;
+  const auto status = std::filesystem::status(source, error);
+  if (error || !std::filesystem::exists(status)) return base::Error{"not_found", "there is no such file or folder"};
+  if (std::filesystem::is_directory(status)) {
+    auto found = files_of_folder(source);
+    if (!found) return found.error();
+    return Files(std::move(*found));
+  }
+  if (!std::filesystem::is_regular_file(status)) return base::Error{"unknown_format", "no file or folder"};
+  return Files();
+}
+
 }  // namespace
 
 base::Result<Source> read_source(const std::filesystem::path& source, const std::optional<std::string>& series,
                                  const UnpackingLimit& limit) {
-  std::error_code error;
-  const auto status = std::filesystem::status(source, error);
-  if (error || !std::filesystem::exists(status)) return base::Error{"not_found", "there is no such file or folder"};
-  std::optional<std::vector<std::filesystem::path>> files;
-  if (std::filesystem::is_directory(status)) {
-    auto found = files_of_folder(source);
-    if (!found) return found.error();
-    files = std::move(*found);
-  } else if (!std::filesystem::is_regular_file(status)) {
-    return base::Error{"unknown_format", "no file or folder"};
-  }
+  const auto files = files_of(source);
+  if (!files) return files.error();
   base::Result<Source> result = base::Error{};
-  const auto read = read_in_jail(
-      inputs_of(source, files), [&](Outlet& out) { put_source(out, read_inside(source, series, limit, files)); },
-      [&](Inlet& in) { result = take_source(in); });
-  if (!read) return read.error();
+  try {
+    const auto read = read_in_jail(
+        inputs_of(source, *files),
+        [&](Outlet& out) { put_source(out, read_inside(source, series, limit, *files)); },
+        [&](Inlet& in) { result = take_source(in); });
+    if (!read) return read.error();
+  } catch (const std::bad_alloc&) {
+    return kNoMemory;
+  }
   return result;
+}
+
+base::Result<Source> read_source_here(const std::filesystem::path& source) {
+  const auto files = files_of(source);
+  if (!files) return files.error();
+  return read_inside(source, {}, kCtFile, *files);
 }
 
 }  // namespace seldinger::casedb

@@ -146,14 +146,14 @@ class Descriptor {
 
 thread_local JailUse last_use;
 
-// A child begins with what its parent holds.
-std::size_t resident_bytes() {
-  unsigned long long all = 0, resident = 0;
+// What a child begins with: its parent's pages but for those of files.
+std::size_t inherited_bytes() {
+  unsigned long long all = 0, resident = 0, of_files = 0;
   if (std::FILE* statm = std::fopen("/proc/self/statm", "re")) {  // proc(5)
-    if (std::fscanf(statm, "%llu %llu", &all, &resident) != 2) resident = 0;
+    if (std::fscanf(statm, "%llu %llu %llu", &all, &resident, &of_files) != 3) resident = of_files = 0;
     std::fclose(statm);
   }
-  return static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return static_cast<std::size_t>(resident - of_files) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 // Never left behind, and never waited for longer than it is needed.
@@ -171,7 +171,8 @@ class Child {
     const auto seconds = [](const timeval& time) {
       return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     };
-    last_use = {peak > began_bytes_ ? peak - began_bytes_ : 0, seconds(use.ru_utime) + seconds(use.ru_stime)};
+    last_use.peak_bytes = peak > began_bytes_ ? peak - began_bytes_ : 0;
+    last_use.cpu_s = seconds(use.ru_utime) + seconds(use.ru_stime);
   }
 
  private:
@@ -298,6 +299,7 @@ void Inlet::next_frame() {
         receive(std::as_writable_bytes(std::span(&bytes, 1)));
         if (bytes > kMostAnnounced - announced_bytes_) throw JailBroken();
         announced_bytes_ += bytes;
+        last_use.announced_bytes += bytes;
         widen(child_, bytes);
         send_descriptor(socket_, -1);
         break;
@@ -364,12 +366,13 @@ base::Result<void> read_in_jail(const JailInputs& inputs, const std::function<vo
     throw base::Failure("no_reader", "no process that reads files can be started");
   Descriptor ours(ends[0]), theirs(ends[1]);
   const pid_t parent = ::getpid();
-  const std::size_t began_bytes = resident_bytes();
+  const std::size_t began_bytes = inherited_bytes();
   const pid_t id = ::fork();
   if (id < 0) throw base::Failure("no_reader", "no process that reads files can be started");
   if (id == 0) be_the_reader(theirs.number(), parent, inputs, reads);
   theirs.close();
   const Child child(id, began_bytes);
+  last_use.announced_bytes = inputs.bytes;
   try {
     Inlet inlet(ours.number(), id, inputs);
     takes(inlet);

@@ -95,9 +95,11 @@ void announce_largest(std::uint64_t bytes);
 base::Result<void> read_in_jail(const JailInputs& inputs, const std::function<void(Outlet&)>& reads,
                                 const std::function<void(Inlet&)>& takes);
 
-// What the last jail of this thread took: memory beyond what this process held when it began, processor time.
+// What the last jail of this thread took: memory beyond what this process held when it began, what it had announced
+// (with JailInputs::bytes), processor time.
 struct JailUse {
   std::size_t peak_bytes = 0;
+  std::uint64_t announced_bytes = 0;
   double cpu_s = 0.0;
 };
 JailUse last_jail_use() noexcept;
