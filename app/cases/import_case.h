@@ -13,7 +13,8 @@
 
 namespace seldinger::app {
 
-// `large`: up to kLargeCtFile. An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
+// `large`: up to kLargeCtFile. An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error
+// when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin,

@@ -9,7 +9,7 @@ constexpr ErrorCode kFilesCodes[] = {
     {"too_large", kRefuses,
      "A file is larger than this program reads, or would unpack to more than it takes, or a slice has more rows or "
      "columns than DICOM can hold.",
-     "Use a smaller file."},
+     "Use a smaller file; `import --large` takes more than 4 GiB of voxels."},
     {"exists", kRefuses, "Something of that name is already there, and it is never overwritten.",
      "Give a name that is free, or an empty folder."},
     {"bad_key", kRefuses, "A key file does not hold 64 hexadecimal digits.",
@@ -18,8 +18,8 @@ constexpr ErrorCode kFilesCodes[] = {
      "Mend the rows that are named."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
     {"reader_died", kRefuses,
-     "A file from outside stopped the process that read it, or made it ask for more memory or time than such a file "
-     "takes; nothing of it was taken.",
+     "A file from outside stopped the process that read it, or took more memory or time than such a file does; "
+     "nothing of it was kept.",
      "Ask where the file came from; export it again."},
     {"damaged", kRefuses, "Stored or copied bytes are not what they must be.",
      "Restore a backup, or copy the file again."}};

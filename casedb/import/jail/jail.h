@@ -95,6 +95,10 @@ void announce_largest(std::uint64_t bytes);
 base::Result<void> read_in_jail(const JailInputs& inputs, const std::function<void(Outlet&)>& reads,
                                 const std::function<void(Inlet&)>& takes);
 
+// Whether this kernel filters a jail's system calls; elsewhere limits and closed descriptors are all. Makes a jail
+// to find out.
+bool jail_filters_calls();
+
 // What the last jail of this thread took: memory beyond what this process held when it began, what it had announced
 // (with JailInputs::bytes), processor time.
 struct JailUse {

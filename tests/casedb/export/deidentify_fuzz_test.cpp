@@ -8,8 +8,8 @@
 #include "tests/casedb/export/planted_dicom.h"
 #include "tests/casedb/import/mutate.h"
 #include "tests/casedb/import/peak_memory.h"
-#include "tests/fixtures/mutate.h"
 #include "tests/fixtures/folders.h"
+#include "tests/fixtures/mutate.h"
 
 namespace seldinger::casedb {
 namespace {

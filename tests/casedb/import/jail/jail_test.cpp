@@ -124,6 +124,10 @@ TEST_F(Jail, ItCanMakeNothingAndReachNobody) {
   EXPECT_TRUE(fs::exists(there));
 }
 
+TEST_F(Jail, TheKernelFiltersItsCalls) {
+  EXPECT_EQ(jail_filters_calls(), kConfines);
+}
+
 TEST_F(Jail, ItIsGivenOnlyTheFilesThatWereNamed) {
   JailInputs inputs;
   inputs.files = {write("listed", "abc"), folder_ / "missing"};
