@@ -42,7 +42,7 @@ int run_import(const Arguments& arguments) {
     if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   }
   auto imported = import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"), "import",
-                              face, arguments.has("--denoise"));
+                              face, arguments.has("--denoise"), arguments.has("--large"));
   if (!imported) return refuse(imported.error());
   imported->no_burned_in_text = arguments.has("--no-burned-in-text");
   imported->burned_in_checked_by = confirmed_by;
@@ -138,6 +138,7 @@ constexpr Option kImportOptions[] = {
     {"--face", "refuse|crop|deface",
      "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
     {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
+    {"--large", nullptr, "takes a file whose voxels are more than 4 GiB unpacked, up to 8"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
     kJson};
 

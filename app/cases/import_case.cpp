@@ -61,9 +61,10 @@ std::optional<std::string> series_of(const Arguments& arguments) {
 
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin, casedb::FaceChoice face, bool denoise) {
+                                          const std::string& origin, casedb::FaceChoice face, bool denoise,
+                                          bool large) {
   progress("reading the volume");
-  auto read = casedb::read_source(source, series);
+  auto read = casedb::read_source(source, series, large ? casedb::kLargeCtFile : casedb::kCtFile);
   if (!read) return read.error();
   const auto face_state = casedb::settle_face(read->volume, face, read->says_head);
   if (!face_state) return face_state.error();

@@ -17,12 +17,13 @@ namespace seldinger::app {
 inline constexpr Option kSeries{"--series", "UID|N", "which series, when the folder holds several"};
 std::optional<std::string> series_of(const Arguments& arguments);  // nothing where it was not given
 
-// An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error when it is a terminal.
+// `large`: up to kLargeCtFile. An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error
+// when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin,
                                           casedb::FaceChoice face = casedb::FaceChoice::refuse,
-                                          bool denoise = false);
+                                          bool denoise = false, bool large = false);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
 base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);

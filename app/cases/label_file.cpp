@@ -28,7 +28,9 @@ bool same_grid(const volume::Volume& a, const volume::Volume& b) {
 
 base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const casedb::CaseRow& row,
                                         const std::vector<std::pair<int, std::string>>& names) {
-  const auto source = casedb::read_source(file);
+  std::uint64_t case_voxels = 1;
+  for (int axis = 0; axis < 3; ++axis) case_voxels *= static_cast<std::uint64_t>(row.size_voxels[axis]);
+  const auto source = casedb::read_source(file, {}, casedb::label_file_limit(case_voxels));
   if (!source) return source.error();
   const volume::Volume& from = source->volume;
   int highest = 0;

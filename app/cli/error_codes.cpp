@@ -9,7 +9,7 @@ constexpr ErrorCode kFilesCodes[] = {
     {"too_large", kRefuses,
      "A file is larger than this program reads, or would unpack to more than it takes, or a slice has more rows or "
      "columns than DICOM can hold.",
-     "Use a smaller file."},
+     "Use a smaller file; `import --large` takes more than 4 GiB of voxels."},
     {"exists", kRefuses, "Something of that name is already there, and it is never overwritten.",
      "Give a name that is free, or an empty folder."},
     {"bad_key", kRefuses, "A key file does not hold 64 hexadecimal digits.",
@@ -17,6 +17,10 @@ constexpr ErrorCode kFilesCodes[] = {
     {"bad_csv", kRefuses, "A CSV file lacks a column, or a row is not as its header says.",
      "Mend the rows that are named."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
+    {"reader_died", kRefuses,
+     "A file from outside stopped the process that read it, or took more memory or time than such a file does; "
+     "nothing of it was kept.",
+     "Ask where the file came from; export it again."},
     {"damaged", kRefuses, "Stored or copied bytes are not what they must be.",
      "Restore a backup, or copy the file again."}};
 
@@ -377,6 +381,7 @@ constexpr ErrorCode kEnvironmentCodes[] = {
      "List, show, export and back up still work: back it up to another disk."},
     {"database", kFails, "The database cannot be used, or holds what this program cannot read.",
      "`seldinger check`."},
+    {"no_reader", kFails, "No process can be started to read a file from outside.", "Close other programs."},
     {"memory", kFails, "There is not enough memory.", "Close other programs, or use a smaller volume."},
     {"gl", kFails, "OpenGL 4.3 cannot be had or fails.",
      "`seldinger doctor`; `--backend cpu` where a command has it."},

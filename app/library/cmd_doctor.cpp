@@ -10,6 +10,7 @@
 #include "app/cli/command.h"
 #include "app/cli/version.h"
 #include "casedb/database/migrate.h"
+#include "casedb/import/jail/jail.h"
 #include "sim/base/failure.h"
 #include "sim/engine/step.h"
 #include "sim/gpu/context.h"
@@ -50,6 +51,8 @@ int run_doctor(const Arguments& arguments) {
   }
   add("devices", "virtual");
   add("real_time", realtime_rights());
+  add("readers", casedb::jail_filters_calls() ? "jailed, system calls filtered"
+                                              : "jailed by limits only: the kernel filters no system calls");
   if (arguments.has("--library")) {
     auto library = casedb::Library::open(arguments.text("--library"));
     if (library) {

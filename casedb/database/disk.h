@@ -79,6 +79,7 @@ class OpenFile {
   OpenFile& operator=(const OpenFile&) = delete;
   ~OpenFile();
   std::uint64_t size() const noexcept { return size_; }
+  int descriptor() const noexcept { return descriptor_; }
   // Fewer bytes where the file ends.
   std::vector<std::byte> read(std::uint64_t from, std::size_t count) const;
 

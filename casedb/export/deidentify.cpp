@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <span>
 #include <system_error>
 
 #include "casedb/database/disk.h"
 #include "casedb/database/leftovers.h"
+#include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/jail/jail.h"
+#include "casedb/import/jail/unpacking.h"
+#include "sim/base/check.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::casedb {
@@ -52,8 +57,53 @@ std::string numbered_name(std::size_t number) {
   return name.data();
 }
 
+constexpr std::uint64_t kTimesInMemory = 3;  // as read, and as it is written anew
+
+JailInputs inputs_of(const std::vector<fs::path>& files) {
+  JailInputs inputs;
+  inputs.files.insert(files.begin(), files.end());
+  for (const fs::path& file : files) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (!error && size <= kLargestDicomFile)
+      inputs.bytes = std::max<std::uint64_t>(inputs.bytes, kTimesInMemory * size);
+  }
+  return inputs;
+}
+
+void put_clean(Outlet& out, const base::Result<CleanFile>& clean) {
+  out.put(clean.has_value());
+  if (!clean) return out.put_error(clean.error());
+  out.put<std::uint64_t>(clean->counts.size());
+  for (const auto& [what, count] : clean->counts) {
+    out.put_text(what);
+    out.put(count);
+  }
+  out.put_text(clean->sop_instance_uid);
+  out.put<std::uint64_t>(clean->bytes.size());
+  out.put_bytes(std::as_bytes(std::span(clean->bytes)));
+}
+
+base::Result<CleanFile> take_clean(Inlet& in, const fs::path& file) {
+  constexpr std::size_t kMostCounts = 100, kLongestText = 100;
+  if (!in.take_flag()) return in.take_error();
+  CleanFile clean;
+  for (std::size_t count = in.take_count(kMostCounts); count > 0; --count) {
+    const std::string what = in.take_text(kLongestText);
+    clean.counts[what] = in.take<std::int64_t>();
+  }
+  clean.sop_instance_uid = in.take_text(kLongestText);
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  // What is put in: an element each for what is said of it, and delimiters of 16 bytes for lengths of 8.
+  clean.bytes.resize(in.take_count(most_unpacked(kDicomDataSet, error ? 0 : size) * 3));
+  in.take_bytes(std::as_writable_bytes(std::span(clean.bytes)));
+  return clean;
+}
+
+// All files are read in one jail, one after the other, and come out as they are done.
 base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>& files, const fs::path& out,
-                                const HashKey& key) {
+                                Inlet& inlet) {
   const bool one_file = !fs::is_directory(in);
   NewFolders parents(fs::absolute(out).lexically_normal().parent_path());
   NewFolder made(out);
@@ -62,10 +112,11 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
   Deidentified done;
   std::vector<std::pair<std::string, fs::path>> written;  // by new UID, which is as good as shuffled
   std::map<std::string, base::Problem> refusals;
+  std::optional<base::Error> refused;
   for (const fs::path& file : files) {
-    auto clean = deidentify_file(file, key);
+    auto clean = take_clean(inlet, file);
     if (!clean) {
-      if (one_file) return clean.error();
+      if (one_file) refused = clean.error();
       ++done.left_out[clean.error().code];
       if (refuses_all(clean.error().code))
         refusals.try_emplace(clean.error().code, base::Problem{clean.error().code, clean.error().text});
@@ -77,6 +128,8 @@ base::Result<Deidentified> into(const fs::path& in, const std::vector<fs::path>&
     write_durably(path, std::as_bytes(std::span(clean->bytes)), FileAccess::as_umask);
     written.emplace_back(std::move(clean->sop_instance_uid), path);
   }
+  inlet.end();
+  if (refused) return *refused;
   if (!refusals.empty()) {
     base::Error error{refusals.begin()->second.code, refusals.begin()->second.text};
     for (const auto& [code, problem] : refusals)
@@ -114,7 +167,15 @@ base::Result<Deidentified> deidentify(const fs::path& in, const fs::path& out, c
       if (!found) return found.error();
       files = std::move(*found);
     }
-    return into(in, files, out, key);
+    base::Result<Deidentified> result = base::Error{};
+    const auto read = read_in_jail(
+        inputs_of(files),
+        [&](Outlet& outlet) {
+          for (const fs::path& file : files) put_clean(outlet, deidentify_file(file, key));
+        },
+        [&](Inlet& inlet) { result = into(in, files, out, inlet); });
+    if (!read) return read.error();
+    return result;
   } catch (const fs::filesystem_error& error) {  // its text holds paths
     throw base::Failure("disk", "the files cannot be written: " + error.code().message());
   }

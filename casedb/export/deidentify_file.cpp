@@ -10,12 +10,12 @@
 #include "casedb/export/hidden_bits.h"
 #include "casedb/import/dicom/dicom_file.h"
 #include "casedb/import/files/byte_count.h"
+#include "casedb/import/jail/jail.h"
+#include "casedb/import/jail/unpacking.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::uint64_t kLargestFile = 1ULL << 30;
-constexpr std::uint64_t kUnpackedBeyond = 64ULL << 20;  // and twice its size, as import takes it
 constexpr const char* kImplicitLittle = "1.2.840.10008.1.2";
 constexpr const char* kExplicitLittle = "1.2.840.10008.1.2.1";
 constexpr const char* kExplicitBig = "1.2.840.10008.1.2.2";
@@ -82,8 +82,8 @@ base::Result<Parsed> parse(const std::filesystem::path& file) {
   if (!start) return base::Error{"not_readable", "a file cannot be read"};
   if (!looks_like_dicom(reinterpret_cast<const char*>(start->data()), start->size()))
     return base::Error{"not_dicom", "a file is not DICOM"};
-  if (file_size_bytes(file) > kLargestFile) return base::Error{"too_large", "a file is larger than 1 GiB"};
-  const auto whole = read_bytes(file, 0, kLargestFile);
+  if (file_size_bytes(file) > kLargestDicomFile) return base::Error{"too_large", "a file is larger than 1 GiB"};
+  const auto whole = read_bytes(file, 0, kLargestDicomFile);
   if (!whole) return base::Error{"not_readable", "a file cannot be read"};
   Parsed parsed;
   const char* first = reinterpret_cast<const char*>(whole->data());
@@ -95,8 +95,16 @@ base::Result<Parsed> parse(const std::filesystem::path& file) {
     return base::Error{"unknown_syntax", "a file is packed in a way that is not the standard's"};
   if (parsed.syntax == kDeflated) {
     std::vector<std::byte> unpacked;
-    const Unpacked done =
-        unpack({file, begin, UINT64_MAX, 2 * file_size_bytes(file) + kUnpackedBeyond, Packing::deflate}, &unpacked);
+    const std::uint64_t limit = most_unpacked(kDicomDataSet, file_size_bytes(file));
+    const PackedBytes packed{file, begin, UINT64_MAX, limit, Packing::deflate};
+    const Unpacked counted = unpack(packed);
+    if (counted.size > limit)
+      return base::Error{"too_large", "a file would unpack to more than twice its size and 64 MB"};
+    announce_largest(3 * counted.size);
+    unpacked.reserve(counted.size);
+    const Unpacked done = unpack(packed, [&](std::span<const std::byte> piece) {
+      unpacked.insert(unpacked.end(), piece.begin(), piece.end());
+    });
     if (done.state != ByteState::complete)
       return base::Error{done.state == ByteState::too_few ? "truncated" : "damaged",
                          "a file's packed data set is not whole"};

@@ -18,6 +18,8 @@
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
+#include "casedb/import/jail/jail.h"
+#include "casedb/import/jail/unpacking.h"
 #include "casedb/keeping/bundle_file.h"
 #include "casedb/keeping/trusted_keys.h"
 #include "sim/base/check.h"
@@ -32,16 +34,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kBundlePiece = std::size_t{1} << 20;
-// A CT's noise does not shrink; labels and classes of a made-up body do, about 100-fold. What claims far more is
-// there to fill a memory.
-constexpr std::uint64_t kMostShrinking = 1000;
 
 const base::Error kDamaged{"damaged", "the bundle is damaged"};
 const base::Error kBadValues{"bundle_values", "a value in a case of the bundle is none that this program stores"};
 const base::Error kTooLarge{"too_large", "the bundle would unpack to far more than a CT does"};
 
+// In a jail, where room is made for it.
 bool plausible(std::uint64_t unpacked, std::uint64_t packed) {
-  return unpacked <= base::kTakenAtItsWord || unpacked / kMostShrinking <= packed;
+  if (unpacks_too_far(kBundlePart, packed, unpacked)) return false;
+  announce_largest(packed + unpacked);
+  return true;
 }
 
 using Assets = std::map<std::string, const BundledAsset*>;  // by name
@@ -149,17 +151,18 @@ base::Result<std::unique_ptr<Sqlite>> read_rows(const OpenFile& file, RowsReader
 }
 
 // All of the file, before anything is stored. Each case is shown when it is found sound, with the names of its
-// files.
+// files. Without `unpacks` files are known by their names only.
 using Show = std::function<void(const BundledCase& part, Sqlite& rows, const std::set<std::string>& names)>;
-base::Result<void> check_parts(const OpenFile& file, const BundleList& list, const Show& show) {
+base::Result<void> check_parts(const OpenFile& file, const BundleList& list, bool unpacks, const Show& show) {
   Assets assets;
   for (const BundledAsset& asset : list.assets) {
+    assets.emplace(asset.sha256, &asset);
+    if (!unpacks) continue;
     Sha256 hash;
     for (std::uint64_t done = 0; done < asset.bytes; done += kBundlePiece)
       hash.add(file.read(asset.offset + done,
                          static_cast<std::size_t>(std::min<std::uint64_t>(kBundlePiece, asset.bytes - done))));
     if (hash.hex() != asset.sha256) return kDamaged;
-    assets.emplace(asset.sha256, &asset);
   }
   std::set<std::string> used;
   RowsReader reader(list.schema);
@@ -169,12 +172,33 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list, con
     std::set<std::string> named = assets_named(**rows);
     for (const std::string& name : named)
       if (!assets.contains(name)) return kDamaged;
-    if (const auto fit = check_files(file, **rows, part.case_id, assets); !fit) return fit.error();
+    if (unpacks)
+      if (const auto fit = check_files(file, **rows, part.case_id, assets); !fit) return fit.error();
     show(part, **rows, named);
     used.merge(named);
   }
   if (used.size() != assets.size()) return kDamaged;  // a file that nobody needs
   return {};
+}
+
+// Reads all of the file in a jail. What is read of it afterwards out here is read with the same hashes.
+base::Result<void> check_inside(const OpenFile& file) {
+  JailInputs inputs;
+  inputs.descriptors = {file.descriptor()};
+  inputs.bytes = kMostFileListBytes + 4 * kMostRowBytes;
+  base::Result<void> result;
+  const auto read = read_in_jail(
+      inputs,
+      [&](Outlet& out) {
+        const auto list = read_bundle_list(file);
+        const auto sound = list ? check_parts(file, *list, true, [](const auto&...) {}) : list.error();
+        out.put(sound.has_value());
+        if (!sound) out.put_error(sound.error());
+      },
+      [&](Inlet& in) {
+        if (!in.take_flag()) result = in.take_error();
+      });
+  return read ? result : read;
 }
 
 Bundle told(const BundleList& list, std::uint64_t bytes) {
@@ -193,7 +217,7 @@ struct Compared {
 
 base::Result<Compared> compared(Library& library, const OpenFile& file, const BundleList& list) {
   Compared found;
-  const auto sound = check_parts(file, list, [&](const BundledCase& part, Sqlite& rows, const auto& names) {
+  const auto sound = check_parts(file, list, false, [&](const BundledCase& part, Sqlite& rows, const auto& names) {
     switch (presence(rows, library.database(), part.case_id)) {
       case Presence::absent:
         found.cases.stored.push_back(part.case_id);
@@ -332,9 +356,9 @@ base::Result<Bundle> check_bundle(const fs::path& file) {
   return without_paths([&]() -> base::Result<Bundle> {
     if (!fs::is_regular_file(file)) return not_found();
     const OpenFile in(fs::canonical(file));
+    if (const auto sound = check_inside(in); !sound) return sound.error();
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
-    if (const auto sound = check_parts(in, *list, [](const auto&...) {}); !sound) return sound.error();
     return told(*list, in.size());
   });
 }
@@ -343,6 +367,7 @@ base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
   return without_paths([&]() -> base::Result<Unbundled> {
     if (!fs::is_regular_file(file)) return not_found();
     const OpenFile in(fs::canonical(file));
+    if (const auto sound = check_inside(in); !sound) return sound.error();
     const auto list = read_bundle_list(in);
     if (!list) return list.error();
     try {

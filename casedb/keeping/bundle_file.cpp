@@ -19,7 +19,6 @@ namespace {
 constexpr std::uint32_t kFormat = 1, kSignedFormat = 2;
 constexpr std::size_t kPublicKeyBytes = 32;
 constexpr std::size_t kSignatureBytes = kPublicKeyBytes + std::tuple_size_v<Signature>;
-constexpr std::uint64_t kMostFileListBytes = std::uint64_t{16} << 20;  // of 20,000 cases with five files each
 
 struct Header {
   char magic[8] = {};

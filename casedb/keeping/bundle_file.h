@@ -22,6 +22,8 @@ namespace seldinger::casedb {
 
 inline constexpr std::string_view kBundleMagic = "SDBUNDLE";
 
+constexpr std::uint64_t kMostFileListBytes = std::uint64_t{16} << 20;  // of 20,000 cases with five files each
+
 struct BundledCase {
   std::string case_id;
   std::uint64_t packed_bytes = 0, bytes = 0;

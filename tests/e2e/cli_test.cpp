@@ -456,7 +456,8 @@ TEST(Cli, DoctorSaysWhatIsHere) {
   const auto ran = run(kProgram + " doctor --json", scratch);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json facts = Json::parse(ran.out);
-  for (const char* fact : {"version", "gl", "devices", "real_time"}) EXPECT_TRUE(facts.contains(fact)) << fact;
+  for (const char* fact : {"version", "gl", "devices", "real_time", "readers"})
+    EXPECT_TRUE(facts.contains(fact)) << fact;
 }
 
 }  // namespace

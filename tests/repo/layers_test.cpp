@@ -70,6 +70,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> kDoors = {
     {"sodium.h", {"casedb/database/credentials"}},
     {"png.h", {"app/replay/png"}},
     {"zstd.h", {"sim/base/codec"}},
+    {"seccomp.h", {"casedb/import/jail/confine.cpp"}},
     {"xraylib", {"tests/"}},
     {"Eigen/", {"sim/haptics/fit/least_squares.cpp"}},
     {"embree3/", {"app/measure/bench/bench_touch"}},

@@ -8,14 +8,13 @@
 
 #include "casedb/import/dicom/allow_list.h"
 #include "casedb/import/files/byte_count.h"
+#include "casedb/import/jail/jail.h"
+#include "casedb/import/jail/unpacking.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::uint64_t kLargestFile = 1ULL
-                                       << 30;  // a classic CT slice has 0.5 to 8 MB, an enhanced CT some hundred
 constexpr std::uint64_t kHeaderOfLarge = 1 << 24;  // of a larger file, to tell what it is
-constexpr std::uint64_t kUnpackedBeyond = 64ULL << 20;
 constexpr std::size_t kLongestValue = 1024;
 constexpr std::size_t kMostFrames = 8192, kMostFragments = 1 << 20;
 constexpr std::uint32_t kUndefined = 0xFFFFFFFFU;
@@ -273,15 +272,19 @@ std::string trimmed(std::string_view text) {
 
 // Replaces the packed file by its data set. Counted before it is kept, so that a bomb never lies in memory.
 DicomState unpack_data_set(const std::filesystem::path& path, std::size_t at, DicomFile& file) {
-  const std::uint64_t limit = std::min(2 * file.bytes.size() + kUnpackedBeyond, kLargestFile);
+  const std::uint64_t limit = most_unpacked(kDicomDataSet, file.bytes.size());
   file.bytes = {};
   const PackedBytes packed{path, at, UINT64_MAX, limit, Packing::deflate};
   const Unpacked counted = unpack(packed);
   if (counted.size > limit) return DicomState::bomb;
   if (counted.state != ByteState::complete)
     return counted.state == ByteState::too_few ? DicomState::truncated : DicomState::damaged;
+  announce_largest(counted.size);
   file.bytes.reserve(counted.size);
-  return unpack(packed, &file.bytes).state == ByteState::complete ? DicomState::whole : DicomState::damaged;
+  const Unpacked done = unpack(packed, [&](std::span<const std::byte> piece) {
+    file.bytes.insert(file.bytes.end(), piece.begin(), piece.end());
+  });
+  return done.state == ByteState::complete ? DicomState::whole : DicomState::damaged;
 }
 
 // The 8 bytes of a floating point value of VR FD or OD, 4 of FL or OF; whole numbers of 2 and 4 bytes.
@@ -336,8 +339,8 @@ DicomFile read_dicom_file(const std::filesystem::path& path) {
   if (const auto start = read_bytes(path, 0, 132);
       !start || !looks_like_dicom(reinterpret_cast<const char*>(start->data()), start->size()))
     return file;
-  const bool too_large = file_size_bytes(path) > kLargestFile;
-  auto whole = read_bytes(path, 0, too_large ? kHeaderOfLarge : kLargestFile);
+  const bool too_large = file_size_bytes(path) > kLargestDicomFile;
+  auto whole = read_bytes(path, 0, too_large ? kHeaderOfLarge : kLargestDicomFile);
   file.state = whole ? DicomState::whole : DicomState::damaged;
   if (!whole) return file;
   file.bytes = std::move(*whole);

@@ -17,6 +17,9 @@ namespace seldinger::casedb {
 
 using DicomTag = std::uint32_t;  // group · 65536 + element
 
+// That is read whole: a classic CT slice has 0.5 to 8 MB, an enhanced CT some hundred.
+constexpr std::uint64_t kLargestDicomFile = std::uint64_t{1} << 30;
+
 // damaged: cannot be followed. bomb: unpacks to more than twice its size and 64 MB. too_large: above 1 GiB.
 enum class DicomState { whole, truncated, damaged, bomb, too_large, not_dicom };
 

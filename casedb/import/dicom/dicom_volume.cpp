@@ -8,6 +8,8 @@
 #include "casedb/import/dicom/resample.h"
 #include "casedb/import/dicom/slice_stack.h"
 #include "casedb/import/files/number_text.h"
+#include "casedb/import/jail/jail.h"
+#include "casedb/import/jail/unpacking.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -16,12 +18,9 @@ using Slices = std::vector<DicomSlice>;
 using Warnings = std::vector<base::Problem>;
 
 constexpr std::size_t kMostSlices = 4096;
-// Packed pixels may unpack to 64 MB and 100 times their size. Packed CT is 2 to 10 times smaller, and an empty
-// slice up to some hundred times; a bomb thousands.
-constexpr double kMostUnpacked = 100.0, kVolumeUnpackedBeyond = 64.0 * 1024 * 1024;
-constexpr double kMostGrowth = 2.0;  // of resampled voxels, beyond 64 MB of them
-constexpr double kSparse = 1.5;      // gaps in thicknesses: overlapping or touching slices are 1 at most
-constexpr double kCoarseHu = 8.0;    // a step of a stored value that is no longer below a CT's noise
+constexpr double kMostGrowth = 2.0, kFreeGrowthBytes = 64.0 * 1024 * 1024;  // of resampled voxels
+constexpr double kSparse = 1.5;    // gaps in thicknesses: overlapping or touching slices are 1 at most
+constexpr double kCoarseHu = 8.0;  // a step of a stored value that is no longer below a CT's noise
 
 std::size_t pixels_of(const DicomSlice& slice) {
   return static_cast<std::size_t>(slice.size_px.x) * static_cast<std::size_t>(slice.size_px.y);
@@ -126,10 +125,10 @@ void judge_size(const Slices& slices, const Stack& stack, Problems& problems) {
     packed += static_cast<double>(slice.pixels.bytes());
     unpacked += static_cast<double>(pixels_of(slice)) * 2.0;
   }
-  if (2.0 * voxels > 2.0 * kMostGrowth * given + kVolumeUnpackedBeyond)
+  if (2.0 * voxels > 2.0 * kMostGrowth * given + kFreeGrowthBytes)
     problems.add("bad_size", "the slices stand so far aside of each other that the volume would be " +
                                  number_text(voxels / given) + " times as large as they are");
-  if (unpacked > kMostUnpacked * packed + kVolumeUnpackedBeyond)
+  if (unpacks_too_far(kDicomPixels, static_cast<std::uint64_t>(packed), static_cast<std::uint64_t>(unpacked)))
     problems.add("bad_size", "the pixels are " + number_text(unpacked / std::max(packed, 1.0)) +
                                  " times as large as they are packed: no CT is");
 }
@@ -217,8 +216,11 @@ base::Result<Source> volume_of(Slices slices, Problems problems, Warnings warnin
     volume.spacing_mm[axis] = glm::length(glm::dvec3(volume.lps_from_voxel[axis]));
   judge_spacing(slices, volume.spacing_mm.z, warnings);
   if (slices.size() == 1) warnings.push_back({"single_slice", "the case is one slice"});
-  volume.hu.resize(static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y) *
-                   static_cast<std::size_t>(volume.size_voxels.z));
+  const std::size_t voxels = static_cast<std::size_t>(volume.size_voxels.x) *
+                             static_cast<std::size_t>(volume.size_voxels.y) *
+                             static_cast<std::size_t>(volume.size_voxels.z);
+  announce_bytes(voxels * sizeof(std::int16_t));
+  volume.hu.resize(voxels);
   fill(slices, stack, reader, problems, volume);
   if (!problems.empty()) return problems.error();
   source.warnings = std::move(warnings);

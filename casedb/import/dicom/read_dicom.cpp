@@ -59,29 +59,12 @@ void look_at(const std::filesystem::path& path, Found& found) {
   if (localizers > 0) found.left_out[DicomKind::localizer] += localizers;
 }
 
-// Files in name order, so that a folder is read the same way on every machine. Links to files are followed, links
-// to folders are not; a file that is reached twice counts once.
-base::Result<Found> look_through(const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  std::vector<fs::path> files;
-  std::set<fs::path> reached;
-  std::error_code error;
-  fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
-    std::error_code ignored;
-    const bool dangling = walk->is_symlink(ignored) && !fs::exists(walk->path(), ignored);
-    if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
-    if (!walk->is_regular_file(ignored) && !dangling) continue;
-    if (reached.insert(fs::weakly_canonical(walk->path(), ignored)).second) files.push_back(walk->path());
-    if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 50000 files"};
-  }
-  if (error) return base::Error{"not_readable", "the folder cannot be read"};
-  std::sort(files.begin(), files.end());
+base::Result<Found> look_through(const std::vector<std::filesystem::path>& files) {
   Found found;
-  for (const fs::path& file : files) {
+  for (const std::filesystem::path& file : files) {
     look_at(file, found);
     if (found.slices.size() > kMostFound)
-      return base::Error{"too_many_slices", "the folder holds more than 65536 slices"};
+      return base::Error{"too_many_slices", "the source holds more than 65536 slices"};
   }
   return found;
 }
@@ -213,17 +196,30 @@ base::Result<Source> read_found(Found found, const std::optional<std::string>& w
 
 }  // namespace
 
-base::Result<Source> read_dicom_folder(const std::filesystem::path& folder,
-                                       const std::optional<std::string>& series) {
-  auto found = look_through(folder);
-  if (!found) return found.error();
-  return read_found(std::move(*found), series);
+base::Result<std::vector<std::filesystem::path>> files_of_folder(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> files;
+  std::set<fs::path> reached;
+  std::error_code error;
+  fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
+    std::error_code ignored;
+    const bool dangling = walk->is_symlink(ignored) && !fs::exists(walk->path(), ignored);
+    if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
+    if (!walk->is_regular_file(ignored) && !dangling) continue;
+    if (reached.insert(fs::weakly_canonical(walk->path(), ignored)).second) files.push_back(walk->path());
+    if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 50000 files"};
+  }
+  if (error) return base::Error{"not_readable", "the folder cannot be read"};
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
-base::Result<Source> read_dicom_slice(const std::filesystem::path& file, const std::optional<std::string>& series) {
-  Found found;
-  look_at(file, found);
-  return read_found(std::move(found), series);
+base::Result<Source> read_dicom_files(const std::vector<std::filesystem::path>& files,
+                                      const std::optional<std::string>& series) {
+  auto found = look_through(files);
+  if (!found) return found.error();
+  return read_found(std::move(*found), series);
 }
 
 }  // namespace seldinger::casedb

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+
+#include "casedb/import/jail/input.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -33,43 +34,37 @@ class Inflater {
 
 }  // namespace
 
-std::uint64_t file_size_bytes(const std::filesystem::path& file) noexcept {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  return error ? 0 : size;
+std::uint64_t file_size_bytes(const std::filesystem::path& file) {
+  return InputFile(file).size();
 }
 
 std::optional<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t offset,
                                                  std::uint64_t limit) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::uint64_t size = file_size_bytes(file);
-  if (offset > size) return std::nullopt;
-  std::vector<std::byte> bytes(std::min(size - offset, limit));
-  in.seekg(static_cast<std::streamoff>(offset));
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (static_cast<std::size_t>(in.gcount()) != bytes.size()) return std::nullopt;
+  const InputFile in(file);
+  if (!in || offset > in.size()) return std::nullopt;
+  std::vector<std::byte> bytes(std::min(in.size() - offset, limit));
+  if (in.read(offset, bytes) != bytes.size()) return std::nullopt;
   return bytes;
 }
 
-Unpacked unpack(const PackedBytes& source, std::vector<std::byte>* keep) {
+Unpacked unpack(const PackedBytes& source, const TakeBytes& take) {
   Unpacked result;
-  std::ifstream in(source.file, std::ios::binary);
+  const InputFile in(source.file);
   Inflater inflater(source.packing);
   if (!in || !inflater.ready()) return result;
-  in.seekg(static_cast<std::streamoff>(source.offset));
-  std::array<char, kChunk> packed;
-  std::array<std::byte, kChunk> unpacked;
+  std::array<std::byte, kChunk> packed, unpacked;
   z_stream& stream = inflater.stream();
-  std::uint64_t left = source.packed_limit;
+  std::uint64_t at = source.offset, left = source.packed_limit;
   bool ended = false;
   for (;;) {
     if (stream.avail_in == 0) {
-      in.read(packed.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(packed.size(), left)));
+      const std::size_t got =
+          in.read(at, std::span(packed).first(static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, left))));
       stream.next_in = reinterpret_cast<Bytef*>(packed.data());
-      stream.avail_in = static_cast<uInt>(in.gcount());
-      left -= static_cast<std::uint64_t>(in.gcount());
-      if (stream.avail_in == 0) {
+      stream.avail_in = static_cast<uInt>(got);
+      at += got;
+      left -= got;
+      if (got == 0) {
         result.state = ended ? ByteState::complete : ByteState::too_few;
         return result;
       }
@@ -89,25 +84,27 @@ Unpacked unpack(const PackedBytes& source, std::vector<std::byte>* keep) {
     if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR) return result;  // damaged
     result.size += made;
     if (result.size > source.unpacked_limit) return result;
-    if (keep) keep->insert(keep->end(), unpacked.begin(), unpacked.begin() + static_cast<std::ptrdiff_t>(made));
+    if (take) take(std::span(unpacked).first(made));
     ended = code == Z_STREAM_END;
   }
 }
 
 std::vector<std::byte> unpack_start(const std::filesystem::path& file, std::size_t count) {
   std::vector<std::byte> bytes(count);
-  std::ifstream in(file, std::ios::binary);
+  const InputFile in(file);
   Inflater inflater(Packing::gzip_or_zlib);
   if (!in || !inflater.ready()) return {};
   z_stream& stream = inflater.stream();
   stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
   stream.avail_out = static_cast<uInt>(count);
-  std::array<char, 4096> packed;
+  std::array<std::byte, 4096> packed;
+  std::uint64_t at = 0;
   for (int code = Z_OK; code == Z_OK && stream.avail_out > 0;) {
-    in.read(packed.data(), packed.size());
+    const std::size_t got = in.read(at, packed);
+    at += got;
     stream.next_in = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_in = static_cast<uInt>(in.gcount());
-    code = stream.avail_in == 0 ? Z_STREAM_END : inflate(&stream, Z_NO_FLUSH);
+    stream.avail_in = static_cast<uInt>(got);
+    code = got == 0 ? Z_STREAM_END : inflate(&stream, Z_NO_FLUSH);
   }
   bytes.resize(count - stream.avail_out);
   return bytes;

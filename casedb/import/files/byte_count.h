@@ -1,10 +1,11 @@
-// How many bytes a file really holds. ITK reads truncated .mha and .nii.gz without a word, so counting is ours.
+// How many bytes a file really holds, packed or not: none of its own counts is believed.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <vector>
 
 namespace seldinger::casedb {
@@ -15,7 +16,7 @@ enum class ByteState { complete, too_few, damaged };
 std::optional<std::vector<std::byte>> read_bytes(const std::filesystem::path& file, std::uint64_t offset,
                                                  std::uint64_t limit);
 
-std::uint64_t file_size_bytes(const std::filesystem::path& file) noexcept;  // 0 when there is none
+std::uint64_t file_size_bytes(const std::filesystem::path& file);  // 0 when there is none
 
 enum class Packing { none, gzip_or_zlib, deflate };
 
@@ -24,7 +25,8 @@ struct PackedBytes {
   std::filesystem::path file;
   std::uint64_t offset = 0;
   std::uint64_t packed_limit = UINT64_MAX;
-  std::uint64_t unpacked_limit = UINT64_MAX;  // more is `damaged`: a small file must not unpack without end
+  std::uint64_t unpacked_limit =
+      UINT64_MAX;  // unpacking.h; more is `damaged`: a small file must not unpack without end
   Packing packing = Packing::gzip_or_zlib;
 };
 
@@ -33,8 +35,9 @@ struct Unpacked {
   std::uint64_t size = 0;
 };
 
-// Unpacks to the end; the bytes go to `keep` where given (limited by unpacked_limit).
-Unpacked unpack(const PackedBytes& source, std::vector<std::byte>* keep = nullptr);
+// Unpacks to the end; the bytes go to `take`, piece by piece, where it is given.
+using TakeBytes = std::function<void(std::span<const std::byte>)>;
+Unpacked unpack(const PackedBytes& source, const TakeBytes& take = {});
 
 // The first `count` unpacked bytes of a gzip file, fewer when it ends before.
 std::vector<std::byte> unpack_start(const std::filesystem::path& file, std::size_t count);

@@ -1,39 +1,22 @@
 #include "casedb/import/files/file_layout.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "casedb/import/jail/input.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
 namespace {
 
 constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = static_cast<std::int64_t>(volume::kMaxVoxels);
-constexpr std::uint64_t kLongestHeader = 1 << 16, kSpareBytes = 1 << 20;
-
-// An exponent of ones is NaN or infinity (IEEE 754).
-bool all_finite(const FileLayout& layout, std::uint64_t need) {
-  std::vector<std::byte> bytes;
-  if (layout.packing == Packing::none)
-    bytes = read_bytes(layout.data_file, layout.data_offset, need).value_or(std::vector<std::byte>());
-  else {
-    bytes.reserve(need + kSpareBytes);  // counted before
-    unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing}, &bytes);
-  }
-  const auto size = static_cast<std::size_t>(layout.float_bytes);
-  for (std::size_t at = layout.unpacked_skip; at + size <= bytes.size() && at < need; at += size) {
-    const unsigned high = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 0 : size - 1)]);
-    const unsigned next = std::to_integer<unsigned>(bytes[at + (layout.swapped ? 1 : size - 2)]);
-    const bool ones = (high & 0x7fU) == 0x7fU && (size == 4 ? (next & 0x80U) == 0x80U : (next & 0xf0U) == 0xf0U);
-    if (ones) return false;
-  }
-  return true;
-}
+constexpr std::uint64_t kLongestHeader = 1 << 16;
 
 }  // namespace
 
-void check_layout(const FileLayout& layout, Problems& problems) {
+void check_layout(const FileLayout& layout, const UnpackingLimit& limit, Problems& problems) {
   std::int64_t voxels = 1;
   for (const std::int64_t count : layout.size_voxels) {
     if (count < 1 || count > kMostVoxelsAlong) {
@@ -46,23 +29,14 @@ void check_layout(const FileLayout& layout, Problems& problems) {
     problems.add("bad_size", "the header promises more voxels than can be held");
     return;
   }
-  if (!problems.empty()) return;
-  const std::uint64_t need = layout.unpacked_skip + static_cast<std::uint64_t>(voxels) *
-                                                        static_cast<std::uint64_t>(layout.bytes_per_voxel);
-  Unpacked found;
-  if (layout.packing == Packing::none) {
-    const std::uint64_t size = file_size_bytes(layout.data_file);
-    found.size = size > layout.data_offset ? size - layout.data_offset : 0;
-    found.state = ByteState::complete;
-  } else {
-    found = unpack({layout.data_file, layout.data_offset, layout.packed_limit, need + kSpareBytes, layout.packing});
-  }
-  if (found.state == ByteState::damaged)
-    problems.add("damaged", "the packed voxels cannot be unpacked as the header promises");
-  else if (found.state == ByteState::too_few || found.size < need)
-    problems.add("truncated", "the file ends before its voxels do");
-  if (problems.empty() && layout.float_bytes > 0 && !all_finite(layout, need))
-    problems.add("not_finite", "voxels hold values that are no numbers");
+  const std::uint64_t unpacked =
+      layout.unpacked_skip +
+      static_cast<std::uint64_t>(voxels) * static_cast<std::uint64_t>(bytes_of(layout.voxels.scalar));
+  if (unpacked > limit.most_bytes)
+    problems.add("too_large", "the voxels take more bytes than are read of one file");
+  else if (layout.packing != Packing::none && problems.empty() &&
+           unpacks_too_far(limit, std::min(file_size_bytes(layout.data_file), layout.packed_limit), unpacked))
+    problems.add("too_large", "the voxels would be far larger than they are packed: no CT is");
 }
 
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name,
@@ -74,9 +48,7 @@ std::filesystem::path data_file_beside(const std::filesystem::path& header, cons
     return {};
   }
   const std::filesystem::path file = header.parent_path() / name;
-  std::error_code error;
-  const auto status = std::filesystem::symlink_status(file, error);
-  if (error || !std::filesystem::is_regular_file(status)) {
+  if (!InputFile(file, Links::refused)) {
     problems.add("no_data_file", "the file with the voxels is not beside the header");
     return {};
   }

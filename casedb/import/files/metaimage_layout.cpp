@@ -1,4 +1,6 @@
 // MetaImage headers (itk.org/Wiki/ITK/MetaIO/Documentation): .mha with the voxels behind, .mhd with a file beside.
+#include <algorithm>
+#include <initializer_list>
 #include <map>
 
 #include "casedb/import/files/file_layout.h"
@@ -7,6 +9,8 @@ namespace seldinger::casedb {
 namespace {
 
 using Fields = std::map<std::string, std::string>;
+
+constexpr std::size_t kLongestKey = 254;  // MetaIO keeps 255 bytes for one (metaUtils.h), with the zero at its end
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -25,29 +29,53 @@ bool is_true(const std::string& value) {
   return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
 }
 
-int scalar_bytes(const std::string& type) {
-  static const std::map<std::string, int> kBytes = {{"MET_CHAR", 1},   {"MET_UCHAR", 1},     {"MET_SHORT", 2},
-                                                    {"MET_USHORT", 2}, {"MET_INT", 4},       {"MET_UINT", 4},
-                                                    {"MET_FLOAT", 4},  {"MET_LONG_LONG", 8}, {"MET_ULONG_LONG", 8},
-                                                    {"MET_DOUBLE", 8}, {"MET_LONG", 4},      {"MET_ULONG", 4}};
-  const auto found = kBytes.find(type);
-  return found == kBytes.end() ? 0 : found->second;
+Scalar scalar_of(const std::string& type) {
+  static const std::map<std::string, Scalar> kScalars = {
+      {"MET_CHAR", Scalar::int8},     {"MET_UCHAR", Scalar::uint8},    {"MET_SHORT", Scalar::int16},
+      {"MET_USHORT", Scalar::uint16}, {"MET_INT", Scalar::int32},      {"MET_UINT", Scalar::uint32},
+      {"MET_LONG", Scalar::int32},    {"MET_ULONG", Scalar::uint32},   {"MET_LONG_LONG", Scalar::int64},
+      {"MET_FLOAT", Scalar::float32}, {"MET_DOUBLE", Scalar::float64}, {"MET_ULONG_LONG", Scalar::uint64}};
+  const auto found = kScalars.find(type);
+  return found == kScalars.end() ? Scalar::none : found->second;
 }
 
-void check_geometry(const Fields& fields, std::size_t axes, Problems& problems) {
-  const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
-  const std::string spacing_text = field("ElementSpacing").empty() ? field("ElementSize") : field("ElementSpacing");
-  const auto spacing = numbers_of(spacing_text);
+// The one value that a field has under any of its names; "" when it has none.
+std::string one_of(const Fields& fields, std::initializer_list<const char*> names, Problems& problems) {
+  std::string value;
+  for (const char* name : names) {
+    const auto found = fields.find(name);
+    if (found == fields.end() || found->second.empty()) continue;
+    if (!value.empty() && numbers_of(found->second) != numbers_of(value))
+      problems.add("no_geometry", "the header says the same thing twice, and differently");
+    value = found->second;
+  }
+  return value;
+}
+
+// A row of the matrix is the direction of an axis; of one slice the third stands on the other two.
+void read_geometry(const Fields& fields, std::size_t axes, FileLayout& layout, Problems& problems) {
+  if (axes < 2) return;
+  const auto spacing = numbers_of(one_of(fields, {"ElementSpacing", "ElementSize"}, problems));
   bool sound = spacing.size() >= axes;
   for (const double mm : spacing) sound = sound && mm > 0.0 && mm < 1000.0;
-  if (!sound) problems.add("no_geometry", "the voxel size is not a positive number along each axis");
-  for (const char* name : {"Offset", "Origin", "Position"})
-    if (const std::string text = field(name); !text.empty() && numbers_of(text).size() < axes)
-      problems.add("no_geometry", "the position is not a number along each axis");
-  for (const char* name : {"TransformMatrix", "Orientation", "Rotation"}) {
-    const std::string text = field(name);
-    if (!text.empty() && numbers_of(text).size() != axes * axes)
-      problems.add("no_geometry", "the orientation is not a square of numbers");
+  if (!sound) {
+    problems.add("no_geometry", "the voxel size is not a positive number along each axis");
+    return;
+  }
+  const std::string place = one_of(fields, {"Offset", "Origin", "Position"}, problems),
+                    turn = one_of(fields, {"TransformMatrix", "Orientation", "Rotation"}, problems);
+  const auto origin = numbers_of(place), matrix = numbers_of(turn);
+  if (!place.empty() && origin.size() < axes)
+    problems.add("no_geometry", "the position is not a number along each axis");
+  if (!turn.empty() && matrix.size() != axes * axes)
+    problems.add("no_geometry", "the orientation is not a square of numbers");
+  if (!problems.empty()) return;
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(axes, 3); ++axis) {
+    const int column = static_cast<int>(axis);
+    for (std::size_t row = 0; row < std::min<std::size_t>(axes, 3); ++row)
+      layout.lps_from_voxel[column][static_cast<int>(row)] =
+          spacing[axis] * (matrix.empty() ? (row == axis ? 1.0 : 0.0) : matrix[axis * axes + row]);
+    if (!origin.empty()) layout.lps_from_voxel[3][column] = origin[axis];
   }
 }
 
@@ -68,9 +96,9 @@ void read_size(const Fields& fields, FileLayout& layout, Problems& problems) {
     else if (sizes[axis] != 1.0)
       problems.add("not_3d", "the file holds more than one volume");
   if (sizes.size() == 1) problems.add("not_3d", "the file holds no volume");
-  layout.bytes_per_voxel = scalar_bytes(field("ElementType"));
-  if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
-  // The reader knows none of these three; taking the numbers as they are would give other HU or millimetres.
+  layout.voxels.scalar = scalar_of(field("ElementType"));
+  if (layout.voxels.scalar == Scalar::none) problems.add("not_scalar", "a voxel is not one plain number");
+  // Taking the numbers as they are would give other HU or millimetres.
   if (const std::string slope = field("ElementToIntensityFunctionSlope");
       !slope.empty() && numbers_of(slope) != std::vector<double>{1.0})
     problems.add("bad_rescale", "the voxels are to be scaled, which is not read");
@@ -79,7 +107,7 @@ void read_size(const Fields& fields, FileLayout& layout, Problems& problems) {
     problems.add("bad_rescale", "the voxels are to be shifted, which is not read");
   if (const std::string unit = field("DistanceUnits"); !unit.empty() && unit != "mm" && unit != "?")
     problems.add("no_geometry", "the voxel size is not in millimetres");
-  check_geometry(fields, sizes.size(), problems);
+  read_geometry(fields, sizes.size(), layout, problems);
 }
 
 }  // namespace
@@ -93,13 +121,21 @@ FileLayout metaimage_layout(const std::filesystem::path& file, Problems& problem
   }
   const Fields fields = fields_of(header);
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
+  for (const auto& [key, value] : fields)
+    if (key.size() > kLongestKey) {
+      problems.add("damaged", "a key of the header is longer than the format's can be");
+      return layout;
+    }
   read_size(fields, layout, problems);
   if (const std::string skip = field("HeaderSize"); !skip.empty() && skip != "0")
     problems.add("unknown_format", "bytes are to be skipped before the voxels, which is not read");
-  if (const std::string binary = field("BinaryData"); !binary.empty() && !is_true(binary))
+  if (!is_true(field("BinaryData")))  // MetaIO's default is text
     problems.add("unknown_format", "the voxels are stored as text, which is not read");
   if (is_true(field("CompressedData"))) layout.packing = Packing::gzip_or_zlib;
-  if (const auto size = numbers_of(field("CompressedDataSize")); size.size() == 1 && size[0] > 0.0)
+  for (const char* order : {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"})
+    if (fields.contains(order)) layout.voxels.big_endian = is_true(fields.at(order));
+  if (const auto size = numbers_of(field("CompressedDataSize"));
+      size.size() == 1 && size[0] > 0.0 && size[0] < 1e15)
     layout.packed_limit = static_cast<std::uint64_t>(size[0]);
   const std::string name = field("ElementDataFile");
   if (name == "LOCAL" || name == "Local" || name == "local") {

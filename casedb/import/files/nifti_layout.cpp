@@ -39,24 +39,30 @@ class NiftiHeader {
   bool swapped_ = false;
 };
 
-int scalar_bytes(int datatype) {
+Scalar scalar_of(int datatype) {
   switch (datatype) {
-    case 2:    // uint8
-    case 256:  // int8
-      return 1;
-    case 4:    // int16
-    case 512:  // uint16
-      return 2;
-    case 8:    // int32
-    case 768:  // uint32
-    case 16:   // float32
-      return 4;
-    case 64:    // float64
-    case 1024:  // int64
-    case 1280:  // uint64
-      return 8;
+    case 2:
+      return Scalar::uint8;
+    case 256:
+      return Scalar::int8;
+    case 4:
+      return Scalar::int16;
+    case 512:
+      return Scalar::uint16;
+    case 8:
+      return Scalar::int32;
+    case 768:
+      return Scalar::uint32;
+    case 16:
+      return Scalar::float32;
+    case 64:
+      return Scalar::float64;
+    case 1024:
+      return Scalar::int64;
+    case 1280:
+      return Scalar::uint64;
     default:
-      return 0;  // RGB, complex, long double, bits
+      return Scalar::none;  // RGB, complex, long double, bits
   }
 }
 
@@ -76,39 +82,51 @@ void read_size(const NiftiHeader& header, FileLayout& layout, Problems& problems
       problems.add("not_3d", "the file holds more than one volume");
   }
   if (dimensions == 1) problems.add("not_3d", "the file holds no volume");
-  layout.bytes_per_voxel = scalar_bytes(header.number<std::int16_t>(70));
-  if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
-  const int datatype = header.number<std::int16_t>(70);
-  layout.float_bytes = datatype == 16 ? 4 : (datatype == 64 ? 8 : 0);
-  layout.swapped = header.swapped();
+  layout.voxels.scalar = scalar_of(header.number<std::int16_t>(70));
+  if (layout.voxels.scalar == Scalar::none) problems.add("not_scalar", "a voxel is not one plain number");
+  layout.voxels.big_endian = header.swapped();
 }
 
-// Whether qform and sform put a corner of the volume more than half a millimetre apart. The qform's rotation is
-// nifti1.h's: from the quaternion's b, c, d, the third axis times pixdim[0].
-bool forms_differ(const NiftiHeader& header, const FileLayout& layout) {
-  const double b = header.number<float>(256), c = header.number<float>(260), d = header.number<float>(264);
-  const double a = std::sqrt(std::max(0.0, 1.0 - b * b - c * c - d * d));
-  const std::array<glm::dvec3, 3> axis = {
-      glm::dvec3(a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)),
-      glm::dvec3(2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)),
-      glm::dvec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b)};
+// The qform's rotation, of nifti1.h: from the quaternion's b, c, d, the third axis times pixdim[0].
+std::array<glm::dvec3, 3> qform_axes(const NiftiHeader& header) {
+  glm::dvec3 vector(header.number<float>(256), header.number<float>(260), header.number<float>(264));
+  const double rest = 1.0 - glm::dot(vector, vector);
+  if (rest < 1e-7) vector = glm::normalize(vector);  // half a turn, as nifti1_io.c takes it
+  const double a = rest < 1e-7 ? 0.0 : std::sqrt(rest), b = vector.x, c = vector.y, d = vector.z;
   const double flip = header.number<float>(76) < 0.0F ? -1.0 : 1.0;
+  return {glm::dvec3(a * a + b * b - c * c - d * d, 2 * (b * c + a * d), 2 * (b * d - a * c)),
+          glm::dvec3(2 * (b * c - a * d), a * a + c * c - b * b - d * d, 2 * (c * d + a * b)),
+          flip * glm::dvec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b)};
+}
+
+glm::dvec3 qform_origin(const NiftiHeader& header) {
+  return {header.number<float>(268), header.number<float>(272), header.number<float>(276)};
+}
+
+// Whether qform and sform put a corner of the volume more than half a millimetre apart.
+bool forms_differ(const NiftiHeader& header, const FileLayout& layout) {
+  const std::array<glm::dvec3, 3> axis = qform_axes(header);
   for (unsigned corner = 0; corner < 8; ++corner) {
-    glm::dvec3 apart_mm =
-        glm::dvec3(header.number<float>(268), header.number<float>(272), header.number<float>(276)) -
-        header.srow_column(3);
+    glm::dvec3 apart_mm = qform_origin(header) - header.srow_column(3);
     for (std::size_t i = 0; i < 3; ++i) {
       const double voxels = (corner >> i & 1U) != 0 ? static_cast<double>(layout.size_voxels[i] - 1) : 0.0;
-      const double step_mm = header.number<float>(80 + 4 * i) * (i == 2 ? flip : 1.0);
-      apart_mm += voxels * (step_mm * axis[i] - header.srow_column(i));
+      apart_mm += voxels * (double{header.number<float>(80 + 4 * i)} * axis[i] - header.srow_column(i));
     }
     if (!(glm::length(apart_mm) <= 0.5)) return true;
   }
   return false;
 }
 
-// ITK takes the voxel size from pixdim and straightens a sheared sform without a word.
-void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& problems) {
+// The place in RAS, as nifti1.h has it, becomes one in LPS.
+void take_geometry(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& origin, FileLayout& layout) {
+  const auto lps = [](const glm::dvec3& ras) { return glm::dvec3(-ras.x, -ras.y, ras.z); };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    layout.lps_from_voxel[static_cast<int>(axis)] = glm::dvec4(lps(axes[axis]), 0.0);
+  layout.lps_from_voxel[3] = glm::dvec4(lps(origin), 1.0);
+}
+
+// The size of a voxel is pixdim's in either form: the sform's columns give its directions.
+void read_geometry(const NiftiHeader& header, FileLayout& layout, Problems& problems) {
   std::array<double, 3> spacing_mm{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double mm = header.number<float>(80 + 4 * axis);
@@ -126,7 +144,7 @@ void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& pro
     problems.add("no_geometry", "the header does not say how the volume lies in the patient");
     return;
   }
-  // ITK looks at both, whichever it takes, and ends the program on NaN: qform from byte 256, sform from 280 to 327.
+  // qform from byte 256, sform from 280 to 327.
   for (std::size_t at = qform > 0 ? 256 : 280; at < (sform > 0 ? 328 : 280); at += 4)
     if (!(std::abs(header.number<float>(at)) < 1e6F)) {
       problems.add("no_geometry", "the orientation holds values that are no numbers, or out of range");
@@ -139,7 +157,13 @@ void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& pro
       layout.warnings.push_back(
           {"two_geometries", "the header also gives a place in another frame, which is not used"});
   }
-  if (sform <= 0 || (qform > 0 && sform != 1)) return;  // ITK takes the sform when it is the scanner's or alone
+  std::array<glm::dvec3, 3> axes = qform_axes(header);
+  const auto size_mm = [&](std::size_t axis) { return spacing_mm[axis] > 0.0 ? spacing_mm[axis] : 1.0; };
+  if (sform <= 0 || (qform > 0 && sform != 1)) {  // the sform is taken when it is the scanner's, or alone
+    for (std::size_t axis = 0; axis < 3; ++axis) axes[axis] *= size_mm(axis);
+    take_geometry(axes, qform_origin(header), layout);
+    return;
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const glm::dvec3 a = header.srow_column(axis), b = header.srow_column((axis + 1) % 3);
     const double length_mm = glm::length(a);
@@ -149,7 +173,9 @@ void check_geometry(const NiftiHeader& header, FileLayout& layout, Problems& pro
       problems.add("no_geometry", "the orientation is singular, sheared, or of another size than the voxels");
       return;
     }
+    axes[axis] = a / length_mm * size_mm(axis);
   }
+  take_geometry(axes, header.srow_column(3), layout);
 }
 
 }  // namespace
@@ -175,7 +201,7 @@ FileLayout nifti_layout(const std::filesystem::path& file, Problems& problems) {
     return layout;
   }
   read_size(header, layout, problems);
-  check_geometry(header, layout, problems);
+  read_geometry(header, layout, problems);
   const double offset = header.number<float>(108);
   if (!(offset >= 352.0 && offset < 1e7) || offset != std::floor(offset)) {
     problems.add("damaged", "the header does not say where the voxels begin");
@@ -184,6 +210,10 @@ FileLayout nifti_layout(const std::filesystem::path& file, Problems& problems) {
   const float slope = header.number<float>(112), intercept = header.number<float>(116);
   if (!std::isfinite(slope) || !std::isfinite(intercept))
     problems.add("bad_rescale", "the header's rescale values are no numbers");
+  if (slope != 0.0F) {  // nifti1.h: 0 means that there is no rescaling
+    layout.voxels.slope = slope;
+    layout.voxels.intercept = intercept;
+  }
   if (packed) {
     layout.packing = Packing::gzip_or_zlib;
     layout.unpacked_skip = static_cast<std::uint64_t>(offset);

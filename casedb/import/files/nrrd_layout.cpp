@@ -1,8 +1,11 @@
 // NRRD headers (teem.sourceforge.net/nrrd/format.html): attached or detached, raw or gzip.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <map>
+#include <optional>
 
 #include "casedb/import/files/file_layout.h"
 
@@ -21,39 +24,57 @@ std::string after_blanks(const std::string& text) {
   return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
 
-Fields nrrd_fields_of(const TextHeader& header) {
+// Every field of the format, without blanks.
+bool is_known_field(const std::string& name) {
+  static constexpr std::array<const char*, 33> kFields = {
+      "content",     "number",           "type",           "blocksize",   "dimension",
+      "space",       "spacedimension",   "sizes",          "spacings",    "axismins",
+      "axismin",     "thicknesses",      "axismaxs",       "axismax",     "centers",
+      "centerings",  "labels",           "units",          "kinds",       "min",
+      "max",         "oldmin",           "oldmax",         "datafile",    "endian",
+      "encoding",    "lineskip",         "byteskip",       "sampleunits", "spaceunits",
+      "spaceorigin", "measurementframe", "spacedirections"};
+  return std::find(kFields.begin(), kFields.end(), name) != kFields.end();
+}
+
+// Nothing when a line is neither a comment, a key and its value, nor a field of the format.
+std::optional<Fields> nrrd_fields_of(const TextHeader& header) {
   Fields fields;
-  for (const std::string& line : header.lines) {
-    if (line.starts_with('#') || line.find(":=") != std::string::npos) continue;
+  for (std::size_t i = 1; i < header.lines.size(); ++i) {  // behind the magic
+    const std::string& line = header.lines[i];
+    if (line.empty() || line.starts_with('#') || line.find(":=") != std::string::npos) continue;
     const std::size_t colon = line.find(": ");
-    if (colon == std::string::npos) continue;
+    if (colon == std::string::npos) return std::nullopt;
     std::string name = lower(line.substr(0, colon));
     name.erase(std::remove(name.begin(), name.end(), ' '), name.end());  // "data file" and "datafile" are one
+    if (!is_known_field(name)) return std::nullopt;
     fields[name] = after_blanks(line.substr(colon + 1));
   }
   return fields;
 }
 
-int nrrd_scalar_bytes(std::string type) {
-  type = lower(std::move(type));
-  static const std::map<std::string, int> kBytes = [] {
-    std::map<std::string, int> bytes;
-    for (const char* name : {"signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t"})
-      bytes[name] = 1;
-    for (const char* name : {"short", "short int", "signed short", "signed short int", "int16", "int16_t", "ushort",
-                             "unsigned short", "unsigned short int", "uint16", "uint16_t"})
-      bytes[name] = 2;
-    for (const char* name :
-         {"int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float"})
-      bytes[name] = 4;
-    for (const char* name :
-         {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t",
-          "ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t", "double"})
-      bytes[name] = 8;
-    return bytes;
+Scalar nrrd_scalar_of(const std::string& type) {
+  static const std::map<std::string, Scalar> kScalars = [] {
+    using Names = std::initializer_list<const char*>;
+    std::map<std::string, Scalar> scalars;
+    const auto add = [&](Scalar scalar, Names names) {
+      for (const char* name : names) scalars[name] = scalar;
+    };
+    add(Scalar::int8, {"signed char", "int8", "int8_t"});
+    add(Scalar::uint8, {"uchar", "unsigned char", "uint8", "uint8_t"});
+    add(Scalar::int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"});
+    add(Scalar::uint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"});
+    add(Scalar::int32, {"int", "signed int", "int32", "int32_t"});
+    add(Scalar::uint32, {"uint", "unsigned int", "uint32", "uint32_t"});
+    add(Scalar::int64,
+        {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"});
+    add(Scalar::uint64, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"});
+    add(Scalar::float32, {"float"});
+    add(Scalar::float64, {"double"});
+    return scalars;
   }();
-  const auto found = kBytes.find(type);
-  return found == kBytes.end() ? 0 : found->second;
+  const auto found = kScalars.find(lower(type));
+  return found == kScalars.end() ? Scalar::none : found->second;
 }
 
 void read_nrrd_size(const Fields& fields, FileLayout& layout, Problems& problems) {
@@ -75,8 +96,8 @@ void read_nrrd_size(const Fields& fields, FileLayout& layout, Problems& problems
     problems.add("not_3d", "the file does not hold one volume");
   for (std::size_t axis = 0; axis < std::min<std::size_t>(sizes.size(), 3); ++axis)
     layout.size_voxels[axis] = sizes[axis] >= 1.0 && sizes[axis] < 1e9 ? static_cast<std::int64_t>(sizes[axis]) : 0;
-  layout.bytes_per_voxel = nrrd_scalar_bytes(field("type"));
-  if (layout.bytes_per_voxel == 0) problems.add("not_scalar", "a voxel is not one plain number");
+  layout.voxels.scalar = nrrd_scalar_of(field("type"));
+  if (layout.voxels.scalar == Scalar::none) problems.add("not_scalar", "a voxel is not one plain number");
 }
 
 std::vector<double> vectors_of(std::string text) {
@@ -85,7 +106,6 @@ std::vector<double> vectors_of(std::string text) {
   return numbers_of(text);
 }
 
-// Read here, since ITK 5.2 turns the directions of left-anterior-superior space but not its origin.
 void read_geometry(const Fields& fields, FileLayout& layout, Problems& problems) {
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
   const std::string space = lower(field("space"));
@@ -128,7 +148,12 @@ FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems) {
     problems.add("truncated", "the header has no end");
     return layout;
   }
-  const Fields fields = nrrd_fields_of(header);
+  const auto read = nrrd_fields_of(header);
+  if (!read) {
+    problems.add("damaged", "the header holds a line that is none of the format's");
+    return layout;
+  }
+  const Fields& fields = *read;
   const auto field = [&](const char* name) { return fields.contains(name) ? fields.at(name) : std::string(); };
   read_nrrd_size(fields, layout, problems);
   if (problems.empty()) read_geometry(fields, layout, problems);
@@ -137,7 +162,9 @@ FileLayout nrrd_layout(const std::filesystem::path& file, Problems& problems) {
     layout.packing = Packing::gzip_or_zlib;
   else if (encoding != "raw")
     problems.add(encoding.empty() ? "damaged" : "unknown_format", "the voxels are not stored raw or with gzip");
-  if (layout.bytes_per_voxel > 1 && field("endian").empty() && layout.packing == Packing::none && encoding == "raw")
+  layout.voxels.big_endian = lower(field("endian")) == "big";
+  if (bytes_of(layout.voxels.scalar) > 1 && field("endian").empty() && layout.packing == Packing::none &&
+      encoding == "raw")
     problems.add("damaged", "the header does not say the order of bytes");
   for (const char* skip : {"lineskip", "byteskip"})
     if (const std::string value = field(skip); !value.empty() && value != "0")

@@ -1,9 +1,10 @@
-// The mutation driver for longer, from another seed each time it is given one: SELDINGER_FUZZ_SEED, _SECONDS.
+// The mutation driver for longer: 20,000 files of every reader, or SELDINGER_FUZZ; SELDINGER_FUZZ_SEED for others.
 #include <cstdlib>
 #include <string>
 
 #include "tests/casedb/import/fuzz_import.h"
 #include "tests/casedb/import/import_case.h"
+#include "tests/fixtures/mutate.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -11,9 +12,9 @@ namespace {
 class FuzzLong : public ImportCase {};
 
 TEST_F(FuzzLong, MutatedFilesNeverHarm) {
-  const char *seed = std::getenv("SELDINGER_FUZZ_SEED"), *seconds = std::getenv("SELDINGER_FUZZ_SECONDS");
-  fuzz_import(folder_, seed != nullptr ? std::stoull(seed) : 1,
-              {100000000, seconds != nullptr ? std::stod(seconds) : 300.0});
+  const char* seed = std::getenv("SELDINGER_FUZZ_SEED");
+  for (const FuzzedReader reader : kFuzzedReaders)
+    fuzz_import(folder_, reader, seed != nullptr ? std::stoull(seed) : 1, fixtures::fuzz_rounds(20000));
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace seldinger::casedb {
 namespace {
@@ -13,7 +15,7 @@ class Mutation {
 
   void apply(const std::vector<std::string>& others) {
     if (bytes_.empty()) bytes_.push_back('\0');
-    switch (below(11)) {
+    switch (below(14)) {
       case 0:
         bytes_[place()] = static_cast<char>(random_());
         return;
@@ -38,6 +40,12 @@ class Mutation {
       case 9:
         bytes_.resize(place());
         return;
+      case 10:
+      case 11:
+      case 12:
+        if (is_nifti()) return put_nifti_field();
+        if (header_lines() > 2) return change_line();
+        return put_number(2);
       default:
         return put_word();
     }
@@ -48,6 +56,71 @@ class Mutation {
   // Half of the time near the beginning, where headers are.
   std::size_t place() {
     return below(2) == 0 ? below(bytes_.size()) : below(std::min<std::size_t>(bytes_.size(), 1500));
+  }
+
+  bool is_nifti() const { return bytes_.size() >= 352 && bytes_.compare(0, 4, std::string("\x5C\1\0\0", 4)) == 0; }
+
+  // nifti1.h: dimensions, type, sizes, where voxels begin, rescaling, units, forms and their numbers.
+  void put_nifti_field() {
+    static constexpr std::array<std::int16_t, 12> kShorts = {-32768, -1, 0, 1, 2, 4, 8, 16, 64, 255, 512, 32767};
+    static const std::array<float, 12> kFloats = {0.0F,   -0.0F, 1.0F,  -1.0F, 0.5F,   352.0F,
+                                                  1e-30F, 1e30F, 1e10F, 1e4F,  -3e38F, std::nanf("")};
+    const bool number = below(2) == 0;
+    const std::size_t at = number ? 76 + 4 * below(63) : (below(2) == 0 ? 40 + 2 * below(18) : 252 + 2 * below(2));
+    if (number) {
+      const float value = kFloats[below(kFloats.size())];
+      std::memcpy(bytes_.data() + at, &value, sizeof value);
+    } else {
+      const std::int16_t value = kShorts[below(kShorts.size())];
+      std::memcpy(bytes_.data() + at, &value, sizeof value);
+    }
+  }
+
+  // How many lines of text the file begins with.
+  std::size_t header_lines() const {
+    std::size_t lines = 0;
+    for (const char c : bytes_.substr(0, 4096)) {
+      if (c == '\n') ++lines;
+      if (static_cast<unsigned char>(c) >= 0x7F || (c < ' ' && c != '\n' && c != '\r' && c != '\t')) break;
+    }
+    return lines;
+  }
+
+  // A line of a header is lost, doubled, or has a key, a word or a list of another length or size.
+  void change_line() {
+    static constexpr std::array<std::size_t, 11> kLengths = {0, 1, 200, 254, 255, 256, 300, 999, 1024, 5000, 40000};
+    static constexpr std::array<const char*, 10> kNumbers = {"0",    "-1",   "1",   "4096", "99999999999999999999",
+                                                             "1e18", "-1e9", "nan", "inf",  "2147483648"};
+    std::size_t begin = 0;
+    for (std::size_t skip = below(header_lines()); skip > 0; --skip) begin = bytes_.find('\n', begin) + 1;
+    const std::size_t end = std::min(bytes_.find('\n', begin), bytes_.size());
+    std::string line = bytes_.substr(begin, end - begin);
+    const std::size_t length = kLengths[below(kLengths.size())];
+    const std::size_t digit = line.find_first_of("0123456789");
+    switch (below(7)) {
+      case 0:
+        line.clear();
+        break;
+      case 1:
+        line += "\n" + line;
+        break;
+      case 2:
+        line.insert(0, std::string(length, 'K'));
+        break;
+      case 3:
+        line += std::string(length, 'v');
+        break;
+      case 4:
+        for (std::size_t i = 0; i < length; ++i) line += " 8";
+        break;
+      case 5:
+        line = std::string(below(2) == 0 ? "Comment = " : "# ") + std::string(length, 'c');
+        break;
+      default:
+        if (digit == std::string::npos) return;
+        line.replace(digit, line.find_first_not_of("0123456789.", digit) - digit, kNumbers[below(kNumbers.size())]);
+    }
+    bytes_.replace(begin, end - begin, line);
   }
 
   // A length or count that decides something.
