@@ -36,6 +36,11 @@ bool deferred(std::span<const MetricValue> attempt) {
   return !fired(attempt) && is(attempt, "procedure_performed", 1.0) && is(attempt, "skin_punctures", 0.0);
 }
 
+// Whether a deferral is judged by it: by what was decided and said. A breath is held for the needle.
+bool of_a_deferral(const MetricInfo& info) {
+  return info.group == Group::procedure && (info.needs & kBreathes) == 0;
+}
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t middle = values.size() / 2;
@@ -50,19 +55,26 @@ bool compared(std::span<const MetricValue> attempt) {
   return !is(attempt, "procedure_performed", 0.0);
 }
 
+bool tells(const MetricInfo& info, std::span<const MetricValue> attempt) {
+  return compared(attempt) && (of_a_deferral(info) || !deferred(attempt));
+}
+
 Contribution contribution_of(const MetricInfo& info, std::span<const MetricValue> attempt) {
   const auto found = std::find_if(attempt.begin(), attempt.end(), [&](const MetricValue& one) {
     return one.id == info.id && one.version == info.version;
   });
-  if (found == attempt.end()) return {};
+  if (found == attempt.end() || !compared(attempt)) return {};
   const WithoutEndpoint without = info.estimand.without_endpoint;
+  // To defer what was to go ahead is to give it up.
+  const bool spared = deferred(attempt) && !is(attempt, "decision_right", 0.0);
   if (without == WithoutEndpoint::censored && !fired(attempt))
-    return deferred(attempt) ? Contribution{} : Contribution{Counted::censored, 0.0};
+    return spared ? Contribution{} : Contribution{Counted::censored, 0.0};
   if (found->value)
-    return std::isfinite(*found->value) ? Contribution{Counted::value, *found->value} : Contribution{};
+    return tells(info, attempt) && std::isfinite(*found->value) ? Contribution{Counted::value, *found->value}
+                                                                : Contribution{};
   const bool missed =
       std::find(std::begin(kNotReached), std::end(kNotReached), found->reason) != std::end(kNotReached);
-  if (!missed || without == WithoutEndpoint::left_out || deferred(attempt)) return {};
+  if (!missed || without == WithoutEndpoint::left_out || spared) return {};
   return {without == WithoutEndpoint::failure ? Counted::failure : Counted::censored, 0.0};
 }
 

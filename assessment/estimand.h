@@ -14,10 +14,14 @@ namespace seldinger::assessment {
 // before procedure_performed was).
 bool compared(std::span<const MetricValue> attempt);
 
+// Whether its value of the metric is of anything that was done: who parks has performed nothing, and who defers has
+// the best value of whatever counts errors of a puncture.
+bool tells(const MetricInfo& info, std::span<const MetricValue> attempt);
+
 enum class Counted : std::uint8_t {
   left_out,  // it says nothing
   value,
-  failure,   // the worst there is: neither fired nor deferred, or what is measured was never reached
+  failure,   // the worst there is: neither fired nor rightly deferred, or what is measured was never reached
   censored,  // it was still running: longer than any that ended
 };
 struct Contribution {

@@ -68,9 +68,11 @@ std::string estimands_markdown() {
       "where "
       "it is censored, a\ntime that was still running, longer than any that ended. A failure is also what was "
       "never "
-      "reached (`never_punctured`,\n`not_in_target_structure`, `not_in_tissue_at_the_end`). \"Unchanged by\" names "
-      "laws "
-      "of the table below.\n\n"
+      "reached (`never_punctured`,\n`not_in_target_structure`, `not_in_tissue_at_the_end`). Who defers without a "
+      "puncture counts in the metrics of deciding,\nsteps and pain alone, and in no other; but a deferral that "
+      "`decision_right` calls wrong is a failure or censored as giving up\nis. Where a case does not say what is "
+      "right, a deferral spares its person the failure: proportions of such a case are of those\nwho went ahead. "
+      "\"Unchanged by\" names laws of the table below.\n\n"
       "| id | scale | better | without an endpoint | of a person's | unchanged by |\n|---|---|---|---|---|---|\n";
   for (const MetricInfo& info : registry())
     text += "| `" + std::string(info.id) + "` | " + std::string(words(info.estimand.scale)) + " | " +

@@ -1,6 +1,5 @@
 #include "app/cli/key_file.h"
 
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,7 +18,7 @@ base::Result<casedb::HashKey> key_from_file(const std::string& path) {
   casedb::fill_random(key);
   if (path.empty()) return key;
   std::string text = base::hex_from_bytes(key) + "\n";
-  casedb::NewFile made(path, S_IRUSR | S_IWUSR);
+  casedb::NewFile made(path);
   made.write(std::as_bytes(std::span(text)));
   made.keep();
   casedb::wipe(text);

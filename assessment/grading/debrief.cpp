@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "assessment/estimand.h"
 #include "assessment/grading/phrases.h"
 #include "assessment/grading/plain_words.h"
 #include "assessment/grading/reason_words.h"
@@ -95,7 +96,7 @@ Candidate of_null(const CriterionResult& one, std::string_view topic, const Metr
   if (one.reason == kOtherVersion)
     made.sentence.text = "“" + label + "” was measured by another version than the rule's: not comparable.";
   else if (one.reason == "no_endpoint")
-    made.sentence.text = "The needle was never fired, so the end of the way cannot be judged.";
+    made.sentence.text = "The trigger was never pulled, so the end of the way cannot be judged.";
   else
     made.sentence.text = "“" + label + "” has no value (" + reason_words(one.reason) + "), so it is not met.";
   if (one.criterion.critical) made.by_how_much = 1.0;
@@ -148,7 +149,8 @@ std::vector<Candidate> candidates_of(const Grade& grade, const Gradable& attempt
       all.push_back(of_null(one, phrase == nullptr ? std::string_view("") : phrase->topic, info));
     else if (phrase != nullptr && info != nullptr && one.outcome == Outcome::missed)
       all.push_back(of_missed(one, *phrase, *info, experts));
-    else if (phrase != nullptr && info != nullptr && info->group != Group::recording)
+    else if (phrase != nullptr && info != nullptr && info->group != Group::recording &&
+             tells(*info, attempt.metrics))
       all.push_back(of_met(one, *phrase, *info, experts));
   }
   for (const MetricBand& band : experts.bands) {
@@ -157,7 +159,7 @@ std::vector<Candidate> candidates_of(const Grade& grade, const Gradable& attempt
     const MetricValue* found = find_version(attempt.metrics, band.id, band.version);
     if (std::find(std::begin(kOnlyIfAsked), std::end(kOnlyIfAsked), band.id) != std::end(kOnlyIfAsked)) continue;
     if (info == nullptr || phrase == nullptr || info->direction == Direction::none || found == nullptr ||
-        !found->value || !std::isfinite(*found->value))
+        !found->value || !std::isfinite(*found->value) || !tells(*info, attempt.metrics))
       continue;
     if (auto one = of_band(*found->value, band, *phrase, *info)) all.push_back(std::move(*one));
   }
@@ -191,7 +193,9 @@ std::string_view name_of(SentenceKind kind) noexcept {
 std::string limit_text(const Criterion& criterion, std::string_view unit) {
   constexpr std::string_view kWords[] = {"at most ", "at least ", "exactly "};  // as Comparison
   if (tells_yes_or_no(unit)) return criterion.value != 0.0 ? "yes" : "no";
-  if (criterion.value == 0.0 && criterion.comparison != Comparison::at_least) return "none";
+  const MetricInfo* info = find_metric(criterion.metric);
+  const bool least = info != nullptr && info->estimand.scale != Scale::interval;  // nothing is below 0
+  if (least && criterion.value == 0.0 && criterion.comparison != Comparison::at_least) return "none";
   return std::string(kWords[static_cast<std::size_t>(criterion.comparison)]) + plain_value(criterion.value, unit);
 }
 

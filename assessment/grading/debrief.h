@@ -22,11 +22,11 @@ struct Sentence {
 };
 
 // At most three, and three where there are three things to say; of what is not gradable the one that says why.
-// Two of one topic only where nothing else is left to say; null is never praised. Only a standard's numbers are
-// told; of any other set none, and criteria alone speak.
+// Two of one topic only where nothing else is left to say; null is never praised, nor what nobody did (estimand.h).
+// Only a standard's numbers are told; of any other set none, and criteria alone speak.
 std::vector<Sentence> debrief(const Grade& grade, const Gradable& attempt, const ExpertSet& set);
 
-// "at most 5 mm", "at least 80 %", "exactly 1", "none" (at most 0), "yes".
+// "at most 5 mm", "at least 80 %", "exactly 1", "none" (at most 0 of what is never below), "yes".
 std::string limit_text(const Criterion& criterion, std::string_view unit);
 
 // Why an attempt is not graded, as a sentence; `reason` as of a Grade.

@@ -160,7 +160,7 @@ constexpr Phrase kPhrases[] = {
     {"time_puncture_to_target", "time", "Took {} from the puncture to the trigger",
      "Took only {} from the puncture to the trigger"},
     {"fluoroscopy_time", "beam", "Had the beam on for {}", "Had the beam on for only {}", "Used no beam"},
-    {"pulses", "beam", "Fired {} X-ray pulses", "Fired only {} X-ray pulses", "Fired no X-ray pulse"},
+    {"pulses", "beam", "Fired {} X-ray pulse{s}", "Fired only {} X-ray pulse{s}", "Fired no X-ray pulse"},
     {"pulse_rate_max", "pulse rate", "Fired as many as {} X-ray pulses", "Fired no more than {} X-ray pulses"},
     {"dap", "dose", "Spent a dose–area product of {}", "Spent a dose–area product of only {}", "Spent no dose"},
     {"air_kerma", "dose", "Spent an air kerma of {}", "Spent an air kerma of only {}", "Spent no dose"},
@@ -168,7 +168,7 @@ constexpr Phrase kPhrases[] = {
      "Had the beam on for only {} while the arm moved", "Never had the beam on while the arm moved"},
     {"collimated_share", "collimator", "Shut off only {} of the field with the collimator",
      "Shut off {} of the field with the collimator", "Left the collimator open"},
-    {"views", "views", "Looked from directions to the number of {}", "Looked from directions to the number of {}",
+    {"views", "views", "Looked from only {} direction{s}", "Looked from {} direction{s}",
      "Looked from no direction with the arm at rest"},
     {"view_angle_max", "views", "Looked from directions only {} apart", "Looked from directions {} apart",
      "Looked from one direction only"},
@@ -209,6 +209,7 @@ std::string said(const Phrase& phrase, double value, std::string_view value_text
                    : good                                    ? phrase.good
                                                              : phrase.bad);
   replace(text, "{times}", plain_times(value));
+  replace(text, "{s}", value == 1.0 ? "" : "s");
   replace(text, "{}", value_text);
   return text;
 }

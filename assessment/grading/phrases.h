@@ -7,7 +7,8 @@
 
 namespace seldinger::assessment {
 
-// "{}" stands for the value with its unit, "{times}" for how often. Sentences without their end.
+// "{}" stands for the value with its unit, "{times}" for how often, "{s}" for the plural's ending. Sentences
+// without their end.
 struct Phrase {
   std::string_view id;
   std::string_view topic;  // two metrics of one topic say nearly the same

@@ -33,7 +33,7 @@ constexpr ReasonWords kReasons[] = {
     {"no_skin", "the case has no skin surface"},
     {"no_right_decision", "the case does not say whether to go ahead or to defer"},
     // What the recording does not hold (needs.cpp).
-    {"no_endpoint", "the needle was never fired"},
+    {"no_endpoint", "the trigger was never pulled"},
     {"no_picture", "no picture was recorded"},
     {"beam_not_recorded", "the recording does not say what the beam did"},
     {"near_plane_not_recorded", "the recording does not say what lay near the picture’s plane"},
@@ -55,7 +55,7 @@ constexpr ReasonWords kReasons[] = {
     {"no_exposure", "no X-ray exposure was made"},
     {"fewer_than_two_views", "the target was not looked at from two directions"},
     {"no_movement_of_5_mm_s", "the tip never moved as fast as 5 mm/s"},
-    {"no_picture_plane", "the probe was not on the patient while the needle advanced"},
+    {"no_picture_plane", "the probe’s axes gave no picture plane while the needle advanced"},
     {"not_in_target_structure", "the tip did not end in the target structure"},
     {"not_in_tissue_at_the_end", "the tip was not in tissue at the end"},
     {"under_1_mm_of_advance", "the needle advanced by less than 1 mm in tissue"},
@@ -72,14 +72,15 @@ constexpr ReasonWords kReasons[] = {
      "force, and a new version of the case names them"},
     {"not_stored", "it was not stored with the attempt; `seldinger recompute` adds it"},
     {"not_measured", "it was not measured"},
+    {"no_reason_stored", "no reason was stored with it"},
     // Why an attempt is not graded (grade.cpp).
     {"interrupted", "the program was gone before the attempt had ended"},
     {"device_lost", "a device was lost on the way"},
     {"tracking_gaps", "tracking was lost for more than 5 % of the time"},
     {"tracking_slow", "tracking was slower than 60 Hz"},
-    {"tracking_jumps", "tracking jumped further than a hand can move"},
+    {"tracking_jumps", "tracking jumped faster than a hand can move"},
     {"tracking_repaired", "more than 1 % of the tracked poses had to be repaired"},
-    {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` does"},
+    {"quality_not_measured", "the quality of its recording was not measured; `seldinger recompute` measures it"},
 };
 
 }  // namespace

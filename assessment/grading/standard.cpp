@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "assessment/estimand.h"
 #include "assessment/grading/tolerance.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/metrics/quality.h"
@@ -32,24 +33,16 @@ constexpr std::string_view kScored[] = {"core_in_target",
                                         "fluoroscopy_time",
                                         "longest_advance_between_exposures"};
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return quantile(values, 0.5);
-}
-
-// The medians of those who have a value; one a person.
-std::vector<double> medians_of(const std::map<std::string, std::vector<const ExpertAttempt*>>& by_person,
-                               const MetricInfo& info) {
-  std::vector<double> medians;
+// As the metric's estimand has it, of those who have a value that is not among the failures; one a person.
+std::vector<double> values_of(const std::map<std::string, std::vector<const ExpertAttempt*>>& by_person,
+                              const MetricInfo& info) {
+  std::vector<double> values;
   for (const auto& [person, attempts] : by_person) {
-    std::vector<double> values;
-    for (const ExpertAttempt* attempt : attempts) {
-      const MetricValue* found = find_version(attempt->metrics, info.id, info.version);
-      if (found != nullptr && found->value && std::isfinite(*found->value)) values.push_back(*found->value);
-    }
-    if (!values.empty()) medians.push_back(median(std::move(values)));
+    std::vector<Contribution> contributions;
+    for (const ExpertAttempt* attempt : attempts) contributions.push_back(contribution_of(info, attempt->metrics));
+    if (const OnePerson one = of_one_person(info, contributions); one.estimate) values.push_back(*one.estimate);
   }
-  return medians;
+  return values;
 }
 
 // A share is no more than 1; of what cannot be negative nothing is.
@@ -62,25 +55,25 @@ Interval within(const MetricInfo& info, Interval interval, double least) {
   return interval;
 }
 
-MetricBand band_of(const MetricInfo& info, std::vector<double> medians) {
-  std::sort(medians.begin(), medians.end());
+MetricBand band_of(const MetricInfo& info, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
   MetricBand band;
   band.id = info.id;
   band.version = info.version;
   band.unit = info.unit;
-  band.n = medians.size();
-  band.low = quantile(medians, kLowest);
-  band.high = quantile(medians, kHighest);
-  const auto n = static_cast<double>(medians.size());
+  band.n = values.size();
+  band.low = quantile(values, kLowest);
+  band.high = quantile(values, kHighest);
+  const auto n = static_cast<double>(values.size());
   // From the first value on, so that equal values have that mean and no spread at all.
   double sum = 0.0, squares = 0.0;
-  for (const double value : medians) sum += value - medians.front();
-  band.mean = medians.front() + sum / n;
-  for (const double value : medians) squares += (value - band.mean) * (value - band.mean);
+  for (const double value : values) sum += value - values.front();
+  band.mean = values.front() + sum / n;
+  for (const double value : values) squares += (value - band.mean) * (value - band.mean);
   band.sd = std::sqrt(squares / (n - 1.0));
   if (band.unit != "bool") {
     const double far = tolerance_factor(band.n, kToleranceShare, kToleranceConfidence) * band.sd;
-    band.tolerance = within(info, {band.mean - far, band.mean + far}, medians.front());
+    band.tolerance = within(info, {band.mean - far, band.mean + far}, values.front());
   }
   return band;
 }
@@ -177,8 +170,8 @@ ExpertSet expert_set(std::vector<ExpertAttempt> attempts) {
   if (set.enough_people())
     for (const MetricInfo& info : registry()) {
       if (info.group == Group::recording) continue;  // says how it was recorded, not what was done
-      std::vector<double> medians = medians_of(by_person, info);
-      if (medians.size() >= kStandardConsultants) set.bands.push_back(band_of(info, std::move(medians)));
+      std::vector<double> values = values_of(by_person, info);
+      if (values.size() >= kStandardConsultants) set.bands.push_back(band_of(info, std::move(values)));
     }
   set.id = id_of(set);
   return set;

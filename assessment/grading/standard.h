@@ -38,7 +38,8 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-// Over one value a person: the median of the attempts that count, so that who attempts more counts no more.
+// Over one value a person, as the metric's estimand has it of the attempts that count (estimand.h), so that who
+// attempts more counts no more.
 struct MetricBand {
   std::string id, unit;
   int version = 1;
@@ -79,7 +80,7 @@ inline constexpr std::string_view kScoreFormula =
     "50 + 50/3 times the mean over the metrics of z, where z = (value - mean) / sd of the standard's consultants, "
     "sd no "
     "less than the metric's smallest worthwhile difference, signed so that better is more, between -3 and 3; every "
-    "metric weighs the same; time is not among them; 0 with a critical error";
+    "metric weighs the same; how long the attempt took is not among them; 0 with a critical error";
 
 struct ScorePart {
   std::string id, unit;
@@ -103,8 +104,8 @@ struct Score {
 // `person_id`: whose attempt; empty for nobody's.
 Score score(const ExpertSet& set, const Grade& grade, const Gradable& attempt, std::string_view person_id);
 
-// What a score is made of where it applies: few, since many metrics of one aspect would weigh it many times. No
-// time: speed never buys back a blind advance (docs/clinical.md, "Passing").
+// What a score is made of where it applies: few, since many metrics of one aspect would weigh it many times. How
+// long the attempt took is not among them: speed never buys back a blind advance (docs/clinical.md, "Passing").
 std::span<const std::string_view> scored_metrics();
 
 }  // namespace seldinger::assessment

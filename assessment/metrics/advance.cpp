@@ -53,9 +53,11 @@ Seen seen_advance(const Signals& signals, double blind_run_mm = 0.0) {
   std::size_t next_frame = 0;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
     const double from_s = signals.poses[i - 1].t_s;
-    for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= from_s; ++next_frame)
-      sight.picture(signals.frames[next_frame].t_s,
-                    signals.frames[next_frame].live && signals.frames[next_frame].needle_tip);
+    const bool after_gap = i > 1 && signals.gap(i - 2);  // what a picture showed in it is seen from its end on
+    for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= from_s; ++next_frame) {
+      const cases::FrameTruth& frame = signals.frames[next_frame];
+      sight.picture(after_gap ? from_s : frame.t_s, frame.live && frame.needle_tip);
+    }
     if (sight.seen(from_s)) blind = {};
     if (signals.gap(i - 1)) sight.gap(signals.interval_s(i - 1));
     const double advance_mm = signals.advance_mm[i];
@@ -160,42 +162,44 @@ constexpr std::uint32_t kUnderProbe = kPicturePlane | kSkin | kPictures;
 constexpr std::uint32_t kSame =
     kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kAtAnySpeed | kOneDarkFrame | kLostSamples;
 constexpr const char* kByTissue =
-    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance.";
+    "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; "
+    "2: without the first 1 mm of a further puncture.";
 constexpr const char* kByTissueGuided =
     "1: what the tip came on in the tissue, so that breath that slid past a resting hand was advance; also under a "
-    "needle guide.";
+    "needle guide; 2: without the first 1 mm of a further puncture.";
 
 constexpr MetricInfo kAdvanceMetrics[] = {
-    {"advance_visible_share", 2, "share", "Advance visible", Group::picture, Direction::higher_is_better,
+    {"advance_visible_share", 3, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
      "Share of the way that the hand advanced the tip in tissue while a live picture showed it; to and fro by "
      "under 1 mm is no advance, nor is breath that slides past a hand at rest (as withdrawals_partial). A "
      "frozen picture shows nothing. Null: under_1_mm_of_advance.",
      "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
      kMedianShare, kSame | kNothingIsNothing, kByTissue},
-    {"blind_advance", 2, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
+    {"blind_advance", 3, "mm", "Blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Length that the hand advanced the tip in tissue while no live picture showed it; as "
      "advance_visible_share counts it.",
      kSites, &blind_advance, kMedianRatio, kSame | kNothingIsNothing, kByTissue},
-    {"blind_advance_max", 2, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
+    {"blind_advance_max", 3, "mm", "Longest blind advance", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kTissue,
      "Longest part of blind_advance from one sight of the tip to the next: of 0.2 s or longer, for a flicker "
      "shows nobody where it is. A tracking gap neither adds nor ends it.",
      kSites, &blind_advance_max, kMedianRatio,
      kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
-     "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it."},
-    {"plane_angle_mean", 2, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
+     "1: as blind_advance's version 1; one picture of the tip, and a gap, ended it; 2: as blind_advance's version "
+     "2; a picture of the tip in a gap could end it."},
+    {"plane_angle_mean", 3, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand,
      "Angle between needle and picture plane, averaged over the way that the hand advanced the tip in tissue. "
      "Null: under_1_mm_of_advance, no_picture_plane.",
      "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean, kMedianInterval,
      kSame | kNothingIsNothing, kByTissueGuided},
-    {"plane_angle_max", 2, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
+    {"plane_angle_max", 3, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",
      "NeedlePlaneAngle of TrainUS (Ebatinca)", &plane_angle_max, kMedianInterval, kSame | kNothingIsNothing,
      kByTissueGuided},
-    {"advance_beyond_plane", 2, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
+    {"advance_beyond_plane", 3, "mm", "Advance beyond plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kOutOfPlane | kMotion | kTissue,
      "Length that the hand advanced the tip in tissue while it was more than 3 mm beyond the picture's plane, "
      "on the side to which the needle points: out of plane, the probe goes first and the tip follows into the "

@@ -50,19 +50,21 @@ Measured joint_visible_last(const Signals& signals) {
   return Measured::of(joint_mm / advance_mm);
 }
 
-// Out of plane the tip is seen in passing: one picture ends a run. A gap neither adds nor ends one.
+// Out of plane the tip is seen in passing: one picture ends a run. A gap neither adds nor ends one: what a picture
+// showed in it counts where it still does at its end.
 Measured longest_between_sights(const Signals& signals) {
   double advance_mm = 0.0, run_mm = 0.0, longest_mm = 0.0;
   bool visible = false;
   std::size_t next_frame = 0;
   for (std::size_t i = 1; i < signals.poses.size(); ++i) {
     bool shown = visible;  // by any picture since the step before
+    const bool after_gap = i > 1 && signals.gap(i - 2);
     for (; next_frame < signals.frames.size() && signals.frames[next_frame].t_s <= signals.poses[i - 1].t_s;
          ++next_frame) {
       visible = signals.frames[next_frame].live && signals.frames[next_frame].needle_tip;
-      shown = shown || visible;
+      shown = shown || (visible && !after_gap);
     }
-    if (shown || !signals.passages[i].in_body) run_mm = 0.0;
+    if (shown || visible || !signals.passages[i].in_body) run_mm = 0.0;
     advance_mm += signals.advance_mm[i];
     if (visible) continue;
     run_mm += signals.advance_mm[i];
@@ -74,7 +76,7 @@ Measured longest_between_sights(const Signals& signals) {
 
 constexpr MetricInfo kLastAdvanceMetrics[] = {
     {"advance_joint_visible_last_20_mm",
-     1,
+     2,
      "share",
      "Both visible near target",
      Group::picture,
@@ -86,22 +88,17 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      "by way instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing},
-    {"longest_advance_between_sights",
-     1,
-     "mm",
-     "Advance between sights",
-     Group::picture,
-     Direction::lower_is_better,
-     kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
+     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
+     "1: without the first 1 mm of a further puncture."},
+    {"longest_advance_between_sights", 2, "mm", "Advance between sights", Group::picture,
+     Direction::lower_is_better, kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
      "Longest way that the tip was pushed in tissue from one live picture that showed it to the next, from the "
      "skin "
      "to the first, or from the last to the endpoint: out of plane the tip is seen in passing, each time the probe "
      "goes ahead and the needle follows. Null: under_1_mm_of_advance.",
-     "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321",
-     &longest_between_sights,
-     {Scale::ratio, WithoutEndpoint::left_out, Aggregation::median},
-     kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing},
+     "dynamic needle tip positioning: Clemmesen et al., Ultraschall Med. 33 (2012) E321", &longest_between_sights,
+     kMedianRatio, kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kIdleAfter | kNothingIsNothing,
+     "1: a picture of the tip in a gap ended it; without the first 1 mm of a further puncture."},
 };
 
 }  // namespace

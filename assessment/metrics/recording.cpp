@@ -47,7 +47,8 @@ constexpr MetricInfo kRecordingMetrics[] = {
      "data quality", &sample_rate_p5, kMedianRatio, kOfTracker},
     {"tracking_jumps", 2, "count", "Tracking jumps", Group::recording, Direction::lower_is_better, 0,
      "Times the needle's tip went, over 10 ms, at more than 2 m/s or was accelerated by more than 100 m/s²: no "
-     "hand does, the tracker lost it. There and back within 0.1 s is one. Counted before anything is repaired; "
+     "hand does, the tracker lost it. What follows another within 0.1 s is one with it: there and back. Counted "
+     "before anything is repaired; "
      "moves of the program's own (needle guide, change of hands, start) are none.",
      "data quality", &tracking_jumps, kMeanCount, kOfTracker,
      "1: only more than 50 mm at more than 10 m/s, so that 80 mm in 10 ms were the hand's."},

@@ -95,18 +95,14 @@ struct HoldCheck {
 
 HoldCheck check_of(const Signals& signals, const BreathHold& hold, std::size_t first) {
   HoldCheck check{hold, {}, {}};
-  // The hand's motion along the needle: what breath does to a needle at rest is no advance.
-  const auto held_mm = [&](std::size_t i) {
-    return glm::dot(signals.poses[i].tip_lps_mm - signals.passages[first].entry_lps_mm,
-                    signals.poses[i].needle_direction);
-  };
   double end_s = signals.poses.back().t_s;
   for (std::size_t i = first; i < signals.poses.size(); ++i) {
     if (!signals.passages[i].in_body) {
       end_s = signals.poses[i].t_s;
       break;
     }
-    if (!check.on_s && held_mm(i) - held_mm(first) > kUncheckedMm) check.on_s = signals.poses[i].t_s;
+    if (!check.on_s && signals.pushed_mm[i] - signals.pushed_mm[first] > kUncheckedMm)
+      check.on_s = signals.poses[i].t_s;
   }
   if (signals.endpoint && signals.endpoint->t_s >= hold.from_s && signals.endpoint->t_s <= end_s + kTimeTolerance_s)
     check.on_s = std::min(check.on_s.value_or(signals.endpoint->t_s), signals.endpoint->t_s);

@@ -93,7 +93,7 @@ When punctured(const Signals& signals) {
   return count_punctures(signals).first_s;
 }
 
-// Two turns of the tip along the shaft, in tissue, by more than kJiggleMm and no more than a jiggle.
+// Two turns of the hand along the shaft, in tissue, by more than kJiggleMm and no more than a jiggle.
 When jiggled(const Signals& signals) {
   double turned_mm = 0.0, turned_s = -1e300, far_mm = 0.0, far_s = 0.0;
   int way = 0;  // which way it has been going since the last turn
@@ -103,7 +103,7 @@ When jiggled(const Signals& signals) {
       turned_s = -1e300;
       continue;
     }
-    const double now_mm = signals.inserted_mm(i), now_s = signals.poses[i].t_s;
+    const double now_mm = signals.pushed_mm[i], now_s = signals.poses[i].t_s;
     if (way == 0) {
       way = 1;
       far_mm = turned_mm = now_mm;
@@ -272,8 +272,8 @@ constexpr EvidenceInfo kEvidence[] = {
     {Evidence::punctured, "the skin was first punctured (as skin_punctures counts)", kSkin, &punctured},
     {Evidence::angle_kept, "at the first puncture the needle stood to the skin within 15° of the planned angle",
      kSkin | kPlan, &angle_kept_s},
-    {Evidence::jiggled, "in tissue the tip went to and fro along the shaft, by 1 to 5 mm and within 2 s", kSkin,
-     &jiggled},
+    {Evidence::jiggled, "in tissue the hand moved the tip to and fro along the shaft, by 1 to 5 mm and within 2 s",
+     kSkin, &jiggled},
     {Evidence::at_target, "the tip was in the target; a core needle's: at most 5 mm from its edge", kTarget | kSkin,
      &at_target},
     {Evidence::at_planned_depth,
@@ -349,9 +349,9 @@ const EvidenceInfo& about(Evidence evidence) {
   return info;
 }
 
-std::optional<double> first_s(Evidence evidence, const Signals& signals) {
+std::optional<double> first_s(Evidence evidence, const Signals& signals, std::uint32_t unmet) {
   const EvidenceInfo& info = about(evidence);
-  return (info.needs & unmet_needs(signals)) == 0 ? info.first_s(signals) : std::nullopt;
+  return (info.needs & unmet) == 0 ? info.first_s(signals) : std::nullopt;
 }
 
 }  // namespace seldinger::assessment

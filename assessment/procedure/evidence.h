@@ -79,8 +79,8 @@ struct EvidenceInfo {
 
 std::span<const EvidenceInfo> evidence();
 
-// When it was seen first; never, or cannot be said: nothing.
-std::optional<double> first_s(Evidence evidence, const Signals& signals);
+// When it was seen first; never, or cannot be said: nothing. `unmet` as unmet_needs() says.
+std::optional<double> first_s(Evidence evidence, const Signals& signals, std::uint32_t unmet);
 const EvidenceInfo& about(Evidence evidence);
 
 }  // namespace seldinger::assessment

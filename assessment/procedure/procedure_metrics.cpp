@@ -12,10 +12,15 @@ Measured procedure_performed(const Signals& signals) {
   return Measured::of(performed(signals) ? 1.0 : 0.0);
 }
 
+bool said_to_defer(const Signals& signals) {
+  return first_s(Evidence::deferred, signals, unmet_needs(signals)).has_value();
+}
+
 Measured decision_right(const Signals& signals) {
-  const bool deferred = first_s(Evidence::deferred, signals).has_value();
+  const bool deferred = said_to_defer(signals);
   const bool punctured = count_punctures(signals).punctures > 0;
-  if (!deferred && !punctured && !first_s(Evidence::decided, signals)) return Measured::none("nothing_decided");
+  if (!deferred && !punctured && !first_s(Evidence::decided, signals, unmet_needs(signals)))
+    return Measured::none("nothing_decided");
   // Who says both has left the decision to whoever listens.
   const bool proceeds =
       punctured || std::any_of(signals.events->begin(), signals.events->end(),
@@ -24,21 +29,26 @@ Measured decision_right(const Signals& signals) {
   return Measured::of(right ? 1.0 : 0.0);
 }
 
+StepCounts counted(const Signals& signals) {
+  const std::uint32_t unmet = unmet_needs(signals);
+  return count_steps(walk_steps(signals, unmet), unmet);
+}
+
 Measured steps_done(const Signals& signals) {
-  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
+  const StepCounts counts = counted(signals);
   if (counts.asked() == 0) return Measured::none("no_step_asked_for");
   return Measured::of(static_cast<double>(counts.done) / counts.asked());
 }
 
 Measured steps_shown(const Signals& signals) {
-  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
+  const StepCounts counts = counted(signals);
   if (counts.to_be_shown == 0) return Measured::none("no_step_asked_for");
   return Measured::of(static_cast<double>(counts.shown) / counts.to_be_shown);
 }
 
 Measured steps_violated(const Signals& signals) {
-  const StepCounts counts = count_steps(walk_steps(signals), unmet_needs(signals));
-  if (counts.violated == 0 && count_punctures(signals).punctures == 0 && !first_s(Evidence::deferred, signals))
+  const StepCounts counts = counted(signals);
+  if (counts.violated == 0 && count_punctures(signals).punctures == 0 && !said_to_defer(signals))
     return Measured::none("nothing_done");
   return Measured::of(counts.violated);
 }
@@ -51,10 +61,6 @@ Measured pain_reactions(const Signals& signals) {
 }
 
 constexpr const char* kStepSources = "thesis, appendix A; docs/clinical.md: steps around the puncture";
-
-constexpr Estimand kDecisionEstimand{Scale::yes_no, WithoutEndpoint::left_out, Aggregation::proportion},
-    kShareEstimand{Scale::share, WithoutEndpoint::left_out, Aggregation::median},
-    kCountEstimand{Scale::count, WithoutEndpoint::left_out, Aggregation::mean};
 
 // A step may end within seconds of another, count with a patient who breathes only, and ask what one picture
 // showed.
@@ -73,39 +79,42 @@ constexpr MetricInfo kProcedureMetrics[] = {
      "1 or 0: whether a case to be deferred was deferred, neither saying to proceed nor puncturing the skin, or "
      "one to "
      "go ahead was not deferred. Null: nothing_decided (neither said nor punctured).",
-     "docs/clinical.md, case 8; SIR 2019 thresholds", &decision_right, kDecisionEstimand,
-     kOfEvents | kNothingIsNothing, "1: to proceed and to defer could both be said."},
-    {"steps_done", 3, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
+     "docs/clinical.md, case 8; SIR 2019 thresholds", &decision_right, kProportion, kOfEvents | kNothingIsNothing,
+     "1: to proceed and to defer could both be said."},
+    {"steps_done", 4, "share", "Steps done", Group::procedure, Direction::higher_is_better, kEvents,
      "Share done of the graded steps (steps.md) that were asked for; a step that a deed can show, by the deed "
      "only. "
      "Null: no_step_asked_for.",
-     kStepSources, &steps_done, kShareEstimand, kOfSteps,
+     kStepSources, &steps_done, kMedianShare, kOfSteps,
      "1: steps of breath and the jiggle counted nowhere; 2: said was as good as done, and depth by the needle's "
      "marks, "
-     "the angle at the skin and the way back from the check in the held breath were no steps"},
-    {"steps_shown", 1, "share", "Steps shown", Group::procedure, Direction::higher_is_better, kEvents,
+     "the angle at the skin and the way back from the check in the held breath were no steps; 3: as steps_shown 1 "
+     "had it"},
+    {"steps_shown", 2, "share", "Steps shown", Group::procedure, Direction::higher_is_better, kEvents,
      "As steps_done, of the steps that a deed can show: what was said neither counts nor is asked for. Null: "
      "no_step_asked_for.",
-     kStepSources, &steps_shown, kShareEstimand, kOfSteps},
-    {"steps_violated", 3, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
+     kStepSources, &steps_shown, kMedianShare, kOfSteps,
+     "1: breath that slid past a resting hand was a jiggle, and the rest as steps_violated 3 had it"},
+    {"steps_violated", 4, "count", "Steps violated", Group::procedure, Direction::lower_is_better, kEvents,
      "Graded steps (steps.md) that were violated. Null: nothing_done (none was, and there was neither a skin "
      "puncture "
      "nor a deferral).",
-     kStepSources, &steps_violated, kCountEstimand, kOfSteps | kNothingIsNothing,
+     kStepSources, &steps_violated, kMeanCount, kOfSteps | kNothingIsNothing,
      "1: steps of breath counted nowhere; 2: who did nothing had 0, and going on unchecked in the held breath was "
      "no "
-     "violation"},
+     "violation; 3: a needle that went along with the tissue was pushed on, of a further puncture the first 1 mm "
+     "was "
+     "not, and a picture in a tracking gap ended a blind run"},
     {"pain_reactions", 2, "count", "Pain reactions", Group::procedure, Direction::lower_is_better,
      kPatient | kEvents | kSkin | kTissue,
      "How often the patient felt pain: skin punctured where it was not numb, bone met.", kStepSources,
-     &pain_reactions, kCountEstimand, kOfEvents | kNothingIsNothing, "1: who did nothing had 0"},
+     &pain_reactions, kMeanCount, kOfEvents | kNothingIsNothing, "1: who did nothing had 0"},
 };
 
 }  // namespace
 
 bool performed(const Signals& signals) {
-  return signals.endpoint || count_punctures(signals).punctures > 0 ||
-         first_s(Evidence::deferred, signals).has_value();
+  return signals.endpoint || count_punctures(signals).punctures > 0 || said_to_defer(signals);
 }
 
 std::span<const MetricInfo> procedure_metrics() {

@@ -115,18 +115,18 @@ StepResult walk(const StepInfo& step, const Signals& signals, std::uint32_t unme
     result.reason = "deferred";
     return result;
   }
-  if (step.asked_when != none && !first_s(step.asked_when, signals)) {
+  if (step.asked_when != none && !first_s(step.asked_when, signals, unmet)) {
     result.reason = "no_such_event";
     return result;
   }
-  const auto violated_s = first_s(step.violates, signals), done_s = first_s(step.completes, signals),
-             by_s = first_s(step.by, signals);
+  const auto violated_s = first_s(step.violates, signals, unmet), done_s = first_s(step.completes, signals, unmet),
+             by_s = first_s(step.by, signals, unmet);
   result.t_s = violated_s ? violated_s : done_s;
   result.state = violated_s                             ? StepState::violated
                  : done_s && !(by_s && *done_s > *by_s) ? StepState::done
                                                         : StepState::skipped;
   if (result.state == StepState::done) result.how = step.shown() ? StepHow::shown : StepHow::said;
-  if (result.state == StepState::skipped && first_s(step.said, signals)) result.how = StepHow::said;
+  if (result.state == StepState::skipped && first_s(step.said, signals, unmet)) result.how = StepHow::said;
   return result;
 }
 
@@ -158,12 +158,15 @@ std::optional<StepHow> step_how_from(std::string_view name) noexcept {
   return base::from_name(kHows, name);
 }
 
-std::vector<StepResult> walk_steps(const Signals& signals) {
-  const std::uint32_t unmet = unmet_needs(signals);
-  const bool stopped_by_defer = first_s(deferred, signals) && !first_s(punctured, signals);
+std::vector<StepResult> walk_steps(const Signals& signals, std::uint32_t unmet) {
+  const bool stopped_by_defer = first_s(deferred, signals, unmet) && !first_s(punctured, signals, unmet);
   std::vector<StepResult> results;
   for (const StepInfo& step : kSteps) results.push_back(walk(step, signals, unmet, stopped_by_defer));
   return results;
+}
+
+std::vector<StepResult> walk_steps(const Signals& signals) {
+  return walk_steps(signals, unmet_needs(signals));
 }
 
 StepCounts count_steps(std::span<const StepResult> results, std::uint32_t unmet) {

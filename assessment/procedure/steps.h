@@ -14,7 +14,9 @@ namespace seldinger::assessment {
 
 // Higher when a row below changes its meaning: stored results keep theirs. 2: a held breath and a jiggle count
 // where tissue moves. 3: what a deed can show is done by the deed, not by being said.
-constexpr int kStepsVersion = 3;
+// 4: what breath does to a needle at rest, in the room or in the tissue, is neither a jiggle nor pushed on; of a
+// further puncture the first 1 mm counts, too, and a picture in a tracking gap ends no blind run.
+constexpr int kStepsVersion = 4;
 
 struct StepInfo {
   const char* id;
@@ -56,10 +58,11 @@ std::optional<StepState> step_state_from(std::string_view name) noexcept;
 std::string_view name_of(StepHow how) noexcept;
 std::optional<StepHow> step_how_from(std::string_view name) noexcept;
 
-// Every step, in order.
+// Every step, in order; `unmet` as unmet_needs() says.
+std::vector<StepResult> walk_steps(const Signals& signals, std::uint32_t unmet);
 std::vector<StepResult> walk_steps(const Signals& signals);
 
-// Of those that are graded and were asked for; `unmet` as unmet_needs() says.
+// Of those that are graded and were asked for.
 struct StepCounts {
   int done = 0, skipped = 0, violated = 0;
   int shown = 0, to_be_shown = 0;  // of those that a deed can show: done, and asked for

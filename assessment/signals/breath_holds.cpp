@@ -1,7 +1,6 @@
 #include "assessment/signals/breath_holds.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "assessment/signals/signals.h"
 
@@ -53,19 +52,9 @@ bool held_at(std::span<const BreathHold> holds, double t_s, double grace_s) {
 
 std::vector<double> pushed_on_last_way_mm(const Signals& signals) {
   std::vector<double> pushed(signals.poses.size(), 0.0);
-  double reached_mm = 0.0;
-  bool known = false;  // where the tip had been before
-  for (std::size_t i = 0; i < signals.poses.size(); ++i) {
-    const cases::SkinPassage& skin = signals.passages[i];
-    if (!skin.in_body || (i > 0 && signals.gap(i - 1))) known = false;
-    if (!skin.in_body) continue;
-    const double now_mm =
-        glm::dot(signals.poses[i].tip_lps_mm - skin.entry_lps_mm, signals.poses[i].needle_direction);
-    if (known && now_mm > reached_mm && on_last_way(signals, signals.poses[i].tip_at_rest_lps_mm()))
-      pushed[i] = now_mm - reached_mm;
-    reached_mm = known ? std::max(now_mm, std::min(reached_mm, now_mm + kJiggleMm)) : now_mm;
-    known = true;
-  }
+  for (std::size_t i = 0; i < signals.poses.size(); ++i)
+    if (signals.advance_mm[i] > 0.0 && on_last_way(signals, signals.poses[i].tip_at_rest_lps_mm()))
+      pushed[i] = signals.advance_mm[i];
   return pushed;
 }
 

@@ -21,9 +21,8 @@ std::vector<BreathHold> breath_holds(const Signals& signals);
 // Whether one of them held at a time; a lost one counts for `grace_s` longer.
 bool held_at(std::span<const BreathHold> holds, double t_s, double grace_s = 0.0);
 
-// One per pose: how far the hand pushed the tip on beyond where it had been, inside the target's organ (where none
-// is marked, kLastWayMm from the target's edge or nearer), to and fro by under 1 mm left out. What breath alone
-// does to the tip's place in tissue is no advance. There is a target.
+// One per pose: what of `advance_mm` was inside the target's organ (where none is marked, kLastWayMm from the
+// target's edge or nearer). There is a target.
 std::vector<double> pushed_on_last_way_mm(const Signals& signals);
 
 }  // namespace seldinger::assessment

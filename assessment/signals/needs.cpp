@@ -85,13 +85,16 @@ bool freehand(const Signals& signals) {
 bool arm_led(const Signals& signals) {
   if (!signals.events) return true;
   std::optional<cases::HandKind> hand;
+  bool punctured = false;
   auto event = signals.events->begin();
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     for (; event != signals.events->end() && event->t_s <= signals.poses[i].t_s; ++event)
       if (const auto by = cases::led_by(event->kind); by && by->tool == cases::LedTool::needle) hand = by->hand;
-    if (signals.passages[i].in_body && hand && *hand != cases::HandKind::arm) return false;
+    if (!signals.passages[i].in_body) continue;
+    if (hand && *hand != cases::HandKind::arm) return false;
+    punctured = true;
   }
-  return !hand || *hand == cases::HandKind::arm;
+  return punctured || !hand || *hand == cases::HandKind::arm;
 }
 
 constexpr NeedInfo kNeeds[] = {

@@ -77,8 +77,9 @@ std::vector<double> advances_of(const Signals& signals) {
   double reached_mm = 0.0;
   for (std::size_t i = 0; i < signals.poses.size(); ++i) {
     const double pushed_mm = signals.pushed_mm[i];
-    if (i == 0 || signals.gap(i - 1)) {
-      reached_mm = pushed_mm;  // what happened before, or in a gap, is not known
+    // What happened before, or in a gap, is not known; the next puncture is a way of its own.
+    if (i == 0 || signals.gap(i - 1) || signals.passages[i].depth_mm < -kJiggleMm) {
+      reached_mm = pushed_mm;
     } else if (pushed_mm > reached_mm) {
       advances[i] = pushed_mm - reached_mm;
       reached_mm = pushed_mm;

@@ -14,7 +14,7 @@ struct Signals;
 std::vector<double> pushed_mm_of(const Signals& signals);
 
 // One per pose: by how much `pushed_mm` went beyond where it had been; to and fro by under kJiggleMm is none, nor
-// is what was before the first pose or in a gap.
+// is what was before the first pose or in a gap. Once the tip was outside by kJiggleMm it has been nowhere.
 std::vector<double> advances_of(const Signals& signals);
 
 }  // namespace seldinger::assessment

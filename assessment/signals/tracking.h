@@ -20,7 +20,7 @@ enum class Gap : std::uint8_t { none, silence, jump, snap };
 // 1.5 m/s and 9.2 m/s² (minimum jerk: Flash and Hogan, J. Neurosci. 5 (1985) 1688); a needle is led more slowly.
 constexpr double kJumpMmS = 2000.0, kJumpMmS2 = 100'000.0;
 constexpr double kJumpBase_s = 0.01;
-// What follows so soon is the same jump: there and back.
+// What follows another so soon is the same jump: there and back, however often.
 constexpr double kSameJump_s = 0.1;
 
 // From one time to another, both in the attempt.

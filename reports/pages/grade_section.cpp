@@ -107,7 +107,7 @@ void add_score(Html& html, const casedb::AttemptGrade& grade) {
       html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.sd, part.unit));
       html.raw("</td><td class=\"number\">").text(assessment::plain_value(part.least_sd, part.unit));
       html.raw("</td><td class=\"number\">")
-          .text(part.z ? number_text(*part.z, 1) : assessment::plain_code(part.reason))
+          .text(part.z ? number_text(*part.z, 1) : assessment::reason_words(part.reason))
           .raw("</td></tr>\n");
     }
     html.raw("</tbody>\n</table>\n<p class=\"note\">").text(assessment::kScoreFormula).raw("</p>\n");

@@ -37,6 +37,12 @@ Contribution of(const char* id, const std::vector<MetricValue>& attempt) {
   return contribution_of(*find_metric(id), attempt);
 }
 
+OnePerson person(const char* id, const std::vector<std::vector<MetricValue>>& attempts) {
+  std::vector<Contribution> all;
+  for (const auto& one : attempts) all.push_back(of(id, one));
+  return of_one_person(*find_metric(id), all);
+}
+
 TEST(Estimand, OnlyWhatWasPerformedIsCompared) {
   EXPECT_TRUE(compared(fired(3.0)));
   EXPECT_TRUE(compared(gave_up()));
@@ -57,6 +63,36 @@ TEST(Estimand, WhoNeitherFiresNorDefersHasFailed) {
   EXPECT_EQ(of("hit", fired(3.0)).counted, Counted::value);
 }
 
+// Before: whoever defers had the best value of whatever counts errors of a puncture.
+TEST(Estimand, ADeferralIsNoPunctureWithoutFault) {
+  auto attempt = deferred();
+  attempt[5].value = 0.0;
+  attempt.push_back(now("withdrawals_partial", 0.0));
+  attempt.push_back(now("breath_holds_failed", 0.0));
+  attempt.push_back(now("decision_right", 1.0));
+  attempt.push_back(now("steps_violated", 0.0));
+  for (const char* id : {"nogo_length", "skin_punctures", "withdrawals_partial", "breath_holds_failed"}) {
+    EXPECT_EQ(of(id, attempt).counted, Counted::left_out) << id;  // before: value, 0
+    EXPECT_FALSE(tells(*find_metric(id), attempt)) << id;
+  }
+  for (const char* id : {"decision_right", "steps_violated", "procedure_performed"})
+    EXPECT_EQ(of(id, attempt).counted, Counted::value) << id;
+  EXPECT_EQ(of("nogo_length", fired(3.0)).counted, Counted::value);
+  attempt[0].value = 0.0;
+  EXPECT_EQ(of("decision_right", attempt).counted, Counted::left_out) << "neither performed nor deferred";
+}
+
+TEST(Estimand, ToDeferWhatWasToGoAheadIsToGiveItUp) {
+  auto attempt = deferred();
+  attempt.push_back(now("decision_right", 0.0));
+  EXPECT_EQ(of("hit", attempt).counted, Counted::failure);          // before: left out
+  EXPECT_EQ(of("time_total", attempt).counted, Counted::censored);  // before: left out
+  EXPECT_EQ(of("nogo_length", attempt).counted, Counted::left_out) << "still nothing was met";
+  EXPECT_EQ(person("hit", {attempt, fired(3.0)}).estimate, 0.5);  // before: 1
+  attempt.back() = now("decision_right", std::nullopt, "no_right_decision");
+  EXPECT_EQ(of("hit", attempt).counted, Counted::left_out) << "the case does not say what is right";
+}
+
 TEST(Estimand, OtherNullsAndOlderVersionsSayNothing) {
   auto attempt = fired(3.0);
   attempt[3] = now("tip_target_dist", std::nullopt, "no_target");
@@ -65,12 +101,6 @@ TEST(Estimand, OtherNullsAndOlderVersionsSayNothing) {
   EXPECT_EQ(of("hit", attempt).counted, Counted::left_out) << "another metric";
   attempt.push_back(now("first_pass_success", std::nullopt, "never_punctured"));
   EXPECT_EQ(of("first_pass_success", attempt).counted, Counted::failure);
-}
-
-OnePerson person(const char* id, const std::vector<std::vector<MetricValue>>& attempts) {
-  std::vector<Contribution> all;
-  for (const auto& one : attempts) all.push_back(of(id, one));
-  return of_one_person(*find_metric(id), all);
 }
 
 TEST(Estimand, OneValueAPersonWithFailuresRankedLast) {

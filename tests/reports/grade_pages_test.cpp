@@ -78,7 +78,7 @@ TEST(GradeOnPage, EachCriterionSaysWhatWasAskedAndWhatCame) {
   EXPECT_THAT(table, HasSubstr(">3.2 mm<"));
   EXPECT_THAT(table, HasSubstr(">none<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Missed</span>"));
-  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the needle was never fired</span>"));
+  EXPECT_THAT(table, HasSubstr("— <span class=\"why\">the trigger was never pulled</span>"));
   EXPECT_THAT(table, HasSubstr("<span class=\"no\">Not met</span>"));
   EXPECT_THAT(table, HasSubstr(">Yes<"));
   EXPECT_THAT(table, HasSubstr("<span class=\"yes\">Met</span>"));

@@ -161,9 +161,42 @@ TEST(DebriefTest, NullIsSaidAndNeverPraised) {
   EXPECT_EQ(said[0].kind, SentenceKind::not_measured);
   EXPECT_EQ(said[0].text,
             "“Far wall punctures” has no value (no lumen to be reached is marked in this case), so it is not met.");
-  EXPECT_EQ(said[1].text, "The needle was never fired, so the end of the way cannot be judged.");
+  EXPECT_EQ(said[1].text, "The trigger was never pulled, so the end of the way cannot be judged.");
   EXPECT_EQ(said[2].text, "Punctured the skin only once.");
   for (const Sentence& one : said) EXPECT_NE(one.metric_id == "hit" && one.kind == SentenceKind::well, true);
+}
+
+TEST(DebriefTest, WhatNobodyDidIsNeitherPraisedNorHeldAgainstConsultants) {
+  const PassRule rule = rule_of({"hit >= 1", "nogo_contacts <= 0"}, {});
+  const ExpertSet set = experts({band("nogo_contacts", 0.0, 1.0), band("time_needle", 20.0, 40.0)});
+  Attempt parked;
+  parked.with("procedure_performed", 0.0)
+      .with("skin_punctures", 0.0)
+      .with("hit", std::nullopt, "no_endpoint")
+      .with("nogo_contacts", 0.0)
+      .with("time_needle", 0.0);
+  const std::vector<std::string> said{"The trigger was never pulled, so the end of the way cannot be judged."};
+  // Before: and "Kept out of every structure to stay out of."
+  EXPECT_EQ(texts(parked.debriefed(rule, set)), said);
+  Attempt deferred = parked;
+  deferred.metrics[3].value = 1.0;
+  EXPECT_EQ(texts(deferred.debriefed(rule, set)), said);
+  deferred.metrics[4].value = 1.0;  // punctured, and drawn out again
+  EXPECT_EQ(deferred.debriefed(rule, set).size(), 3U);
+}
+
+TEST(DebriefTest, NoneIsOfWhatIsNeverBelowZero) {
+  // Before: "; to pass: none."
+  EXPECT_EQ(texts(Attempt().with("tip_target_surface", 3.0).debriefed(rule_of({"tip_target_surface <= 0"}, {}))),
+            std::vector<std::string>{"Ended 3 mm outside the target; to pass: at most 0 mm."});
+  EXPECT_EQ(texts(Attempt().with("nogo_length", 3.0).debriefed(rule_of({"nogo_length <= 0"}, {}))),
+            std::vector<std::string>{"Went 3 mm through structures to stay out of; to pass: none."});
+}
+
+TEST(DebriefTest, OneIsNoPlural) {
+  const Phrase& views = *find_phrase("views");
+  EXPECT_EQ(said(views, 1.0, "1", false), "Looked from only 1 direction");
+  EXPECT_EQ(said(views, 3.0, "3", true), "Looked from 3 directions");  // before: "directions to the number of 3"
 }
 
 TEST(DebriefTest, ThreeOfOneTopicOnlyWhereNothingElseIsThere) {

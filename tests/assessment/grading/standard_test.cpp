@@ -154,6 +154,20 @@ TEST(ExpertSetTest, VersionsAreNotMixed) {
   EXPECT_EQ(find(expert_set(all), "blind_advance"), nullptr) << "seven people have the version in force";
 }
 
+TEST(ExpertSetTest, OneValueAPersonIsAsTheEstimandHasIt) {
+  auto all = attempts_of(8);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].metrics.push_back(of("withdrawals_partial", i % 5 == 4 ? 3.0 : 0.0));  // 0, 0, 3 of the last three
+    all[i].metrics.push_back(of("hit", i % 5 == 4 ? 0.0 : 1.0));
+  }
+  EXPECT_DOUBLE_EQ(find(expert_set(all), "withdrawals_partial")->mean, 1.0);  // before: the median, 0
+  EXPECT_NEAR(find(expert_set(all), "hit")->mean, 2.0 / 3.0, 1e-12);          // before: 1
+  // Who parks or defers has no withdrawals of anything.
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i].metrics.push_back(of("procedure_performed", i % 5 == 3 ? 0.0 : 1.0));
+  EXPECT_DOUBLE_EQ(find(expert_set(all), "withdrawals_partial")->mean, 1.5);
+}
+
 TEST(ExpertSetTest, ItsNameTellsItsAttemptsInAnyOrder) {
   auto all = attempts_of(8);
   const std::string id = expert_set(all).id;

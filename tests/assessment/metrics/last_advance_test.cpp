@@ -117,5 +117,18 @@ TEST(AdvanceBetweenSights, OfAProbeThatWaitsAtTheTargetIsTheWholeWay) {
             "not_meaningful_in_plane");
 }
 
+TEST(AdvanceBetweenSights, APictureInAGapEndsNone) {
+  // 4 mm, 0.5 s of gap, 4 mm; the tip is shown within the gap, or until it is over.
+  const auto longest = [](double shown_until_s) {
+    auto recording =
+        straight([](double t) { return 20.0 + 10.0 * (std::min(t, 0.4) + std::clamp(t - 1.0, 0.0, 0.4)); }, 1.5,
+                 [=](double t) { return t > 0.495 && t < shown_until_s; });
+    std::erase_if(recording.poses, [](const auto& pose) { return pose.t_s > 0.405 && pose.t_s < 0.895; });
+    return *value(recording, "longest_advance_between_sights", cases::Approach::out_of_plane).value;
+  };
+  EXPECT_NEAR(longest(0.7), 8.0, 1e-6);  // before: 4
+  EXPECT_NEAR(longest(0.935), 4.0, 1e-6) << "and when it was over";
+}
+
 }  // namespace
 }  // namespace seldinger::assessment

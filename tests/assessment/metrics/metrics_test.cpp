@@ -170,6 +170,18 @@ TEST(Forces, AreMeasuredWhereAnArmLedTheNeedle) {
   }
 }
 
+TEST(Forces, OfAnArmThatLedTheNeedleInTissueStayWhateverTakesItUpInTheAir) {
+  using enum cases::EventKind;
+  auto recording = straight([](double t) { return t < 3.0 ? ramp(t, 20.0) : ramp(6.0 - t, 20.0); }, 6.0);
+  recording.endpoint.reset();
+  recording.forces = {{0.5, 1.0, 0.2, 0.0}, {2.0, 2.5, 0.7, 0.0}};
+  recording.events = {{0.001, needle_by_arm}, {5.5, needle_by_mouse}};
+  EXPECT_EQ(number(recording, "force_peak_axial"), 2.5);    // before: null, no_arm
+  EXPECT_EQ(number(recording, "lateral_force_peak"), 0.7);  // before: null, no_arm
+  recording.events = {{0.001, needle_by_arm}, {4.5, needle_by_mouse}};
+  EXPECT_EQ(value(recording, "force_peak_axial").reason, "no_arm") << "in tissue until 5 s";
+}
+
 TEST(Times, InTissueAndFromPunctureToTrigger) {
   const auto recording = straight([](double t) { return ramp(t, 20.0); }, 5.0);
   EXPECT_NEAR(number(recording, "time_in_tissue"), 4.0, 0.011);

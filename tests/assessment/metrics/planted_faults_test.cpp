@@ -289,6 +289,26 @@ TEST(PlantedTime, AGapIsInOneOfTheParts) {
   EXPECT_NEAR(gap.number("time_talk") + gap.number("time_search") + gap.number("time_needle"), 8.0, 1e-9);
 }
 
+TEST(PlantedWithdrawal, OutOfTheSkinByHalfAMillimetreIsOne) {
+  // 40 mm in at 3 s, 0.5 mm outside at 5.025 s, in again from 6 s on and fired in the target.
+  const auto depth_mm = [](double t_s) {
+    return t_s < 3.0   ? -20.0 + 20.0 * t_s
+           : t_s < 6.0 ? std::fmax(-0.5, 40.0 - 20.0 * (t_s - 3.0))
+                       : std::fmin(60.0, -0.5 + 20.0 * (t_s - 6.0));
+  };
+  Planted again;
+  again.down(depth_mm, 9.5).fire();
+  EXPECT_EQ(again.number("hit"), 1.0);
+  EXPECT_EQ(again.number("skin_punctures"), 1.0);
+  EXPECT_EQ(again.number("withdrawals_full"), 0.0);
+  EXPECT_EQ(again.number("withdrawals_partial"), 1.0);  // 2: 0
+  EXPECT_EQ(again.number("first_pass_success"), 0.0);   // 2: 1
+  EXPECT_EQ(again.number("withdrawn_at_end"), 0.0);
+  Planted out;
+  EXPECT_EQ(out.down(depth_mm, 5.5).number("withdrawn_at_end"), 1.0);  // 1: 0
+  EXPECT_EQ(out.number("withdrawals_partial"), 0.0) << "it was not pushed on";
+}
+
 TEST(PlantedPerformed, WhoParksOrTalksHasPerformedNothing) {
   Planted parked;
   parked.with(StructureRule::critical, grazed(5.0)).down([](double) { return -5.0; }, 20.0);

@@ -119,6 +119,29 @@ TEST(BlindRun, AGapNeitherAddsNorEndsIt) {
   EXPECT_NEAR(planted_number(recording, "blind_advance_max"), 29.0, 0.3);
 }
 
+TEST(BlindRun, ASightThatBeginsInAGapIsNoLongerThanWhatFollowsIt) {
+  // 4 mm, 0.5 s of gap, 4 mm; the tip is shown from 0.1 s into the gap until just after it.
+  auto recording = straight_down(
+      [](double t_s) { return 20.0 + 10.0 * (std::min(t_s, 0.4) + std::clamp(t_s - 1.0, 0.0, 0.4)); }, 1.5);
+  for (auto& frame : recording.frames) frame.needle_tip = frame.t_s > 0.495 && frame.t_s < 0.935;
+  std::erase_if(recording.poses, [](const auto& pose) { return pose.t_s > 0.405 && pose.t_s < 0.895; });
+  EXPECT_NEAR(planted_number(recording, "blind_advance_max"), 8.0, 1e-6);  // before: 4
+  for (auto& frame : recording.frames) frame.needle_tip = frame.t_s > 0.495 && frame.t_s < 1.105;
+  EXPECT_NEAR(planted_number(recording, "blind_advance_max"), 4.0, 1e-6) << "0.2 s after it are a sight";
+}
+
+TEST(BlindRun, EachPunctureCountsFromTheSkin) {
+  // 10 mm in at 2 s, out to 10 mm at 4 s, 10 mm in again; nobody sees any of it.
+  auto twice = straight_down(
+      [](double t_s) { return 10.0 * std::abs(t_s - 4.0) - 10.0 - (t_s < 2.0 ? 20.0 * (2.0 - t_s) : 0.0); }, 6.0);
+  for (auto& frame : twice.frames) frame.needle_tip = false;
+  EXPECT_NEAR(planted_number(twice, "blind_advance"), 20.0, 1e-6);  // before: 19
+  // A tip that trembles about the skin has not advanced with each time that it goes below.
+  auto trembles = straight_down([](double t_s) { return 0.5 * std::sin(20.0 * t_s); }, 10.0);
+  for (auto& frame : trembles.frames) frame.needle_tip = false;
+  EXPECT_LT(planted_number(trembles, "blind_advance"), 0.51);
+}
+
 // The needle advances by 10 mm/s from 20 to 60 mm while the probe does something; the tissue at the tip may be
 // displaced across the plane.
 cases::Recording advancing_under(const PoseAt& probe, const std::function<double(double)>& tissue_mm = {}) {

@@ -48,6 +48,21 @@ void rest_in_hold(SampleAttempt& sample) {
   say(sample, 5.1, EventKind::breath_held);
 }
 
+void leave_out_jiggle(SampleAttempt& sample) {
+  auto& recording = sample.recording;
+  std::erase_if(recording.poses, [](const auto& pose) { return pose.t_s > 2.99 && pose.t_s < 3.61; });
+  for (auto& pose : recording.poses)
+    if (pose.t_s > 3.6) pose.t_s -= 0.6;
+  recording.endpoint->t_s -= 0.6;
+  for (auto& frame : recording.frames)
+    if (frame.t_s > 3.6) frame.t_s -= 0.6;
+}
+
+// By 3 mm, once in each period.
+double to_and_fro_mm(double since_s, double period_s) {
+  return 1.5 - 1.5 * std::cos(2.0 * std::numbers::pi * since_s / period_s);
+}
+
 const std::vector<Fault>& faults() {
   using enum StepState;
   static const std::vector<Fault> all = {
@@ -183,14 +198,26 @@ const std::vector<Fault>& faults() {
        [](auto& s) { say(s, 7.9, EventKind::breath_lost); }},
       {"fired as it was given back", "fire_in_breath_hold", violated,
        [](auto& s) { move_event(s, EventKind::breathe_again, 7.9); }},
-      {"no jiggle", "jiggle", skipped,
+      {"no jiggle", "jiggle", skipped, &leave_out_jiggle},
+      // Steps 3: done, and shown.
+      {"no jiggle, but breath past a hand at rest", "jiggle", skipped,
        [](auto& s) {
-         std::erase_if(s.recording.poses, [](const auto& pose) { return pose.t_s > 2.99 && pose.t_s < 3.61; });
+         leave_out_jiggle(s);
          for (auto& pose : s.recording.poses)
-           if (pose.t_s > 3.6) pose.t_s -= 0.6;
-         s.recording.endpoint->t_s -= 0.6;
-         for (auto& frame : s.recording.frames)
-           if (frame.t_s > 3.6) frame.t_s -= 0.6;
+           if (pose.t_s > 5.4 && pose.t_s < 7.4)
+             pose.rest_tip_lps_mm = pose.tip_lps_mm - to_and_fro_mm(pose.t_s - 5.4, 1.0) * pose.needle_direction;
+       }},
+      // Steps 3: violated, pushed on by breath.
+      {"a hold in which it is not seen, and breath that takes it along before it is found again", "find_again",
+       done,
+       [](auto& s) {
+         rest_in_hold(s);
+         blind_from(s, 3.6, 4.95);
+         for (auto& pose : s.recording.poses)
+           if (pose.t_s > 4.75 && pose.t_s < 4.95) {
+             pose.rest_tip_lps_mm = pose.tip_lps_mm;
+             pose.tip_lps_mm += to_and_fro_mm(pose.t_s - 4.75, 0.2) * pose.needle_direction;
+           }
        }},
       {"the probe in the air",
        "place_probe",
