@@ -87,8 +87,7 @@ constexpr MetricInfo kBreathMetrics[] = {
      "mm from the target's edge) while the breath was held; to and fro by under 1 mm is no advance, nor is what "
      "breath moves. Null: under_1_mm_of_advance.",
      kSource, &advance_held_share, kMedianShare,
-     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples | kNothingIsNothing,
-     kInTheRoom},
+     kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kNothingIsNothing, kInTheRoom},
     {"advance_in_breath", 2, "mm", "Advance in moving breath", Group::procedure, Direction::lower_is_better,
      kHeld | kSkin | kTarget | kMotion,
      "The length of that way, as advance_breath_held_share counts it, that was gone while breath moved.", kSource,

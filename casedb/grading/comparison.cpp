@@ -78,8 +78,9 @@ void sum_up(ComparedGroup& group, const Comparison& comparison) {
     std::vector<double> values;
     std::vector<assessment::Contribution> contributions;
     for (const ComparedAttempt* attempt : gradable) {
-      if (const auto value = value_of(attempt->row, *info)) values.push_back(*value);
-      contributions.push_back(assessment::contribution_of(*info, attempt->row.metrics));
+      const assessment::Contribution one = assessment::contribution_of(*info, attempt->row.metrics);
+      if (one.counted == assessment::Counted::value) values.push_back(one.value);
+      contributions.push_back(one);
     }
     group.of_metrics.push_back(over(std::move(values)));
     group.of_metrics.back().one = assessment::of_one_person(*info, contributions);

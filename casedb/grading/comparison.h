@@ -12,7 +12,7 @@
 namespace seldinger::casedb {
 
 struct ComparedMetric {
-  std::size_t n = 0;             // attempts with a value
+  std::size_t n = 0;             // attempts with a value; of a metric, one that counts
   double median = 0.0;           // of those; n of 0: none
   double mean = 0.0;             // of a yes and no, the share
   double low = 0.0, high = 0.0;  // least and most

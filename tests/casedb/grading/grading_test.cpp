@@ -342,20 +342,26 @@ TEST_F(GradingTest, SideBySideIsAmongThoseWhoPerformedTheProcedure) {
   add(1.0, 1.0, 1.0);
   add(1.0, std::nullopt, 1.0);  // gave up
   add(0.0, std::nullopt, 0.0);  // parked
+  add(1.0, std::nullopt, 0.0);  // deferred
   const Comparison side = compare_attempts(library_, case_id_).value();
   ASSERT_EQ(side.groups.size(), 1U);
   const ComparedGroup& group = side.groups[0];
-  EXPECT_EQ(group.attempts.size(), 3U);
+  EXPECT_EQ(group.attempts.size(), 4U);
   EXPECT_EQ(group.not_performed, 1U);
-  EXPECT_EQ(group.gradable, 2U);
-  for (std::size_t i = 0; i < side.metrics.size(); ++i) {
-    if (std::string(side.metrics[i]->id) != "hit") continue;
-    EXPECT_EQ(group.of_metrics[i].n, 1U);
-    EXPECT_EQ(group.of_metrics[i].one.failures, 1U);
-    EXPECT_EQ(group.of_metrics[i].one.estimate, 0.5);  // of the values alone: 1
-    return;
-  }
-  ADD_FAILURE() << "hit is not compared";
+  EXPECT_EQ(group.gradable, 3U);
+  const auto of = [&](const std::string& id) {
+    const auto found =
+        std::find_if(side.metrics.begin(), side.metrics.end(), [&](const auto* one) { return one->id == id; });
+    EXPECT_NE(found, side.metrics.end()) << id;
+    return group.of_metrics.at(static_cast<std::size_t>(found - side.metrics.begin()));
+  };
+  EXPECT_EQ(of("hit").n, 1U);
+  EXPECT_EQ(of("hit").one.failures, 1U);
+  EXPECT_EQ(of("hit").one.estimate, 0.5);  // of the values alone: 1
+  // Of a deferral nothing; before: 3 values from 0 to 1.
+  EXPECT_EQ(of("skin_punctures").n, 2U);
+  EXPECT_EQ(of("skin_punctures").low, 1.0);
+  EXPECT_EQ(of("skin_punctures").one.estimate, 1.0);  // before: 2/3
 }
 
 }  // namespace
