@@ -256,13 +256,18 @@ TEST(MeshIndex, AnyDoubleIsBorne) {
           ASSERT_LT(one.triangle, mesh.triangles.size());
           ASSERT_EQ(std::isnan(one.distance_mm), !is_point) << x << " " << y << " " << z;
           const double far = std::max({std::abs(x), std::abs(y), std::abs(z)});
-          if (is_point && far > 0.0 && far <= 1e300)
-            ASSERT_NEAR(one.distance_mm / std::hypot(x, y, z), 1.0, far < 1.0 ? 1e308 : 1e-9);
-          if (is_point && far > 1e300) ASSERT_GE(one.distance_mm, 1e300);
+          if (is_point && far >= 1.0 && far <= 1e300) {
+            ASSERT_NEAR(one.distance_mm / std::hypot(x, y, z), 1.0, 1e-9);
+          }
+          if (is_point && far > 1e300) {
+            ASSERT_GE(one.distance_mm, 1e300);
+          }
         }
         const auto hit = index.first_hit(p, {0, 0, 1}, kInf);
         ASSERT_TRUE(!hit || hit->triangle < mesh.triangles.size());
-        if (!is_point) ASSERT_FALSE(hit.has_value());
+        if (!is_point) {
+          ASSERT_FALSE(hit.has_value());
+        }
         ASSERT_FALSE(index.first_hit({0, 0, 0}, {0, 0, 1}, kNan).has_value());
         const auto touch = index.first_touch(p, {0, 1, 0}, 1e9, 1.0, 0.1);
         ASSERT_TRUE(!touch || touch->triangle < mesh.triangles.size());
