@@ -60,8 +60,13 @@ namespace seldinger::app {
   ROW(user_passwd)              \
   ROW(user_level)               \
   ROW(user_disable)             \
+  ROW(user_enable)              \
+  ROW(user_role)                \
   ROW(user_fact)                \
   ROW(user_erase)               \
+  ROW(login)                    \
+  ROW(logout)                   \
+  ROW(audit)                    \
   ROW(cohort_add)               \
   ROW(cohort_list)              \
   ROW(cohort_show)              \
@@ -100,7 +105,7 @@ namespace {
 std::string synopsis(const Command& command) {
   std::string text = std::string("seldinger ") + command.name;
   if (*command.positionals != '\0') text += std::string(" ") + command.positionals;
-  for (const Option& option : command.options) {
+  for (const Option& option : options_of(command)) {
     text += std::string(" [") + option.name;
     if (option.value != nullptr) text += std::string(" ") + option.value;
     text += option.repeatable ? " …]" : "]";
@@ -119,7 +124,7 @@ std::span<const Command> commands() {
 
 std::string help_text(const Command& command) {
   std::string text = synopsis(command) + "\n  " + command.summary + "\n";
-  for (const Option& option : command.options) {
+  for (const Option& option : options_of(command)) {
     std::string name = option.name;
     if (option.value != nullptr) name += std::string(" ") + option.value;
     name.resize(std::max<std::size_t>(name.size(), 26), ' ');
@@ -148,9 +153,9 @@ std::string commands_markdown() {
   for (const Command& command : commands()) {
     text += "\n## " + std::string(command.name) + "\n\n" + command.summary + "\n\n```\n" + synopsis(command) +
             "\n```\n";
-    if (command.options.empty()) continue;
+    if (options_of(command).empty()) continue;
     text += "\n| option | what |\n|---|---|\n";
-    for (const Option& option : command.options) {
+    for (const Option& option : options_of(command)) {
       std::string value = option.value == nullptr ? "" : std::string(" ") + option.value;
       for (std::size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2)
         value.replace(at, 1, "\\|");

@@ -6,7 +6,7 @@ CREATE TABLE account (
   password_hash TEXT NOT NULL CHECK (password_hash LIKE '$argon2id$%'),
   enabled INTEGER NOT NULL CHECK (enabled IN (0, 1)),
   created_us INTEGER NOT NULL
-) STRICT;
+, epoch INTEGER NOT NULL DEFAULT 0 CHECK (epoch >= 0)) STRICT;
 
 CREATE TABLE attempt (
   attempt_id TEXT NOT NULL PRIMARY KEY CHECK (length(attempt_id) = 36),
@@ -60,6 +60,25 @@ CREATE TABLE attempt_step (
   CHECK ((state = 'not_asked') = (reason <> ''))
 ) STRICT, WITHOUT ROWID;
 
+CREATE TABLE audit (
+  sequence INTEGER NOT NULL PRIMARY KEY CHECK (sequence > 0),
+  at_us INTEGER NOT NULL,
+  actor TEXT NOT NULL CHECK (actor IN ('nobody', 'operator', 'person')),
+  -- Who acted, or in whose name the operator did; null: nobody's.
+  person_id TEXT REFERENCES person (person_id) CHECK (actor <> 'person' OR person_id IS NOT NULL),
+  act TEXT NOT NULL CHECK (act <> '' AND act NOT GLOB '*[^a-z_]*'), -- a code of casedb/database/audit.h
+  object TEXT NOT NULL CHECK (object NOT GLOB '*[^a-z_]*'), -- what kind of thing; empty: none
+  object_id TEXT NOT NULL CHECK (length(object_id) <= 36 AND object_id NOT GLOB '*[^0-9a-z_-]*'),
+  result TEXT NOT NULL CHECK (result IN ('done', 'refused')),
+  hash TEXT NOT NULL CHECK (length(hash) = 64) -- SHA-256 of the row and of the hash before it
+) STRICT;
+
+CREATE TABLE audit_head (
+  id INTEGER NOT NULL PRIMARY KEY CHECK (id = 1),
+  count INTEGER NOT NULL CHECK (count >= 0),
+  hash TEXT NOT NULL CHECK (length(hash) = 64)
+) STRICT;
+
 CREATE TABLE case_attribute (
   case_id TEXT NOT NULL REFERENCES training_case (case_id),
   position INTEGER NOT NULL CHECK (position >= 0), -- order in which they are shown
@@ -81,7 +100,7 @@ CREATE TABLE case_decision (
   decision TEXT NOT NULL CHECK (decision IN ('made', 'submitted', 'returned', 'approved', 'published', 'retired')),
   person_id TEXT NOT NULL REFERENCES person (person_id),
   note TEXT NOT NULL,
-  decided_us INTEGER NOT NULL,
+  decided_us INTEGER NOT NULL, by_operator INTEGER CHECK (by_operator IN (0, 1)),
   PRIMARY KEY (case_id, position)
 ) STRICT;
 
@@ -205,6 +224,14 @@ CREATE TABLE lesion (
   created_us INTEGER NOT NULL, kind TEXT NOT NULL DEFAULT 'sphere'
   CHECK (kind IN ('sphere', 'ellipsoid', 'irregular')), radius_x_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_x_mm, 0) > 0)), radius_y_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_y_mm, 0) > 0)), radius_z_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_z_mm, 0) > 0)), roughness REAL NOT NULL DEFAULT 0.0 CHECK (roughness >= 0), seed INTEGER NOT NULL DEFAULT 1, adds INTEGER NOT NULL DEFAULT 0 CHECK (adds IN (0, 1)), edge_mm REAL NOT NULL DEFAULT 0.0 CHECK (edge_mm >= 0),
   UNIQUE (lesion_id, case_id) -- so that an attempt's lesion is one of its case
+) STRICT;
+
+CREATE TABLE login_session (
+  token_hash TEXT NOT NULL PRIMARY KEY CHECK (length(token_hash) = 64), -- SHA-256; the token has only its owner
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  password_mark TEXT NOT NULL, -- of the password, role and epoch that began it
+  begun_us INTEGER NOT NULL,
+  ends_us INTEGER NOT NULL CHECK (ends_us > begun_us)
 ) STRICT;
 
 CREATE TABLE metric_value (
@@ -437,13 +464,15 @@ CREATE TABLE training_case (
   CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
   CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 2), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
-  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom'))) STRICT;
+  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1))) STRICT;
 
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
 CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
 
 CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
+
+CREATE INDEX audit_by_object ON audit (object_id, act);
 
 CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
 
@@ -514,10 +543,37 @@ BEGIN
   SELECT RAISE(ABORT, 'a step of an attempt cannot be deleted');
 END;
 
+CREATE TRIGGER audit_goes_on BEFORE INSERT ON audit
+WHEN NEW.sequence <> (SELECT count + 1 FROM audit_head)
+BEGIN
+  SELECT RAISE(ABORT, 'the audit log is only written at its end');
+END;
+
+CREATE TRIGGER audit_head_goes_on BEFORE UPDATE ON audit_head
+WHEN NEW.id <> 1 OR NEW.count <> OLD.count + 1
+BEGIN
+  SELECT RAISE(ABORT, 'the audit log only grows');
+END;
+
+CREATE TRIGGER audit_head_is_kept BEFORE DELETE ON audit_head
+BEGIN
+  SELECT RAISE(ABORT, 'the audit log cannot be deleted');
+END;
+
+CREATE TRIGGER audit_is_immutable BEFORE UPDATE ON audit
+BEGIN
+  SELECT RAISE(ABORT, 'the audit log cannot be changed');
+END;
+
+CREATE TRIGGER audit_is_kept BEFORE DELETE ON audit
+BEGIN
+  SELECT RAISE(ABORT, 'the audit log cannot be deleted');
+END;
+
 CREATE TRIGGER case_decision_is_immutable BEFORE UPDATE ON case_decision
 WHEN OLD.person_id NOT IN (SELECT id FROM erasing) OR NEW.note <> '' OR OLD.case_id <> NEW.case_id
   OR OLD.position <> NEW.position OR OLD.decision <> NEW.decision OR OLD.person_id <> NEW.person_id
-  OR OLD.decided_us <> NEW.decided_us
+  OR OLD.decided_us <> NEW.decided_us OR OLD.by_operator IS NOT NEW.by_operator
 BEGIN
   SELECT RAISE(ABORT, 'a decision cannot be changed');
 END;

@@ -15,9 +15,23 @@ namespace {
 
 // A library's handle serves one question at a time.
 struct Handle {
-  explicit Handle(casedb::Library opened) : library(std::move(opened)) {}
+  explicit Handle(casedb::Library opened) : library(std::move(opened)) { library.act_for(casedb::Actor::nobody()); }
   std::mutex mutex;
   casedb::Library library;
+};
+
+// For as long as it lives a library acts for a reader.
+class ActingFor {
+ public:
+  ActingFor(casedb::Library& library, const std::string& person_id) : library_(library) {
+    library_.act_for(casedb::Actor::person(person_id));
+  }
+  ActingFor(const ActingFor&) = delete;
+  ActingFor& operator=(const ActingFor&) = delete;
+  ~ActingFor() { library_.act_for(casedb::Actor::nobody()); }
+
+ private:
+  casedb::Library& library_;
 };
 
 class LibraryQuestions final : public Questions {
@@ -30,6 +44,11 @@ class LibraryQuestions final : public Questions {
     if (first.owns_lock()) return casedb::log_in(first_.library, name, password);
     const std::lock_guard second(second_.mutex);
     return casedb::log_in(second_.library, name, password);
+  }
+
+  void log_out(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    casedb::log_out(pages_.library, person_id);
   }
 
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
@@ -67,6 +86,7 @@ class LibraryQuestions final : public Questions {
   base::Result<void> give_facts(const std::string& person_id,
                                 const std::map<std::string, std::string>& answers) override {
     const std::lock_guard lock(pages_.mutex);
+    const ActingFor reader(pages_.library, person_id);
     for (const auto& [fact_id, answer] : answers)
       if (const auto fit = casedb::checked_answer(fact_id, answer); !fit) return fit.error();
     for (const auto& [fact_id, answer] : answers)
@@ -76,16 +96,19 @@ class LibraryQuestions final : public Questions {
 
   base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) override {
     const std::lock_guard lock(pages_.mutex);
+    const ActingFor reader(pages_.library, person_id);
     return casedb::give_consent(pages_.library, person_id, text_id);
   }
 
   base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) override {
     const std::lock_guard lock(pages_.mutex);
+    const ActingFor reader(pages_.library, person_id);
     return casedb::withdraw_consent(pages_.library, person_id, text_id);
   }
 
   base::Result<void> erase_attempts_of(const std::string& person_id) override {
     const std::lock_guard lock(pages_.mutex);
+    const ActingFor reader(pages_.library, person_id);
     const auto erased = casedb::erase_attempts_of(pages_.library, person_id, person_id);
     if (!erased) return erased.error();
     return {};

@@ -26,6 +26,7 @@ class Questions {
   virtual ~Questions() = default;
 
   virtual std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) = 0;
+  virtual void log_out(const std::string& person_id) = 0;  // kept in the audit log
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
 

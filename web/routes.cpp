@@ -102,6 +102,7 @@ Response log_in(Site& site, const Call& call) {
 }
 
 Response log_out(Site& site, const Call& call) {
+  site.questions.log_out(call.reader->account.person_id);
   site.sessions.end(cookie(call.request, kSessionCookie));
   Response response = redirect("/login");
   response.headers.emplace_back("Set-Cookie", drop_cookie(kSessionCookie));

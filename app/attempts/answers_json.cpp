@@ -18,7 +18,9 @@ using casedb::text;
 
 Json burned_in_json(const std::optional<casedb::BurnedInCheck>& check) {
   if (!check) return nullptr;
-  return {{"checked_us", check->checked_us}, {"person_id", maybe(check->person_id)}};
+  return {{"checked_us", check->checked_us},
+          {"person_id", maybe(check->person_id)},
+          {"by_operator", check->by_operator}};
 }
 
 Json dropped_json(const std::vector<casedb::Dropped>& dropped) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/acting/acting.h"
 #include "app/attempts/export_json.h"
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
@@ -32,31 +33,33 @@ void choose(const std::string& text, reports::RawChoice& choice) {
 }
 
 int run_export(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), out = arguments.required("--out");
+  const std::string out = arguments.required("--out");
   reports::RawChoice choice;
   if (arguments.has("--raw")) choose(arguments.text("--raw"), choice);
   if (arguments.has("--case")) choice.case_id = arguments.text("--case");
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (arguments.has("--study")) {
     const auto study = casedb::find_study(*library, arguments.text("--study"));
     if (!study) return refuse(study.error());
     choice.study_id = study->study_id;
   }
-  if (arguments.has("--by")) {
+  if (!library->actor().is_operator() || arguments.has("--by")) {
     // Of a study that is somebody's own; consent is asked of each person.
     if (!choice.study_id) throw UsageError("--by needs --study");
-    const auto account = casedb::open_account(*library, arguments.text("--by"));
-    if (!account) return refuse(account.error());
     casedb::Relation relation;
-    relation.own_study = casedb::is_researcher_of(*library, *choice.study_id, account->person_id);
-    if (const auto allowed = casedb::allow(account->role, casedb::Action::export_study, relation); !allowed)
-      return refuse(allowed.error());
+    relation.own_study = library->actor().person_id &&
+                         casedb::is_researcher_of(*library, *choice.study_id, *library->actor().person_id);
+    if (const auto by = acting(*library, arguments, casedb::Action::export_study, relation); !by)
+      return refuse(by.error());
   }
   const std::string key_file = arguments.text("--key");
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
   auto key = key_from_file(key_file);
   if (!key) return refuse(key.error());
+  // Before anything leaves.
+  casedb::audit_alone(*library, casedb::Act::export_attempts,
+                      choice.study_id ? casedb::Object{"study", *choice.study_id} : casedb::Object{});
   const auto done = reports::export_raw(*library, out, choice, *key);
   key->fill(std::byte{0});
   if (!done) {
@@ -77,7 +80,6 @@ constexpr Option kExportOptions[] = {
     {"--out", "DIR", "the new folder"},
     {"--case", "ID", "attempts at this case only; default: every attempt"},
     {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
-    {"--by", "NAME", "the researcher for whom it is made; left out: whoever has the library's files"},
     {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
     {"--key", "FILE",
      "makes the names of people, attempts and cases the same as in other exports with it; made when there is none. "
@@ -89,6 +91,7 @@ constexpr Option kExportOptions[] = {
 Command export_command() {
   return {.name = "export",
           .options = kExportOptions,
+          .acts = true,
           .summary =
               "Writes attempts of those who consent, and simulated ones, as CSV with a data dictionary into a new "
               "folder: no "

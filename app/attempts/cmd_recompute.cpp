@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/cli/command.h"
 #include "assessment/score.h"
@@ -72,8 +73,10 @@ base::Result<void> recompute(casedb::Library& library, const casedb::AttemptRow&
 }
 
 int run_recompute(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
+  casedb::audit_alone(*library, casedb::Act::recompute);
   std::vector<casedb::AttemptRow> attempts;
   if (arguments.has("--attempt")) {
     auto one = casedb::find_attempt(*library, arguments.text("--attempt"));
@@ -114,6 +117,7 @@ constexpr Option kRecomputeOptions[] = {
 Command recompute_command() {
   return {.name = "recompute",
           .options = kRecomputeOptions,
+          .acts = true,
           .summary =
               "Scores stored attempts again: new versions of metrics are added, those that are there are compared.",
           .run = &run_recompute};

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/attempts/grade_text.h"
 #include "app/attempts/metrics_text.h"
@@ -60,8 +61,10 @@ int resume(const Arguments& arguments) {
   for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--jobs", "--instrument",
                              "--modality", "--no-pictures"})
     if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --resume");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::simulate_attempts); !by)
+    return refuse(by.error());
   auto interrupted = session::InterruptedAttempt::take(*library, arguments.text("--resume"));
   if (!interrupted) return refuse(interrupted.error());
   const casedb::OpenAttempt& attempt = interrupted->attempt();
@@ -91,7 +94,8 @@ int resume(const Arguments& arguments) {
 
 int run_simulate(const Arguments& arguments) {
   if (arguments.has("--resume")) return resume(arguments);
-  const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
+  arguments.required("--library");
+  const std::string case_id = arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
   std::optional<std::size_t> people;
@@ -111,8 +115,10 @@ int run_simulate(const Arguments& arguments) {
   std::vector<cases::Event> scenario = scenario_of(arguments);
   const auto profile = profile_of(arguments.required("--operator"));
   if (!profile) return refuse(profile.error());
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::simulate_attempts); !by)
+    return refuse(by.error());
   auto simulation =
       session::Simulation::prepare(*library, this_program(), case_id, arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
@@ -171,6 +177,7 @@ constexpr Option kSimulateOptions[] = {
 Command simulate_command() {
   return {.name = "simulate",
           .options = kSimulateOptions,
+          .acts = true,
           .summary = "Lets a simulated operator make attempts, recorded and scored.",
           .run = &run_simulate};
 }

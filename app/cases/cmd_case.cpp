@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/cases/privacy_text.h"
 #include "app/cli/command.h"
@@ -71,16 +72,17 @@ int run_case_show(const Arguments& arguments) {
   for (const assessment::Criterion& one : row.rule.criteria)
     std::printf("%s %s\n", one.critical ? "critical  " : "pass      ", assessment::text_of(one).c_str());
   for (const casedb::Decision& one : parts->decisions)
-    std::printf("%s by %s%s%s\n", casedb::name_of(one.kind).c_str(), one.pseudonym.c_str(),
+    std::printf("%s by %s%s%s\n", casedb::name_of(one.kind).c_str(), one.who().c_str(),
                 one.note.empty() ? "" : ": ", one.note.c_str());
   return kDone;
 }
 
 int run_case_lesion(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
+  arguments.required("--library");
   if (arguments.has("--remove")) {
-    auto library = casedb::Library::open(folder);
+    auto library = open_acting(arguments);
     if (!library) return refuse(library.error());
+    if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
     const auto removed = casedb::remove_lesion(*library, arguments.positional(0), arguments.text("--remove"));
     return removed ? kDone : refuse(removed.error());
   }
@@ -108,8 +110,9 @@ int run_case_lesion(const Arguments& arguments) {
   arguments.required(form.adds ? "--contrast-hu" : "--hu");
   form.hu = arguments.number(form.adds ? "--contrast-hu" : "--hu", 0.0);
   form.edge_mm = arguments.number("--edge-mm", 0.0);
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   const auto lesion_id = casedb::add_lesion(*library, arguments.positional(0), form);
   if (!lesion_id) return refuse(lesion_id.error());
   if (arguments.has("--json"))
@@ -157,6 +160,7 @@ Command case_lesion_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLesionOptions,
+          .acts = true,
           .summary = "Places a lesion in a case.",
           .run = &run_case_lesion};
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <glm/common.hpp>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/cases/import_case.h"
 #include "app/cases/privacy_text.h"
@@ -20,22 +21,25 @@ casedb::FaceChoice face_choice(const std::string& text) {
 }
 
 int run_import(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
+  const std::filesystem::path folder = arguments.required("--library");
   const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
   if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
   const casedb::FaceChoice face = face_choice(arguments.text("--face", "refuse"));
-  if (arguments.has("--by") && !arguments.has("--no-burned-in-text"))
-    throw UsageError("--by goes with --no-burned-in-text");
+  // Asked before the source is read: without a library nobody is known, and the operator makes one.
   std::optional<std::string> confirmed_by;
-  if (arguments.has("--by")) {
-    auto library = casedb::Library::open(folder);
-    if (!library) return refuse(library.error());
-    const auto by =
-        casedb::account_that_may(*library, arguments.text("--by"), casedb::Action::confirm_no_burned_in_text);
-    if (!by) return refuse(by.error());
-    confirmed_by = by->person_id;
+  std::optional<casedb::Library> library;
+  if (arguments.has("--by") || std::filesystem::exists(folder / casedb::kDatabaseFile)) {
+    auto opened = open_acting(arguments);
+    if (!opened) return refuse(opened.error());
+    library.emplace(std::move(*opened));
+    if (arguments.has("--no-burned-in-text")) {
+      const auto by = acting(*library, arguments, casedb::Action::confirm_no_burned_in_text);
+      if (!by) return refuse(by.error());
+      confirmed_by = *by;
+    }
+    if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   }
   auto imported = import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"), "import",
                               face, arguments.has("--denoise"));
@@ -44,8 +48,11 @@ int run_import(const Arguments& arguments) {
   imported->burned_in_checked_by = confirmed_by;
   imported->modality = *modality;
   imported->position = *position;
-  auto library = casedb::Library::open_or_create(folder);
-  if (!library) return refuse(library.error());
+  if (!library) {
+    auto made = open_acting(arguments, WhereNone::create);
+    if (!made) return refuse(made.error());
+    library.emplace(std::move(*made));
+  }
   const std::string case_id = casedb::add_case(*library, *imported);
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
@@ -111,12 +118,12 @@ int run_sample(const Arguments& arguments) {
 
 int run_case_confirm(const Arguments& arguments) {
   if (!arguments.has("--no-burned-in-text")) throw UsageError("--no-burned-in-text says what is confirmed");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by =
-      casedb::account_that_may(*library, arguments.required("--by"), casedb::Action::confirm_no_burned_in_text);
+  arguments.required("--by");
+  const auto by = acting(*library, arguments, casedb::Action::confirm_no_burned_in_text);
   if (!by) return refuse(by.error());
-  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), by->person_id);
+  const auto kept = casedb::confirm_no_burned_in_text(*library, arguments.positional(0), *by);
   if (!kept) return refuse(kept.error());
   std::puts("confirmed");
   return kDone;
@@ -132,13 +139,10 @@ constexpr Option kImportOptions[] = {
      "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
     {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
-    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"},
     kJson};
 
 constexpr Option kConfirmOptions[] = {
-    kLibrary,
-    {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},
-    {"--by", "NAME", "whose account confirms that: a mentor's, director's or admin's"}};
+    kLibrary, {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"}};
 
 constexpr Option kSampleOptions[] = {
     kLibrary, {"--lps", "X,Y,Z", "a point in mm, LPS; may be given many times", true}, kJson};
@@ -151,6 +155,7 @@ Command import_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kImportOptions,
+          .acts = true,
           .summary =
               "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case.",
           .run = &run_import};
@@ -173,6 +178,7 @@ Command case_confirm_command() {
       .min_positionals = 1,
       .max_positionals = 1,
       .options = kConfirmOptions,
+      .acts = true,
       .summary =
           "Keeps that somebody looked through a case's slices and saw no text burned in: publishing asks for it.",
       .run = &run_case_confirm};

@@ -1,6 +1,7 @@
 // case check, case review, case publish, case retire, case version.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cases/case_answers_json.h"
 #include "app/cli/command.h"
 #include "casedb/cases/versions.h"
@@ -28,10 +29,10 @@ int run_case_check(const Arguments& arguments) {
 }
 
 int run_case_review(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), by = arguments.required("--by");
+  const std::string by = arguments.required("--by");
   const bool approve = arguments.has("--approve"), back = arguments.has("--return");
   if (approve && back) throw UsageError("either --approve or --return");
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const std::string note = arguments.text("--note");
   const auto done = approve || back ? casedb::judge_case(*library, arguments.positional(0), by, approve, note)
@@ -42,8 +43,8 @@ int run_case_review(const Arguments& arguments) {
 }
 
 int run_case_publish(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), by = arguments.required("--by");
-  auto library = casedb::Library::open(folder);
+  const std::string by = arguments.required("--by");
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const std::string& case_id = arguments.positional(0);
   const auto checks = session::check_case(*library, case_id);
@@ -59,8 +60,8 @@ int run_case_publish(const Arguments& arguments) {
 }
 
 int run_case_retire(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), by = arguments.required("--by");
-  auto library = casedb::Library::open(folder);
+  const std::string by = arguments.required("--by");
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto done = casedb::retire_case(*library, arguments.positional(0), by, arguments.text("--note"));
   if (!done) return refuse(done.error());
@@ -69,8 +70,8 @@ int run_case_retire(const Arguments& arguments) {
 }
 
 int run_case_version(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), by = arguments.required("--by");
-  auto library = casedb::Library::open(folder);
+  const std::string by = arguments.required("--by");
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto made = casedb::new_version(*library, arguments.positional(0), by);
   if (!made) return refuse(made.error());
@@ -83,20 +84,17 @@ int run_case_version(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kByOption{"--by", "NAME", "the account that decides"};
 constexpr Option kNoteOption{"--note", "TEXT", "one line kept with the decision"};
 
 constexpr Option kReviewOptions[] = {kLibrary,
-                                     kByOption,
                                      {"--approve", nullptr, "a second person's word"},
                                      {"--return", nullptr, "back to draft"},
                                      kNoteOption};
 
 constexpr Option kPublishOptions[] = {
-    kLibrary, kByOption, {"--own-cohort", nullptr, "unreviewed, to the mentor's own cohort only"}, kNoteOption};
+    kLibrary, {"--own-cohort", nullptr, "unreviewed, to the mentor's own cohort only"}, kNoteOption};
 
-constexpr Option kRetireOptions[] = {kLibrary, kByOption, kNoteOption};
-constexpr Option kVersionOptions[] = {kLibrary, kByOption, kJson};
+constexpr Option kRetireOptions[] = {kLibrary, kNoteOption};
 
 }  // namespace
 
@@ -116,6 +114,7 @@ Command case_review_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kReviewOptions,
+          .acts = true,
           .summary = "Submits a draft to review; with --approve or --return a second person's answer.",
           .run = &run_case_review};
 }
@@ -126,6 +125,7 @@ Command case_publish_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kPublishOptions,
+          .acts = true,
           .summary = "Publishes a case that holds its check and was approved; it never changes again.",
           .run = &run_case_publish};
 }
@@ -136,6 +136,7 @@ Command case_retire_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kRetireOptions,
+          .acts = true,
           .summary = "Retires a published case; its attempts stay.",
           .run = &run_case_retire};
 }
@@ -145,7 +146,8 @@ Command case_version_command() {
           .positionals = "CASE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kVersionOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Makes the next version of a case, as a draft.",
           .run = &run_case_version};
 }

@@ -1,4 +1,5 @@
 // case setting: what a case asks of whoever attempts it.
+#include "app/acting/acting.h"
 #include "app/cases/setting_options.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
@@ -82,7 +83,8 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
 }
 
 int run_case_setting(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), case_id = arguments.positional(0);
+  arguments.required("--library");
+  const std::string case_id = arguments.positional(0);
   std::optional<assessment::PassRule> rule;
   if (arguments.has("--rule")) {
     if (arguments.has("--pass") || arguments.has("--critical"))
@@ -97,10 +99,11 @@ int run_case_setting(const Arguments& arguments) {
     casedb::CaseSetting any;
     read_setting(arguments, any);  // wrong use is told before a library is asked for
   }
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
+  if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   casedb::CaseSetting setting = *row;
   read_setting(arguments, setting);
   if (rule) setting.rule = std::move(*rule);
@@ -119,6 +122,7 @@ Command case_setting_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kSettingOptions,
+          .acts = true,
           .summary =
               "Sets what a case asks of whoever attempts it: guidance, needle, patient, limits, pass rule. What is "
               "not given stays.",

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cases/case_answers_json.h"
 #include "app/cases/label_file.h"
 #include "app/cli/command.h"
@@ -63,10 +64,11 @@ base::Result<void> find_label(casedb::Library& library, const std::string& wante
 }
 
 int run_case_structure(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
+  arguments.required("--library");
   if (arguments.has("--remove")) {
-    auto library = casedb::Library::open(folder);
+    auto library = open_acting(arguments);
     if (!library) return refuse(library.error());
+    if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
     const auto removed = casedb::remove_structure(*library, arguments.positional(0), arguments.text("--remove"));
     return removed ? kDone : refuse(removed.error());
   }
@@ -92,8 +94,9 @@ int run_case_structure(const Arguments& arguments) {
     row.tissue = tissue_of(arguments, "--tissue");
     if (arguments.text("--hu") != "as_ct") row.hu = arguments.number("--hu", volume::typical_hu(row.tissue));
   }
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   if (by_label) {
     std::string label_name;
     if (const auto found = find_label(*library, arguments.text("--label"), row, label_name); !found)
@@ -114,7 +117,7 @@ int run_case_structure(const Arguments& arguments) {
 }
 
 int run_case_label(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
+  arguments.required("--library");
   std::vector<std::pair<int, std::string>> names;
   for (const std::string& text : arguments.all("--name")) {
     const std::size_t at = text.find('=');
@@ -123,8 +126,9 @@ int run_case_label(const Arguments& arguments) {
       throw UsageError("--name is N=NAME, N from 1 to 255");
     names.emplace_back(static_cast<int>(*number), text.substr(at + 1));
   }
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());
   const auto read = read_label_file(arguments.positional(1), *row, names);
@@ -173,6 +177,7 @@ Command case_structure_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kStructureOptions,
+          .acts = true,
           .summary = "Adds a structure to a case: a tissue class, a label, or drawn; and what touching it means.",
           .run = &run_case_structure};
 }
@@ -184,6 +189,7 @@ Command case_label_command() {
       .min_positionals = 2,
       .max_positionals = 2,
       .options = kLabelOptions,
+      .acts = true,
       .summary =
           "Adds a label map (NIfTI, NRRD, MetaImage) to a case; another grid is resampled by the nearest voxel.",
       .run = &run_case_label};

@@ -1,5 +1,6 @@
 #include "app/cli/arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -33,16 +34,16 @@ std::optional<glm::dvec3> parse_point(const std::string& text) {
 
 Arguments::Arguments(const Command& command, const std::vector<std::string>& words)
     : command_(command.name), words_(words) {
+  const std::vector<Option> options = options_of(command);
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word.size() < 3 || word.rfind("--", 0) != 0) {
       positionals_.push_back(word);
       continue;
     }
-    const Option* found = nullptr;
-    for (const Option& option : command.options)
-      if (word == option.name) found = &option;
-    if (found == nullptr) throw UsageError("unknown option " + word);
+    const auto found =
+        std::find_if(options.begin(), options.end(), [&](const Option& option) { return word == option.name; });
+    if (found == options.end()) throw UsageError("unknown option " + word);
     auto& values = values_[word];
     if (!values.empty() && !found->repeatable) throw UsageError(word + " was given twice");
     if (found->value == nullptr) {

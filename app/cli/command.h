@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/cli/arguments.h"
 #include "sim/base/result.h"
@@ -24,6 +25,7 @@ struct Command {
   const char* positionals = "";  // as shown, e.g. "CASE"
   std::size_t min_positionals = 0, max_positionals = 0;
   std::span<const Option> options{};
+  bool acts = false;  // takes kActs too: somebody is behind it (app/acting/acting.h)
   const char* summary;
   int (*run)(const Arguments&);
 };
@@ -34,6 +36,16 @@ inline constexpr Option kJson{"--json", nullptr, "one JSON document on standard 
 inline constexpr Option kLibraryJson[] = {kLibrary, kJson};
 inline constexpr Option kJsonOnly[] = {kJson};
 inline constexpr Option kLibraryOnly[] = {kLibrary};
+
+// Who is behind a command.
+inline constexpr Option kActs[] = {
+    {"--by", "NAME", "in whose name; left out: the operator's, who has the library's files"},
+    {"--password-file", "FILE",
+     "proof: its first line is the password of --by; - is standard input. Without proof the operator acts, and it "
+     "is "
+     "marked so"},
+    {"--token-file", "FILE", "proof: a session of `seldinger login`; default the one in the user's state folder"}};
+std::vector<Option> options_of(const Command& command);  // its own, and kActs where it acts
 
 // Prints `error: <code>: <text>` and the findings to standard error; returns kRefused.
 int refuse(const base::Error& error);

@@ -51,7 +51,11 @@ constexpr ErrorCode kLibraryCodes[] = {
     {"incomplete", kRefuses | kFinds, "A piece of a recording is missing.", "Restore a backup."},
     {"recording_version", kRefuses, "A recording has a format that this program does not know.",
      "Update this program."},
-    {"name_without_person", kFinds, "A name belongs to a person who is not in the library.", "Restore a backup."}};
+    {"name_without_person", kFinds, "A name belongs to a person who is not in the library.", "Restore a backup."},
+    {"audit_changed", kFinds, "A row of the audit log is not as it was written.",
+     "Compare with a backup; somebody changed the database, or the disk did."},
+    {"audit_missing", kFinds, "A row within the audit log is gone.", "Compare with a backup."},
+    {"audit_cut", kFinds, "The end of the audit log is gone.", "Compare with a backup."}};
 
 constexpr ErrorCode kCaseCodes[] = {
     {"no_case", kRefuses, "There is no such case, or none at all.", "`seldinger case list` lists them."},
@@ -119,6 +123,16 @@ constexpr ErrorCode kPeopleCodes[] = {
      "Choose another."},
     {"bad_name", kRefuses, "A login name has other than 1 to 64 printable characters.", "Choose another."},
     {"weak_password", kRefuses, "A password has other than 8 to 128 bytes.", "Choose another."},
+    {"bad_log_in", kRefuses, "Name or password is not right, or the account is closed.",
+     "Try again; an admin sets a new one."},
+    {"no_session", kRefuses, "The session is over, is another person's, or there is none.", "`seldinger login`."},
+    {"bad_token_file", kRefuses, "A session's file is not one, or others can read it.",
+     "Delete it and log in again."},
+    {"not_proven", kRefuses,
+     "The library belongs to another account of this machine, and nobody has proven who they are.",
+     "`seldinger login`, or `--by` with `--password-file`."},
+    {"last_admin", kRefuses, "The only admin whose account is open would no longer be one.",
+     "Make another admin first."},
     {"not_allowed", kRefuses, "The account's role may not do this.",
      "Ask somebody whose role may; the message names it."},
     {"too_few_consultants", kRefuses, "Too few consultants have made enough attempts for a standard.",

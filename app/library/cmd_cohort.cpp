@@ -1,8 +1,8 @@
 // cohort add, list, show, enrol, direct.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
-#include "app/library/acting.h"
 #include "app/library/people_json.h"
 
 namespace seldinger::app {
@@ -10,7 +10,7 @@ namespace {
 
 int run_cohort_add(const Arguments& arguments) {
   const std::string programme = arguments.required("--programme");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
   if (!by) return refuse(by.error());
@@ -59,7 +59,7 @@ int run_cohort_show(const Arguments& arguments) {
 
 int run_cohort_enrol(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
   if (!by) return refuse(by.error());
@@ -75,7 +75,7 @@ int run_cohort_enrol(const Arguments& arguments) {
 
 int run_cohort_direct(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
   if (!by) return refuse(by.error());
@@ -90,14 +90,12 @@ int run_cohort_direct(const Arguments& arguments) {
 constexpr Option kCohortAddOptions[] = {kLibrary,
                                         {"--programme", "TEXT", "the programme to which it belongs"},
                                         {"--site", "TEXT", "where; may be left out"},
-                                        kActing,
                                         kJson};
 constexpr Option kCohortEnrolOptions[] = {kLibrary,
                                           kWhose,
                                           {"--mentor", nullptr, "as a mentor; else as a learner"},
-                                          {"--end", nullptr, "from now on no longer"},
-                                          kActing};
-constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}, kActing};
+                                          {"--end", nullptr, "from now on no longer"}};
+constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
 
 }  // namespace
 
@@ -107,6 +105,7 @@ Command cohort_add_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCohortAddOptions,
+          .acts = true,
           .summary = "Adds a cohort of learners.",
           .run = &run_cohort_add};
 }
@@ -131,6 +130,7 @@ Command cohort_enrol_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCohortEnrolOptions,
+          .acts = true,
           .summary = "Enrols a learner or a mentor from now on; mentors see the learners of their cohorts by name.",
           .run = &run_cohort_enrol};
 }
@@ -141,6 +141,7 @@ Command cohort_direct_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCohortDirectOptions,
+          .acts = true,
           .summary = "Makes somebody director of a programme, who sees the learners of its cohorts by name.",
           .run = &run_cohort_direct};
 }

@@ -1,16 +1,16 @@
 // study new, list, researcher; consent text, list, give, withdraw; user fact.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
-#include "app/library/acting.h"
 #include "app/library/people_json.h"
 
 namespace seldinger::app {
 namespace {
 
 int run_study_new(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_studies);
   if (!by) return refuse(by.error());
@@ -36,7 +36,7 @@ int run_study_list(const Arguments& arguments) {
 
 int run_study_researcher(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_studies);
   if (!by) return refuse(by.error());
@@ -49,7 +49,7 @@ int run_study_researcher(const Arguments& arguments) {
 }
 
 int run_consent_text(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_studies);
   if (!by) return refuse(by.error());
@@ -90,10 +90,12 @@ int run_consent_list(const Arguments& arguments) {
 
 int run_consent_answer(const Arguments& arguments, bool give) {
   const std::string user = arguments.required("--user");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, user);
   if (!person) return refuse(person.error());
+  if (const auto by = acting_on(*library, arguments, casedb::Action::answer_consent, person->person_id); !by)
+    return refuse(by.error());
   const auto done = give ? casedb::give_consent(*library, person->person_id, arguments.positional(0))
                          : casedb::withdraw_consent(*library, person->person_id, arguments.positional(0));
   if (!done) return refuse(done.error());
@@ -105,12 +107,15 @@ int run_consent_answer(const Arguments& arguments, bool give) {
 }
 
 int run_user_fact(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = arguments.positionals() == 3 ? open_acting(arguments)
+                                              : casedb::Library::open(arguments.required("--library"));
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, arguments.positional(0));
   if (!person) return refuse(person.error());
   if (arguments.positionals() == 2) throw UsageError("a fact and its answer, or neither");
   if (arguments.positionals() == 3) {
+    if (const auto by = acting_on(*library, arguments, casedb::Action::answer_consent, person->person_id); !by)
+      return refuse(by.error());
     const auto done =
         casedb::give_fact(*library, person->person_id, arguments.positional(1), arguments.positional(2));
     return done ? kDone : refuse(done.error());
@@ -129,10 +134,9 @@ int run_user_fact(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kStudyNewOptions[] = {kLibrary, kActing, kJson};
-constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, kActing};
+constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose};
 constexpr Option kConsentTextOptions[] = {
-    kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}, kActing};
+    kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}};
 constexpr Option kConsentListOptions[] = {kLibrary, kWhose, kJson};
 constexpr Option kConsentGiveOptions[] = {kLibrary, kWhose};
 constexpr Option kConsentWithdrawOptions[] = {
@@ -145,7 +149,8 @@ Command study_new_command() {
           .positionals = "TITLE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kStudyNewOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Makes a study, to which people can consent.",
           .run = &run_study_new};
 }
@@ -160,6 +165,7 @@ Command study_researcher_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kStudyResearcherOptions,
+          .acts = true,
           .summary = "Lets a researcher see, as pseudonyms, those who consent to a study.",
           .run = &run_study_researcher};
 }
@@ -170,6 +176,7 @@ Command consent_text_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kConsentTextOptions,
+          .acts = true,
           .summary = "Adds the next version of a text that people are asked to consent to.",
           .run = &run_consent_text};
 }
@@ -187,6 +194,7 @@ Command consent_give_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kConsentGiveOptions,
+          .acts = true,
           .summary = "Notes that somebody consents, given on paper; on the dashboard people answer themselves.",
           .run = [](const Arguments& arguments) { return run_consent_answer(arguments, true); }};
 }
@@ -197,6 +205,7 @@ Command consent_withdraw_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kConsentWithdrawOptions,
+          .acts = true,
           .summary = "Notes that somebody no longer consents.",
           .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
 }
@@ -207,6 +216,7 @@ Command user_fact_command() {
           .min_positionals = 1,
           .max_positionals = 3,
           .options = kLibraryJson,
+          .acts = true,
           .summary = "Lists what somebody said of their experience, or notes an answer that holds from now on.",
           .run = &run_user_fact};
 }

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/library/curriculum_json.h"
 #include "casedb/people/people.h"
@@ -28,10 +29,10 @@ assessment::Gate gate_from(const std::string& text) {
 
 int run_curriculum_add(const Arguments& arguments) {
   const std::string by = arguments.required("--by");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto made = casedb::add_curriculum(*library, arguments.positional(0), by);
-  if (!made) return refuse(made.error());
+  if (!made) return refuse_act(*library, casedb::Act::make_curriculum, made.error());
   std::fputs(arguments.has("--json") ? json_of_curriculum_id(*made).c_str() : (*made + "\n").c_str(), stdout);
   return kDone;
 }
@@ -43,10 +44,10 @@ int run_curriculum_item(const Arguments& arguments) {
     for (const std::string& text : arguments.all("--after")) gates.push_back(gate_from(text));
   std::optional<int> limit;
   if (arguments.has("--attempt-limit")) limit = static_cast<int>(arguments.whole("--attempt-limit", 1, 1, 1000));
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto number = casedb::add_curriculum_item(*library, arguments.positional(0), case_id, limit, gates, by);
-  if (!number) return refuse(number.error());
+  if (!number) return refuse_act(*library, casedb::Act::change_curriculum, number.error());
   if (arguments.has("--json"))
     std::fputs(json_of_curriculum_item(*number).c_str(), stdout);
   else
@@ -56,10 +57,10 @@ int run_curriculum_item(const Arguments& arguments) {
 
 int run_curriculum_publish(const Arguments& arguments) {
   const std::string by = arguments.required("--by");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto done = casedb::publish_curriculum(*library, arguments.positional(0), by);
-  return done ? kDone : refuse(done.error());
+  return done ? kDone : refuse_act(*library, casedb::Act::publish_curriculum, done.error());
 }
 
 int run_curriculum_list(const Arguments& arguments) {
@@ -118,22 +119,17 @@ int run_curriculum_show(const Arguments& arguments) {
 
 int run_curriculum_remove(const Arguments& arguments) {
   const std::string by = arguments.required("--by");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto done = casedb::remove_curriculum(*library, arguments.positional(0), by);
-  return done ? kDone : refuse(done.error());
+  return done ? kDone : refuse_act(*library, casedb::Act::remove_curriculum, done.error());
 }
-
-constexpr Option kByOption{"--by", "NAME", "the account that decides"};
-constexpr Option kCurriculumAddOptions[] = {kLibrary, kByOption, kJson};
-constexpr Option kCurriculumByOptions[] = {kLibrary, kByOption};
 
 constexpr Option kCurriculumItemOptions[] = {
     kLibrary,
     {"--case", "ID", "a published case; the item is it in whatever version is published"},
     {"--attempt-limit", "N", "so many a trainee; default the case's own limit"},
     {"--after", "N[:passed|:proficient]", "opens when item N is reached; default passed", true},
-    kByOption,
     kJson};
 
 constexpr Option kCurriculumShowOptions[] = {kLibrary, {"--user", "NAME", "how far this person is"}, kJson};
@@ -145,7 +141,8 @@ Command curriculum_add_command() {
           .positionals = "TITLE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kCurriculumAddOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Makes a curriculum, as a draft; by a mentor.",
           .run = &run_curriculum_add};
 }
@@ -156,6 +153,7 @@ Command curriculum_item_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kCurriculumItemOptions,
+          .acts = true,
           .summary = "Adds a case at a draft's end; by a mentor.",
           .run = &run_curriculum_item};
 }
@@ -165,7 +163,8 @@ Command curriculum_publish_command() {
           .positionals = "CURRICULUM",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kCurriculumByOptions,
+          .options = kLibraryOnly,
+          .acts = true,
           .summary = "Publishes a curriculum, by a director; it never changes again.",
           .run = &run_curriculum_publish};
 }
@@ -192,7 +191,8 @@ Command curriculum_remove_command() {
           .positionals = "CURRICULUM",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kCurriculumByOptions,
+          .options = kLibraryOnly,
+          .acts = true,
           .summary = "Takes a draft away, by a mentor; retires a published one, by a director.",
           .run = &run_curriculum_remove};
 }

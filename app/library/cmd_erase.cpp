@@ -1,8 +1,8 @@
 // user erase, attempt delete, case delete.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
-#include "app/library/acting.h"
 #include "app/library/people_json.h"
 #include "casedb/attempts/attempts.h"
 
@@ -27,7 +27,7 @@ int told(const Arguments& arguments, const base::Result<casedb::Erased>& erased)
 }
 
 int run_user_erase(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::erase_person);
   if (!by) return refuse(by.error());
@@ -35,21 +35,17 @@ int run_user_erase(const Arguments& arguments) {
 }
 
 int run_attempt_delete(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());
-  casedb::Subject subject;
-  if (arguments.has("--by"))
-    if (const auto account = casedb::open_account(*library, arguments.text("--by")))
-      subject = casedb::relation_to(*library, account->person_id, attempt->person_id);
-  const auto by = acting(*library, arguments, casedb::Action::erase_attempts, subject);
+  const auto by = acting_on(*library, arguments, casedb::Action::erase_attempts, attempt->person_id);
   if (!by) return refuse(by.error());
   return told(arguments, casedb::erase_attempt(*library, attempt->attempt_id, *by));
 }
 
 int run_case_delete(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());
@@ -58,8 +54,6 @@ int run_case_delete(const Arguments& arguments) {
   return told(arguments, casedb::erase_case(*library, row->case_id, *by));
 }
 
-constexpr Option kEraseOptions[] = {kLibrary, kActing, kJson};
-
 }  // namespace
 
 Command user_erase_command() {
@@ -67,7 +61,8 @@ Command user_erase_command() {
           .positionals = "NAME",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kEraseOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Erases a person: name, account, recordings, results and facts. What is left is an empty row.",
           .run = &run_user_erase};
 }
@@ -77,7 +72,8 @@ Command attempt_delete_command() {
           .positionals = "ATTEMPT",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kEraseOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Erases one attempt with its recording and results; an empty row is left.",
           .run = &run_attempt_delete};
 }
@@ -87,7 +83,8 @@ Command case_delete_command() {
           .positionals = "CASE",
           .min_positionals = 1,
           .max_positionals = 1,
-          .options = kEraseOptions,
+          .options = kLibraryJson,
+          .acts = true,
           .summary = "Deletes a draft or a retired case on which nobody has made an attempt.",
           .run = &run_case_delete};
 }

@@ -1,6 +1,7 @@
 // standard set, show.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/library/standard_json.h"
 #include "assessment/grading/plain_words.h"
@@ -16,18 +17,20 @@ int run_standard_set(const Arguments& arguments) {
     modality = casedb::modality_from(arguments.text("--modality"));
     if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   }
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto made =
       casedb::set_standard(*library, arguments.positional(0), arguments.text("--lesion"), modality, by);
-  if (!made) return refuse(made.error());
+  if (!made) return refuse_act(*library, casedb::Act::set_standard, made.error());
   std::fputs(arguments.has("--json") ? json_of_standard_id(*made).c_str() : (*made + "\n").c_str(), stdout);
   return kDone;
 }
 
 void print(const casedb::Standard& standard) {
-  std::printf("%s  %s, %s, %s\n%s\n", standard.set.standard_id.c_str(), standard.modality.c_str(),
-              standard.approach.c_str(), standard.instrument.c_str(), reports::experts_text(standard.set).c_str());
+  std::printf("%s  %s, %s, %s%s\n%s\n", standard.set.standard_id.c_str(), standard.modality.c_str(),
+              standard.approach.c_str(), standard.instrument.c_str(),
+              standard.by_operator ? " (entered by the operator)" : "",
+              reports::experts_text(standard.set).c_str());
   for (const assessment::MetricBand& band : standard.set.bands)
     std::printf("  %-34s version %d: %s%s\n", band.id.c_str(), band.version,
                 assessment::plain_range(band.low, band.high, band.unit).c_str(),
@@ -55,7 +58,6 @@ constexpr Option kStandardSetOptions[] = {
     kLibrary,
     {"--lesion", "ID", "of attempts at this target; default the case's first"},
     {"--modality", "mpr|xray|ultrasound", "of attempts with it; default the case's"},
-    {"--by", "NAME", "the account that decides"},
     kJson};
 
 constexpr Option kStandardShowOptions[] = {kLibrary, kJson};
@@ -68,6 +70,7 @@ Command standard_set_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kStandardSetOptions,
+          .acts = true,
           .summary = "Sets the standard of a case: what its consultants did so far, frozen; by a director.",
           .run = &run_standard_set};
 }

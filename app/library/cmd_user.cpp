@@ -1,37 +1,14 @@
-// user add, list, passwd, level, disable.
-#include <termios.h>
-#include <unistd.h>
-
+// user add, list, passwd, level, role, disable, enable.
 #include <cstdio>
-#include <iostream>
 
+#include "app/acting/acting.h"
+#include "app/acting/read_password.h"
 #include "app/attempts/answers_json.h"
 #include "app/cli/command.h"
 #include "casedb/database/credentials.h"
 
 namespace seldinger::app {
 namespace {
-
-// One line of standard input; not echoed on a terminal.
-std::string read_password() {
-  const bool terminal = ::isatty(STDIN_FILENO) != 0;
-  termios before{};
-  if (terminal) {
-    std::fputs("Password: ", stderr);
-    ::tcgetattr(STDIN_FILENO, &before);
-    termios silent = before;
-    silent.c_lflag &= ~static_cast<tcflag_t>(ECHO);
-    ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &silent);
-  }
-  std::string line;
-  std::getline(std::cin, line);
-  if (terminal) {
-    ::tcsetattr(STDIN_FILENO, TCSAFLUSH, &before);
-    std::fputs("\n", stderr);
-  }
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  return line;
-}
 
 std::optional<casedb::Level> level_of(const Arguments& arguments) {
   if (!arguments.has("--level")) return std::nullopt;
@@ -41,14 +18,19 @@ std::optional<casedb::Level> level_of(const Arguments& arguments) {
 }
 
 int run_user_add(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
+  arguments.required("--library");
   const auto role = casedb::role_from(arguments.required("--role"));
   if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
   const auto level = level_of(arguments);
-  std::string password = read_password();
-  if (const auto fit = casedb::check_new_user(arguments.positional(0), password); !fit) return refuse(fit.error());
-  auto library = casedb::Library::open_or_create(folder);
+  const bool own_password_first = arguments.text("--password-file") == "-";
+  std::string password = own_password_first ? "" : read_password();
+  const auto check = [&] { return casedb::check_new_user(arguments.positional(0), password); };
+  if (!own_password_first)
+    if (const auto fit = check(); !fit) return refuse(fit.error());
+  auto library = open_acting(arguments, WhereNone::create);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
+  if (own_password_first) password = read_password();
   const auto person = casedb::add_user(*library, arguments.positional(0), *role, password);
   casedb::wipe(password);
   if (!person) return refuse(person.error());
@@ -74,10 +56,13 @@ int run_user_list(const Arguments& arguments) {
 }
 
 int run_user_passwd(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
-  std::string password = read_password();
-  auto library = casedb::Library::open(folder);
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  std::optional<std::string> whose;
+  if (const auto account = casedb::open_account(*library, arguments.positional(0))) whose = account->person_id;
+  if (const auto by = acting_on(*library, arguments, casedb::Action::set_password, whose); !by)
+    return refuse(by.error());
+  std::string password = read_password();
   const auto done = casedb::set_password(*library, arguments.positional(0), password);
   casedb::wipe(password);
   return done ? kDone : refuse(done.error());
@@ -86,24 +71,37 @@ int run_user_passwd(const Arguments& arguments) {
 int run_user_level(const Arguments& arguments) {
   const auto level = level_of(arguments);
   if (!level) throw UsageError("--level is needed");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
   const auto done = casedb::set_level(*library, arguments.positional(0), *level);
   return done ? kDone : refuse(done.error());
 }
 
-int run_user_disable(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+int run_user_role(const Arguments& arguments) {
+  const auto role = casedb::role_from(arguments.required("--role"));
+  if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
+  auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto done = casedb::set_enabled(*library, arguments.positional(0), false);
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
+  const auto done = casedb::set_role(*library, arguments.positional(0), *role);
+  return done ? kDone : refuse(done.error());
+}
+
+int enable(const Arguments& arguments, bool enabled) {
+  auto library = open_acting(arguments);
+  if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
+  const auto done = casedb::set_enabled(*library, arguments.positional(0), enabled);
   return done ? kDone : refuse(done.error());
 }
 
 constexpr Option kLevelOption{"--level", "student|trainee|consultant",
                               "who somebody is from now on: attempts of consultants set the standard"};
 
-constexpr Option kUserAddOptions[] = {
-    kLibrary, {"--role", "trainee|mentor|researcher|director|admin", "the role"}, kLevelOption};
+constexpr Option kRoleOption{"--role", "trainee|mentor|researcher|director|admin", "the role"};
+constexpr Option kUserAddOptions[] = {kLibrary, kRoleOption, kLevelOption};
+constexpr Option kUserRoleOptions[] = {kLibrary, kRoleOption};
 
 constexpr Option kUserLevelOptions[] = {kLibrary, kLevelOption};
 
@@ -115,6 +113,7 @@ Command user_add_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kUserAddOptions,
+          .acts = true,
           .summary = "Adds an account; the password is read from standard input.",
           .run = &run_user_add};
 }
@@ -129,6 +128,7 @@ Command user_passwd_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryOnly,
+          .acts = true,
           .summary = "Sets a password, read from standard input.",
           .run = &run_user_passwd};
 }
@@ -139,6 +139,7 @@ Command user_level_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kUserLevelOptions,
+          .acts = true,
           .summary = "Sets who somebody is from now on; earlier attempts count as before.",
           .run = &run_user_level};
 }
@@ -149,8 +150,31 @@ Command user_disable_command() {
           .min_positionals = 1,
           .max_positionals = 1,
           .options = kLibraryOnly,
-          .summary = "Closes an account; its attempts stay.",
-          .run = &run_user_disable};
+          .acts = true,
+          .summary = "Closes an account, which ends its sessions; its attempts stay. The last admin stays open.",
+          .run = [](const Arguments& arguments) { return enable(arguments, false); }};
+}
+
+Command user_enable_command() {
+  return {.name = "user enable",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryOnly,
+          .acts = true,
+          .summary = "Opens an account again.",
+          .run = [](const Arguments& arguments) { return enable(arguments, true); }};
+}
+
+Command user_role_command() {
+  return {.name = "user role",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kUserRoleOptions,
+          .acts = true,
+          .summary = "Changes a role and ends the person's sessions; the last admin stays one.",
+          .run = &run_user_role};
 }
 
 }  // namespace seldinger::app

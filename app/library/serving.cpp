@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/cli/version.h"
+#include "casedb/database/audit.h"
 #include "session/case/case_check.h"
 #include "web/library_questions.h"
 
@@ -23,6 +24,7 @@ void on_signal(int) {
 base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& at,
                                        const std::function<void(const std::string& url)>& ready) {
   const std::filesystem::path folder = library.folder();
+  casedb::audit_alone(library, casedb::Act::start_server);
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   auto server = web::open_server(std::move(library), {at.host, at.port}, kVersion, log, session::check_case);
   if (!server && server.error().code == "port_taken" && at.any_port_if_taken) {

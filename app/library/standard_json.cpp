@@ -15,7 +15,8 @@ std::string json_of_standards(const std::vector<casedb::Standard>& standards) {
     nlohmann::ordered_json json = {{"lesion_id", one.lesion_id},
                                    {"modality", one.modality},
                                    {"approach", one.approach},
-                                   {"instrument", one.instrument}};
+                                   {"instrument", one.instrument},
+                                   {"by_operator", one.by_operator}};
     json.update(casedb::json_of_experts(one.set));
     list.push_back(std::move(json));
   }

@@ -21,6 +21,7 @@ enum class Action {
   practise_case,      // a draft only once attempts have frozen it (casedb/grading/choices.h)
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
+  simulate_attempts,
   // Cases.
   see_case,        // what it holds, also what is right: more than to practise it
   see_case_notes,  // what people wrote beside their decisions
@@ -33,6 +34,8 @@ enum class Action {
   publish_unreviewed_case,
   retire_case,  // "own": published by oneself
   make_case_version,
+  add_case,
+  hand_out_case,  // as a bundle
   // Curricula.
   see_curriculum,
   see_own_progress,  // in a curriculum; how far others are, nobody sees
@@ -53,6 +56,11 @@ enum class Action {
   erase_attempts,
   erase_person,
   erase_case,
+  manage_accounts,  // add, close, open; role, level
+  set_password,
+  // The library.
+  keep_library,  // back up, repair, score again
+  read_audit,
 };
 
 // A set of roles.
@@ -166,6 +174,10 @@ inline constexpr Permission kPermissions[] = {
      {{kEveryRole, {CaseState::published}, Whose::reaching}, {{Role::mentor}, {CaseState::draft}}}},
     {Action::look_inside, "look_inside", "the others have to find the way by the pictures", {{{Role::mentor}}}},
     {Action::cause_event, "cause_event", "a mentor lets things happen to the patient", {{{Role::mentor}}}},
+    {Action::simulate_attempts,
+     "simulate_attempts",
+     "a mentor or a researcher has attempts simulated",
+     {{{Role::mentor, Role::researcher}}}},
 
     {Action::see_case,
      "see_case",
@@ -207,6 +219,11 @@ inline constexpr Permission kPermissions[] = {
      "an admin, or who published it, retires a case",
      {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
     {Action::make_case_version, "make_case_version", "a mentor makes a new version", {{{Role::mentor}}}},
+    {Action::add_case, "add_case", "a mentor or an admin brings cases in", {{{Role::mentor, Role::admin}}}},
+    {Action::hand_out_case,
+     "hand_out_case",
+     "a mentor, director or admin hands cases out",
+     {{{Role::mentor, Role::director, Role::admin}}}},
 
     {Action::see_curriculum,
      "see_curriculum",
@@ -260,6 +277,14 @@ inline constexpr Permission kPermissions[] = {
      "erase_case",
      "a mentor deletes a draft, an admin a draft or what is retired",
      {{{Role::mentor, Role::admin}, {CaseState::draft}}, {{Role::admin}, {CaseState::retired}}}},
+    {Action::manage_accounts, "manage_accounts", "an admin keeps the accounts", {{{Role::admin}}}},
+    {Action::set_password,
+     "set_password",
+     "an admin sets a password, or whose it is",
+     {{{Role::admin}}, {kEveryRole, {}, Whose::own}}},
+
+    {Action::keep_library, "keep_library", "an admin backs the library up and repairs it", {{{Role::admin}}}},
+    {Action::read_audit, "read_audit", "an admin reads the audit log", {{{Role::admin}}}},
 };
 
 constexpr bool may(Role role, Action action, const Subject& subject = {}) noexcept {
@@ -280,7 +305,10 @@ base::Result<void> allow(Role role, Action action, const Subject& subject = {});
 
 // The account of that log-in name: `no_user`, also of one that is closed.
 base::Result<Account> open_account(Library& library, const std::string& login_name);
-// The same, if it may: and `not_allowed`.
+// The same, of somebody in whose name something is done: `not_allowed` when the library acts for somebody else, or
+// for nobody (casedb/database/actor.h).
+base::Result<Account> acting_account(Library& library, const std::string& login_name);
+// The same, if it may.
 base::Result<Account> account_that_may(Library& library, const std::string& login_name, Action action,
                                        const Subject& subject = {});
 

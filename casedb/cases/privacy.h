@@ -35,6 +35,7 @@ inline std::optional<FaceState> face_state_from(const std::string& name) {
 struct BurnedInCheck {
   std::int64_t checked_us = 0;           // since 1970 UTC
   std::optional<std::string> person_id;  // none: at the command line, without an account
+  bool by_operator = false;              // who entered it in that person's name
 };
 
 // How many elements of one kind of a source did not enter the case. A private element's kind is its group, as in

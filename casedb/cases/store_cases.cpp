@@ -8,6 +8,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/cases/changeable_case.h"
 #include "casedb/cases/setting_columns.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/new_assets.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
@@ -24,9 +25,11 @@ std::string matrix_column(int row, int column) {
   return "lps_from_voxel_" + std::to_string(row) + std::to_string(column);
 }
 
-void insert_case(Sqlite& database, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
+void insert_case(Library& library, const NewCase& new_case, const std::string& case_id, std::int64_t created_us,
                  const std::string& volume_sha256, const std::string& skin_sha256,
                  const std::optional<std::string>& labels_sha256, const std::string& classes_sha256) {
+  Sqlite& database = library.database();
+  const bool by_operator = library.actor().is_operator();
   const volume::Volume& volume = new_case.volume;
   const auto [lowest, highest] = std::minmax_element(volume.hu.begin(), volume.hu.end());
   Statement insert = question(database, "add_case");
@@ -44,6 +47,7 @@ void insert_case(Sqlite& database, const NewCase& new_case, const std::string& c
   insert.bind("face_state", name_of(new_case.face_state));
   insert.bind("burned_in_checked_us", new_case.no_burned_in_text ? std::optional(created_us) : std::nullopt);
   insert.bind("burned_in_checked_by", new_case.burned_in_checked_by);
+  insert.bind("burned_in_by_operator", by_operator && new_case.no_burned_in_text ? std::optional(1) : std::nullopt);
   insert.bind_null("family_id").bind("version", 1);
   insert.bind("labels_sha256", labels_sha256).bind("classes_sha256", classes_sha256).run();
   write_setting(database, case_id, new_case);
@@ -112,7 +116,9 @@ CaseRow read_case(const Statement& from) {
   row.own_cohort_only = from.text("audience") == "own_cohort";
   row.face_state = *face_state_from(from.text("face_state"));  // the schema takes no others
   if (!from.is_null("burned_in_checked_us")) {
-    row.burned_in_checked = BurnedInCheck{from.integer("burned_in_checked_us"), {}};
+    row.burned_in_checked = BurnedInCheck{from.integer("burned_in_checked_us"), {}, false};
+    row.burned_in_checked->by_operator =
+        !from.is_null("burned_in_by_operator") && from.integer("burned_in_by_operator") != 0;
     if (!from.is_null("burned_in_checked_by")) row.burned_in_checked->person_id = from.text("burned_in_checked_by");
   }
   return row;
@@ -251,8 +257,9 @@ std::string add_case(Library& library, const NewCase& new_case) {
   assets.make_sure();
   const std::int64_t created_us = now_us();
   const std::string case_id = new_uuid();
-  insert_case(library.database(), new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256,
-              classes_sha256);
+  insert_case(library, new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256, classes_sha256);
+  audit(library, Act::add_case, {"case", case_id});
+  if (new_case.burned_in_checked_by) audit(library, Act::confirm_no_burned_in_text, {"case", case_id});
   transaction.commit();
   assets.keep();
   return case_id;
@@ -321,7 +328,9 @@ base::Result<void> confirm_no_burned_in_text(Library& library, const std::string
       .bind("case_id", case_id)
       .bind("checked_us", now_us())
       .bind("person_id", person_id)
+      .bind("by_operator", library.actor().is_operator() ? 1 : 0)
       .run();
+  audit(library, Act::confirm_no_burned_in_text, {"case", case_id});
   transaction.commit();
   return {};
 }
@@ -343,6 +352,7 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
   lesion.form = form;
   lesion.created_us = now_us();
   insert_lesion(library.database(), lesion);
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return lesion.lesion_id;
 }
@@ -356,6 +366,7 @@ base::Result<void> put_lesion(Library& library, const LesionRow& lesion) {
       .bind("lesion_id", lesion.lesion_id)
       .run();
   insert_lesion(library.database(), lesion);
+  audit(library, Act::change_case, {"case", lesion.case_id});
   transaction.commit();
   return {};
 }

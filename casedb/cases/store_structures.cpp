@@ -6,6 +6,7 @@
 #include "casedb/cases/changeable_case.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/cases/structure_json.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/new_assets.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
@@ -167,6 +168,7 @@ base::Result<std::string> add_structure(Library& library, const StructureRow& st
   if (has_name(others, structure.name)) return kNameTaken;
   std::string structure_id = new_uuid();
   insert_structure(library, structure, structure_id, others.empty() ? 0 : others.back().position + 1);
+  audit(library, Act::change_case, {"case", structure.case_id});
   transaction.commit();
   return structure_id;
 }
@@ -188,6 +190,7 @@ base::Result<void> put_structure(Library& library, const StructureRow& structure
                                  [&](const StructureRow& one) { return one.position == structure.position; });
   insert_structure(library, structure, structure.structure_id,
                    taken ? others.back().position + 1 : structure.position);
+  audit(library, Act::change_case, {"case", structure.case_id});
   transaction.commit();
   return {};
 }
@@ -200,6 +203,7 @@ base::Result<void> remove_structure(Library& library, const std::string& case_id
   if (std::none_of(all.begin(), all.end(), [&](const StructureRow& one) { return one.name == name; }))
     return base::Error{"no_structure", "the case has no structure of that name"};
   question(library.database(), "remove_structure").bind("case_id", case_id).bind("title", name).run();
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};
 }
@@ -262,6 +266,7 @@ base::Result<std::string> add_label_map(Library& library, const std::string& cas
       .bind("labels_sha256", sha256)
       .bind("created_us", now_us())
       .run();
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   assets.keep();
   return sha256;
@@ -289,6 +294,7 @@ base::Result<void> set_setting(Library& library, const std::string& case_id, con
   const auto row = changeable_case(library, case_id);
   if (!row) return row.error();
   write_setting(library.database(), case_id, setting);
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};
 }
@@ -300,6 +306,7 @@ base::Result<void> set_title(Library& library, const std::string& case_id, const
   if (!row) return row.error();
   if (row->state != CaseState::draft) return kNotADraft;
   question(library.database(), "set_title").bind("case_id", case_id).bind("title", title).run();
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};
 }
@@ -312,6 +319,7 @@ base::Result<void> remove_lesion(Library& library, const std::string& case_id, c
   if (std::none_of(all.begin(), all.end(), [&](const LesionRow& one) { return one.lesion_id == lesion_id; }))
     return base::Error{"no_lesion", "there is no such lesion in the case"};
   question(library.database(), "remove_lesion").bind("case_id", case_id).bind("lesion_id", lesion_id).run();
+  audit(library, Act::change_case, {"case", case_id});
   transaction.commit();
   return {};
 }

@@ -5,6 +5,7 @@
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/setting_columns.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr const char* kDecisions[] = {"made",     "submitted", "returned",
                                       "approved", "published", "retired"};  // in the order of DecisionKind
+constexpr Act kActOf[] = {Act::make_case_version, Act::submit_case,  Act::return_case,
+                          Act::approve_case,      Act::publish_case, Act::retire_case};  // likewise
 constexpr std::size_t kMostNote = 1000;
 
 base::Error bad_state(const char* text) {
@@ -41,7 +44,7 @@ base::Result<Wish> wish(Library& library, const std::string& case_id, const std:
   if (const auto fit = check_note(note); !fit) return fit.error();
   auto row = find_case(library, case_id);
   if (!row) return row.error();
-  auto account = open_account(library, by);
+  auto account = acting_account(library, by);
   if (!account) return account.error();
   return Wish{std::move(*row), std::move(*account), list_decisions(library, case_id)};
 }
@@ -53,7 +56,17 @@ void decide(Library& library, const Wish& wish, DecisionKind kind, const std::st
       .bind("person_id", wish.by.person_id)
       .bind("note", note)
       .bind("decided_us", now_us())
+      .bind("by_operator", library.actor().is_operator() ? 1 : 0)
       .run();
+  audit(library, kActOf[static_cast<std::size_t>(kind)], {"case", wish.row.case_id});
+}
+
+// A refusal of the table of permissions is kept, once the transaction of what was refused is over.
+template <typename T>
+T kept(Library& library, DecisionKind kind, const std::string& case_id, T result) {
+  if (!result && result.error().code == "not_allowed")
+    audit_alone(library, kActOf[static_cast<std::size_t>(kind)], {"case", case_id}, Outcome::refused);
+  return result;
 }
 
 void set_state(Library& library, const Wish& wish, CaseState state, bool own_cohort) {
@@ -130,6 +143,10 @@ std::string name_of(DecisionKind kind) {
   return kDecisions[static_cast<std::size_t>(kind)];
 }
 
+std::string Decision::who() const {
+  return by_operator.value_or(false) ? pseudonym + " (entered by the operator)" : pseudonym;
+}
+
 std::vector<Decision> list_decisions(Library& library, const std::string& case_id) {
   std::vector<Decision> decisions;
   Statement from = question(library.database(), "decisions_of_case");
@@ -141,6 +158,7 @@ std::vector<Decision> list_decisions(Library& library, const std::string& case_i
     one.pseudonym = from.text("pseudonym");
     one.note = from.text("note");
     one.decided_us = from.integer("decided_us");
+    if (!from.is_null("by_operator")) one.by_operator = from.integer("by_operator") != 0;
   }
   return decisions;
 }
@@ -150,8 +168,10 @@ std::optional<Decision> review_of(const std::vector<Decision>& decisions) {
   return approved == nullptr ? std::nullopt : std::optional(*approved);
 }
 
-base::Result<void> submit_case(Library& library, const std::string& case_id, const std::string& by,
-                               const std::string& note) {
+namespace {
+
+base::Result<void> try_to_submit(Library& library, const std::string& case_id, const std::string& by,
+                                 const std::string& note) {
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
@@ -163,8 +183,8 @@ base::Result<void> submit_case(Library& library, const std::string& case_id, con
   return {};
 }
 
-base::Result<void> judge_case(Library& library, const std::string& case_id, const std::string& by, bool approve,
-                              const std::string& note) {
+base::Result<void> try_to_judge(Library& library, const std::string& case_id, const std::string& by, bool approve,
+                                const std::string& note) {
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
@@ -181,8 +201,8 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
   return {};
 }
 
-base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
-                                const std::string& by, bool own_cohort, const std::string& note) {
+base::Result<void> try_to_publish(Library& library, const std::string& case_id, const CaseCheck& check,
+                                  const std::string& by, bool own_cohort, const std::string& note) {
   if (const auto ready = ready_to_publish(check); !ready) return ready.error();
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
@@ -212,8 +232,8 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
   return {};
 }
 
-base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
-                               const std::string& note) {
+base::Result<void> try_to_retire(Library& library, const std::string& case_id, const std::string& by,
+                                 const std::string& note) {
   Transaction transaction(library.database());
   const auto wanted = wish(library, case_id, by, note);
   if (!wanted) return wanted.error();
@@ -228,7 +248,7 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
   return {};
 }
 
-base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by) {
+base::Result<std::string> try_to_make_version(Library& library, const std::string& case_id, const std::string& by) {
   Transaction transaction(library.database());
   auto wanted = wish(library, case_id, by, {});
   if (!wanted) return wanted.error();
@@ -254,6 +274,34 @@ base::Result<std::string> new_version(Library& library, const std::string& case_
   decide(library, *wanted, DecisionKind::made, {});
   transaction.commit();
   return made;
+}
+
+}  // namespace
+
+base::Result<void> submit_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note) {
+  return kept(library, DecisionKind::submitted, case_id, try_to_submit(library, case_id, by, note));
+}
+
+base::Result<void> judge_case(Library& library, const std::string& case_id, const std::string& by, bool approve,
+                              const std::string& note) {
+  return kept(library, approve ? DecisionKind::approved : DecisionKind::returned, case_id,
+              try_to_judge(library, case_id, by, approve, note));
+}
+
+base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
+                                const std::string& by, bool own_cohort, const std::string& note) {
+  return kept(library, DecisionKind::published, case_id,
+              try_to_publish(library, case_id, check, by, own_cohort, note));
+}
+
+base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
+                               const std::string& note) {
+  return kept(library, DecisionKind::retired, case_id, try_to_retire(library, case_id, by, note));
+}
+
+base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by) {
+  return kept(library, DecisionKind::made, case_id, try_to_make_version(library, case_id, by));
 }
 
 }  // namespace seldinger::casedb

@@ -16,6 +16,10 @@ struct Decision {
   DecisionKind kind = DecisionKind::made;
   std::string person_id, pseudonym, note;
   std::int64_t decided_us = 0;
+  // Whether the operator entered it in that person's name, who had not logged in; nothing: before this was kept.
+  std::optional<bool> by_operator{};
+  // The pseudonym, and that the operator entered it.
+  std::string who() const;
 };
 std::string name_of(DecisionKind kind);
 

@@ -100,6 +100,10 @@ std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) 
   return hash;
 }
 
+void wipe(std::span<char> secret) noexcept {
+  sodium_memzero(secret.data(), secret.size());
+}
+
 void wipe(std::string& secret) noexcept {
   sodium_memzero(secret.data(), secret.size());
   secret.clear();

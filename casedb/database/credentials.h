@@ -40,5 +40,6 @@ class Sha256 {
 using HashKey = std::array<std::byte, 32>;
 std::array<std::byte, 16> keyed_hash(const HashKey& key, std::string_view text) noexcept;
 void wipe(std::string& secret) noexcept;  // overwrites, then empties
+void wipe(std::span<char> secret) noexcept;
 
 }  // namespace seldinger::casedb

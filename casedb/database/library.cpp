@@ -104,6 +104,7 @@ struct Library::Parts {
   fs::path folder;
   Sqlite database;
   Sqlite identities;
+  Actor actor{};
 };
 
 base::Result<Library> Library::open(const fs::path& folder) {
@@ -114,7 +115,7 @@ base::Result<Library> Library::open(const fs::path& folder) {
     if (!fs::exists(folder / kIdentitiesFile))
       return base::Error{"damaged", "the library's database of names is missing; restore a backup"};
     auto parts = std::make_unique<Parts>(
-        Parts{fs::absolute(folder), Sqlite(folder / kDatabaseFile), Sqlite(folder / kIdentitiesFile)});
+        Parts{fs::absolute(folder), Sqlite(folder / kDatabaseFile), Sqlite(folder / kIdentitiesFile), {}});
     const auto version = schema_version(parts->database, library_schema());
     if (!version) return version.error();
     const auto identities_version = schema_version(parts->identities, identities_schema());
@@ -173,6 +174,12 @@ Sqlite& Library::database() noexcept {
 }
 Sqlite& Library::identities() noexcept {
   return parts_->identities;
+}
+const Actor& Library::actor() const noexcept {
+  return parts_->actor;
+}
+void Library::act_for(Actor actor) noexcept {
+  parts_->actor = std::move(actor);
 }
 const fs::path& Library::folder() const noexcept {
   return parts_->folder;

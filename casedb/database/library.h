@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "casedb/database/actor.h"
 #include "sim/base/result.h"
 
 namespace seldinger::casedb {
@@ -37,6 +38,9 @@ class Library {
   Sqlite& database() noexcept;    // cases, attempts, accounts
   Sqlite& identities() noexcept;  // names only
   const std::filesystem::path& folder() const noexcept;
+  // For whom it acts, as audit log and decisions keep it: the operator, until somebody has proven who they are.
+  const Actor& actor() const noexcept;
+  void act_for(Actor actor) noexcept;
   // Gives back the pages that SQLite keeps (up to 2 MB a database): for who stays open long and reads seldom.
   void shrink();
 

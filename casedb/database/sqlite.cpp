@@ -231,6 +231,10 @@ bool Sqlite::in_transaction() const noexcept {
   return sqlite3_get_autocommit(connection_.get()) == 0;
 }
 
+bool Sqlite::read_only() const noexcept {
+  return sqlite3_db_readonly(connection_.get(), "main") == 1;
+}
+
 void Sqlite::copy_to(Sqlite& other) {
   sqlite3_backup* backup = sqlite3_backup_init(other.connection_.get(), "main", connection_.get(), "main");
   if (backup == nullptr) fail(other.connection_.get(), sqlite3_errcode(other.connection_.get()));

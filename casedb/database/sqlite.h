@@ -90,6 +90,7 @@ class Sqlite {
   std::int64_t integer(std::string_view sql);
   std::string text(std::string_view sql);
   bool in_transaction() const noexcept;
+  bool read_only() const noexcept;
   // Makes `other` this database as it is now, page by page, while others read and write here (SQLite's online
   // backup). Whatever was in `other` is gone.
   void copy_to(Sqlite& other);

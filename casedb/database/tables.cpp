@@ -9,8 +9,8 @@ namespace {
 constexpr std::string_view kAssetEnding = "_sha256";
 constexpr std::string_view kOfCase = "case_id = :case_id";
 // Also that somebody looked for burned-in text: here, or in the library that it came from.
-constexpr std::array<std::string_view, 5> kChanging{"title", "state", "audience", "burned_in_checked_us",
-                                                    "burned_in_checked_by"};
+constexpr std::array<std::string_view, 6> kChanging{
+    "title", "state", "audience", "burned_in_checked_us", "burned_in_by_operator", "burned_in_checked_by"};
 
 constexpr TravellingTable kTravelling[] = {
     {"training_case", kOfCase, kChanging}, {"case_attribute", kOfCase, {}}, {"case_warning", kOfCase, {}},
@@ -48,7 +48,10 @@ constexpr std::string_view kStaying[] = {"person",
                                          "replay_watched",
                                          "standard",
                                          "standard_attempt",
-                                         "standard_band"};
+                                         "standard_band",
+                                         "login_session",
+                                         "audit",
+                                         "audit_head"};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/cases/permissions.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/utf8.h"
@@ -129,6 +130,7 @@ base::Result<std::string> add_curriculum(Library& library, const std::string& ti
       .bind("made_by", account->person_id)
       .bind("made_us", now_us())
       .run();
+  audit(library, Act::make_curriculum, {"curriculum", curriculum_id});
   transaction.commit();
   return curriculum_id;
 }
@@ -173,6 +175,7 @@ base::Result<int> add_curriculum_item(Library& library, const std::string& curri
         .bind("after_position", static_cast<std::int64_t>(gate.after) + 1)
         .bind("reached", assessment::name_of(gate.reached))
         .run();
+  audit(library, Act::change_curriculum, {"curriculum", curriculum_id});
   transaction.commit();
   return position;
 }
@@ -192,6 +195,7 @@ base::Result<void> publish_curriculum(Library& library, const std::string& curri
       return base::Error{"not_published", "a case of the curriculum was retired since"};
   }
   set_state(library.database(), curriculum_id, CurriculumState::published, account->person_id);
+  audit(library, Act::publish_curriculum, {"curriculum", curriculum_id});
   transaction.commit();
   return {};
 }
@@ -210,6 +214,7 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
     question(library.database(), "remove_curriculum").bind("curriculum_id", curriculum_id).run();
   else
     set_state(library.database(), curriculum_id, CurriculumState::retired, account->person_id);
+  audit(library, draft ? Act::remove_curriculum : Act::retire_curriculum, {"curriculum", curriculum_id});
   transaction.commit();
   return {};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "casedb/cases/permissions.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
@@ -142,7 +143,7 @@ assessment::ExpertSet consultants_of(Library& library, const Task& task) {
 
 base::Result<std::string> set_standard(Library& library, const std::string& case_id, const std::string& lesion_id,
                                        std::optional<cases::Modality> modality, const std::string& by) {
-  const auto account = open_account(library, by);
+  const auto account = acting_account(library, by);
   if (!account) return account.error();
   const auto row = find_case(library, case_id);
   if (!row) return row.error();
@@ -170,6 +171,7 @@ base::Result<std::string> set_standard(Library& library, const std::string& case
     return base::Error{"same_standard", "the standard in force is made of the same values"};
   std::string standard_id = new_uuid();
   store(library.database(), task, set, standard_id, account->person_id);
+  audit(library, Act::set_standard, {"standard", standard_id});
   transaction.commit();
   return standard_id;
 }
@@ -178,7 +180,10 @@ std::vector<Standard> list_standards(Library& library, const std::string& case_i
   Sqlite& database = library.database();
   std::vector<Standard> standards;
   Statement rows = question(database, "standards_of_case");
-  for (rows.bind("case_id", case_id); rows.step();) standards.push_back(read_standard(database, rows));
+  for (rows.bind("case_id", case_id); rows.step();) {
+    standards.push_back(read_standard(database, rows));
+    standards.back().by_operator = entered_by_operator(database, Act::set_standard, rows.text("standard_id"));
+  }
   return standards;
 }
 

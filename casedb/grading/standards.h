@@ -37,6 +37,7 @@ struct Standard {
   std::string lesion_id;
   std::string modality, approach, instrument;  // by name
   assessment::ExpertSet set;
+  bool by_operator = false;  // who entered it in a director's name
 };
 // Freezes consultants_of the task; with the case's own approach and needle, and its guidance and target unless
 // told. By a director whose attempts are not among them. Answers its id. Refused: `no_user`, `no_case`,

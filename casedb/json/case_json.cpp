@@ -113,13 +113,14 @@ void add_authoring(const CaseParts& parts, Json& json) {
   for (const Decision& one : parts.decisions)
     decisions.push_back({{"decision", name_of(one.kind)},
                          {"by", one.pseudonym},
+                         {"by_operator", one.by_operator ? Json(*one.by_operator) : Json(nullptr)},
                          {"decided_us", one.decided_us},
                          {"note", one.note}});
   const auto review = review_of(parts.decisions);
   json["version"] = row.version;
   json["family_id"] = row.family_id;
   json["audience"] = row.own_cohort_only ? "own_cohort" : "everyone";
-  json["reviewed_by"] = review ? Json(review->pseudonym) : Json(nullptr);
+  json["reviewed_by"] = review ? Json(review->who()) : Json(nullptr);
   json["decisions"] = decisions;
   add_setting(row, json);
   json["provisional"] = parts.provisional;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "casedb/cases/bundle_rows.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/migrate.h"
@@ -208,6 +209,7 @@ base::Result<bool> store(Library& library, const OpenFile& file, const BundleLis
     if (!rows) return rows.error();
     if (presence(**rows, library.database(), part.case_id) != Presence::absent) return false;
     insert_rows(**rows, library.database(), part.case_id);
+    audit(library, Act::import_cases, {"case", part.case_id});
   }
   transaction.commit();
   assets.keep();

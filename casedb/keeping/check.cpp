@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/library.h"
@@ -161,6 +162,7 @@ base::Result<CheckReport> checked(const fs::path& folder, bool repair) {
     check_recordings(question(database, "open_recording_sizes"), question(database, "every_open_chunk"), report);
   }
   check_people(*library, report);
+  for (base::Problem& problem : problems_of_audit(*library)) report.findings.push_back(std::move(problem));
   return report;
 }
 

@@ -13,7 +13,8 @@ namespace seldinger::casedb {
 
 struct CheckReport {
   // What does not hold: `database_damaged`, `reference_broken`, `asset_missing`, `asset_damaged`, `asset_orphaned`,
-  // `incomplete`, `recording_damaged`, `leftover_file`, `unknown_file`, `name_without_person`.
+  // `incomplete`, `recording_damaged`, `leftover_file`, `unknown_file`, `name_without_person`, `audit_changed`,
+  // `audit_missing`, `audit_cut`.
   std::vector<base::Problem> findings;
   std::vector<base::Problem> repaired;  // found and mended
   std::size_t cases = 0, attempts = 0, assets = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "casedb/cases/cases.h"
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/disk.h"
 #include "casedb/database/question.h"
@@ -22,24 +23,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr PersonColumn kRemoved[] = {
-    {"account", "person_id"},
-    {"attempt", "person_id"},
-    {"enrolment", "person_id"},
-    {"open_attempt", "person_id"},
-    {"person_fact", "person_id"},
-    {"person_level", "person_id"},
-    {"programme_director", "person_id"},
-    {"replay_watched", "person_id"},
-    {"study_researcher", "person_id"},
+    {"account", "person_id"},        {"attempt", "person_id"},
+    {"enrolment", "person_id"},      {"login_session", "person_id"},
+    {"open_attempt", "person_id"},   {"person_fact", "person_id"},
+    {"person_level", "person_id"},   {"programme_director", "person_id"},
+    {"replay_watched", "person_id"}, {"study_researcher", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
-    {"case_decision", "person_id"},
-    {"consent", "person_id"},
-    {"curriculum", "made_by"},
-    {"curriculum", "published_by"},
-    {"standard", "set_by"},
-    {"erasure", "by_person_id"},
-    {"training_case", "burned_in_checked_by"},
+    {"audit", "person_id"},         {"case_decision", "person_id"},
+    {"consent", "person_id"},       {"curriculum", "made_by"},
+    {"curriculum", "published_by"}, {"standard", "set_by"},
+    {"erasure", "by_person_id"},    {"training_case", "burned_in_checked_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {
@@ -57,7 +51,7 @@ void remove_with_what_refers(Sqlite& database, const std::string& table, const s
 // One transaction of erasing; what may be gone from assets/ is looked at when it is committed.
 class Erasing {
  public:
-  Erasing(Library& library, const char* what, const std::optional<std::string>& by)
+  Erasing(Library& library, Act act, const char* what, const std::optional<std::string>& by)
       : library_(library), database_(library.database()) {
     database_.run("PRAGMA secure_delete = ON");  // also of pages that are freed
     transaction_.emplace(database_);
@@ -67,6 +61,7 @@ class Erasing {
         .bind("erased_us", now_us())
         .bind("by_person_id", by)
         .run();
+    audit(library_, act, {"erasure", erasure_id_});
   }
   Sqlite& database() noexcept { return database_; }
 
@@ -199,7 +194,7 @@ base::Result<Erased> erase_person(Library& library, const std::string& name, con
     if (!identity.bind("name", name).step()) return base::Error{"no_user", "there is no such user"};
     person_id = identity.text("person_id");
   }
-  Erasing erasing(library, "person", by);
+  Erasing erasing(library, Act::erase_person, "person", by);
   empty_person(erasing, person_id);
   erasing.commit();
   {
@@ -219,7 +214,7 @@ base::Result<Erased> erase_attempts_of(Library& library, const std::string& pers
     CHECK(row.bind("person_id", person_id).step());
     if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
   }
-  Erasing erasing(library, "attempts", by);
+  Erasing erasing(library, Act::erase_attempts, "attempts", by);
   erasing.attempts_of(person_id);
   erasing.commit();
   clean(library, erasing.sum);
@@ -228,7 +223,7 @@ base::Result<Erased> erase_attempts_of(Library& library, const std::string& pers
 
 base::Result<Erased> erase_attempt(Library& library, const std::string& attempt_id,
                                    const std::optional<std::string>& by) {
-  Erasing erasing(library, "attempts", by);
+  Erasing erasing(library, Act::erase_attempts, "attempts", by);
   std::string case_id;
   {
     Statement row = question(library.database(), "case_of_attempt");
@@ -243,7 +238,7 @@ base::Result<Erased> erase_attempt(Library& library, const std::string& attempt_
 
 base::Result<Erased> erase_case(Library& library, const std::string& case_id,
                                 const std::optional<std::string>& by) {
-  Erasing erasing(library, "case", by);
+  Erasing erasing(library, Act::erase_case, "case", by);
   Sqlite& database = erasing.database();
   const auto row = find_case(library, case_id);
   if (!row) return row.error();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
@@ -55,6 +56,7 @@ base::Result<std::string> add_cohort(Library& library, const std::string& title,
       return base::Error{"title_taken", "there is already a cohort of that title"};
     CHECK(!insert.step());
   }
+  audit(library, Act::make_cohort, {"cohort", cohort_id});
   transaction.commit();
   return cohort_id;
 }
@@ -101,6 +103,7 @@ base::Result<void> enrol(Library& library, const std::string& cohort_id, const s
       .bind("post", name_of(post))
       .bind("from_us", now)
       .run();
+  audit(library, Act::enrol, {"person", person_id});
   transaction.commit();
   return {};
 }
@@ -114,6 +117,7 @@ base::Result<void> end_enrolment(Library& library, const std::string& cohort_id,
       ++ended;
   }
   if (ended == 0) return kNotEnrolled;
+  audit(library, Act::end_enrolment, {"person", person_id});
   transaction.commit();
   return {};
 }
@@ -127,6 +131,7 @@ base::Result<void> appoint_director(Library& library, const std::string& program
       .bind("person_id", person_id)
       .bind("from_us", now_us())
       .run();
+  audit(library, Act::appoint_director, {"person", person_id});
   transaction.commit();
   return {};
 }
@@ -140,6 +145,7 @@ base::Result<void> end_director(Library& library, const std::string& programme, 
       ++ended;
   }
   if (ended == 0) return kNotEnrolled;
+  audit(library, Act::end_director, {"person", person_id});
   transaction.commit();
   return {};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
@@ -44,6 +45,7 @@ base::Result<std::string> add_study(Library& library, const std::string& title) 
       return base::Error{"title_taken", "there is already a study of that title"};
     CHECK(!insert.step());
   }
+  audit(library, Act::make_study, {"study", study_id});
   transaction.commit();
   return study_id;
 }
@@ -70,6 +72,7 @@ base::Result<void> add_researcher(Library& library, const std::string& study_id,
       .bind("person_id", person_id)
       .bind("from_us", now_us())
       .run();
+  audit(library, Act::appoint_researcher, {"person", person_id});
   transaction.commit();
   return {};
 }
@@ -87,10 +90,11 @@ base::Result<int> add_consent_text(Library& library, const std::optional<std::st
   if (study_id)
     if (const auto known = find_study(library, *study_id); !known) return known.error();
   Transaction transaction(library.database());
+  const std::string text_id = new_uuid();
   int version = 0;
   {
     Statement insert = question(library.database(), "add_consent_text");
-    insert.bind("text_id", new_uuid())
+    insert.bind("text_id", text_id)
         .bind("study_id", study_id)
         .bind("body", body)
         .bind("body_hash", sha256_hex(std::as_bytes(std::span(body))))
@@ -99,6 +103,7 @@ base::Result<int> add_consent_text(Library& library, const std::optional<std::st
     version = insert.small_integer("version");
     CHECK(!insert.step());
   }
+  audit(library, Act::add_consent_text, {"consent_text", text_id});
   transaction.commit();
   return version;
 }
@@ -137,6 +142,7 @@ base::Result<void> give_consent(Library& library, const std::string& person_id, 
     while (insert.step()) {
     }
   }
+  audit(library, Act::give_consent, {"consent_text", text_id});
   transaction.commit();
   return {};
 }
@@ -153,6 +159,7 @@ base::Result<void> withdraw_consent(Library& library, const std::string& person_
     while (withdraw.step()) ++withdrawn;
   }
   if (withdrawn == 0) return base::Error{"not_given", "no consent to this text stands"};
+  audit(library, Act::withdraw_consent, {"consent_text", text_id});
   transaction.commit();
   return {};
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
@@ -104,6 +105,7 @@ base::Result<void> give_fact(Library& library, const std::string& person_id, con
       .bind("given_us", now_us())
       .bind("answer", *checked)
       .run();
+  audit(library, Act::give_fact, {"person", person_id});
   transaction.commit();
   return {};
 }

@@ -25,7 +25,9 @@ struct Account {
   std::string person_id, login_name;
   Role role = Role::trainee;
   bool enabled = true;
-  std::string password_mark{};   // another one after each change of the password; says nothing about it
+  // Another one after each change of password or role, and once the account was closed: ends what was begun with
+  // it. Says nothing about the password.
+  std::string password_mark{};
   std::optional<Level> level{};  // in list_users: what is known last
 };
 
@@ -39,10 +41,14 @@ base::Result<std::string> add_user(Library& library, const std::string& name, Ro
 std::vector<Account> list_users(Library& library);  // oldest first; those who have a name
 base::Result<void> set_password(Library& library, const std::string& name,
                                 const std::string& password);  // `no_user`, `weak_password`
+// In these two the last admin whose account is open stays one: `last_admin`. Whoever is logged in is logged out.
 base::Result<void> set_enabled(Library& library, const std::string& name, bool enabled);  // `no_user`
+base::Result<void> set_role(Library& library, const std::string& name, Role role);        // `no_user`
 // From now on; what was before stays, and with it what earlier attempts count as. `no_user`.
 base::Result<void> set_level(Library& library, const std::string& name, Level level);
 // The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
+// Kept in the audit log, either way.
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);
+void log_out(Library& library, const std::string& person_id);  // only keeps that somebody did
 
 }  // namespace seldinger::casedb

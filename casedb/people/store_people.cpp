@@ -2,6 +2,7 @@
 #include <span>
 #include <unordered_map>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/credentials.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
@@ -42,8 +43,9 @@ std::optional<Identity> find_identity(Library& library, const std::string& name)
 constexpr auto kLevels = base::names<Level>(
     {{Level::student, "student"}, {Level::trainee, "trainee"}, {Level::consultant, "consultant"}});
 
-std::string mark_of(const std::string& password_hash) {
-  return sha256_hex(std::as_bytes(std::span(password_hash))).substr(0, 16);
+std::string mark_of(const std::string& password_hash, std::int64_t epoch) {
+  const std::string both = password_hash + '\n' + std::to_string(epoch);
+  return sha256_hex(std::as_bytes(std::span(both))).substr(0, 16);
 }
 
 base::Result<void> check_password(const std::string& password) {
@@ -52,7 +54,8 @@ base::Result<void> check_password(const std::string& password) {
   return {};
 }
 
-void add_account(Sqlite& database, const std::string& person_id, Role role, const std::string& hash) {
+void add_account(Library& library, const std::string& person_id, Role role, const std::string& hash) {
+  Sqlite& database = library.database();
   std::array<std::byte, 5> random{};
   fill_random(random);
   const std::string pseudonym = "P-" + sha256_hex(random).substr(0, 10);
@@ -70,6 +73,7 @@ void add_account(Sqlite& database, const std::string& person_id, Role role, cons
       .bind("enabled", 1)
       .bind("created_us", created_us)
       .run();
+  audit(library, Act::add_account, {"person", person_id});
   transaction.commit();
 }
 
@@ -99,7 +103,16 @@ void store_hash(Library& library, const std::string& person_id, const std::strin
       .bind("password_hash", hash)
       .bind("old_hash", old_hash)
       .run();
+  if (!old_hash) audit(library, Act::set_password, {"person", person_id});
   transaction.commit();
+}
+
+// Within the transaction that takes an admin away.
+base::Result<void> check_admin_is_left(Library& library, const std::string& person_id) {
+  Statement row = question(library.database(), "is_last_admin");
+  CHECK(row.bind("person_id", person_id).step());
+  if (row.integer("last") == 0) return {};
+  return base::Error{"last_admin", "this is the only admin; make another one first"};
 }
 
 }  // namespace
@@ -132,7 +145,7 @@ base::Result<std::string> add_user(Library& library, const std::string& name, Ro
   if (find_identity(library, name)) return kNameTaken;
   std::string person_id = new_uuid();
   // The account first: one without a name can never log in, a name without an account would be taken for ever.
-  add_account(library.database(), person_id, role, hash_password(password));
+  add_account(library, person_id, role, hash_password(password));
   bool named = false;
   try {
     named = add_identity(library.identities(), person_id, name);
@@ -159,7 +172,7 @@ std::vector<Account> list_users(Library& library) {
   for (Statement all = question(library.database(), "accounts"); all.step();)
     if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
       users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
-                       mark_of(all.text("password_hash")), level_from(all.text("level"))});
+                       mark_of(all.text("password_hash"), all.integer("epoch")), level_from(all.text("level"))});
   return users;
 }
 
@@ -175,10 +188,25 @@ base::Result<void> set_enabled(Library& library, const std::string& name, bool e
   const auto identity = find_identity(library, name);
   if (!identity) return kNoUser;
   Transaction transaction(library.database());
+  if (!enabled)
+    if (const auto fit = check_admin_is_left(library, identity->person_id); !fit) return fit.error();
   question(library.database(), "set_enabled")
       .bind("person_id", identity->person_id)
       .bind("enabled", enabled ? 1 : 0)
       .run();
+  audit(library, enabled ? Act::enable_account : Act::disable_account, {"person", identity->person_id});
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> set_role(Library& library, const std::string& name, Role role) {
+  const auto identity = find_identity(library, name);
+  if (!identity) return kNoUser;
+  Transaction transaction(library.database());
+  if (role != Role::admin)
+    if (const auto fit = check_admin_is_left(library, identity->person_id); !fit) return fit.error();
+  question(library.database(), "set_role").bind("person_id", identity->person_id).bind("role", name_of(role)).run();
+  audit(library, Act::set_role, {"person", identity->person_id});
   transaction.commit();
   return {};
 }
@@ -192,6 +220,7 @@ base::Result<void> set_level(Library& library, const std::string& name, Level le
       .bind("since_us", now_us())
       .bind("level", name_of(level))
       .run();
+  audit(library, Act::set_level, {"person", identity->person_id});
   transaction.commit();
   return {};
 }
@@ -199,22 +228,33 @@ base::Result<void> set_level(Library& library, const std::string& name, Level le
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password) {
   Account account;
   std::string hash = unmatchable_hash();
+  std::int64_t epoch = 0;
   if (const auto identity = find_identity(library, name)) {
     Statement stored = question(library.database(), "account");
     if (stored.bind("person_id", identity->person_id).step()) {
       account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}, {}};
       hash = stored.text("password_hash");
+      epoch = stored.integer("epoch");
     }
   }
   const bool fits = verify_password(hash, password);
-  if (!fits || account.person_id.empty() || !account.enabled) return std::nullopt;
+  const Object of_whom = account.person_id.empty() ? Object{} : Object{"person", account.person_id};
+  if (!fits || account.person_id.empty() || !account.enabled) {
+    audit_alone(library, Actor::nobody(), Act::log_in, of_whom, Outcome::refused);
+    return std::nullopt;
+  }
   if (needs_rehash(hash)) {
     const std::string better = hash_password(password);
     store_hash(library, account.person_id, better, hash);
     hash = better;
   }
-  account.password_mark = mark_of(hash);
+  account.password_mark = mark_of(hash, epoch);
+  audit_alone(library, Actor::person(account.person_id), Act::log_in, of_whom, Outcome::done);
   return account;
+}
+
+void log_out(Library& library, const std::string& person_id) {
+  audit_alone(library, Actor::person(person_id), Act::log_out, {"person", person_id}, Outcome::done);
 }
 
 }  // namespace seldinger::casedb

@@ -88,7 +88,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_table(html, "The case");
   add_fact(html, "State", state_text(row));
   const auto review = casedb::review_of(parts.decisions);
-  add_fact(html, "Reviewed by", review ? review->pseudonym : "nobody");
+  add_fact(html, "Reviewed by", review ? review->who() : "nobody");
   add_fact(html, "Guidance", guidance_text(row));
   add_fact(html, "Needle",
            instrument_text(row.instrument) + ", " + number_text(row.instrument.length_mm, 0) + " mm");
@@ -117,7 +117,7 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
   add_table(html, "Decisions");
   for (const casedb::Decision& one : parts.decisions)
     add_fact(html, casedb::name_of(one.kind),
-             one.pseudonym + ", " + utc_text(one.decided_us) + (one.note.empty() ? "" : ": " + one.note));
+             one.who() + ", " + utc_text(one.decided_us) + (one.note.empty() ? "" : ": " + one.note));
   end_table(html);
   html.raw("<p><a href=\"/cases/").text(row.case_id).raw("/case.json\">as JSON</a>, <a href=\"/cases/");
   html.text(row.case_id).raw("/checks.json\">its checks</a></p>\n");

@@ -31,6 +31,7 @@ class FakeQuestions final : public Questions {
     }
     return std::nullopt;
   }
+  void log_out(const std::string& person_id) override { logged_out.push_back(person_id); }
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
     for (const casedb::Account& account : list_accounts()) {
       if (account.person_id == person_id) return account;
@@ -127,6 +128,7 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::vector<casedb::Enrolment>> enrolments;  // by cohort
   reports::AboutMe about_me;
   std::string asked_about;
+  std::vector<std::string> logged_out;
   std::vector<std::string> done;             // what was changed, in words
   std::vector<casedb::AttemptRow> attempts;  // newest first
   std::vector<casedb::CaseRow> cases;        // oldest first

@@ -8,6 +8,8 @@
 
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
+#include "casedb/database/audit.h"
+#include "casedb/people/consent.h"
 #include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/sound_check.h"
@@ -171,6 +173,50 @@ TEST(LibraryQuestions, DisablingAnAccountElsewhereEndsItsSession) {
   ASSERT_TRUE(casedb::set_enabled(*elsewhere, "Mia", false).has_value());
   EXPECT_EQ(browser.get("/attempts").status, 303);
   EXPECT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 403);
+}
+
+TEST(LibraryQuestions, AChangedRoleEndsItsSessions) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  auto elsewhere = casedb::Library::open(library.folder());
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  ASSERT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 303);
+  ASSERT_TRUE(casedb::set_role(*elsewhere, "Mia", casedb::Role::trainee).has_value());
+  EXPECT_EQ(header_of(browser.get("/attempts"), "Location"), "/login");
+  // Closed and opened again, what was begun before stays over.
+  ASSERT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 303);
+  ASSERT_TRUE(casedb::set_enabled(*elsewhere, "Mia", false).has_value());
+  ASSERT_TRUE(casedb::set_enabled(*elsewhere, "Mia", true).has_value());
+  EXPECT_EQ(header_of(browser.get("/attempts"), "Location"), "/login");
+}
+
+// Before, no log-in left a trace.
+TEST(LibraryQuestions, WhoLogsInAndOutAndDecidesIsInTheAuditLog) {
+  casedb::Library library = fresh_library();
+  const std::string mia = casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).value();
+  const std::string text_id = [&] {
+    static_cast<void>(casedb::add_consent_text(library, std::nullopt, "May we?").value());
+    return casedb::list_consents(library, mia).front().text_id;
+  }();
+  auto elsewhere = casedb::Library::open(library.folder());
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  ASSERT_EQ(browser.log_in("Mia", "wrong+password").status, 403);
+  ASSERT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 303);
+  ASSERT_TRUE(real.questions->give_consent(mia, text_id));
+  ASSERT_TRUE(real.questions->erase_attempts_of(mia));
+  ASSERT_EQ(browser.post("/logout", "token=" + form_token(browser.get("/attempts").body, "/logout")).status, 303);
+  std::vector<std::string> told;
+  for (const casedb::AuditRow& row : casedb::list_audit(*elsewhere)) {
+    told.push_back(row.act + " " + row.actor + " " + row.result);
+    EXPECT_EQ(row.person_id == mia, row.actor == "person");
+  }
+  EXPECT_THAT(told,
+              ::testing::ElementsAre("add_account operator done", "add_consent_text operator done",
+                                     "log_in nobody refused", "log_in person done", "give_consent person done",
+                                     "erase_attempts person done", "log_out person done"));
+  EXPECT_TRUE(casedb::problems_of_audit(*elsewhere).empty());
 }
 
 TEST(OpenServer, AnswersOverALibraryWithRandomThatNobodyGuesses) {

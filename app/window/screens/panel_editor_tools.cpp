@@ -450,8 +450,9 @@ void EditorPanel::draw_tool(CaseEditor& editor) {
       heading("Look");
       quiet("Click: the cursor goes there, in all planes. Wheel: slice by slice. H: all keys.");
       for (const casedb::Decision& one : editor.decisions())
-        ImGui::BulletText("%s%s%s", casedb::name_of(one.kind).c_str(), one.note.empty() ? "" : ": ",
-                          one.note.c_str());
+        ImGui::BulletText("%s%s%s%s", casedb::name_of(one.kind).c_str(),
+                          one.by_operator.value_or(false) ? " (entered by the operator)" : "",
+                          one.note.empty() ? "" : ": ", one.note.c_str());
       break;
     case EditorTool::lesion:
       draw_lesion(editor);

@@ -16,6 +16,7 @@ constexpr int kMostHelp = 2;
 
 Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
     : library_(std::move(library)), arms_(std::move(arms)) {
+  library_.act_for(casedb::Actor::nobody());
   // A person is asked first, when they come to the case.
   session::close_interrupted_attempts(library_, [this](const casedb::OpenAttempt& attempt) {
     return !attempt.synthetic() && attempt.person_id && session::is_interrupted(library_, attempt);
@@ -30,6 +31,7 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
   }
   refusal_.clear();
   account_ = *account;
+  library_.act_for(casedb::Actor::person(account_.person_id));
   list_choices();
   screen_ = TrainerScreen::choose;
   if (!first_case_.empty()) open_first();
@@ -128,6 +130,8 @@ void Trainer::log_out() {
   interrupted_.reset();
   trying_ = resuming_ = false;
   choices_ = {};
+  if (!account_.person_id.empty()) casedb::log_out(library_, account_.person_id);
+  library_.act_for(casedb::Actor::nobody());
   account_ = {};
   refusal_.clear();
   screen_ = TrainerScreen::log_in;

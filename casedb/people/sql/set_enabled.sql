@@ -1,3 +1,3 @@
--- Whether an account may log in.
-UPDATE account SET enabled = :enabled
+-- Whether an account may log in; what was begun before a change is over.
+UPDATE account SET enabled = :enabled, epoch = epoch + (enabled <> :enabled)
 WHERE person_id = :person_id

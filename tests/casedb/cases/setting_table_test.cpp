@@ -167,10 +167,25 @@ TEST_F(SettingTableTest, EachIsInJson) {
 
 // What is no setting; a column that is neither here nor in the table would never be written.
 TEST_F(SettingTableTest, EachColumnOfACaseIsDataOrASetting) {
-  std::multiset<std::string> expected = {
-      "case_id",       "title",          "state",    "origin",      "created_us",           "hu_min",
-      "hu_max",        "family_id",      "version",  "slices_used", "volume_sha256",        "skin_sha256",
-      "labels_sha256", "classes_sha256", "audience", "face_state",  "burned_in_checked_us", "burned_in_checked_by"};
+  std::multiset<std::string> expected = {"case_id",
+                                         "title",
+                                         "state",
+                                         "origin",
+                                         "created_us",
+                                         "hu_min",
+                                         "hu_max",
+                                         "family_id",
+                                         "version",
+                                         "slices_used",
+                                         "volume_sha256",
+                                         "skin_sha256",
+                                         "labels_sha256",
+                                         "classes_sha256",
+                                         "audience",
+                                         "face_state",
+                                         "burned_in_checked_us",
+                                         "burned_in_checked_by",
+                                         "burned_in_by_operator"};
   for (const char* axis : {"x", "y", "z"}) {
     expected.insert(std::string("size_") + axis + "_voxels");
     expected.insert(std::string("spacing_") + axis + "_mm");

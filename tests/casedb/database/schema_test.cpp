@@ -132,7 +132,7 @@ TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
   const std::string lesion =
       "INSERT INTO lesion (lesion_id, case_id, center_x_lps_mm, center_y_lps_mm, center_z_lps_mm, radius_mm, hu, "
       "created_us) VALUES ";
-  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 1, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 1, 0, 0)");
   refuse(lesion + "('" + nobody + "', '" + nobody + "', 0, 0, 0, 1, 0, 0)");
   refuse(lesion + "('" + nobody + "', '" + case_id + "', 0, 0, 0, 0, 0, 0)");            // radius 0
   refuse(lesion + "('" + nobody + "', '" + case_id + "', 'here', 0, 0, 1, 0, 0)");       // STRICT
@@ -141,9 +141,9 @@ TEST_F(SchemaTest, ForeignKeysAndChecksRefuse) {
   refuse("UPDATE training_case SET state = 'lost'");
   refuse("DELETE FROM training_case");
   database_.run("INSERT INTO person (person_id, pseudonym, created_us) VALUES ('" + nobody + "', 'P', 0)");
-  refuse("INSERT INTO account VALUES ('" + nobody + "', 'king', '$argon2id$x', 1, 0)");
-  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', 'secret', 1, 0)");
-  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 2, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'king', '$argon2id$x', 1, 0, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', 'secret', 1, 0, 0)");
+  refuse("INSERT INTO account VALUES ('" + nobody + "', 'trainee', '$argon2id$x', 2, 0, 0)");
   refuse("INSERT INTO attempt_step VALUES ('" + attempt_id + "', 'insert', 3, 0, 'done', 1.0, '', 'guessed')");
   const std::string metric = "INSERT INTO metric_value VALUES ('" + attempt_id + "', 'm', 1, 0, ";
   refuse(metric + "NULL, 'mm', '')");        // no value, no reason

@@ -56,6 +56,26 @@ TEST_F(CheckTest, AWholeLibraryHoldsAndIsNotTouched) {
   EXPECT_EQ(contents_of(folder_), before);
 }
 
+// Before, roles and owners that were changed by SQL left "all holds", and nothing had been kept that could tell.
+TEST_F(CheckTest, AnAuditLogThatWasTouchedIsTold) {
+  const char* open = "DROP TRIGGER audit_is_immutable; DROP TRIGGER audit_is_kept; ";
+  const std::string good = fixtures::whole_file(folder_ / "seldinger.sqlite");
+  const std::pair<const char*, const char*> faults[] = {
+      {"UPDATE audit SET act = 'log_in' WHERE sequence = 2", "audit_changed"},
+      {"DELETE FROM audit WHERE sequence = 2", "audit_missing"},
+      {"UPDATE audit SET sequence = 99 WHERE sequence = 1; UPDATE audit SET sequence = 1 WHERE sequence = 2; "
+       "UPDATE audit SET sequence = 2 WHERE sequence = 99",
+       "audit_changed"},
+      {"DELETE FROM audit WHERE sequence = (SELECT max(sequence) FROM audit)", "audit_cut"}};
+  for (const auto& [sql, code] : faults) {
+    EXPECT_EQ(found(), Codes{});
+    change("seldinger.sqlite", std::string(open) + sql);
+    EXPECT_TRUE(found().contains(code)) << sql;
+    for (const char* side : {"-wal", "-shm"}) fs::remove(folder_ / (std::string("seldinger.sqlite") + side));
+    std::ofstream(folder_ / "seldinger.sqlite", std::ios::binary) << good;
+  }
+}
+
 TEST_F(CheckTest, WhatIsNoLibraryIsRefused) {
   EXPECT_EQ(check_library(folder_ / "nowhere", false).error().code, "no_library");
   change("seldinger.sqlite", "PRAGMA user_version = 9999");

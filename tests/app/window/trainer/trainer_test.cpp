@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "casedb/database/audit.h"
 #include "casedb/grading/curriculum.h"
 #include "tests/app/window/trainer/trainer_case.h"
 
@@ -25,6 +26,26 @@ TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
   EXPECT_TRUE(trainer.choices().empty()) << "a draft is for the case editor";
   ASSERT_EQ(trainer.drafts().size(), 1U);
   EXPECT_EQ(trainer.drafts()[0].title, "Ball");
+}
+
+// Before, no log-in at a workstation left a trace, and a new version was nobody's but by its name.
+TEST_F(TrainerTest, WhoLogsInAndDecidesIsInTheAuditLog) {
+  Trainer trainer(open());
+  casedb::Library library = open();
+  const std::size_t before = casedb::list_audit(library).size();
+  trainer.log_in("mona", "another password");
+  trainer.log_in("mona", kPassword);
+  trainer.new_version(case_id_);
+  trainer.log_out();
+  std::vector<std::string> told;
+  for (const casedb::AuditRow& row : casedb::list_audit(library))
+    if (row.sequence > static_cast<std::int64_t>(before))
+      told.push_back(row.act + " " + row.actor + " " + row.result);
+  EXPECT_EQ(told, (std::vector<std::string>{"log_in nobody refused", "log_in person done",
+                                            "make_case_version person done", "log_out person done"}));
+  const auto decisions = casedb::list_decisions(library, casedb::list_cases(library).back().case_id);
+  ASSERT_FALSE(decisions.empty());
+  EXPECT_EQ(decisions.back().by_operator, false);
 }
 
 // A mentor tries what is in the case editor: graded, and no attempt is kept, so that it can be changed afterwards.

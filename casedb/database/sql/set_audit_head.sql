@@ -1,0 +1,2 @@
+-- One row more.
+UPDATE audit_head SET count = :count, hash = :hash

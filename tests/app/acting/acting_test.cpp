@@ -1,0 +1,363 @@
+// The door of the commands: who acts, what proves it, and that every command that changes something asks the one
+// table of permissions. Before, `case setting`, `user passwd`, `backup` and eighteen others asked nobody.
+#include "app/acting/acting.h"
+
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "app/acting/token_file.h"
+#include "app/commands.h"
+#include "casedb/attempts/attempts.h"
+#include "casedb/cases/authoring.h"
+#include "casedb/cases/versions.h"
+#include "casedb/grading/curriculum.h"
+#include "casedb/people/consent.h"
+#include "casedb/people/login_session.h"
+#include "tests/casedb/library_samples.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace fs = std::filesystem;
+using casedb::Action;
+using casedb::CaseState;
+using casedb::Role;
+using casedb::Subject;
+
+constexpr const char* kPassword = "a long password";
+
+const Command& command_of(const std::string& name) {
+  for (const Command& one : commands())
+    if (name == one.name) return one;
+  throw std::runtime_error(name);
+}
+
+struct Told {
+  int exit_code = 0;
+  std::string code, out;
+};
+
+class ActingTest : public testing::Test {
+ protected:
+  fs::path folder_ = fixtures::fresh_test_folder("acting");
+  fs::path made_ = folder_ / "made", library_ = folder_ / "library";
+  std::string draft_, in_review_, published_, attempt_, curriculum_, text_;
+  std::map<Role, std::string> person_;
+
+  void SetUp() override {
+    ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+    {
+      auto library = casedb::open_library(made_);
+      for (const Role role : casedb::kAllRoles) {
+        person_[role] = casedb::add_user(library, casedb::name_of(role), role, kPassword).value();
+        const auto account = casedb::log_in(library, casedb::name_of(role), kPassword);
+        write_token(token_of(role), casedb::begin_login_session(library, *account));
+      }
+      fill(library);
+    }
+    renew();
+  }
+  void fill(casedb::Library& library) {
+    const auto made = [&](const char* state) {
+      const std::string case_id = casedb::add_case(library, casedb::sample_case());
+      const std::string lesion_id = casedb::add_lesion(library, case_id, casedb::sample_lesion()).value();
+      casedb::CaseSetting setting = casedb::find_case(library, case_id).value();
+      setting.rule.criteria = {{"hit", 1, assessment::Comparison::at_least, 1.0, false}};
+      EXPECT_TRUE(casedb::set_setting(library, case_id, setting));
+      if (std::string(state) == "published") {
+        auto attempt = casedb::sample_attempt(case_id, lesion_id);
+        attempt.operator_name = casedb::kPersonOperator;
+        attempt.person_id = person_[Role::trainee];
+        attempt_ = casedb::add_attempt(library, attempt).value();
+      }
+      library.database().run("UPDATE training_case SET state = '" + std::string(state) + "' WHERE case_id = '" +
+                             case_id + "'");
+      return case_id;
+    };
+    draft_ = made("draft");
+    in_review_ = made("draft");
+    static_cast<void>(casedb::add_user(library, "submitter", Role::mentor, kPassword).value());
+    ASSERT_TRUE(casedb::submit_case(library, in_review_, "submitter"));
+    published_ = made("published");
+    curriculum_ = casedb::add_curriculum(library, "Year 1", "mentor").value();
+    const std::string study = casedb::add_study(library, "Needles").value();
+    ASSERT_TRUE(casedb::add_researcher(library, study, person_[Role::researcher]));
+    static_cast<void>(casedb::add_consent_text(library, study, "May we?").value());
+    text_ = casedb::list_consents(library, person_[Role::trainee]).front().text_id;
+  }
+  // The library as it was made.
+  void renew() {
+    fs::remove_all(library_);
+    fs::copy(made_, library_, fs::copy_options::recursive);
+  }
+  fs::path token_of(Role role) const { return folder_ / ("token-" + casedb::name_of(role)); }
+
+  Told call(const std::string& name, std::vector<std::string> words, std::string typed = "") {
+    words.insert(words.end(), {"--library", library_.string()});
+    std::istringstream in(typed);
+    std::streambuf* before = std::cin.rdbuf(in.rdbuf());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    Told told;
+    const Command& command = command_of(name);
+    told.exit_code = command.run(Arguments(command, words));
+    told.out = testing::internal::GetCapturedStdout();
+    const std::string err = testing::internal::GetCapturedStderr();
+    std::cin.rdbuf(before);
+    const std::size_t at = err.find("error: ");
+    if (at != err.npos) told.code = err.substr(at + 7, err.find(':', at + 7) - at - 7);
+    return told;
+  }
+  casedb::AuditRow last_row() {
+    auto library = casedb::open_library(library_);
+    return casedb::list_audit(library).back();
+  }
+  std::vector<casedb::Decision> decisions(const std::string& case_id) {
+    auto library = casedb::open_library(library_);
+    return casedb::list_decisions(library, case_id);
+  }
+};
+
+// What a command asks the table, and of what: {} where neither state nor owner counts.
+struct Asked {
+  const char* command;
+  std::vector<std::string> words;
+  Action action;
+  Subject subject{};
+  bool of_the_trainee = false;  // theirs: own to the trainee
+};
+
+// Every command that acts; "case publish" looks at the case's checks first (tests/e2e/acting_test.cpp).
+TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
+  const std::string out = (folder_ / "out").string();
+  casedb::Relation own_study;
+  own_study.own_study = true;
+  const std::vector<Asked> all = {
+      {"import", {"nowhere.nii"}, Action::add_case},
+      {"case lesion",
+       {draft_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
+       Action::work_on_case,
+       CaseState::draft},
+      {"case lesion",
+       {published_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
+       Action::work_on_case,
+       CaseState::published},
+      {"case structure",
+       {draft_, "--name", "x", "--rule", "major", "--class", "liver"},
+       Action::work_on_case,
+       CaseState::draft},
+      {"case label", {draft_, "nowhere.nii"}, Action::work_on_case, CaseState::draft},
+      {"case setting", {draft_, "--gauge", "18"}, Action::work_on_case, CaseState::draft},
+      {"case confirm", {draft_, "--no-burned-in-text"}, Action::confirm_no_burned_in_text},
+      {"case review", {draft_}, Action::submit_case},
+      {"case review", {in_review_, "--approve"}, Action::approve_case},
+      {"case review", {in_review_, "--return"}, Action::return_case},
+      {"case retire", {published_}, Action::retire_case},
+      {"case version", {published_}, Action::make_case_version},
+      {"case delete", {draft_}, Action::erase_case, CaseState::draft},
+      {"case bundle", {draft_, "--out", out}, Action::hand_out_case},
+      {"bundle export", {"--out", out}, Action::hand_out_case},
+      {"bundle import", {"nowhere"}, Action::add_case},
+      {"backup", {out}, Action::keep_library},
+      {"check", {"--repair"}, Action::keep_library},
+      {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
+      {"recompute", {}, Action::keep_library},
+      {"export", {"--study", "Needles", "--out", out}, Action::export_study, own_study},
+      {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},
+      {"standard set", {draft_}, Action::set_standard},
+      {"curriculum add", {"Year 2"}, Action::make_curriculum},
+      {"curriculum item", {curriculum_, "--case", published_}, Action::make_curriculum},
+      {"curriculum publish", {curriculum_}, Action::release_curriculum},
+      {"curriculum remove", {curriculum_}, Action::remove_draft_curriculum},
+      {"user add", {"new", "--role", "trainee"}, Action::manage_accounts},
+      {"user passwd", {"trainee"}, Action::set_password, {}, true},
+      {"user level", {"trainee", "--level", "student"}, Action::manage_accounts},
+      {"user role", {"trainee", "--role", "mentor"}, Action::manage_accounts},
+      {"user disable", {"trainee"}, Action::manage_accounts},
+      {"user enable", {"trainee"}, Action::manage_accounts},
+      {"user fact", {"trainee", "confidence", "4"}, Action::answer_consent, {}, true},
+      {"user erase", {"trainee"}, Action::erase_person},
+      {"cohort add", {"Autumn", "--programme", "Radiology"}, Action::manage_cohorts},
+      {"cohort enrol", {"Autumn", "--user", "trainee"}, Action::manage_cohorts},
+      {"cohort direct", {"Radiology", "--user", "director"}, Action::manage_cohorts},
+      {"study new", {"Probes"}, Action::manage_studies},
+      {"study researcher", {"Needles", "--user", "researcher"}, Action::manage_studies},
+      {"consent text", {"nowhere.txt"}, Action::manage_studies},
+      {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
+      {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
+      {"audit", {}, Action::read_audit},
+  };
+  std::set<std::string> asked{"case publish"};
+  const std::int64_t before = last_row().sequence;  // the operator made what there is
+  int allowed = 0, refused = 0;
+  for (const Asked& one : all) {
+    asked.insert(one.command);
+    for (const Role role : casedb::kAllRoles) {
+      Subject subject = one.subject;
+      if (one.of_the_trainee) subject.own = role == Role::trainee;
+      if (one.action == Action::export_study) subject.own_study = role == Role::researcher;
+      std::vector<std::string> words = one.words;
+      words.insert(words.end(), {"--by", casedb::name_of(role), "--token-file", token_of(role).string()});
+      const Told told = call(one.command, words, "another password\n");
+      const bool may = casedb::may(role, one.action, subject);
+      EXPECT_EQ(told.code != "not_allowed", may)
+          << one.command << " by " << casedb::name_of(role) << ": " << told.code;
+      const casedb::AuditRow row = last_row();
+      if (!may) {
+        EXPECT_EQ(told.exit_code, kRefused) << one.command;
+        EXPECT_EQ(row.result, "refused") << one.command << " by " << casedb::name_of(role);
+        EXPECT_EQ(row.person_id, person_[role]) << one.command;
+      }
+      EXPECT_TRUE(row.sequence == before || row.actor != "operator") << one.command << ": " << row.act;
+      ++(may ? allowed : refused);
+      renew();
+      fs::remove_all(out);
+    }
+  }
+  for (const Command& one : commands()) EXPECT_EQ(asked.contains(one.name), one.acts) << one.name;
+  EXPECT_GT(allowed, 50);
+  EXPECT_GT(refused, 100);
+}
+
+// One shell, three names, no password. Before: three decisions, as if three people had decided.
+TEST_F(ActingTest, DecisionsWithoutProofAreMarkedAsTheOperators) {
+  ASSERT_EQ(call("case review", {draft_, "--by", "mentor"}).exit_code, kDone);
+  ASSERT_EQ(call("case review", {draft_, "--by", "director", "--approve"}).exit_code, kDone);
+  const auto all = decisions(draft_);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[1].person_id, person_[Role::director]);
+  for (const casedb::Decision& one : all) {
+    EXPECT_EQ(one.by_operator, true);
+    EXPECT_NE(one.who().find(" (entered by the operator)"), std::string::npos);
+  }
+  EXPECT_EQ(last_row().actor, "operator");
+  EXPECT_EQ(last_row().person_id, person_[Role::director]);
+  EXPECT_NE(call("case show", {draft_}).out.find("approved by " + all[1].pseudonym + " (entered by the operator)"),
+            std::string::npos);
+  EXPECT_NE(call("case show", {draft_, "--json"}).out.find("\"by_operator\": true"), std::string::npos);
+}
+
+TEST_F(ActingTest, DecisionsWithASessionOrAPasswordAreThePersons) {
+  ASSERT_EQ(
+      call("case review", {draft_, "--by", "mentor", "--token-file", token_of(Role::mentor).string()}).exit_code,
+      kDone);
+  ASSERT_EQ(call("case review", {draft_, "--by", "director", "--approve", "--password-file", "-"},
+                 std::string(kPassword) + "\n")
+                .exit_code,
+            kDone);
+  const auto all = decisions(draft_);
+  ASSERT_EQ(all.size(), 2U);
+  for (const casedb::Decision& one : all) {
+    EXPECT_EQ(one.by_operator, false);
+    EXPECT_EQ(one.who(), one.pseudonym);
+  }
+  EXPECT_EQ(last_row().actor, "person");
+  EXPECT_EQ(call("case show", {draft_}).out.find("operator"), std::string::npos);
+}
+
+TEST_F(ActingTest, AProofThatDoesNotFitIsRefusedNotTakenForNone) {
+  EXPECT_EQ(call("case review", {draft_, "--by", "mentor", "--password-file", "-"}, "wrong password\n").code,
+            "bad_log_in");
+  EXPECT_EQ(last_row().act, "log_in");
+  EXPECT_EQ(last_row().result, "refused");
+  EXPECT_EQ(call("case review", {draft_, "--by", "nobody", "--password-file", "-"}, "wrong password\n").code,
+            "bad_log_in");
+  EXPECT_EQ(call("case review", {draft_, "--by", "mentor", "--token-file", token_of(Role::director).string()}).code,
+            "no_session");
+  EXPECT_EQ(call("case review", {draft_, "--by", "mentor", "--token-file", "nowhere"}).code, "no_session");
+  EXPECT_THROW(call("case review", {draft_, "--password-file", "-"}), UsageError);
+  static_cast<void>(testing::internal::GetCapturedStdout());
+  static_cast<void>(testing::internal::GetCapturedStderr());
+  EXPECT_TRUE(decisions(draft_).empty());
+}
+
+TEST_F(ActingTest, ARefusedNameMakesNoLibrary) {
+  fs::remove_all(library_);
+  EXPECT_EQ(call("user add", {"new", "--role", "trainee", "--by", "admin"}, "a long password\n").code,
+            "no_library");
+  EXPECT_FALSE(fs::exists(library_));
+}
+
+// `uid` stands for another account of the machine, which can read and write the folder.
+TEST_F(ActingTest, WhoDoesNotOwnTheLibraryNeedsAProof) {
+  const uid_t other = ::geteuid() + 4242;
+  const Command& command = command_of("case setting");
+  const auto opened = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {draft_, "--library", library_.string()});
+    return open_acting(Arguments(command, words), WhereNone::refuse, other);
+  };
+  EXPECT_EQ(opened({}).error().code, "not_proven");
+  EXPECT_EQ(opened({"--by", "mentor"}).error().code, "not_proven");
+  EXPECT_EQ(last_row().act, "unproven");
+  EXPECT_EQ(last_row().actor, "nobody");
+  EXPECT_EQ(last_row().object_id, person_[Role::mentor]);
+  EXPECT_EQ(opened({"--by", "nobody"}).error().code, "not_proven");
+  auto proven = opened({"--by", "mentor", "--token-file", token_of(Role::mentor).string()});
+  ASSERT_TRUE(proven);
+  EXPECT_EQ(proven->actor().person_id, person_[Role::mentor]);
+  EXPECT_FALSE(proven->actor().is_operator());
+  // The session alone tells who it is.
+  auto alone = opened({"--token-file", token_of(Role::trainee).string()});
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(acting(*alone, Arguments(command, {draft_}), Action::work_on_case, CaseState::draft).error().code,
+            "not_allowed");
+  // The owner, by the file's own account; and root, who can read every byte anyway.
+  EXPECT_TRUE(open_acting(Arguments(command, {draft_, "--library", library_.string()}), WhereNone::refuse, 0));
+  struct stat about {};
+  ASSERT_EQ(::stat((library_ / casedb::kDatabaseFile).c_str(), &about), 0);
+  EXPECT_TRUE(
+      open_acting(Arguments(command, {draft_, "--library", library_.string()}), WhereNone::refuse, about.st_uid));
+}
+
+TEST_F(ActingTest, LogInKeepsATokenThatOnlyItsOwnerReads) {
+  EXPECT_EQ(call("login", {"mentor"}, "wrong password\n").code, "bad_log_in");
+  EXPECT_EQ(call("logout", {}).code, "no_session");
+  ASSERT_EQ(call("login", {"mentor"}, std::string(kPassword) + "\n").exit_code, kDone);
+  const fs::path file = token_file_of(library_);
+  EXPECT_EQ(file.parent_path(), folder_ / "state/seldinger");
+  struct stat about {};
+  ASSERT_EQ(::stat(file.c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777U, 0600U);
+  ASSERT_EQ(::stat(file.parent_path().c_str(), &about), 0);
+  EXPECT_EQ(about.st_mode & 0777U, 0700U);
+  ASSERT_EQ(call("case review", {draft_, "--by", "mentor"}).exit_code, kDone);
+  // The mentor's session proves nothing of the director: it is the operator who enters that.
+  ASSERT_EQ(call("case review", {draft_, "--by", "director", "--approve"}).exit_code, kDone);
+  EXPECT_EQ(decisions(draft_)[0].by_operator, false);
+  EXPECT_EQ(decisions(draft_)[1].by_operator, true);
+
+  ::chmod(file.c_str(), 0644);
+  EXPECT_EQ(call("case review", {in_review_, "--return", "--by", "mentor"}).code, "bad_token_file");
+  ::chmod(file.c_str(), 0600);
+  const fs::path aside = folder_ / "aside";
+  fs::rename(file, aside);
+  fs::create_symlink(aside, file);
+  EXPECT_EQ(call("case review", {in_review_, "--return", "--by", "mentor"}).code, "bad_token_file");
+  fs::remove(file);
+  fs::rename(aside, file);
+  ASSERT_EQ(call("logout", {}).exit_code, kDone);
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_EQ(last_row().act, "log_out");
+  ASSERT_EQ(call("case review", {in_review_, "--return", "--by", "mentor"}).exit_code, kDone);
+  EXPECT_EQ(decisions(in_review_).back().by_operator, true) << "logged out";
+}
+
+TEST_F(ActingTest, WhoActsHoldsInEveryFunctionThatTakesAName) {
+  auto library = casedb::open_library(library_);
+  library.act_for(casedb::Actor::person(person_[Role::mentor]));
+  EXPECT_EQ(casedb::submit_case(library, draft_, "submitter").error().code, "not_allowed");
+  EXPECT_EQ(casedb::add_curriculum(library, "X", "submitter").error().code, "not_allowed");
+  library.act_for(casedb::Actor::nobody());
+  EXPECT_EQ(casedb::submit_case(library, draft_, "mentor").error().code, "not_allowed");
+  library.act_for(casedb::Actor::person(person_[Role::mentor]));
+  EXPECT_TRUE(casedb::submit_case(library, draft_, "mentor"));
+}
+
+}  // namespace
+}  // namespace seldinger::app
