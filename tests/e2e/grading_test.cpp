@@ -35,6 +35,8 @@ class GradingCommands : public testing::Test {
     done("case setting " + id +
          " --instrument access --pass 'hit >= 1' --pass 'advance_visible_share >= 0.8' --pass 'skin_punctures <= 1'"
          " --time-limit-s 300");
+    done("cohort add Autumn --programme Radiology");
+    done("cohort enrol Autumn --user mentor --mentor");
     done("case publish " + id + " --by mentor --own-cohort");
     return id;
   }
