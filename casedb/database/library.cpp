@@ -123,8 +123,9 @@ base::Result<Library> Library::open(const fs::path& folder) {
     // Databases appear under their names only when whole, so an empty one is not ours.
     if (*version == 0 || *identities_version == 0)
       return base::Error{"not_a_library", "the database there is empty"};
-    parts->identities.run("PRAGMA secure_delete = ON");  // an erased name is overwritten
-    const FolderLock lock(folder);                       // one process backs up and migrates
+    // What is deleted is overwritten: an erased name, the chunks of an attempt that was open.
+    for (Sqlite* database : {&parts->database, &parts->identities}) database->run("PRAGMA secure_delete = ON");
+    const FolderLock lock(folder);  // one process backs up and migrates
     for (auto [database, schema] :
          {std::pair(&parts->database, library_schema()), std::pair(&parts->identities, identities_schema())})
       if (const auto migrated = migrate(*database, schema); !migrated) return migrated.error();
