@@ -131,7 +131,11 @@ TEST_F(GradingCommands, ACurriculumFromDraftToDue) {
   EXPECT_EQ(answer("curriculum list").at("curricula")[0].at("state"), "published");
   // What a simulated operator does is nobody's progress.
   done("simulate --case " + id + " --operator expert");
-  const Json item = answer("curriculum show " + curriculum + " --user trainee").at("items")[0];
+  const std::string of_trainee = "curriculum show " + curriculum + " --user trainee";
+  EXPECT_EQ(answer(of_trainee).at("items")[0].at("case_id"), nullptr)
+      << "before: due, and nobody let them practise it";
+  done("cohort enrol Autumn --user trainee");
+  const Json item = answer(of_trainee).at("items")[0];
   EXPECT_EQ(item.at("case_id"), id);
   EXPECT_EQ(item.at("state"), "not_started");
   EXPECT_EQ(item.at("due"), true);
