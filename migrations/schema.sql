@@ -504,6 +504,12 @@ CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
 
+CREATE INDEX replay_watched_by_attempt ON replay_watched (attempt_id);
+
+CREATE INDEX standard_attempt_by_attempt ON standard_attempt (attempt_id);
+
+CREATE INDEX standard_by_case ON standard (case_id);
+
 CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
 
 CREATE VIEW attempt_summary AS

@@ -9,7 +9,7 @@
 namespace seldinger::web {
 
 std::string metrics_json(const casedb::AttemptRow& row);
-std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade, bool with_expert_attempts);
+std::string grade_json(const casedb::AttemptRow& row, const casedb::AttemptGrade& grade, bool with_experts);
 std::string health_json(casedb::Health health, const std::string& program_version);
 
 }  // namespace seldinger::web

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "casedb/database/credentials.h"
-#include "casedb/keeping/erase.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {
@@ -79,9 +78,9 @@ class LibraryQuestions final : public Questions {
     return casedb::list_cohorts(pages_.library);
   }
 
-  std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) override {
+  casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_enrolments(pages_.library, cohort_id);
+    return casedb::relation_to_cohort(pages_.library, reader_id, cohort.cohort_id, cohort.programme);
   }
 
   reports::AboutMe about(const std::string& person_id) override {
@@ -93,11 +92,7 @@ class LibraryQuestions final : public Questions {
                                 const std::map<std::string, std::string>& answers) override {
     const std::lock_guard lock(pages_.mutex);
     const ActingFor reader(pages_.library, person_id);
-    for (const auto& [fact_id, answer] : answers)
-      if (const auto fit = casedb::checked_answer(fact_id, answer); !fit) return fit.error();
-    for (const auto& [fact_id, answer] : answers)
-      if (const auto done = casedb::give_fact(pages_.library, person_id, fact_id, answer); !done) return done;
-    return {};
+    return casedb::give_facts(pages_.library, person_id, answers);
   }
 
   base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) override {
@@ -112,12 +107,11 @@ class LibraryQuestions final : public Questions {
     return casedb::withdraw_consent(pages_.library, person_id, text_id);
   }
 
-  base::Result<void> erase_attempts_of(const std::string& person_id) override {
-    const std::lock_guard lock(pages_.mutex);
-    const ActingFor reader(pages_.library, person_id);
-    const auto erased = casedb::erase_attempts_of(pages_.library, person_id, person_id);
-    if (!erased) return erased.error();
-    return {};
+  base::Result<casedb::Erased> erase_attempts_of(const std::string& person_id) override {
+    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
+    if (!library) return library.error();
+    library->act_for(casedb::Actor::person(person_id));
+    return casedb::erase_attempts_of(*library, person_id, person_id);
   }
 
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override {

@@ -13,6 +13,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
 #include "casedb/json/case_json.h"
+#include "casedb/keeping/erase.h"
 #include "casedb/keeping/health.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
@@ -34,15 +35,16 @@ class Questions {
   // What everybody is to the reader; who is missing is nothing to them.
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
   virtual std::vector<casedb::Cohort> list_cohorts() = 0;  // by programme and title
-  virtual std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) = 0;
+  virtual casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) = 0;
 
   virtual reports::AboutMe about(const std::string& person_id) = 0;
-  // All of them or none: as casedb::give_fact refuses.
+  // All of them or none: as casedb::give_facts refuses.
   virtual base::Result<void> give_facts(const std::string& person_id,
                                         const std::map<std::string, std::string>& answers) = 0;
   virtual base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) = 0;
   virtual base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) = 0;
-  virtual base::Result<void> erase_attempts_of(const std::string& person_id) = 0;  // on their own wish
+  // On their own wish; takes seconds: the library is written anew.
+  virtual base::Result<casedb::Erased> erase_attempts_of(const std::string& person_id) = 0;
 
   virtual std::size_t count_attempts(const casedb::WhoseAttempts& whose) = 0;
   virtual std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,

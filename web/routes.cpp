@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstring>
-#include <set>
+#include <map>
 
 #include "casedb/database/credentials.h"
 #include "reports/pages/attempt_page.h"
@@ -294,57 +293,94 @@ Response list_cohorts(Site& site, const Call& call) {
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
   std::map<std::string, std::string> names;
   for (const casedb::Account& one : site.questions.list_accounts()) names.emplace(one.person_id, one.login_name);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const std::int64_t now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
   std::vector<reports::CohortView> views;
-  for (casedb::Cohort& cohort : site.questions.list_cohorts()) {
-    reports::CohortView view{cohort, false, {}};
-    int seen = 0;
-    std::set<std::string> learners;
-    for (const casedb::Enrolment& one : site.questions.list_enrolments(cohort.cohort_id))
-      if (one.post == casedb::Post::learner && one.to_us.value_or(now_us + 1) > now_us)
-        learners.insert(one.person_id);
-    for (const std::string& person_id : learners) {
-      const casedb::Relation relation = relation_to(relations, person_id);
-      if (!casedb::may(role, casedb::Action::see_cohort, relation)) continue;
-      ++seen;
-      const auto name = names.find(person_id);
-      const bool named = name != names.end() && casedb::may(role, casedb::Action::see_operator_name, relation);
-      view.learners.push_back(named ? name->second : reports::person_text(person_id));
-    }
-    // By name only where every learner may be seen: who is in two cohorts tells nothing of the other.
-    view.named = !learners.empty() && seen == static_cast<int>(learners.size());
-    if (!view.named) {
-      if (!casedb::may(role, casedb::Action::see_cohort_cells)) continue;
-      view.learners.clear();
-      view.cohort = casedb::suppressed(view.cohort);
+  for (const casedb::Cohort& cohort : site.questions.list_cohorts()) {
+    // By name to who leads it or directs its programme. That each of its learners is seen elsewhere tells nothing
+    // of it.
+    const casedb::Relation to_cohort = site.questions.relation_to_cohort(call.reader->account.person_id, cohort);
+    reports::CohortView view{cohort, casedb::may(role, casedb::Action::see_cohort, to_cohort), {}, {}};
+    if (view.named) {
+      view.cells = casedb::cells_of(cohort);
+      for (const casedb::Learner& one : cohort.learners) {
+        if (!one.still) continue;
+        const auto name = names.find(one.person_id);
+        const bool may_read =
+            casedb::may(role, casedb::Action::see_operator_name, relation_to(relations, one.person_id));
+        view.learners.push_back(name != names.end() && may_read ? name->second
+                                                                : reports::person_text(one.person_id));
+      }
+    } else if (casedb::may(role, casedb::Action::see_cohort_cells)) {
+      view.cells = casedb::suppressed(cohort, [&](const std::string& person_id) {
+        return casedb::may(role, casedb::Action::see_attempt, relation_to(relations, person_id));
+      });
+    } else {
+      continue;
     }
     views.push_back(std::move(view));
   }
   return html_response(200, reports::cohorts_page(call.reader->visitor(), views));
 }
 
-Response me(Site& site, const Call& call, int status, std::string_view problem) {
+// What /me says was done, by the query of the redirect; %: the number behind it.
+struct Done {
+  std::string_view query, text;
+};
+constexpr Done kConsented{"consented", "Noted: you consent."};
+constexpr Done kWithdrew{"withdrew", "Noted: you do not consent."};
+constexpr Done kSaved{"saved", "Saved."};
+constexpr Done kErased{"erased=", "Attempts deleted: %. They cannot be brought back."};
+constexpr Done kErasedNotYet{"erased-later=",
+                             "Attempts deleted: %. Old bytes of them lie in the library's files until nobody uses "
+                             "it: tell whoever runs it."};
+
+std::string text_of(std::string_view query) {
+  for (const Done& one : {kConsented, kWithdrew, kSaved, kErased, kErasedNotYet}) {
+    if (!query.starts_with(one.query)) continue;
+    const std::string_view digits = query.substr(one.query.size());
+    const std::size_t hole = one.text.find('%');
+    if (hole == one.text.npos && digits.empty()) return std::string(one.text);
+    std::size_t count = 0;
+    const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+    if (hole != one.text.npos && !digits.empty() && read.ec == std::errc() &&
+        read.ptr == digits.data() + digits.size())
+      return std::string(one.text).replace(hole, 1, std::to_string(count));
+  }
+  return {};
+}
+
+Response me(Site& site, const Call& call, int status, const reports::Told& told) {
   const auto about = site.questions.about(call.reader->account.person_id);
-  return html_response(status, reports::me_page(call.reader->visitor(), about, problem));
+  return html_response(status, reports::me_page(call.reader->visitor(), about, told));
 }
 
 Response show_me(Site& site, const Call& call) {
-  return me(site, call, 200, "");
+  return me(site, call, 200, {.done = text_of(call.request.query)});
 }
 
-Response after(Site& site, const Call& call, const base::Result<void>& done) {
-  return done ? redirect("/me") : me(site, call, 400, done.error().text);
+Response problem(Site& site, const Call& call, const std::string& text) {
+  return me(site, call, 400, {.problem = text});
+}
+
+Response after(Site& site, const Call& call, const base::Result<void>& result, const Done& done) {
+  if (!result) return problem(site, call, result.error().text);
+  return redirect("/me?" + std::string(done.query));
+}
+
+Response erase_attempts(Site& site, const Call& call) {
+  const auto erased = site.questions.erase_attempts_of(call.reader->account.person_id);
+  if (!erased) return problem(site, call, erased.error().text);
+  const Done& done = erased->overwritten && erased->kept_copies == 0 ? kErased : kErasedNotYet;
+  return redirect("/me?" + std::string(done.query) + std::to_string(erased->attempts));
 }
 
 Response answer_consent(Site& site, const Call& call) {
   const std::string& person_id = call.reader->account.person_id;
   const std::string text_id = field(call, "text"), answer = field(call, "answer");
-  if (answer == "give") return after(site, call, site.questions.give_consent(person_id, text_id));
-  if (answer != "withdraw") return me(site, call, 400, "Choose to consent or to withdraw.");
+  if (answer == "give") return after(site, call, site.questions.give_consent(person_id, text_id), kConsented);
+  if (answer != "withdraw") return problem(site, call, "Choose to consent or to withdraw.");
   const auto withdrawn = site.questions.withdraw_consent(person_id, text_id);
-  if (!withdrawn || field(call, "delete") != "yes") return after(site, call, withdrawn);
-  return after(site, call, site.questions.erase_attempts_of(person_id));
+  if (!withdrawn || field(call, "delete") != "yes") return after(site, call, withdrawn, kWithdrew);
+  return erase_attempts(site, call);
 }
 
 Response give_facts(Site& site, const Call& call) {
@@ -355,12 +391,12 @@ Response give_facts(Site& site, const Call& call) {
     const auto last = given.find(id);
     if (!answer.empty() && (last == given.end() || last->second.answer != answer)) answers.emplace(id, answer);
   }
-  return after(site, call, site.questions.give_facts(call.reader->account.person_id, answers));
+  return after(site, call, site.questions.give_facts(call.reader->account.person_id, answers), kSaved);
 }
 
 Response erase_own(Site& site, const Call& call) {
-  if (field(call, "sure") != "yes") return me(site, call, 400, "Tick the box if you are sure.");
-  return after(site, call, site.questions.erase_attempts_of(call.reader->account.person_id));
+  if (field(call, "sure") != "yes") return problem(site, call, "Tick the box if you are sure.");
+  return erase_attempts(site, call);
 }
 
 // --- log-ins
@@ -389,8 +425,7 @@ constexpr std::string_view kCases =
     "mentor: all; director: no drafts; researcher, admin: published and retired, without reviewers' notes";
 constexpr std::string_view kSeen =
     "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: consenting people of "
-    "own "
-    "studies as pseudonyms, simulated";
+    "own studies as pseudonyms, simulated";
 constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says so";
 constexpr std::string_view kSelf = "of oneself";
 
@@ -410,7 +445,8 @@ constexpr Route kRoutes[] = {
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,
-     "its grade, score and sentences as `score` prints them", show_grade},
+     "its grade, score and sentences as `score` prints them; of experts to others than mentors only rounded bands",
+     show_grade},
     {"GET", "/metrics", kAnyRole, true, "", "what each metric measures; #metric-ID", list_metrics},
     {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},

@@ -8,11 +8,17 @@
 namespace seldinger::app {
 namespace {
 
+// What the library's actor is to a cohort; none: in nobody's name.
+casedb::Subject to_cohort(casedb::Library& library, const std::string& cohort_id, const std::string& programme) {
+  const auto& reader = library.actor().person_id;
+  return reader ? casedb::relation_to_cohort(library, *reader, cohort_id, programme) : casedb::Relation();
+}
+
 int run_cohort_add(const Arguments& arguments) {
   const std::string programme = arguments.required("--programme");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
+  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts, to_cohort(*library, "", programme));
   if (!by) return refuse(by.error());
   const auto made = casedb::add_cohort(*library, arguments.positional(0), programme, arguments.text("--site"));
   if (!made) return refuse(made.error());
@@ -31,7 +37,7 @@ int run_cohort_list(const Arguments& arguments) {
   if (cohorts.empty()) std::puts("There is no cohort yet; `seldinger cohort add` makes one.");
   for (const casedb::Cohort& one : cohorts)
     std::printf("%s  %-24s %-16s %d learner%s\n", one.cohort_id.c_str(), one.title.c_str(), one.programme.c_str(),
-                one.learners, one.learners == 1 ? "" : "s");
+                casedb::cells_of(one).learners, casedb::cells_of(one).learners == 1 ? "" : "s");
   return kDone;
 }
 
@@ -61,13 +67,19 @@ int run_cohort_enrol(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
-  if (!by) return refuse(by.error());
   const auto cohort = casedb::find_cohort(*library, arguments.positional(0));
-  if (!cohort) return refuse(cohort.error());
   const auto person = casedb::open_account(*library, user);
-  if (!person) return refuse(person.error());
   const auto post = arguments.has("--mentor") ? casedb::Post::mentor : casedb::Post::learner;
+  casedb::Subject subject;
+  if (cohort) subject = to_cohort(*library, cohort->cohort_id, cohort->programme);
+  // Enrolling opens what a learner has done to the cohort's mentors and directors: a director moves only the own.
+  if (person && library->actor().person_id && post == casedb::Post::learner && !arguments.has("--end"))
+    subject.own_programme &=
+        casedb::relation_to(*library, *library->actor().person_id, person->person_id).own_programme;
+  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts, subject);
+  if (!by) return refuse(by.error());
+  if (!cohort) return refuse(cohort.error());
+  if (!person) return refuse(person.error());
   const auto done = arguments.has("--end") ? casedb::end_enrolment(*library, cohort->cohort_id, person->person_id)
                                            : casedb::enrol(*library, cohort->cohort_id, person->person_id, post);
   return done ? kDone : refuse(done.error());
@@ -77,7 +89,7 @@ int run_cohort_direct(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by = acting(*library, arguments, casedb::Action::manage_cohorts);
+  const auto by = acting(*library, arguments, casedb::Action::appoint_director);
   if (!by) return refuse(by.error());
   const auto person = casedb::open_account(*library, user);
   if (!person) return refuse(person.error());
@@ -94,7 +106,7 @@ constexpr Option kCohortAddOptions[] = {kLibrary,
 constexpr Option kCohortEnrolOptions[] = {kLibrary,
                                           kWhose,
                                           {"--mentor", nullptr, "as a mentor; else as a learner"},
-                                          {"--end", nullptr, "from now on no longer"}};
+                                          {"--end", nullptr, "from now on no longer, in neither post"}};
 constexpr Option kCohortDirectOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
 
 }  // namespace

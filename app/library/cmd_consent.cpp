@@ -44,7 +44,8 @@ int run_study_researcher(const Arguments& arguments) {
   if (!study) return refuse(study.error());
   const auto person = casedb::open_account(*library, user);
   if (!person) return refuse(person.error());
-  const auto done = casedb::add_researcher(*library, study->study_id, person->person_id);
+  const auto done = arguments.has("--end") ? casedb::end_researcher(*library, study->study_id, person->person_id)
+                                           : casedb::add_researcher(*library, study->study_id, person->person_id);
   return done ? kDone : refuse(done.error());
 }
 
@@ -81,9 +82,10 @@ int run_consent_list(const Arguments& arguments) {
   if (consents.empty()) std::puts("Nothing asks for consent; `seldinger consent text` adds a text.");
   for (const casedb::Consent& one : consents)
     std::printf("%s  version %d  %-12s %s\n", one.text_id.c_str(), one.version,
-                one.stands()   ? "given"
-                : one.given_us ? "withdrawn"
-                               : "not answered",
+                one.stands()    ? "given"
+                : one.refused() ? "refused"
+                : one.given_us  ? "withdrawn"
+                                : "not answered",
                 one.study_id ? one.study_title.c_str() : "research with this library");
   return kDone;
 }
@@ -102,6 +104,7 @@ int run_consent_answer(const Arguments& arguments, bool give) {
   if (give || !arguments.has("--delete")) return kDone;
   const auto erased = casedb::erase_attempts_of(*library, person->person_id, person->person_id);
   if (!erased) return refuse(erased.error());
+  warn_of_what_is_left(*erased);
   std::printf("withdrawn; %zu attempts erased\n", erased->attempts);
   return kDone;
 }
@@ -134,7 +137,7 @@ int run_user_fact(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose};
+constexpr Option kStudyResearcherOptions[] = {kLibrary, kWhose, {"--end", nullptr, "from now on no longer"}};
 constexpr Option kConsentTextOptions[] = {
     kLibrary, {"--study", "STUDY", "of this study; left out: research with this library"}};
 constexpr Option kConsentListOptions[] = {kLibrary, kWhose, kJson};
@@ -200,14 +203,15 @@ Command consent_give_command() {
 }
 
 Command consent_withdraw_command() {
-  return {.name = "consent withdraw",
-          .positionals = "TEXT",
-          .min_positionals = 1,
-          .max_positionals = 1,
-          .options = kConsentWithdrawOptions,
-          .acts = true,
-          .summary = "Notes that somebody no longer consents.",
-          .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
+  return {
+      .name = "consent withdraw",
+      .positionals = "TEXT",
+      .min_positionals = 1,
+      .max_positionals = 1,
+      .options = kConsentWithdrawOptions,
+      .acts = true,
+      .summary = "Notes that somebody no longer consents, or that consent to research does not cover this study.",
+      .run = [](const Arguments& arguments) { return run_consent_answer(arguments, false); }};
 }
 
 Command user_fact_command() {

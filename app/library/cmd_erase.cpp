@@ -11,10 +11,7 @@ namespace {
 
 int told(const Arguments& arguments, const base::Result<casedb::Erased>& erased) {
   if (!erased) return refuse(erased.error());
-  if (!erased->overwritten)
-    std::fputs(
-        "Another program has the library open: its log still holds old bytes until the last one closes it.\n",
-        stderr);
+  warn_of_what_is_left(*erased);
   if (arguments.has("--json")) {
     std::fputs(json_of_erased(*erased).c_str(), stdout);
     return kDone;

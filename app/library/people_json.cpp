@@ -1,5 +1,6 @@
 #include "app/library/people_json.h"
 
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace seldinger::app {
@@ -16,8 +17,9 @@ Json time_or_null(const std::optional<std::int64_t>& time_us) {
 }
 
 Json head_of(const casedb::Cohort& cohort) {
-  return {{"cohort_id", cohort.cohort_id}, {"title", cohort.title},       {"programme", cohort.programme},
-          {"site", cohort.site},           {"learners", cohort.learners}, {"attempts", cohort.attempts}};
+  const casedb::CohortCells cells = casedb::cells_of(cohort);
+  return {{"cohort_id", cohort.cohort_id}, {"title", cohort.title},      {"programme", cohort.programme},
+          {"site", cohort.site},           {"learners", cells.learners}, {"attempts", cells.attempts}};
 }
 
 }  // namespace
@@ -77,10 +79,23 @@ std::string json_of_given_facts(const std::vector<casedb::FactGiven>& facts) {
   return document({{"facts", list}});
 }
 
+void warn_of_what_is_left(const casedb::Erased& erased) {
+  if (!erased.overwritten)
+    std::fputs(
+        "Another program has the library open: its log still holds old bytes until the last one closes it.\n",
+        stderr);
+  if (erased.kept_copies > 0)
+    std::fprintf(stderr,
+                 "%zu copies of older schemas beside the databases could not be deleted and still hold what was "
+                 "erased.\n",
+                 erased.kept_copies);
+}
+
 std::string json_of_erased(const casedb::Erased& erased) {
   return document({{"attempts", erased.attempts},
                    {"files", erased.assets},
                    {"old_copies", erased.old_copies},
+                   {"kept_copies", erased.kept_copies},
                    {"overwritten", erased.overwritten}});
 }
 

@@ -20,6 +20,8 @@ std::string json_of_cohort(const casedb::Cohort& cohort, const std::vector<cased
 std::string json_of_studies(const std::vector<casedb::Study>& studies);
 std::string json_of_consents(const std::vector<casedb::Consent>& consents);
 std::string json_of_given_facts(const std::vector<casedb::FactGiven>& facts);
+// On stderr, when old bytes are left somewhere.
+void warn_of_what_is_left(const casedb::Erased& erased);
 std::string json_of_erased(const casedb::Erased& erased);
 
 }  // namespace seldinger::app

@@ -1,6 +1,7 @@
 #include "casedb/attempts/attempts.h"
 #include "casedb/database/question.h"
 #include "casedb/database/uuid.h"
+#include "casedb/people/people.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -13,10 +14,7 @@ base::Result<void> note_replay_watched(Library& library, const std::string& pers
   if (!attempt.bind("attempt_id", attempt_id).step())
     return base::Error{"no_attempt", "there is no such attempt in the library"};
   attempt.rewind();
-  Statement person = question(database, "person_exists");
-  CHECK(person.bind("person_id", person_id).step());
-  if (person.integer("found") == 0) return base::Error{"no_person", "there is no such person in the library"};
-  person.rewind();
+  if (const auto known = check_person(library, person_id); !known) return known.error();
   question(database, "add_replay_watched")
       .bind("person_id", person_id)
       .bind("attempt_id", attempt_id)

@@ -19,6 +19,7 @@ enum class Action {
   see_attempt,
   see_operator_name,  // the log-in name of the person who made it; without it, a pseudonym
   see_free_text,      // what somebody typed, and the time of day of what was done
+  see_expert_replay,  // an expert's recording, shown before one's own attempt
   practise_case,      // a draft only once attempts have frozen it (casedb/grading/choices.h)
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
@@ -50,11 +51,12 @@ enum class Action {
   // People.
   see_cohort,        // who is in it, by name
   see_cohort_cells,  // how many are in it and what they did together, from kSmallestCell people upwards
-  manage_cohorts,
-  manage_studies,  // what they ask, who works on them
-  export_study,    // attempts of those who consent, without names
-  answer_consent,  // give and withdraw, and state facts of oneself
-  let_in_again,    // somebody whose log-in is delayed
+  manage_cohorts,    // makes them, says who belongs to them
+  appoint_director,  // of a programme
+  manage_studies,    // what they ask, who works on them
+  export_study,      // attempts of those who consent, without names
+  answer_consent,    // give and withdraw, and state facts of oneself
+  let_in_again,      // somebody whose log-in is delayed
   erase_attempts,
   erase_person,
   erase_case,
@@ -113,7 +115,7 @@ class States {
   unsigned bits_ = 0;
 };
 
-enum class Whose { anybodys, own, anothers, own_cohorts, own_programmes, own_studies, nobodys, reaching };
+enum class Whose { anybodys, own, anothers, own_cohorts, own_programmes, own_studies, nobodys, reaching, agreed };
 constexpr bool is(Whose whose, const Relation& relation) noexcept {
   switch (whose) {
     case Whose::anybodys:
@@ -132,6 +134,8 @@ constexpr bool is(Whose whose, const Relation& relation) noexcept {
       return relation.nobodys;
     case Whose::reaching:
       return relation.reached;
+    case Whose::agreed:
+      return relation.agreed;
   }
   return false;
 }
@@ -174,6 +178,10 @@ inline constexpr Permission kPermissions[] = {
      "see_free_text",
      "a researcher reads days, and nothing that somebody typed",
      {{{Role::trainee, Role::mentor, Role::director, Role::admin}}}},
+    {Action::see_expert_replay,
+     "see_expert_replay",
+     "everybody is shown simulated experts, and consultants who consent to research with this library",
+     {{kEveryRole, {}, Whose::own}, {kEveryRole, {}, Whose::nobodys}, {kEveryRole, {}, Whose::agreed}}},
     {Action::practise_case,
      "practise_case",
      "everybody practises what is published for them, a mentor also a frozen draft",
@@ -263,8 +271,9 @@ inline constexpr Permission kPermissions[] = {
      {{{Role::director}}}},
     {Action::manage_cohorts,
      "manage_cohorts",
-     "an admin or a director says who belongs to a cohort",
-     {{{Role::admin, Role::director}}}},
+     "an admin says who belongs to a cohort, a director within the own programmes",
+     {{{Role::admin}}, {{Role::director}, {}, Whose::own_programmes}}},
+    {Action::appoint_director, "appoint_director", "an admin says who directs a programme", {{{Role::admin}}}},
     {Action::manage_studies,
      "manage_studies",
      "an admin or a director makes a study, its text, and says who works on it",

@@ -225,12 +225,15 @@ base::Result<void> try_to_publish(Library& library, const std::string& case_id, 
     return base::Error{"checks_failed", "the case has changed since it was checked: check it again"};
   decide(library, *wanted, DecisionKind::published, note);
   set_state(library, *wanted, CaseState::published, !reviewed);
-  if (!reviewed)
-    question(library.database(), "add_case_cohorts")
-        .bind("case_id", case_id)
-        .bind("person_id", wanted->by.person_id)
-        .bind("now_us", now_us())
-        .run();
+  if (!reviewed) {
+    int cohorts = 0;
+    {
+      Statement insert = question(library.database(), "add_case_cohorts");
+      insert.bind("case_id", case_id).bind("person_id", wanted->by.person_id).bind("now_us", now_us());
+      while (insert.step()) ++cohorts;
+    }
+    if (cohorts == 0) return base::Error{"no_cohort", "you lead no cohort that the case could reach"};
+  }
   transaction.commit();
   return {};
 }

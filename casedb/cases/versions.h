@@ -37,9 +37,10 @@ base::Result<void> judge_case(Library& library, const std::string& case_id, cons
                               const std::string& note = {});
 // A mentor or director publishes what was approved, as a second person: neither who made the version nor who
 // submitted it. With `own_cohort` a mentor publishes what nobody has reviewed, marked so: it reaches the cohorts
-// that this mentor leads at that moment, and nobody else. A case that comes from a patient needs the confirmation
-// that no picture holds burned-in text (`burned_in_unchecked`). `check` is of the case as it is stored now, and
-// holds (`checks_failed`): one of another case, or from before a change, is refused, however it came out.
+// that this mentor leads at that moment (`no_cohort`: none), and nobody else. A case that comes from a patient
+// needs the confirmation that no picture holds burned-in text (`burned_in_unchecked`). `check` is of the case as it
+// is stored now, and holds (`checks_failed`): one of another case, or from before a change, is refused, however it
+// came out.
 base::Result<void> publish_case(Library& library, const std::string& case_id, const CaseCheck& check,
                                 const std::string& by, bool own_cohort, const std::string& note = {});
 // An admin, or who published it.

@@ -50,6 +50,7 @@ constexpr ActRow kActRows[] = {
     {Act::end_director, "end_director", "ends an appointment"},
     {Act::make_study, "make_study", "makes a study"},
     {Act::appoint_researcher, "appoint_researcher", "lets a researcher work on a study"},
+    {Act::end_researcher, "end_researcher", "ends a researcher's work on a study"},
     {Act::add_consent_text, "add_consent_text", "adds a consent text"},
     {Act::give_consent, "give_consent", "consents"},
     {Act::withdraw_consent, "withdraw_consent", "withdraws consent"},

@@ -53,6 +53,7 @@ enum class Act {
   end_director,
   make_study,
   appoint_researcher,
+  end_researcher,
   add_consent_text,
   give_consent,
   withdraw_consent,

@@ -200,8 +200,9 @@ base::Result<std::unique_ptr<Library::Parts>> Library::Parts::open_for_writing(c
     for (const char* part : {"-wal", "-shm"}) make_private(folder / (std::string(file) + part));
   auto parts = make(folder, folder, Sqlite::Mode::existing);
   if (const auto newest = parts->is_newest(); !newest) return newest.error();
-  parts->identities.run("PRAGMA secure_delete = ON");  // an erased name is overwritten
-  const FolderLock lock(folder);                       // one process backs up and migrates
+  // What is deleted is overwritten: an erased name, the chunks of an attempt that was open.
+  for (Sqlite* database : {&parts->database, &parts->identities}) database->run("PRAGMA secure_delete = ON");
+  const FolderLock lock(folder);  // one process backs up and migrates
   if (const auto migrated = parts->migrated(); !migrated) return migrated.error();
   if (::mkdir((folder / kAssetsFolder).c_str(), 0700) != 0 && errno != EEXIST)
     throw base::Failure("disk", "the library's folder cannot be written");

@@ -421,12 +421,12 @@ void Transaction::commit() {
   database_.run("COMMIT");
 }
 
-Snapshot::Snapshot(Sqlite& database) : database_(database) {
-  CHECK(!database.in_transaction());
-  database.run("BEGIN");
+Snapshot::Snapshot(Sqlite& database) : database_(database), own_(!database.in_transaction()) {
+  if (own_) database.run("BEGIN");
 }
 
 Snapshot::~Snapshot() {
+  if (!own_) return;
   try {
     database_.run("ROLLBACK");
   } catch (const base::Failure&) {

@@ -152,7 +152,8 @@ class Transaction {
   Sqlite& database_;
 };
 
-// What is read in its lifetime is one state of the database, while others go on writing.
+// What is read in its lifetime is one state of the database, while others go on writing. Within a transaction that
+// is the transaction's.
 class Snapshot {
  public:
   explicit Snapshot(Sqlite& database);
@@ -162,6 +163,7 @@ class Snapshot {
 
  private:
   Sqlite& database_;
+  bool own_;
 };
 
 }  // namespace seldinger::casedb

@@ -6,22 +6,15 @@
 #include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
-#include "casedb/database/utf8.h"
 #include "casedb/database/uuid.h"
 #include "casedb/grading/grading.h"
+#include "casedb/people/cohorts.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
 namespace {
 
-constexpr std::size_t kMostTitle = 200;
 constexpr int kMostAttempts = 1000;
-
-bool is_title(const std::string& title) {
-  return !title.empty() && title.size() <= kMostTitle && is_text(title) &&
-         std::none_of(title.begin(), title.end(),
-                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
-}
 
 Curriculum read_curriculum(Sqlite& database, const Statement& from) {
   Curriculum made;
@@ -61,13 +54,14 @@ struct Version {
   std::string case_id, title;
   CaseState state = CaseState::draft;
   int version = 0;
+  bool own_cohort_only = false;
 };
 std::vector<Version> versions_of(Library& library, const std::string& family_id) {
   std::vector<Version> versions;
   Statement rows = question(library.database(), "versions_of_family");
   for (rows.bind("family_id", family_id); rows.step();)
     versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
-                        rows.small_integer("version")});
+                        rows.small_integer("version"), rows.view("audience") == "own_cohort"});
   return versions;
 }
 
@@ -87,6 +81,9 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
     past.available = false;
     const std::vector<Version> versions = versions_of(library, item.family_id);
     for (const Version& version : versions) {
+      // Of a version for another cohort this person is not even told the title.
+      if (person_id && version.own_cohort_only && !reaches_own_cohort(library, version.case_id, *person_id))
+        continue;
       if (state.title.empty()) state.title = version.title;
       if (past.available || version.state != CaseState::published) continue;
       past.available = true;
@@ -97,6 +94,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
       CHECK(row.has_value());
       if (!past.limit) past.limit = row->attempt_limit;
     }
+    if (state.title.empty()) state.title = "Not published for you";
     for (const AttemptRow& attempt : attempts) {
       const bool of_item = std::any_of(versions.begin(), versions.end(),
                                        [&](const Version& version) { return version.case_id == attempt.case_id; });
@@ -119,7 +117,7 @@ std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
 }  // namespace
 
 base::Result<std::string> add_curriculum(Library& library, const std::string& title, const std::string& by) {
-  if (!is_title(title)) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
+  if (const auto fit = check_title(title); !fit) return fit.error();
   Transaction transaction(library.database());
   const auto account = account_that_may(library, by, Action::make_curriculum);
   if (!account) return account.error();

@@ -44,7 +44,9 @@ std::vector<Curriculum> list_curricula(Library& library);                       
 base::Result<Curriculum> find_curriculum(Library& library, const std::string& curriculum_id);  // `no_curriculum`
 
 struct ItemState {
-  std::string case_id, title;  // the version that is published now; empty id: none is, the title is the last one's
+  // The version that is published now, of those that reach the person; empty id: none is, the title is the last
+  // one's or says that none ever reached them.
+  std::string case_id, title;
   int version = 0;
   int attempts = 0, passes = 0;  // over all versions
   assessment::ItemProgress progress;

@@ -143,6 +143,8 @@ assessment::ExpertSet consultants_of(Library& library, const Task& task) {
 
 base::Result<std::string> set_standard(Library& library, const std::string& case_id, const std::string& lesion_id,
                                        std::optional<cases::Modality> modality, const std::string& by) {
+  // Attempts are erased: what the set is made of is there until it is stored.
+  Transaction transaction(library.database());
   const auto account = acting_account(library, by);
   if (!account) return account.error();
   const auto row = find_case(library, case_id);
@@ -165,8 +167,6 @@ base::Result<std::string> set_standard(Library& library, const std::string& case
                                                   std::to_string(assessment::kStandardConsultants) +
                                                   " consultants have completed " +
                                                   std::to_string(assessment::kFamiliarAttempts) + " attempts"};
-  // Attempts and their values are only ever added: the set is one that was.
-  Transaction transaction(library.database());
   if (const auto now = standard_of(library, task); now && now->id == set.id)
     return base::Error{"same_standard", "the standard in force is made of the same values"};
   std::string standard_id = new_uuid();

@@ -15,6 +15,7 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/tables.h"
 #include "casedb/database/uuid.h"
+#include "casedb/people/people.h"
 #include "sim/base/check.h"
 #include "sim/base/hex.h"
 
@@ -56,6 +57,8 @@ class Erasing {
       : library_(library), database_(library.database()) {
     database_.run("PRAGMA secure_delete = ON");  // also of pages that are freed
     transaction_.emplace(database_);
+    // Tables are emptied in the order of their names, not in that of their references; until the transaction ends.
+    database_.run("PRAGMA defer_foreign_keys = ON");
     question(database_, "add_erasure")
         .bind("erasure_id", erasure_id_)
         .bind("what", what)
@@ -147,18 +150,22 @@ bool overwrite(Sqlite& database) {
   }
 }
 
-void clean(Library& library, Erased& sum) {
-  without_paths([&] {
+std::vector<fs::path> old_copies_of(Library& library) {
+  return without_paths([&] {
     std::vector<fs::path> old_copies;
     for (const auto& entry : fs::directory_iterator(library.folder())) {
       const std::string name = entry.path().filename().string();
       if (is_old_copy(name, kDatabaseFile) || is_old_copy(name, kIdentitiesFile))
         old_copies.push_back(entry.path());
     }
-    for (const fs::path& file : old_copies)
-      if (::unlink(file.c_str()) == 0) ++sum.old_copies;
-    sync_folder(library.folder());
+    return old_copies;
   });
+}
+
+void clean(Library& library, Erased& sum) {
+  for (const fs::path& file : old_copies_of(library))
+    ++(::unlink(file.c_str()) == 0 ? sum.old_copies : sum.kept_copies);
+  without_paths([&] { sync_folder(library.folder()); });
   for (Sqlite* database : {&library.database(), &library.identities()})
     if (!overwrite(*database)) sum.overwritten = false;
 }
@@ -200,22 +207,24 @@ base::Result<Erased> erase_person(Library& library, const std::string& name, con
   Erasing erasing(library, Act::erase_person, "person", by);
   empty_person(erasing, person_id);
   erasing.commit();
+  clean(library, erasing.sum);
   {
     // Last: as long as the name is there, the erasure can be asked for again.
     Transaction transaction(library.identities());
     question(library.identities(), "remove_identity").bind("person_id", person_id).run();
     transaction.commit();
   }
-  clean(library, erasing.sum);
+  if (!overwrite(library.identities())) erasing.sum.overwritten = false;
   return erasing.sum;
 }
 
 base::Result<Erased> erase_attempts_of(Library& library, const std::string& person_id,
                                        const std::optional<std::string>& by) {
+  if (const auto known = check_person(library, person_id); !known) return known.error();
   {
-    Statement row = question(library.database(), "person_exists");
-    CHECK(row.bind("person_id", person_id).step());
-    if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+    Statement attempts = question(library.database(), "person_has_attempts");
+    CHECK(attempts.bind("person_id", person_id).step());
+    if (attempts.integer("found") == 0 && old_copies_of(library).empty()) return Erased{};
   }
   Erasing erasing(library, Act::erase_attempts, "attempts", by);
   erasing.attempts_of(person_id);

@@ -16,11 +16,12 @@
 namespace seldinger::casedb {
 
 struct Erased {
-  std::size_t attempts = 0;    // also those that were still open
-  std::size_t assets = 0;      // files
-  std::size_t old_copies = 0;  // of the databases, from before a change of the schema
+  std::size_t attempts = 0;     // also those that were still open
+  std::size_t assets = 0;       // files
+  std::size_t old_copies = 0;   // of the databases, from before a change of the schema
+  std::size_t kept_copies = 0;  // of these, which could not be deleted
   // False: another program was reading the library all the time, so that old bytes lie in its log until the last
-  // one closes it.
+  // one closes it; in pages, what is deleted is overwritten at once.
   bool overwritten = true;
 };
 
@@ -28,9 +29,9 @@ struct Erased {
 
 // The name, the account, what the person said of themselves, to which cohorts they belonged, their attempts and the
 // notes they wrote. Consents stay as withdrawn, and what they decided about cases, as somebody's of whom nothing is
-// known. `no_user`; an erasure that was interrupted is finished by asking again.
+// known. `no_user`; an erasure that was interrupted is finished by asking again: the name goes last.
 base::Result<Erased> erase_person(Library& library, const std::string& name, const std::optional<std::string>& by);
-// The attempts of somebody who stays. `no_person`.
+// The attempts of somebody who stays; where there are none, and no old copies, nothing is done. `no_person`.
 base::Result<Erased> erase_attempts_of(Library& library, const std::string& person_id,
                                        const std::optional<std::string>& by);
 base::Result<Erased> erase_attempt(Library& library, const std::string& attempt_id,

@@ -1,11 +1,14 @@
 #include "casedb/people/cohorts.h"
 
 #include <algorithm>
+#include <map>
 
 #include "casedb/database/audit.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
+#include "casedb/database/utf8.h"
 #include "casedb/database/uuid.h"
+#include "casedb/people/people.h"
 #include "sim/base/check.h"
 #include "sim/base/names.h"
 
@@ -15,11 +18,12 @@ namespace {
 constexpr auto kPosts = base::names<Post>({{Post::learner, "learner"}, {Post::mentor, "mentor"}});
 constexpr std::size_t kMostTitle = 200;
 const base::Error kNotEnrolled{"not_enrolled", "this person does not belong to it now"};
+const base::Error kNoCohort{"no_cohort", "there is no such cohort"};
 
-base::Result<void> only_a_person(Library& library, const std::string& person_id) {
-  Statement row = question(library.database(), "person_exists");
-  CHECK(row.bind("person_id", person_id).step());
-  if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+base::Result<void> check_cohort(Library& library, const std::string& cohort_id) {
+  Statement row = question(library.database(), "cohort_exists");
+  CHECK(row.bind("cohort_id", cohort_id).step());
+  if (row.integer("found") == 0) return kNoCohort;
   return {};
 }
 
@@ -34,7 +38,7 @@ std::optional<Post> post_from(const std::string& name) {
 }
 
 base::Result<void> check_title(const std::string& title) {
-  const bool sound = !title.empty() && title.size() <= kMostTitle &&
+  const bool sound = !title.empty() && title.size() <= kMostTitle && is_text(title) &&
                      std::none_of(title.begin(), title.end(),
                                   [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
   if (!sound) return base::Error{"bad_title", "a title is one line of 1 to 200 bytes"};
@@ -62,20 +66,26 @@ base::Result<std::string> add_cohort(Library& library, const std::string& title,
 }
 
 std::vector<Cohort> list_cohorts(Library& library) {
+  const Snapshot snapshot(library.database());
   std::vector<Cohort> cohorts;
   Statement rows = question(library.database(), "cohorts");
-  for (rows.bind("now_us", now_us()); rows.step();)
-    cohorts.push_back({rows.text("cohort_id"), rows.text("title"), rows.text("programme"), rows.text("site"),
-                       rows.small_integer("learners"), rows.small_integer("attempts"),
-                       rows.small_integer("people_with_attempts"), rows.small_integer("with_hit"),
-                       rows.small_integer("hits")});
+  while (rows.step())
+    cohorts.push_back({rows.text("cohort_id"), rows.text("title"), rows.text("programme"), rows.text("site"), {}});
+  std::map<std::string, Cohort*> by_id;
+  for (Cohort& one : cohorts) by_id.emplace(one.cohort_id, &one);
+  Statement learners = question(library.database(), "learners_of_cohorts");
+  for (learners.bind("now_us", now_us()); learners.step();)
+    by_id.at(learners.text("cohort_id"))
+        ->learners.push_back({learners.text("person_id"), learners.integer("still") != 0,
+                              learners.small_integer("attempts"), learners.small_integer("with_hit"),
+                              learners.small_integer("hits")});
   return cohorts;
 }
 
 base::Result<Cohort> find_cohort(Library& library, const std::string& title_or_id) {
   for (Cohort& one : list_cohorts(library))
     if (one.title == title_or_id || one.cohort_id == title_or_id) return std::move(one);
-  return base::Error{"no_cohort", "there is no such cohort"};
+  return kNoCohort;
 }
 
 std::vector<Enrolment> list_enrolments(Library& library, const std::string& cohort_id) {
@@ -92,8 +102,8 @@ std::vector<Enrolment> list_enrolments(Library& library, const std::string& coho
 
 base::Result<void> enrol(Library& library, const std::string& cohort_id, const std::string& person_id, Post post) {
   Transaction transaction(library.database());
-  if (const auto known = only_a_person(library, person_id); !known) return known.error();
-  if (const auto cohort = find_cohort(library, cohort_id); !cohort) return cohort.error();
+  if (const auto known = check_person(library, person_id); !known) return known.error();
+  if (const auto cohort = check_cohort(library, cohort_id); !cohort) return cohort.error();
   const std::int64_t now = now_us();
   for (const Enrolment& one : list_enrolments(library, cohort_id))
     if (one.person_id == person_id && one.post == post && one.from_us <= now && one.to_us.value_or(now + 1) > now)
@@ -126,7 +136,7 @@ base::Result<void> end_enrolment(Library& library, const std::string& cohort_id,
 base::Result<void> appoint_director(Library& library, const std::string& programme, const std::string& person_id) {
   if (const auto fit = check_title(programme); !fit) return fit.error();
   Transaction transaction(library.database());
-  if (const auto known = only_a_person(library, person_id); !known) return known.error();
+  if (const auto known = check_person(library, person_id); !known) return known.error();
   question(library.database(), "add_director")
       .bind("programme", programme)
       .bind("person_id", person_id)
@@ -151,13 +161,40 @@ base::Result<void> end_director(Library& library, const std::string& programme, 
   return {};
 }
 
-Cohort suppressed(Cohort cohort) {
-  if (cohort.learners < kSmallestCell) cohort.learners = -1;
-  // Two cells whose difference is a small one would tell it: attempts are shown of a whole cohort or not at all.
-  const bool told = cohort.learners > 0 && cohort.people_with_attempts >= kSmallestCell;
-  if (!told) cohort.attempts = cohort.with_hit = cohort.hits = -1;
-  cohort.people_with_attempts = -1;
-  return cohort;
+CohortCells cells_of(const Cohort& cohort) {
+  CohortCells cells;
+  for (const Learner& one : cohort.learners) {
+    if (!one.still) continue;
+    ++cells.learners;
+    cells.attempts += one.attempts;
+    cells.with_hit += one.with_hit;
+    cells.hits += one.hits;
+  }
+  return cells;
+}
+
+CohortCells suppressed(const Cohort& cohort, const std::function<bool(const std::string&)>& seen) {
+  CohortCells cells, people, unseen;
+  for (const Learner& one : cohort.learners) {
+    cells.attempts += one.attempts;
+    cells.with_hit += one.with_hit;
+    cells.hits += one.hits;
+    const int other = seen(one.person_id) ? 0 : 1;
+    const auto count = [other](int& all, int& unseen_of_all) {
+      ++all;
+      unseen_of_all += other;
+    };
+    if (one.still) count(people.learners, unseen.learners);
+    if (one.attempts > 0) count(people.attempts, unseen.attempts);
+    if (one.with_hit > 0) count(people.with_hit, unseen.with_hit);
+  }
+  const auto enough = [](int all, int others) {
+    return all >= kSmallestCell && (others == 0 || others >= kSmallestCell);
+  };
+  cells.learners = enough(people.learners, unseen.learners) ? people.learners : -1;
+  if (!enough(people.attempts, unseen.attempts)) cells.attempts = -1;
+  if (cells.attempts < 0 || !enough(people.with_hit, unseen.with_hit)) cells.with_hit = cells.hits = -1;
+  return cells;
 }
 
 }  // namespace seldinger::casedb

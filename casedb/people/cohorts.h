@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +20,25 @@ enum class Post { learner, mentor };
 std::string name_of(Post post);
 std::optional<Post> post_from(const std::string& name);
 
+// What a learner did by themselves while in a cohort: neither coming to it nor leaving it changes its sums.
+struct Learner {
+  std::string person_id;
+  bool still = true;  // in it now
+  int attempts = 0;
+  int with_hit = 0, hits = 0;  // of the attempts: whose hit is known, and those that hit
+};
+
 struct Cohort {
   std::string cohort_id, title, programme, site;
-  int learners = 0;              // now
-  int attempts = 0;              // of these learners, made by themselves
-  int people_with_attempts = 0;  // how many of them have made any
-  int with_hit = 0, hits = 0;    // of the attempts: whose hit is known, and those that hit
+  std::vector<Learner> learners;  // also those who left
+};
+
+// What is told of a cohort; −1: withheld.
+struct CohortCells {
+  int learners = 0;  // now
+  int attempts = 0;
+  int with_hit = 0, hits = 0;
+  constexpr bool operator==(const CohortCells&) const noexcept = default;
 };
 
 struct Enrolment {
@@ -34,7 +48,7 @@ struct Enrolment {
   std::optional<std::int64_t> to_us;
 };
 
-// One line of 1 to 200 bytes: else `bad_title`.
+// One line of 1 to 200 bytes of UTF-8: else `bad_title`.
 base::Result<void> check_title(const std::string& title);
 
 base::Result<std::string> add_cohort(Library& library, const std::string& title, const std::string& programme,
@@ -45,14 +59,17 @@ std::vector<Enrolment> list_enrolments(Library& library, const std::string& coho
 
 // From now on; who is in it already keeps that and has the other post beside it.
 base::Result<void> enrol(Library& library, const std::string& cohort_id, const std::string& person_id, Post post);
-// From now on out of it: `not_enrolled`.
+// From now on out of it, in whatever post: `not_enrolled`.
 base::Result<void> end_enrolment(Library& library, const std::string& cohort_id, const std::string& person_id);
 base::Result<void> appoint_director(Library& library, const std::string& programme, const std::string& person_id);
 base::Result<void> end_director(Library& library, const std::string& programme,
                                 const std::string& person_id);  // `not_enrolled`
 
-// The cohort as one sees it who may not see its people: counts of attempts and hits only where at least
-// kSmallestCell people made them, and nothing at all of a cohort with fewer learners. What is withheld is -1.
-Cohort suppressed(Cohort cohort);
+// For who sees its people: of those who are in it now.
+CohortCells cells_of(const Cohort& cohort);
+// For who does not: of all who were ever in it, and each count only where at least kSmallestCell people make it up.
+// Of these the reader may see some elsewhere (`seen`) and subtract them: the others must be nobody, or as many
+// again.
+CohortCells suppressed(const Cohort& cohort, const std::function<bool(const std::string& person_id)>& seen);
 
 }  // namespace seldinger::casedb

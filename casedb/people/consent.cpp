@@ -10,6 +10,7 @@
 #include "casedb/database/utf8.h"
 #include "casedb/database/uuid.h"
 #include "casedb/people/cohorts.h"
+#include "casedb/people/people.h"
 #include "sim/base/check.h"
 
 namespace seldinger::casedb {
@@ -24,14 +25,6 @@ bool is_plain_text(std::string_view text) {
   }
   return true;
 }
-
-bool person_exists(Library& library, const std::string& person_id) {
-  Statement row = question(library.database(), "person_exists");
-  CHECK(row.bind("person_id", person_id).step());
-  return row.integer("found") != 0;
-}
-
-const base::Error kNoPerson{"no_person", "there is no such person"};
 
 }  // namespace
 
@@ -65,7 +58,7 @@ base::Result<Study> find_study(Library& library, const std::string& title_or_id)
 
 base::Result<void> add_researcher(Library& library, const std::string& study_id, const std::string& person_id) {
   Transaction transaction(library.database());
-  if (!person_exists(library, person_id)) return kNoPerson;
+  if (const auto known = check_person(library, person_id); !known) return known.error();
   if (is_researcher_of(library, study_id, person_id)) return {};
   question(library.database(), "add_researcher")
       .bind("study_id", study_id)
@@ -73,6 +66,19 @@ base::Result<void> add_researcher(Library& library, const std::string& study_id,
       .bind("from_us", now_us())
       .run();
   audit(library, Act::appoint_researcher, {"person", person_id});
+  transaction.commit();
+  return {};
+}
+
+base::Result<void> end_researcher(Library& library, const std::string& study_id, const std::string& person_id) {
+  Transaction transaction(library.database());
+  int ended = 0;
+  {
+    Statement end = question(library.database(), "end_researcher");
+    for (end.bind("study_id", study_id).bind("person_id", person_id).bind("to_us", now_us()); end.step();) ++ended;
+  }
+  if (ended == 0) return base::Error{"not_enrolled", "this person does not work on the study now"};
+  audit(library, Act::end_researcher, {"person", person_id});
   transaction.commit();
   return {};
 }
@@ -131,7 +137,7 @@ std::vector<Consent> list_consents(Library& library, const std::string& person_i
 
 base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id) {
   Transaction transaction(library.database());
-  if (!person_exists(library, person_id)) return kNoPerson;
+  if (const auto known = check_person(library, person_id); !known) return known.error();
   const auto asked = list_consents(library, person_id);
   if (std::none_of(asked.begin(), asked.end(),
                    [&](const Consent& one) { return one.text_id == text_id && one.newest; }))
@@ -157,6 +163,11 @@ base::Result<void> withdraw_consent(Library& library, const std::string& person_
     Statement withdraw = question(library.database(), "withdraw_consent");
     withdraw.bind("person_id", person_id).bind("text_id", text_id).bind("withdrawn_us", now_us());
     while (withdraw.step()) ++withdrawn;
+  }
+  if (withdrawn == 0) {
+    Statement refuse = question(library.database(), "add_refusal");
+    refuse.bind("person_id", person_id).bind("text_id", text_id).bind("now_us", now_us());
+    while (refuse.step()) ++withdrawn;
   }
   if (withdrawn == 0) return base::Error{"not_given", "no consent to this text stands"};
   audit(library, Act::withdraw_consent, {"consent_text", text_id});

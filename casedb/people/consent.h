@@ -28,8 +28,9 @@ struct Consent {
   int version = 1;
   std::string body, body_hash;
   bool newest = true;                      // of its study; an older one was answered and is no longer asked
-  std::optional<std::int64_t> given_us{};  // the last time
+  std::optional<std::int64_t> given_us{};  // of the consent that stands, else of the last one
   std::optional<std::int64_t> withdrawn_us{};
+  bool refused() const noexcept { return given_us.has_value() && given_us == withdrawn_us; }  // never given
   bool stands() const noexcept { return given_us.has_value() && !withdrawn_us.has_value(); }
 };
 
@@ -38,6 +39,8 @@ std::vector<Study> list_studies(Library& library);                              
 base::Result<Study> find_study(Library& library, const std::string& title_or_id);  // `no_study`
 // From now on; `no_person`. Who works on it already goes on.
 base::Result<void> add_researcher(Library& library, const std::string& study_id, const std::string& person_id);
+// From now on not; `not_enrolled`.
+base::Result<void> end_researcher(Library& library, const std::string& study_id, const std::string& person_id);
 bool is_researcher_of(Library& library, const std::string& study_id, const std::string& person_id);
 
 // The next version, whose number it answers; without a study the library's. `bad_text`: it is empty, longer than
@@ -48,7 +51,8 @@ base::Result<int> add_consent_text(Library& library, const std::optional<std::st
 std::vector<Consent> list_consents(Library& library, const std::string& person_id);
 // `no_text`: no such one is asked of this person now; `no_person`.
 base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id);
-// Of every version: `no_text`, `not_given`.
+// Of every version. Of a study that was never answered, but which consent to research with the library covers: from
+// now on that one does not cover it (kept as given and withdrawn at once). `no_text`, `not_given`.
 base::Result<void> withdraw_consent(Library& library, const std::string& person_id, const std::string& text_id);
 
 // Whose attempts the study may use; without one, whose consent to research with this library stands.

@@ -8,7 +8,7 @@
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
-#include "sim/base/check.h"
+#include "casedb/people/people.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -89,25 +89,33 @@ base::Result<std::string> checked_answer(const std::string& fact_id, const std::
   return digits_of(value + 0.0);  // no negative zero
 }
 
-base::Result<void> give_fact(Library& library, const std::string& person_id, const std::string& fact_id,
-                             const std::string& answer) {
-  const auto checked = checked_answer(fact_id, answer);
-  if (!checked) return checked.error();
-  Transaction transaction(library.database());
-  {
-    Statement row = question(library.database(), "person_exists");
-    CHECK(row.bind("person_id", person_id).step());
-    if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+base::Result<void> give_facts(Library& library, const std::string& person_id,
+                              const std::map<std::string, std::string>& answers) {
+  std::map<std::string, std::string> checked;
+  for (const auto& [fact_id, answer] : answers) {
+    auto fit = checked_answer(fact_id, answer);
+    if (!fit) return fit.error();
+    checked.emplace(fact_id, std::move(*fit));
   }
-  question(library.database(), "add_fact")
-      .bind("person_id", person_id)
-      .bind("fact_id", fact_id)
-      .bind("given_us", now_us())
-      .bind("answer", *checked)
-      .run();
+  if (checked.empty()) return {};
+  Transaction transaction(library.database());
+  if (const auto known = check_person(library, person_id); !known) return known.error();
+  const std::int64_t given_us = now_us();
+  for (const auto& [fact_id, answer] : checked)
+    question(library.database(), "add_fact")
+        .bind("person_id", person_id)
+        .bind("fact_id", fact_id)
+        .bind("given_us", given_us)
+        .bind("answer", answer)
+        .run();
   audit(library, Act::give_fact, {"person", person_id});
   transaction.commit();
   return {};
+}
+
+base::Result<void> give_fact(Library& library, const std::string& person_id, const std::string& fact_id,
+                             const std::string& answer) {
+  return give_facts(library, person_id, {{fact_id, answer}});
 }
 
 std::vector<FactGiven> list_facts(Library& library, const std::string& person_id) {

@@ -38,6 +38,8 @@ base::Result<void> check_new_user(const std::string& name, const std::string& pa
 // (password_rules.h). Names compare without regard to ASCII case.
 base::Result<std::string> add_user(Library& library, const std::string& name, Role role,
                                    const std::string& password);
+// `no_person`: there is no such one, or they were erased.
+base::Result<void> check_person(Library& library, const std::string& person_id);
 std::vector<Account> list_users(Library& library);  // oldest first; those who have a name
 base::Result<void> set_password(Library& library, const std::string& name,
                                 const std::string& password);  // `no_user`, `weak_password`

@@ -30,6 +30,17 @@ Relation relation_to(Library& library, const std::string& reader_id, const std::
   return found == all.end() ? relation : found->second;
 }
 
+Relation relation_to_cohort(Library& library, const std::string& reader_id, const std::string& cohort_id,
+                            const std::string& programme) {
+  Statement row = question(library.database(), "relation_to_cohort");
+  row.bind("reader", reader_id).bind("cohort_id", cohort_id).bind("programme", programme);
+  CHECK(row.bind("now_us", now_us()).step());
+  Relation relation;
+  relation.own_cohort = row.integer("leads") != 0;
+  relation.own_programme = row.integer("directs") != 0;
+  return relation;
+}
+
 bool reaches_own_cohort(Library& library, const std::string& case_id, const std::string& person_id) {
   Statement row = question(library.database(), "case_reaches");
   CHECK(row.bind("case_id", case_id).bind("person_id", person_id).bind("now_us", now_us()).step());

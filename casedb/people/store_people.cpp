@@ -112,6 +112,13 @@ base::Result<void> check_admin_is_left(Library& library, const std::string& pers
 
 }  // namespace
 
+base::Result<void> check_person(Library& library, const std::string& person_id) {
+  Statement row = question(library.database(), "person_exists");
+  CHECK(row.bind("person_id", person_id).step());
+  if (row.integer("found") == 0) return base::Error{"no_person", "there is no such person"};
+  return {};
+}
+
 std::string name_of(Role role) {
   return std::string(base::name_of(kRoles, role));
 }

@@ -86,11 +86,11 @@ std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const Raw
   std::map<std::string, Person> people;
   std::vector<Place> places;
   for (const casedb::AttemptKey& key : keys) {
-    // What a simulated operator made is about nobody.
+    // What a simulated operator made is about nobody, also in somebody's name.
     if (!key.synthetic && !(key.person_id && consenting.contains(*key.person_id))) continue;
     Place place{&key, {}, names.of("A-", key.attempt_id)};
     if (!key.synthetic && !choice.exact) place.precision = Precision::coarse;
-    if (key.person_id) {
+    if (!key.synthetic) {
       auto [at, is_new] = people.try_emplace(*key.person_id);
       if (is_new) at->second = {key.started_us, 0, names.of("P-", *key.person_id)};
       place.person = at->second.name;
@@ -206,7 +206,7 @@ base::Result<RawExport> export_raw(casedb::Library& library, const fs::path& out
       facts.person_attempt = place.person_attempt;
       facts.days_since_first = place.days;
       if (place.person != person_before) ++sum.people;
-      if (!place.key->synthetic) people.insert(*place.key->person_id);
+      people.insert(*place.key->person_id);
       person_before = place.person;
     }
     attempts.add(attempt_line(facts, place.precision));

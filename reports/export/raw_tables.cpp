@@ -55,15 +55,15 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       // Whose attempt it is.
       {{"attempt", "text", "", "", "this export's name of the attempt; says nothing of when or whose it was"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.attempt); }},
-      {{"person", "text", "", "a simulation of nobody",
+      {{"person", "text", "", "a simulation",
         "this export's name of the person; the same in another export only with the same key"},
        [](CsvLine& line, const Facts& f) { f.names.person ? line.text(*f.names.person) : line.nothing(); }},
-      {{"person_attempt", "integer", "", "a simulation of nobody",
+      {{"person_attempt", "integer", "", "a simulation",
         "which of the person's attempts in the library, from 1, whatever the case"},
        [](CsvLine& line, const Facts& f) {
          f.person_attempt ? line.whole(std::int64_t{*f.person_attempt}) : line.nothing();
        }},
-      {{"days_since_first", "number", "d", "a simulation of nobody",
+      {{"days_since_first", "number", "d", "a simulation",
         "from the start of the person's first attempt in the library to this one's; no date is exported"},
        [](CsvLine& line, const Facts& f) { line.number(f.days_since_first); }},
       // Who or what moved the hands.

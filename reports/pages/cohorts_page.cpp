@@ -10,21 +10,20 @@ std::string count_text(int count) {
 
 void add_row(Html& html, const CohortView& view) {
   const casedb::Cohort& cohort = view.cohort;
+  const casedb::CohortCells& cells = view.cells;
   html.raw("<tr><th scope=\"row\">")
       .name(cohort.title)
       .raw("</th><td data-label=\"Programme\">")
       .name(cohort.programme);
   if (!cohort.site.empty()) html.raw(" <span class=\"why\">").name(cohort.site).raw("</span>");
-  html.raw("</td><td data-label=\"Learners\">")
-      .text(cohort.learners < 0 ? "fewer than " + std::to_string(casedb::kSmallestCell)
-                                : std::to_string(cohort.learners));
+  html.raw("</td><td data-label=\"Learners\">").text(count_text(cells.learners));
   for (std::size_t i = 0; i < view.learners.size(); ++i) html.raw(i == 0 ? ": " : ", ").name(view.learners[i]);
-  html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(count_text(cohort.attempts));
+  html.raw("</td><td class=\"number\" data-label=\"Attempts\">").text(count_text(cells.attempts));
   html.raw("</td><td class=\"number\" data-label=\"Hits\">");
-  if (cohort.hits < 0)
-    html.text(count_text(cohort.hits));
+  if (cells.hits < 0)
+    html.text(count_text(cells.hits));
   else
-    html.text(cohort.with_hit == 0 ? "—" : std::to_string(cohort.hits) + " of " + std::to_string(cohort.with_hit));
+    html.text(cells.with_hit == 0 ? "—" : std::to_string(cells.hits) + " of " + std::to_string(cells.with_hit));
   html.raw("</td></tr>\n");
 }
 
@@ -42,7 +41,8 @@ std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> coh
     return page("Cohorts", visitor, html);
   }
   html.raw(
-      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did, and how often they "
+      "<div class=\"wide\">\n<table class=\"list\">\n<caption>Learners, what they did in the cohort, and how often "
+      "they "
       "hit</caption>\n<thead><tr><th scope=\"col\">Cohort</th><th "
       "scope=\"col\">Programme</th><th scope=\"col\">Learners</th><th scope=\"col\" "
       "class=\"number\">Attempts</th><th "

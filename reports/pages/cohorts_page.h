@@ -11,9 +11,10 @@
 namespace seldinger::reports {
 
 struct CohortView {
-  casedb::Cohort cohort;                // where `named` is false, as casedb::suppressed leaves it
+  casedb::Cohort cohort;
   bool named = false;                   // the reader sees who is in it
   std::vector<std::string> learners{};  // their names
+  casedb::CohortCells cells{};          // where `named` is false, as casedb::suppressed leaves them
 };
 
 std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts);

@@ -1,5 +1,7 @@
 #include "reports/pages/me_page.h"
 
+#include <algorithm>
+
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -20,11 +22,13 @@ void add_paragraphs(Html& html, std::string_view body) {
 
 std::string standing_of(const casedb::Consent& one) {
   if (one.stands()) return "You consented on " + utc_text(*one.given_us) + ".";
+  if (one.refused()) return "You refused on " + utc_text(*one.given_us) + ".";
   if (one.given_us) return "You withdrew your consent on " + utc_text(*one.withdrawn_us) + ".";
   return "You have not answered.";
 }
 
-void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one) {
+// `covered`: consent to research with the library, which stands, covers this study that was never answered.
+void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one, bool covered) {
   html.raw("<article class=\"consent\">\n<h3>");
   if (one.study_id)
     html.raw("Study: ").name(one.study_title);
@@ -34,7 +38,9 @@ void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one)
   if (!one.newest) html.raw(" (an earlier wording)");
   html.raw(", SHA-256 ").text(one.body_hash.substr(0, 12)).raw("…</p>\n");
   add_paragraphs(html, one.body);
-  html.raw("<p class=\"standing\"><strong>").text(standing_of(one)).raw("</strong></p>\n");
+  html.raw("<p class=\"standing\"><strong>").text(standing_of(one)).raw("</strong>");
+  if (covered) html.raw(" Your consent to research with this library covers this study.");
+  html.raw("</p>\n");
   begin_form(html, visitor, "/me/consent");
   html.raw("<input type=\"hidden\" name=\"text\" value=\"").text(one.text_id).raw("\">\n");
   if (one.stands())
@@ -45,6 +51,8 @@ void add_consent(Html& html, const Visitor& visitor, const casedb::Consent& one)
         "consent</button></p>\n");
   else
     html.raw("<p><button name=\"answer\" value=\"give\">I consent</button></p>\n");
+  if (covered)
+    html.raw("<p><button class=\"quiet\" name=\"answer\" value=\"withdraw\">Not for this study</button></p>\n");
   html.raw("</form>\n</article>\n");
 }
 
@@ -85,17 +93,23 @@ void add_fact(Html& html, const casedb::FactInfo& fact, const casedb::FactGiven*
 
 }  // namespace
 
-std::string me_page(const Visitor& visitor, const AboutMe& about, std::string_view problem) {
+std::string me_page(const Visitor& visitor, const AboutMe& about, const Told& told) {
   Html html;
   html.raw("<h1>About you</h1>\n");
-  if (!problem.empty()) html.raw("<p class=\"problem\" role=\"alert\">").text(problem).raw("</p>\n");
+  if (!told.problem.empty()) html.raw("<p class=\"problem\" role=\"alert\">").text(told.problem).raw("</p>\n");
+  if (!told.done.empty()) html.raw("<p class=\"note\" role=\"status\">").text(told.done).raw("</p>\n");
   html.raw(
       "<section>\n<h2>Consent to research</h2>\n<p class=\"note\">You decide freely. Your training is the same "
       "whatever you answer, and you can withdraw at any time without giving a reason. Researchers see a pseudonym, "
       "never your name.</p>\n");
-  if (about.consents.empty()) html.raw("<p>There is no study that asks for your consent.</p>\n");
-  for (const casedb::Consent& one : about.consents)
-    if (one.newest || one.stands()) add_consent(html, visitor, one);
+  if (about.consents.empty()) html.raw("<p>Nothing asks for your consent.</p>\n");
+  const auto any = [&](const auto& is) { return std::any_of(about.consents.begin(), about.consents.end(), is); };
+  const bool to_library = any([](const casedb::Consent& one) { return !one.study_id && one.stands(); });
+  for (const casedb::Consent& one : about.consents) {
+    const bool answered =
+        any([&](const casedb::Consent& other) { return other.study_id == one.study_id && other.given_us; });
+    if (one.newest || one.stands()) add_consent(html, visitor, one, one.study_id && to_library && !answered);
+  }
   html.raw(
       "</section>\n<section>\n<h2>Your experience</h2>\n<p class=\"note\">Studies compare people by these facts. "
       "Leave open what you do not want to say; an answer holds from the day you give it.</p>\n");

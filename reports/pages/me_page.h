@@ -17,8 +17,12 @@ struct AboutMe {
   std::vector<casedb::Consent> consents;
 };
 
-// `problem`: what was wrong with the last answer; empty: nothing. Its forms go to /me/consent, /me/facts and
-// /me/erase.
-std::string me_page(const Visitor& visitor, const AboutMe& about, std::string_view problem);
+// What came of the last answer: what was wrong with it, or what was done; empty: nothing.
+struct Told {
+  std::string problem{}, done{};
+};
+
+// Its forms go to /me/consent, /me/facts and /me/erase.
+std::string me_page(const Visitor& visitor, const AboutMe& about, const Told& told);
 
 }  // namespace seldinger::reports

@@ -35,6 +35,8 @@ class GradingCommands : public testing::Test {
     done("case setting " + id +
          " --instrument access --pass 'hit >= 1' --pass 'advance_visible_share >= 0.8' --pass 'skin_punctures <= 1'"
          " --time-limit-s 300");
+    done("cohort add Autumn --programme Radiology");
+    done("cohort enrol Autumn --user mentor --mentor");
     done("case publish " + id + " --by mentor --own-cohort");
     return id;
   }
@@ -129,7 +131,11 @@ TEST_F(GradingCommands, ACurriculumFromDraftToDue) {
   EXPECT_EQ(answer("curriculum list").at("curricula")[0].at("state"), "published");
   // What a simulated operator does is nobody's progress.
   done("simulate --case " + id + " --operator expert");
-  const Json item = answer("curriculum show " + curriculum + " --user trainee").at("items")[0];
+  const std::string of_trainee = "curriculum show " + curriculum + " --user trainee";
+  EXPECT_EQ(answer(of_trainee).at("items")[0].at("case_id"), nullptr)
+      << "before: due, and nobody let them practise it";
+  done("cohort enrol Autumn --user trainee");
+  const Json item = answer(of_trainee).at("items")[0];
   EXPECT_EQ(item.at("case_id"), id);
   EXPECT_EQ(item.at("state"), "not_started");
   EXPECT_EQ(item.at("due"), true);

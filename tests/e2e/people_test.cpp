@@ -63,6 +63,7 @@ class PeopleCommands : public testing::Test {
 TEST_F(PeopleCommands, AnExportHoldsWhoConsentsAndNobodyElse) {
   attempt_of("Zebedee-Quagmire");
   attempt_of("tina");
+  attempt_of("tina");
   library_.done("study new Needles");
   library_.done("study researcher Needles --user rita");
   std::ofstream(at("text.txt")) << "May your attempts be used in Needles?\n";
@@ -78,7 +79,15 @@ TEST_F(PeopleCommands, AnExportHoldsWhoConsentsAndNobodyElse) {
   library_.done("consent give " + text + " --user tina");
   EXPECT_EQ(library_.ask("consent list --user tina")["consents"][0]["stands"], true);
   const Json after = library_.ask("export --study Needles --by rita --out " + at("after"));
-  EXPECT_EQ(after["attempts"].get<int>(), before["attempts"].get<int>() + 1);
+  EXPECT_EQ(after["attempts"].get<int>(), before["attempts"].get<int>() + 2);
+  const auto attempts = fixtures::csv_table(fixtures::whole_file(at("after/attempts.csv")));
+  for (std::size_t i = 0; i < attempts.rows.size(); ++i) {
+    EXPECT_EQ(attempts.cell(i, "synthetic"), i < 2 ? "0" : "1") << "people come first";
+    // Before, simulations in somebody's name had a person, who had not consented.
+    EXPECT_EQ(attempts.cell(i, "person_attempt"), i < 2 ? std::to_string(i + 1) : "");
+    EXPECT_EQ(attempts.cell(i, "person"), i < 2 ? attempts.cell(0, "person") : "");
+  }
+  EXPECT_EQ(attempts.cell(0, "days_since_first"), "0");
   const auto facts = fixtures::csv_table(fixtures::whole_file(at("after/facts.csv")));
   ASSERT_EQ(facts.rows.size(), 1U);
   EXPECT_EQ(facts.cell(0, "fact"), "confidence");
@@ -91,6 +100,9 @@ TEST_F(PeopleCommands, AnExportHoldsWhoConsentsAndNobodyElse) {
   library_.done("consent withdraw " + text + " --user tina");
   EXPECT_EQ(refusal("consent withdraw " + text + " --user tina"), "not_given");
   EXPECT_EQ(library_.ask("export --study Needles --out " + at("withdrawn"))["attempts"], before["attempts"]);
+  library_.done("study researcher Needles --user rita --end");  // before: there was no end to it
+  EXPECT_EQ(refusal("export --study Needles --by rita --out " + at("x")), "not_allowed");
+  EXPECT_EQ(refusal("study researcher Needles --user rita --end"), "not_enrolled");
 }
 
 TEST_F(PeopleCommands, NothingOfAnErasedPersonIsLeftInLibraryBackupOrExport) {

@@ -12,6 +12,7 @@
 #include "casedb/cases/versions.h"
 #include "casedb/people/people.h"
 #include "session/case/case_check.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/new_ball.h"
 
 namespace seldinger::fixtures {
@@ -24,6 +25,7 @@ inline std::vector<std::string> make_ball_library(const std::filesystem::path& f
                                                   const std::vector<cases::Modality>& modalities) {
   casedb::Library library = std::move(casedb::Library::open_or_create(folder).value());
   EXPECT_TRUE(casedb::add_user(library, "mona", casedb::Role::mentor, kBallPassword));
+  make_cohort(library, "mona", {});
   std::vector<std::string> ids;
   for (const cases::Modality modality : modalities) {
     casedb::NewCase made = new_ball();

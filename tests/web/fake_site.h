@@ -51,8 +51,8 @@ class FakeQuestions final : public Questions {
     return all;
   }
   std::vector<casedb::Cohort> list_cohorts() override { return cohorts; }
-  std::vector<casedb::Enrolment> list_enrolments(const std::string& cohort_id) override {
-    return enrolments[cohort_id];
+  casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
+    return cohort_relations[reader_id][cohort.cohort_id];
   }
   reports::AboutMe about(const std::string& person_id) override {
     asked_about = person_id;
@@ -75,9 +75,9 @@ class FakeQuestions final : public Questions {
     done.push_back(person_id + " withdraws " + text_id);
     return {};
   }
-  base::Result<void> erase_attempts_of(const std::string& person_id) override {
+  base::Result<casedb::Erased> erase_attempts_of(const std::string& person_id) override {
     done.push_back("erased " + person_id);
-    return {};
+    return erased;
   }
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override { return seen(whose).size(); }
   std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
@@ -109,7 +109,7 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)
-      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}, true};
+      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}, {}, true};
     return base::Error{"no_case", "there is no such case"};
   }
   std::string case_mark(const std::string&) override {
@@ -135,7 +135,8 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::string> passwords;                                        // by log-in name
   std::map<std::string, std::unordered_map<std::string, casedb::Relation>> relations;  // by reader
   std::vector<casedb::Cohort> cohorts;
-  std::map<std::string, std::vector<casedb::Enrolment>> enrolments;  // by cohort
+  std::map<std::string, std::map<std::string, casedb::Relation>> cohort_relations;  // by reader and cohort
+  casedb::Erased erased;
   reports::AboutMe about_me;
   std::string asked_about;
   std::vector<std::string> logged_out;

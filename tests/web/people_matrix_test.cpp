@@ -2,6 +2,8 @@
 // each of them is to the readers is worked out here from how they were made, not asked of the store.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "casedb/cases/permissions.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
@@ -157,6 +159,48 @@ TEST_F(PeopleMatrix, EveryRouteOfAnAttemptAnswersAsTheTableSays) {
   EXPECT_EQ(checks, (5 * (4 * 6 + 1) + 1) * 4);
   EXPECT_EQ(allowed, (1 + 6 + 6 + 8 + 2) * 4)
       << "own; the mentor's and the director's six; two consents in four cohorts; simulated for two roles";
+}
+
+// A cohort is named to its mentor and to the director of its programme, whoever its learners are; other directors
+// read counts, and of a cohort of one nothing.
+TEST_F(PeopleMatrix, ACohortIsNamedByWhoseItIsNotByWhoIsInIt) {
+  const std::string lone = casedb::add_cohort(library_, "Remediation", "Surgery", "").value(),
+                    empty = casedb::add_cohort(library_, "Begins in May", "Radiology", "").value();
+  const Subject& own = *std::find_if(subjects_.begin(), subjects_.end(),
+                                     [](const Subject& one) { return one.cohort == InCohort::own; });
+  ASSERT_TRUE(casedb::enrol(library_, lone, own.person_id, casedb::Post::learner).has_value());
+  ASSERT_TRUE(casedb::enrol(library_, empty, readers_[Role::mentor], casedb::Post::mentor).has_value());
+  FakeSite world;
+  const auto questions = std::move(questions_of(std::move(library_)).value());
+  Site site{*questions, world.surroundings};
+  for (const Role role : casedb::kAllRoles) {
+    FakeBrowser browser(site);
+    ASSERT_EQ(browser.log_in_as(role).status, 303);
+    const Response response = browser.get("/cohorts");
+    ASSERT_EQ(response.status, casedb::roles_that_may(Action::see_cohort).has(role) ? 200 : 404);
+    if (response.status != 200) continue;
+    const auto row = [&](const std::string& title) {
+      const std::size_t at = response.body.find("<bdi>" + title + "</bdi>");
+      return at == std::string::npos ? std::string()
+                                     : response.body.substr(at, response.body.find("</tr>", at) - at);
+    };
+    for (const auto& [title, programme] : {std::pair{"Own", "Radiology"},
+                                           {"Others", "Surgery"},
+                                           {"Remediation", "Surgery"},
+                                           {"Begins in May", "Radiology"}}) {
+      const bool is_own = std::string(programme) == "Radiology";
+      const bool told = is_own || casedb::may(role, Action::see_cohort_cells);
+      EXPECT_EQ(!row(title).empty(), told) << casedb::name_of(role) << " " << title;
+      for (const Subject& one : subjects_)
+        if (!is_own || one.cohort != InCohort::own) {
+          EXPECT_EQ(row(title).find(one.name), std::string::npos) << casedb::name_of(role) << " " << title;
+        }
+    }
+    EXPECT_NE(row("Own").find(own.name), std::string::npos);
+    if (role == Role::director) {
+      EXPECT_NE(row("Remediation").find("withheld"), std::string::npos);
+    }
+  }
 }
 
 }  // namespace

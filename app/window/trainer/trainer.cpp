@@ -213,7 +213,7 @@ void Trainer::choose(const std::string& case_id) {
     return;
   }
   chosen_ = *row;
-  expert_ = casedb::expert_replay_of(library_, case_id).value_or("");
+  expert_ = casedb::expert_replay_of(library_, case_id, account_.person_id, account_.role).value_or("");
   restarting_ = trying_ = false;
   prepare(nullptr);
 }

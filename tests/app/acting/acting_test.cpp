@@ -17,6 +17,7 @@
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
 #include "casedb/grading/curriculum.h"
+#include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/login_session.h"
 #include "tests/casedb/library_samples.h"
@@ -86,6 +87,15 @@ class ActingTest : public testing::Test {
     ASSERT_TRUE(casedb::submit_case(library, in_review_, "submitter"));
     published_ = made("published");
     curriculum_ = casedb::add_curriculum(library, "Year 1", "mentor").value();
+    for (const auto& [title, programme] : {std::pair{"Autumn", "Radiology"}, {"Spring", "Surgery"}}) {
+      const std::string cohort = casedb::add_cohort(library, title, programme, "").value();
+      static_cast<void>(
+          casedb::add_user(library, std::string(title) + "-learner", Role::trainee, kPassword).value());
+      ASSERT_TRUE(casedb::enrol(library, cohort,
+                                casedb::open_account(library, std::string(title) + "-learner")->person_id,
+                                casedb::Post::learner));
+    }
+    ASSERT_TRUE(casedb::appoint_director(library, "Radiology", person_[Role::director]));
     const std::string study = casedb::add_study(library, "Needles").value();
     ASSERT_TRUE(casedb::add_researcher(library, study, person_[Role::researcher]));
     static_cast<void>(casedb::add_consent_text(library, study, "May we?").value());
@@ -138,6 +148,8 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
   const std::string out = (folder_ / "out").string();
   casedb::Relation own_study;
   own_study.own_study = true;
+  casedb::Relation own_programme;  // the director's
+  own_programme.own_programme = true;
   const std::vector<Asked> all = {
       {"import", {"nowhere.nii"}, Action::add_case},
       {"case lesion",
@@ -183,9 +195,18 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"user enable", {"trainee"}, Action::manage_accounts},
       {"user fact", {"trainee", "confidence", "4"}, Action::answer_consent, {}, true},
       {"user erase", {"trainee"}, Action::erase_person},
-      {"cohort add", {"Autumn", "--programme", "Radiology"}, Action::manage_cohorts},
-      {"cohort enrol", {"Autumn", "--user", "trainee"}, Action::manage_cohorts},
-      {"cohort direct", {"Radiology", "--user", "director"}, Action::manage_cohorts},
+      // Before, a director did all of this in any programme, and so came to see anybody by name.
+      {"cohort add", {"Winter", "--programme", "Radiology"}, Action::manage_cohorts, own_programme},
+      {"cohort add", {"Winter", "--programme", "Surgery"}, Action::manage_cohorts},
+      {"cohort enrol", {"Autumn", "--user", "Autumn-learner"}, Action::manage_cohorts, own_programme},
+      {"cohort enrol", {"Autumn", "--user", "mentor", "--mentor"}, Action::manage_cohorts, own_programme},
+      {"cohort enrol", {"Autumn", "--user", "Autumn-learner", "--end"}, Action::manage_cohorts, own_programme},
+      {"cohort enrol", {"Autumn", "--user", "Spring-learner"}, Action::manage_cohorts},
+      {"cohort enrol", {"Spring", "--user", "Autumn-learner"}, Action::manage_cohorts},
+      {"cohort enrol", {"Spring", "--user", "mentor", "--mentor"}, Action::manage_cohorts},
+      {"cohort enrol", {"Nothing", "--user", "mentor"}, Action::manage_cohorts},
+      {"cohort direct", {"Radiology", "--user", "director"}, Action::appoint_director},
+      {"cohort direct", {"Surgery", "--user", "director"}, Action::appoint_director},
       {"study new", {"Probes"}, Action::manage_studies},
       {"study researcher", {"Needles", "--user", "researcher"}, Action::manage_studies},
       {"consent text", {"nowhere.txt"}, Action::manage_studies},
@@ -202,6 +223,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       Subject subject = one.subject;
       if (one.of_the_trainee) subject.own = role == Role::trainee;
       if (one.action == Action::export_study) subject.own_study = role == Role::researcher;
+      if (role != Role::director) subject.own_programme = false;
       std::vector<std::string> words = one.words;
       words.insert(words.end(), {"--by", casedb::name_of(role), "--token-file", token_of(role).string()});
       const Told told = call(one.command, words, "another password\n");

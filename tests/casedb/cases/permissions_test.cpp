@@ -12,8 +12,9 @@ namespace seldinger::casedb {
 namespace {
 
 // A cell tells to what the role may do it: alternatives, each of them "all" or whose it must be ("own", "others'",
-// of the own "cohort", "programme" or "study", "nobody's", "reached"), before it the states where those decide: of
-// a case d(raft), r(eview), p(ublished), x (retired), of a curriculum D, P, X. Empty: nothing.
+// of the own "cohort", "programme" or "study", "nobody's", "reached", of one who "agreed"), before it the states
+// where those decide: of a case d(raft), r(eview), p(ublished), x (retired), of a curriculum D, P, X. Empty:
+// nothing.
 struct Row {
   const char* action;
   const char *trainee, *mentor, *researcher, *director, *admin;
@@ -24,6 +25,7 @@ constexpr Row kMatrix[] = {
     {"see_attempt",               "own",       "own|cohort|nobody's", "study|nobody's",   "programme", ""},
     {"see_operator_name",         "own",       "own|cohort",          "",                 "programme", ""},
     {"see_free_text",             "all",       "all",                 "",                 "all",       "all"},
+    {"see_expert_replay",         "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed"},
     {"practise_case",             "p:reached", "p:reached|d:all",     "p:reached",        "p:reached", "p:reached"},
     {"look_inside",               "",          "all",                 "",                 "",          ""},
     {"cause_event",               "",          "all",                 "",                 "",          ""},
@@ -51,7 +53,8 @@ constexpr Row kMatrix[] = {
     {"set_standard",              "",          "",                    "",                 "others'",   ""},
     {"see_cohort",                "",          "cohort",              "",                 "programme", ""},
     {"see_cohort_cells",          "",          "",                    "",                 "all",       ""},
-    {"manage_cohorts",            "",          "",                    "",                 "all",       "all"},
+    {"manage_cohorts",            "",          "",                    "",                 "programme", "all"},
+    {"appoint_director",          "",          "",                    "",                 "",          "all"},
     {"manage_studies",            "",          "",                    "",                 "all",       "all"},
     {"export_study",              "",          "",                    "study",            "",          ""},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
@@ -77,8 +80,9 @@ const std::pair<char, Subject> kSubjects[] = {{' ', Subject()},
 
 // Each alone, and none.
 std::vector<Relation> every_relation() {
-  std::vector<Relation> all(7);
-  all[1].own = all[2].own_cohort = all[3].own_programme = all[4].own_study = all[5].nobodys = all[6].reached = true;
+  std::vector<Relation> all(8);
+  all[1].own = all[2].own_cohort = all[3].own_programme = all[4].own_study = all[5].nobodys = all[6].reached =
+      all[7].agreed = true;
   return all;
 }
 
@@ -96,6 +100,7 @@ bool allows(std::string cell, char state, const Relation& relation) {
                       : whose == "programme" ? relation.own_programme
                       : whose == "study"     ? relation.own_study
                       : whose == "nobody's"  ? relation.nobodys
+                      : whose == "agreed"    ? relation.agreed
                                              : whose == "reached" && relation.reached;
     if (fits && states.find(state) != states.npos) return true;
   }
@@ -127,7 +132,7 @@ TEST(Permissions, AreThoseOfTheMatrix) {
       EXPECT_EQ(roles_that_may(action).has(role), !cells[column].empty()) << name_of(role) << " " << row.action;
     }
   }
-  EXPECT_EQ(checks, static_cast<int>(std::size(kMatrix)) * 5 * 8 * 7);
+  EXPECT_EQ(checks, static_cast<int>(std::size(kMatrix)) * 5 * 8 * 8);
   EXPECT_GT(allowed, 300) << "a matrix that allows nothing would pass an empty table";
 }
 

@@ -374,6 +374,10 @@ TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
     ASSERT_TRUE(enrol(library_, cohort, open_account(library_, name)->person_id, post));
   };
   for (const char* name : {"tom", "late"}) static_cast<void>(add_user(library_, name, Role::trainee, "a password"));
+  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  EXPECT_EQ(code(publish("ann", true)), "no_cohort");  // before: published, and it reached nobody
+  EXPECT_EQ(state(), CaseState::draft);
+  EXPECT_TRUE(list_decisions(library_, case_id_).empty());
   put(own, "ann", Post::mentor);
   put(own, "tim", Post::learner);
   put(others, "tom", Post::learner);
@@ -382,7 +386,6 @@ TEST_F(AuthoringTest, ALoneMentorPublishesToHisOwnCohort) {
   put(former, "late", Post::learner);
   ASSERT_TRUE(end_enrolment(library_, former, open_account(library_, "ann")->person_id));
   EXPECT_EQ(code(publish("dora", true)), "not_allowed");
-  ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
   ASSERT_TRUE(publish("ann", true));
   EXPECT_TRUE(find_case(library_, case_id_).value().own_cohort_only);
   EXPECT_FALSE(review_of(list_decisions(library_, case_id_)).has_value());
@@ -462,6 +465,8 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
   const std::string lesion_id = add_lesion(library_, case_id_, sample_lesion()).value();
   static_cast<void>(add_attempt(library_, sample_attempt(case_id_, lesion_id)).value());
   ASSERT_TRUE(confirm_no_burned_in_text(library_, case_id_, std::nullopt));
+  ASSERT_TRUE(enrol(library_, add_cohort(library_, "Own", "Radiology", "").value(),
+                    open_account(library_, "ann")->person_id, Post::mentor));
   ASSERT_TRUE(publish("ann", true));
   EXPECT_EQ(code(new_version(library_, case_id_, "tim")), "not_allowed");
   const std::string second = new_version(library_, case_id_, "ann").value();

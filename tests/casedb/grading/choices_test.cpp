@@ -205,5 +205,20 @@ TEST_F(ChoicesTest, ACaseOfTwoCurriculaIsInBothAndANewVersionTakesItsPlace) {
   EXPECT_EQ(titles(choices()), Titles{}) << "an item without a case cannot be chosen";
 }
 
+// Before: for Eve the item was gone and its case open as free practice, though the first is not passed.
+TEST_F(ChoicesTest, AGateHoldsWhicheverVersionReachesSomebody) {
+  const std::string one = published("One"), two = published("Two");
+  library_.database().run("DROP TRIGGER training_case_published_keeps_its_name");
+  library_.database().run("UPDATE training_case SET audience = 'everyone' WHERE state = 'published'");
+  ASSERT_TRUE(publish_curriculum(library_, curriculum("Year", {one, two}), "Dan"));
+  const std::string next = new_version(library_, two, "Mia").value();
+  ASSERT_TRUE(set_title(library_, next, "Two for Mia's"));
+  publish(next);
+  EXPECT_EQ(choices().cases[1].case_id, next);
+  const Choices others = choices_of(library_, user("Eve", Role::trainee), Role::trainee);
+  ASSERT_EQ(titles(others), (Titles{"Year: One", "Year: Two"}));
+  EXPECT_FALSE(others.cases[1].open);
+}
+
 }  // namespace
 }  // namespace seldinger::casedb

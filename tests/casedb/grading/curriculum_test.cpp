@@ -3,6 +3,7 @@
 
 #include "casedb/cases/versions.h"
 #include "tests/casedb/graded_library.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/sound_check.h"
 
 namespace seldinger::casedb {
@@ -14,6 +15,8 @@ using assessment::Proficiency;
 class CurriculumTest : public GradedLibrary {
  protected:
   std::string person_ = (user("Mia", Role::mentor), user("Dan", Role::director), user("Tom", Role::trainee));
+
+  void SetUp() override { fixtures::make_cohort(library_, "Mia", {"Tom"}); }
 
   // A published case that asks for a hit within 30 s.
   std::string published(std::optional<int> attempt_limit = {}) {
@@ -205,6 +208,30 @@ TEST_F(CurriculumTest, PassesCarryOverToANewVersionAndUsedUpAttemptsDoNot) {
   EXPECT_TRUE(at[0].case_id.empty());
   EXPECT_FALSE(at[0].progress.due);
   EXPECT_EQ(at[0].progress.reached, Proficiency::proficient) << "what was reached stays";
+}
+
+// Before, the newest version counted, whoever it reached: its title was read everywhere, and the item was gone from
+// what one may practise, so that the older version came back without its gates (choices_test.cpp).
+TEST_F(CurriculumTest, AVersionForAnotherCohortIsNotTheItems) {
+  const std::string first = published();
+  library_.database().run("DROP TRIGGER training_case_published_keeps_its_name");
+  library_.database().run("UPDATE training_case SET audience = 'everyone'");
+  const std::string id = new_curriculum();
+  static_cast<void>(add_curriculum_item(library_, id, first, {}, {}, "Mia").value());
+  case_id_ = new_version(library_, first, "Mia").value();
+  ASSERT_TRUE(set_title(library_, case_id_, "Only for Mia's"));
+  publish(case_id_);
+  const std::string elsewhere = user("Eve", Role::trainee);
+  const auto of = [&](const std::string& person) {
+    return states_of(library_, find_curriculum(library_, id).value(), person).at(0);
+  };
+  EXPECT_EQ(of(person_).case_id, case_id_);
+  EXPECT_EQ(of(elsewhere).case_id, first);
+  EXPECT_EQ(of(elsewhere).title, "Kidney A");
+  EXPECT_EQ(states_of(library_, find_curriculum(library_, id).value()).at(0).case_id, case_id_) << "nobody's";
+  ASSERT_TRUE(retire_case(library_, first, "Mia"));
+  EXPECT_EQ(of(elsewhere).case_id, "");
+  EXPECT_EQ(of(elsewhere).title, "Kidney A") << "what was published for them once";
 }
 
 }  // namespace

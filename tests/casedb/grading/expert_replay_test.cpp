@@ -2,6 +2,7 @@
 #include "casedb/grading/expert_replay.h"
 
 #include "casedb/grading/grading.h"
+#include "casedb/people/consent.h"
 #include "tests/casedb/graded_library.h"
 
 namespace seldinger::casedb {
@@ -27,7 +28,8 @@ class ExpertReplay : public GradedLibrary {
     return one;
   }
   std::string stored(const NewAttempt& one) { return add_attempt(library_, one).value(); }
-  std::optional<std::string> shown() { return expert_replay_of(library_, case_id_); }
+  const std::string trainee_ = user("T", Role::trainee);
+  std::optional<std::string> shown() { return expert_replay_of(library_, case_id_, trainee_, Role::trainee); }
   const std::int64_t now_ = now_us();
 };
 
@@ -55,6 +57,11 @@ TEST_F(ExpertReplay, IsAConsultantsWhereThatIsNewer) {
   const std::int64_t then = now_us();
   own.started_us = then;
   const std::string consultants = stored(own);
+  EXPECT_EQ(shown(), std::nullopt) << "before: shown to every trainee, and the consultant was not asked";
+  EXPECT_EQ(expert_replay_of(library_, case_id_, person, Role::trainee), consultants) << "their own";
+  ASSERT_TRUE(add_consent_text(library_, std::nullopt, "May your attempts be used?"));
+  const std::string text = list_consents(library_, person).at(0).text_id;
+  ASSERT_TRUE(give_consent(library_, person, text));
   EXPECT_EQ(shown(), consultants);
   stored(made("expert", true, then - 1));
   EXPECT_EQ(shown(), consultants);
@@ -64,6 +71,12 @@ TEST_F(ExpertReplay, IsAConsultantsWhereThatIsNewer) {
   own.metrics[3].value = 0.0;  // hit
   stored(own);
   EXPECT_EQ(shown(), simulated) << "a consultant who missed";
+  own.metrics[3].value = 1.0;
+  own.started_us = then + 3;
+  const std::string newest = stored(own);
+  EXPECT_EQ(shown(), newest);
+  ASSERT_TRUE(withdraw_consent(library_, person, text));
+  EXPECT_EQ(shown(), simulated) << "no longer agreed";
 }
 
 TEST_F(ExpertReplay, IsOfTheCaseAsItIsPractised) {
@@ -80,7 +93,7 @@ TEST_F(ExpertReplay, IsOfTheCaseAsItIsPractised) {
   other.end = AttemptEnd::interrupted;
   stored(other);
   EXPECT_EQ(shown(), std::nullopt);
-  EXPECT_EQ(expert_replay_of(library_, "no such case"), std::nullopt);
+  EXPECT_EQ(expert_replay_of(library_, "no such case", trainee_, Role::trainee), std::nullopt);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "casedb/database/sqlite.h"
 #include "casedb/grading/comparison.h"
 #include "tests/casedb/graded_library.h"
 
@@ -115,6 +116,18 @@ TEST_F(GradingTest, EightConsultantsOfFiveAttemptsMakeAStandardThatADirectorSets
   EXPECT_TRUE(time->tolerance.has_value());
   EXPECT_NEAR(grade.score.value.value(), 50.0, 1e-9);
   EXPECT_EQ(looked_at(list_attempts_of(library_, person)[0].attempt_id).score.reason, "of_the_set");
+}
+
+// Attempts can be erased by others: what the standard is made of is read where it is stored, in one transaction.
+// Before, it was read outside of one (here: "too_few_consultants" at once), and an attempt erased meanwhile broke
+// the storing.
+TEST_F(GradingTest, AStandardIsMadeWhileNobodyElseWrites) {
+  rule({"hit >= 1"});
+  user("Dora", Role::director);
+  Library other = open_library(library_.folder());
+  const Transaction writing(other.database());
+  library_.database().run("PRAGMA busy_timeout = 20");
+  EXPECT_THROW(static_cast<void>(set_one()), DatabaseFailure);
 }
 
 TEST_F(GradingTest, WhatTheGuideOrHelpLedSetsNoStandard) {

@@ -1,7 +1,10 @@
 // Cohorts, facts and consent: what comes back, what is refused, and what people are to each other by them.
 #include "casedb/people/cohorts.h"
 
+#include "casedb/attempts/attempts.h"
 #include "casedb/database/credentials.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
@@ -126,17 +129,163 @@ TEST_F(CohortsTest, FactsAreCheckedAndKeptWithTheirTimes) {
   }
 }
 
-TEST_F(CohortsTest, SmallCellsAreWithheld) {
-  Cohort cohort{"id", "t", "p", "", 5, 40, 5, 30, 20};
-  EXPECT_EQ(suppressed(cohort).attempts, 40);
-  EXPECT_EQ(suppressed(cohort).hits, 20);
-  cohort.people_with_attempts = 4;
-  EXPECT_EQ(suppressed(cohort).learners, 5);
-  EXPECT_EQ(suppressed(cohort).attempts, -1);
-  cohort = {"id", "t", "p", "", 4, 40, 5, 30, 20};
-  EXPECT_EQ(suppressed(cohort).learners, -1);
-  EXPECT_EQ(suppressed(cohort).attempts, -1);
-  EXPECT_EQ(suppressed(cohort).hits, -1);
+// Before, a title that is not UTF-8 was taken.
+TEST_F(CohortsTest, ATitleIsText) {
+  EXPECT_EQ(code(add_cohort(library_, "\xff", "Surgery", "")), "bad_title");
+  EXPECT_EQ(code(add_study(library_, "\xff")), "bad_title");
+}
+
+TEST_F(CohortsTest, ACohortIsItsMentorsAndItsProgrammesDirectors) {
+  ASSERT_TRUE(enrol(library_, cohort_, mona_, Post::mentor));
+  ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner));
+  ASSERT_TRUE(appoint_director(library_, "Radiology", dora_));
+  const std::string other = add_cohort(library_, "Remediation", "Surgery", "").value();
+  ASSERT_TRUE(enrol(library_, other, tina_, Post::learner)) << "of whom both see everything";
+  EXPECT_TRUE(relation_to_cohort(library_, mona_, cohort_, "Radiology").own_cohort);
+  EXPECT_TRUE(relation_to_cohort(library_, dora_, cohort_, "Radiology").own_programme);
+  for (const std::string& person : {mona_, dora_, tina_})
+    EXPECT_EQ(relation_to_cohort(library_, person, other, "Surgery"), Relation()) << person;
+  EXPECT_EQ(relation_to_cohort(library_, tina_, cohort_, "Radiology"), Relation()) << "a learner leads nothing";
+  EXPECT_TRUE(relation_to_cohort(library_, dora_, "", "Radiology").own_programme) << "yet to be made";
+  ASSERT_TRUE(end_enrolment(library_, cohort_, mona_));
+  EXPECT_EQ(relation_to_cohort(library_, mona_, cohort_, "Radiology"), Relation());
+}
+
+// What somebody did before they came, or after they left, is no cohort's. Before, one enrolment added the
+// newcomer's whole past to the sums, which told it.
+TEST_F(CohortsTest, OnlyWhatWasDoneInACohortCounts) {
+  const std::string case_id = add_case(library_, sample_case());
+  const std::string lesion_id = add_lesion(library_, case_id, sample_lesion()).value();
+  const auto attempt = [&](std::optional<double> hit) {
+    NewAttempt made = sample_attempt(case_id, lesion_id);
+    made.recording = sample_recording(20);
+    made.person_id = tina_;
+    made.operator_name = kPersonOperator;
+    made.started_us = now_us();
+    made.metrics = {{"hit", 1, hit, "bool", hit ? "" : "no_endpoint"}};
+    ASSERT_TRUE(add_attempt(library_, made));
+  };
+  const auto cells = [&] { return cells_of(find_cohort(library_, cohort_).value()); };
+  attempt(1.0);
+  ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner));
+  EXPECT_EQ(cells(), (CohortCells{1, 0, 0, 0}));
+  attempt(1.0);
+  attempt(0.0);
+  attempt(std::nullopt);
+  EXPECT_EQ(cells(), (CohortCells{1, 3, 2, 1}));
+  ASSERT_TRUE(end_enrolment(library_, cohort_, tina_));
+  attempt(1.0);
+  EXPECT_EQ(cells(), CohortCells()) << "she is not in it";
+  const Cohort left = find_cohort(library_, cohort_).value();
+  ASSERT_EQ(left.learners.size(), 1U) << "but what she did there stays in its sums";
+  EXPECT_FALSE(left.learners[0].still);
+  EXPECT_EQ(left.learners[0].attempts, 3);
+}
+
+// The clock was ahead when it was given, and was put right. Before, the withdrawal failed: "withdrawn_us >=
+// given_us".
+TEST_F(CohortsTest, WhatBeganInTheFutureCanBeEnded) {
+  ASSERT_TRUE(add_consent_text(library_, std::nullopt, "May we?"));
+  const std::string text = list_consents(library_, tina_).at(0).text_id, study = add_study(library_, "S").value();
+  const std::string later = std::to_string(now_us() + 3'600'000'000);
+  Sqlite& database = library_.database();
+  database.run("INSERT INTO consent VALUES ('" + tina_ + "', '" + text + "', " + later + ", NULL)");
+  database.run("INSERT INTO enrolment VALUES ('" + cohort_ + "', '" + tina_ + "', 'learner', " + later + ", NULL)");
+  database.run("INSERT INTO programme_director VALUES ('Radiology', '" + dora_ + "', " + later + ", NULL)");
+  database.run("INSERT INTO study_researcher VALUES ('" + study + "', '" + rita_ + "', " + later + ", NULL)");
+  ASSERT_TRUE(withdraw_consent(library_, tina_, text));
+  EXPECT_TRUE(consenting_people(library_, std::nullopt).empty());
+  EXPECT_TRUE(end_enrolment(library_, cohort_, tina_));
+  EXPECT_TRUE(end_director(library_, "Radiology", dora_));
+  EXPECT_TRUE(end_researcher(library_, study, rita_));
+}
+
+// Given, withdrawn, and given again after the clock was put back. Before: told as withdrawn, while studies read it.
+TEST_F(CohortsTest, TheConsentThatStandsIsTold) {
+  ASSERT_TRUE(add_consent_text(library_, std::nullopt, "May we?"));
+  const std::string text = list_consents(library_, tina_).at(0).text_id;
+  library_.database().run("INSERT INTO consent VALUES ('" + tina_ + "', '" + text + "', 100, 110)");
+  library_.database().run("INSERT INTO consent VALUES ('" + tina_ + "', '" + text + "', 50, NULL)");
+  EXPECT_TRUE(list_consents(library_, tina_).at(0).stands());
+  EXPECT_EQ(consenting_people(library_, std::nullopt), std::set{tina_});
+}
+
+// Before: `not_given`, so that nobody could leave one study whom the library's consent had brought into it.
+TEST_F(CohortsTest, OneStudyIsRefusedThoughTheLibrarysConsentStands) {
+  const std::string needles = add_study(library_, "Needles").value(),
+                    probes = add_study(library_, "Probes").value();
+  for (const auto& study : {std::optional<std::string>(), std::optional(needles), std::optional(probes)})
+    ASSERT_TRUE(add_consent_text(library_, study, "May we?"));
+  const auto of = [&](const std::optional<std::string>& study) {
+    for (const Consent& one : list_consents(library_, tina_))
+      if (one.study_id == study) return one;
+    return Consent();
+  };
+  EXPECT_EQ(code(withdraw_consent(library_, tina_, of(needles).text_id)), "not_given") << "nothing covers it";
+  ASSERT_TRUE(give_consent(library_, tina_, of({}).text_id));
+  EXPECT_EQ(consenting_people(library_, needles), std::set{tina_});
+  ASSERT_TRUE(withdraw_consent(library_, tina_, of(needles).text_id));
+  EXPECT_TRUE(of(needles).refused());
+  EXPECT_FALSE(of(needles).stands());
+  EXPECT_TRUE(consenting_people(library_, needles).empty());
+  EXPECT_EQ(consenting_people(library_, probes), std::set{tina_});
+  EXPECT_EQ(code(withdraw_consent(library_, tina_, of(needles).text_id)), "not_given") << "once is enough";
+  ASSERT_TRUE(give_consent(library_, tina_, of(needles).text_id));
+  EXPECT_EQ(consenting_people(library_, needles), std::set{tina_});
+  EXPECT_FALSE(of(needles).refused());
+}
+
+// Before: there was no end to it.
+TEST_F(CohortsTest, AResearchersWorkOnAStudyEnds) {
+  const std::string study = add_study(library_, "Needles").value();
+  EXPECT_EQ(code(end_researcher(library_, study, rita_)), "not_enrolled");
+  ASSERT_TRUE(add_researcher(library_, study, rita_));
+  ASSERT_TRUE(end_researcher(library_, study, rita_));
+  EXPECT_FALSE(is_researcher_of(library_, study, rita_));
+  ASSERT_TRUE(add_researcher(library_, study, rita_));
+  EXPECT_TRUE(is_researcher_of(library_, study, rita_)) << "and begins again";
+}
+
+TEST_F(CohortsTest, FactsAreStoredAllOrNone) {
+  EXPECT_EQ(code(give_facts(library_, tina_, {{"confidence", "4"}, {"handedness", "up"}})), "bad_answer");
+  EXPECT_TRUE(list_facts(library_, tina_).empty());
+  EXPECT_EQ(code(give_facts(library_, "nobody", {{"confidence", "4"}})), "no_person");
+  // One of them cannot be stored. Before, the first had been, in a transaction of its own.
+  library_.database().run(
+      "CREATE TRIGGER no_left BEFORE INSERT ON person_fact WHEN NEW.answer = 'left' BEGIN SELECT RAISE(ABORT, "
+      "'no'); "
+      "END");
+  EXPECT_THROW(static_cast<void>(give_facts(library_, tina_, {{"confidence", "4"}, {"handedness", "left"}})),
+               DatabaseFailure);
+  EXPECT_TRUE(list_facts(library_, tina_).empty());
+  ASSERT_TRUE(give_facts(library_, tina_, {{"confidence", "4"}, {"handedness", "right"}}));
+  EXPECT_EQ(list_facts(library_, tina_).size(), 2U);
+}
+
+// Of so many learners who made attempts of which so many had a known hit; the first `seen` of them are seen
+// elsewhere.
+CohortCells told(int learners, int with_attempts, int with_hit, int seen) {
+  Cohort cohort{"id", "t", "p", "", {}};
+  for (int i = 0; i < learners; ++i)
+    cohort.learners.push_back(
+        {std::to_string(i), true, i < with_attempts ? 8 : 0, i < with_hit ? 6 : 0, i < with_hit ? 4 : 0});
+  return suppressed(cohort, [&](const std::string& person_id) { return std::stoi(person_id) < seen; });
+}
+
+TEST(SuppressedCells, NoCountIsOfFewerThanFivePeople) {
+  EXPECT_EQ(told(5, 5, 5, 0), (CohortCells{5, 40, 30, 20}));
+  EXPECT_EQ(told(5, 4, 4, 0), (CohortCells{5, -1, -1, -1}));
+  EXPECT_EQ(told(4, 4, 4, 0), (CohortCells{-1, -1, -1, -1}));
+  // Before, who made attempts were counted, not whose hit is known: one person's "4 of 6" was told.
+  EXPECT_EQ(told(5, 5, 1, 0), (CohortCells{5, 40, -1, -1}));
+}
+
+// Before: six in all, less four whom the director sees by name, is what the other two did.
+TEST(SuppressedCells, NoDifferenceToWhatIsSeenElsewhereIsOfFewerThanFive) {
+  EXPECT_EQ(told(6, 6, 6, 4), (CohortCells{-1, -1, -1, -1}));
+  EXPECT_EQ(told(9, 9, 9, 4), (CohortCells{9, 72, 54, 36}));
+  EXPECT_EQ(told(9, 8, 8, 4), (CohortCells{9, -1, -1, -1})) << "four others have made attempts";
+  EXPECT_EQ(told(6, 6, 6, 6), (CohortCells{6, 48, 36, 24})) << "all are seen anyway";
 }
 
 }  // namespace

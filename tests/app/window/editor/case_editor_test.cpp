@@ -9,6 +9,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/people/people.h"
 #include "sim/imaging/room/room_camera.h"
+#include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/new_ball.h"
 #include "tests/fixtures/until.h"
@@ -202,6 +203,12 @@ TEST_F(CaseEditorTest, OnlyWhatHoldsIsPublishedAndThenNothingIsChanged) {
   editor_->publish(false, "");
   ASSERT_TRUE(checked());
   EXPECT_EQ(editor_->row().state, casedb::CaseState::draft) << "nobody has reviewed it";
+  editor_->publish(true, "");
+  ASSERT_TRUE(checked());
+  // Before: published, and nobody was offered it.
+  EXPECT_EQ(editor_->refusal(), "you lead no cohort that the case could reach");
+  EXPECT_EQ(editor_->row().state, casedb::CaseState::draft);
+  fixtures::make_cohort(*library_, "mona", {});
   editor_->publish(true, "");
   ASSERT_TRUE(checked());
   EXPECT_EQ(editor_->row().state, casedb::CaseState::published) << editor_->refusal();
