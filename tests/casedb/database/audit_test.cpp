@@ -54,7 +54,7 @@ TEST_F(AuditTest, CodesAreEachAnothersAndFitTheSchema) {
 }
 
 TEST_F(AuditTest, ARowTellsWhoDidWhatToWhichThing) {
-  const std::string person_id = add_user(library_, "ann", Role::mentor, "password").value();
+  const std::string person_id = add_user(library_, "ann", Role::mentor, "a password").value();
   library_.act_for(Actor::person(person_id));
   const std::string case_id = add_case(library_, sample_case());
   library_.act_for({ActorKind::library_operator, person_id});
@@ -113,7 +113,7 @@ TEST_F(AuditTest, AFlippedByteIsTold) {
 }
 
 TEST_F(AuditTest, EachColumnIsPartOfTheHash) {
-  const std::string person_id = add_user(library_, "ann", Role::mentor, "password").value();
+  const std::string person_id = add_user(library_, "ann", Role::mentor, "a password").value();
   const std::string changes[] = {"actor = 'nobody'",
                                  "act = 'log_in'",
                                  "object = 'case'",

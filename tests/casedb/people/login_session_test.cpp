@@ -11,8 +11,8 @@ class LoginSessionTest : public testing::Test {
  protected:
   std::filesystem::path folder_ = fresh_folder() / "library";
   Library library_ = open_library(folder_);
-  std::string ann_ = add_user(library_, "ann", Role::mentor, "password").value();
-  std::string token_ = begin_login_session(library_, log_in(library_, "ann", "password").value());
+  std::string ann_ = add_user(library_, "ann", Role::mentor, "a password").value();
+  std::string token_ = begin_login_session(library_, log_in(library_, "ann", "a password").value());
 
   bool lives() { return account_of_login_session(library_, token_).has_value(); }
   std::string last_act() {
@@ -41,7 +41,7 @@ TEST_F(LoginSessionTest, ItEndsWithItsTimeAndWhenTheClockWentBack) {
       "UPDATE login_session SET begun_us = begun_us + 3600000000, ends_us = begun_us + 7200000000");
   EXPECT_FALSE(lives());
   // The next one takes it away.
-  const std::string next = begin_login_session(library_, log_in(library_, "ann", "password").value());
+  const std::string next = begin_login_session(library_, log_in(library_, "ann", "a password").value());
   EXPECT_EQ(library_.database().integer("SELECT count(*) FROM login_session"), 1);
   EXPECT_TRUE(account_of_login_session(library_, next));
 }
@@ -73,7 +73,7 @@ TEST_F(LoginSessionTest, LogInsAndFailuresAreKeptWithoutTheTypedName) {
   EXPECT_FALSE(log_in(library_, "ann", "wrong password"));
   EXPECT_EQ(last_act(), "log_in nobody refused");
   EXPECT_EQ(list_audit(library_).back().object_id, ann_);
-  EXPECT_FALSE(log_in(library_, "zebedee quagmire", "password"));
+  EXPECT_FALSE(log_in(library_, "zebedee quagmire", "a password"));
   EXPECT_EQ(last_act(), "log_in nobody refused");
   EXPECT_EQ(list_audit(library_).back().object_id, "");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
@@ -84,10 +84,10 @@ TEST_F(LoginSessionTest, LogInsAndFailuresAreKeptWithoutTheTypedName) {
 }
 
 TEST_F(LoginSessionTest, ARoleChangesAndTheMarkOfWebSessionsWithIt) {
-  const std::string mark = log_in(library_, "ann", "password")->password_mark;
+  const std::string mark = log_in(library_, "ann", "a password")->password_mark;
   ASSERT_TRUE(set_role(library_, "ANN", Role::director));
   EXPECT_EQ(last_act(), "set_role operator done");
-  const auto account = log_in(library_, "ann", "password");
+  const auto account = log_in(library_, "ann", "a password");
   EXPECT_EQ(account->role, Role::director);
   EXPECT_NE(account->password_mark, mark) << "the dashboard logs out whoever began before";
   EXPECT_EQ(list_users(library_).front().password_mark, account->password_mark);
@@ -95,8 +95,8 @@ TEST_F(LoginSessionTest, ARoleChangesAndTheMarkOfWebSessionsWithIt) {
 }
 
 TEST_F(LoginSessionTest, TheLastAdminStaysOne) {
-  static_cast<void>(add_user(library_, "adam", Role::admin, "password").value());
-  static_cast<void>(add_user(library_, "closed", Role::admin, "password").value());
+  static_cast<void>(add_user(library_, "adam", Role::admin, "a password").value());
+  static_cast<void>(add_user(library_, "closed", Role::admin, "a password").value());
   ASSERT_TRUE(set_enabled(library_, "closed", false));
   const auto before = list_audit(library_).size();
   EXPECT_EQ(set_role(library_, "adam", Role::mentor).error().code, "last_admin");
