@@ -182,7 +182,7 @@ TEST(Long, NoAcknowledgedAttemptIsLostToAKill) {
     std::filesystem::remove(out);
     const int pid = ::fork();
     if (pid == 0) {
-      std::freopen(out.c_str(), "w", stdout);
+      if (std::freopen(out.c_str(), "w", stdout) == nullptr) ::_exit(127);
       ::execl(kProgram.c_str(), "seldinger", "simulate", "--library", (scratch / "library").c_str(), "--case",
               case_id.c_str(), "--operator", "expert", "--seed", "1", "--count", "1000", nullptr);
       ::_exit(127);
