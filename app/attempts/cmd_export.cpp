@@ -58,14 +58,18 @@ int run_export(const Arguments& arguments) {
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
   auto key = key_from_file(key_file);
   if (!key) return refuse(key.error());
-  // Before anything leaves.
-  casedb::audit_alone(*library, casedb::Act::export_attempts,
-                      choice.study_id ? casedb::Object{"study", *choice.study_id} : casedb::Object{});
   const auto done = reports::export_raw(*library, out, choice, *key);
   key->fill(std::byte{0});
   if (!done) {
     if (key_is_new) std::filesystem::remove(key_file);  // refused: nothing is changed
     return refuse(done.error());
+  }
+  try {
+    casedb::audit_alone(*library, casedb::Act::export_attempts,
+                        choice.study_id ? casedb::Object{"study", *choice.study_id} : casedb::Object{});
+  } catch (...) {
+    std::filesystem::remove_all(out);  // nothing leaves unnoted
+    throw;
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_export(*done).c_str(), stdout);
