@@ -377,7 +377,7 @@ bool Sqlite::in_transaction() const noexcept {
 }
 
 bool Sqlite::read_only() const noexcept {
-  return sqlite3_db_readonly(connection_.get(), "main") == 1;
+  return read_only_ || sqlite3_db_readonly(connection_.get(), "main") == 1;
 }
 
 void Sqlite::copy_to(Sqlite& other) {

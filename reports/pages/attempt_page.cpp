@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "reports/charts/time_chart.h"
-#include "reports/pages/beam_table.h"
-#include "reports/pages/grade_section.h"
-#include "reports/pages/metric_details.h"
-#include "reports/pages/step_section.h"
+#include "reports/pages/sections/beam_table.h"
+#include "reports/pages/sections/grade_section.h"
+#include "reports/pages/sections/metric_details.h"
+#include "reports/pages/sections/step_section.h"
 #include "reports/words/condition_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"

@@ -4,9 +4,9 @@
 
 #include "assessment/grading/plain_words.h"
 #include "reports/markup/html.h"
-#include "reports/pages/grade_section.h"
-#include "reports/pages/metric_details.h"
 #include "reports/pages/page.h"
+#include "reports/pages/sections/grade_section.h"
+#include "reports/pages/sections/metric_details.h"
 #include "reports/words/attempt_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"

@@ -1,7 +1,7 @@
 #include "reports/pages/metrics_page.h"
 
 #include "assessment/registry.h"
-#include "reports/pages/metric_details.h"
+#include "reports/pages/sections/metric_details.h"
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 

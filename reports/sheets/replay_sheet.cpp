@@ -4,9 +4,9 @@
 
 #include "reports/charts/timeline.h"
 #include "reports/markup/base64.h"
-#include "reports/pages/metric_details.h"
 #include "reports/pages/page.h"
-#include "reports/pages/step_section.h"
+#include "reports/pages/sections/metric_details.h"
+#include "reports/pages/sections/step_section.h"
 #include "reports/words/metric_words.h"
 #include "reports/words/shown_metrics.h"
 

@@ -190,7 +190,7 @@ TEST_F(KeepTest, TheRoutineOfTheDocumentsRuns) {
                                       {"/srv/restored", at("restored")},
                                       {"/backup/", at("")},
                                       {"CASE", case_id_}})
-      if (const std::size_t from = line.find(shown); from != std::string::npos)
+      for (std::size_t from = 0; (from = line.find(shown, from)) != std::string::npos; from += real.size())
         line.replace(from, shown.size(), real);
     const auto ran = run(line, scratch_);
     EXPECT_EQ(ran.exit_code, 0) << line << "\n" << ran.err;

@@ -25,7 +25,7 @@ examples() {
   example 'metric, in a table that is there' advance_in_breath 6 '\badvance_in_breath\b'
   example 'metric, in a table that is there' plane_angle_max 6 '\bplane_angle_max\b'
   example 'command' 'case mesh' 3 '\bcase_mesh\b|\bcase mesh\b'
-  example 'command' 'user disable' 3 '\buser_disable\b|\buser disable\b'
+  example 'command, that acts' 'cohort list' 5 '\bcohort_list\b|\bcohort list\b'
   example 'route' '/cases/{case_id}/checks.json' - 'checks\.json|checks_json\b'
   example 'setting, with its migration' breath_irregularity 5 'breath[_-]irregularity'
   example 'setting, with its migration' breath_depth - 'breath[_-]depth'

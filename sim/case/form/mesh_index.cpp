@@ -142,8 +142,9 @@ Closest MeshIndex::far_answer(const glm::dvec3& p, std::uint32_t hint, bool skin
   for (int axis = 0; axis < 3; ++axis)
     if (!std::isnan(p[axis])) near[axis] = std::clamp(p[axis], -kFarthestMm, kFarthestMm);
   Closest found = answer(near, hint, skin_only);
+  // Not of three at once: g++ 12's divides infinity by itself.
   const double distance =
-      std::hypot(p.x - found.point_lps_mm.x, p.y - found.point_lps_mm.y, p.z - found.point_lps_mm.z);
+      std::hypot(std::hypot(p.x - found.point_lps_mm.x, p.y - found.point_lps_mm.y), p.z - found.point_lps_mm.z);
   const bool is_point = !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z);
   found.distance_mm = is_point ? std::copysign(distance, found.distance_mm) : std::nan("");
   return found;

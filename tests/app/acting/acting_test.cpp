@@ -176,6 +176,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"case bundle", {draft_, "--out", out}, Action::hand_out_case},
       {"bundle export", {"--out", out}, Action::hand_out_case},
       {"bundle import", {"nowhere"}, Action::add_case},
+      {"bundle trust", {"remove", "nobody's"}, Action::keep_library},
       {"backup", {out}, Action::keep_library},
       {"check", {"--repair"}, Action::keep_library},
       {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},

@@ -223,7 +223,12 @@ TEST(ConditionsOfOldAttempts, AreNotKnown) {
   const Schema newest = library_schema();
   const auto file = fresh_folder() / "old.sqlite";
   const auto copy_row = [](Library& from, const std::string& table, const std::filesystem::path& to) {
-    from.database().run("ATTACH '" + to.string() + "' AS old; INSERT INTO old." + table + " SELECT * FROM main." +
+    from.database().run("ATTACH '" + to.string() + "' AS old");
+    std::string columns;  // of then
+    for (Statement row = from.database().prepare("SELECT name FROM pragma_table_info('" + table + "', 'old')");
+         row.step();)
+      columns += (columns.empty() ? "" : ", ") + row.text("name");
+    from.database().run("INSERT INTO old." + table + " (" + columns + ") SELECT " + columns + " FROM main." +
                         table + "; DETACH old");
   };
   const auto folder = fresh_folder() / "library";

@@ -168,7 +168,9 @@ TEST_F(TroubleTest, ALibraryOfEverySchemaIsCopiedAndMigrated) {
       Sqlite old(file, Sqlite::Mode::create);
       old.run("PRAGMA journal_mode = WAL");
       build(old, newest, version);
+      Transaction copied(old);
       copy_common_columns(now.database(), old);
+      copied.commit();
     }
     Library migrated = open_library(old_folder);
     EXPECT_EQ(migrated.database().integer("PRAGMA user_version"), newest_version(newest));

@@ -77,7 +77,7 @@ TEST_F(BundleTest, ACaseWithOtherContentIsRefused) {
 
 // No person, account, attempt, recording or score, whatever else is in the library.
 TEST_F(BundleTest, NothingOfPeopleIsInIt) {
-  const std::string person_id = add_user(home_, "Jane Doe", Role::trainee, "secret password").value();
+  const std::string person_id = add_user(home_, "Jane Doe", Role::trainee, "a secret of Jane").value();
   NewAttempt attempt = sample_attempt(case_id_, lesion_id_);
   attempt.person_id = person_id;
   attempt.operator_name = kPersonOperator;

@@ -296,7 +296,8 @@ TEST_F(CheckTest, ALibraryOfAnOlderSchemaGetsItsDigests) {
     for (const std::string& table : tables_of(old)) {
       std::string columns;
       for (const std::string& column : columns_of(old, table)) columns += (columns.empty() ? "" : ", ") + column;
-      old.run("INSERT INTO main." + table + " (" + columns + ") SELECT " + columns + " FROM now." + table);
+      old.run("INSERT OR REPLACE INTO main." + table + " (" + columns + ") SELECT " + columns + " FROM now." +
+              table);
     }
   }
   const CheckReport migrated = check_library(old_folder, false).value();

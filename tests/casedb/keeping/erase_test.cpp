@@ -233,15 +233,23 @@ TEST_F(EraseTest, ARetiredCaseGoesWithItsStandard) {
   const std::string attempt_id = add_attempt(*library_, attempt_by(tim_, 21, 0.5)).value();
   const std::string standard_id(36, 's');
   Sqlite& database = library_->database();
-  database.run("INSERT INTO standard VALUES ('" + standard_id + "', '" + case_id_ + "', '" + lesion_id_ +
-               "', 'mpr', 'in_plane', 'core', 'set', 1, 1, 1, '" + zebedee_ + "', 1)");
-  database.run("INSERT INTO standard_attempt VALUES ('" + standard_id + "', '" + attempt_id + "')");
-  database.run("INSERT INTO standard_band VALUES ('" + standard_id +
-               "', 0, 'hit', 1, 'bool', 8, 0, 1, 0.5, 0.1, NULL, "
-               "NULL)");
+  {
+    Transaction written(database);
+    database.run("INSERT INTO standard VALUES ('" + standard_id + "', '" + case_id_ + "', '" + lesion_id_ +
+                 "', 'mpr', 'in_plane', 'core', 'set', 1, 1, 1, '" + zebedee_ + "', 1)");
+    database.run("INSERT INTO standard_attempt VALUES ('" + standard_id + "', '" + attempt_id + "')");
+    database.run("INSERT INTO standard_band VALUES ('" + standard_id +
+                 "', 0, 'hit', 1, 'bool', 8, 0, 1, 0.5, 0.1, NULL, "
+                 "NULL)");
+    written.commit();
+  }
   ASSERT_TRUE(erase_attempt(*library_, attempt_id, std::nullopt));
-  database.run("UPDATE training_case SET state = 'published'");
-  database.run("UPDATE training_case SET state = 'retired'");
+  {
+    Transaction retired(database);
+    database.run("UPDATE training_case SET state = 'published'");
+    database.run("UPDATE training_case SET state = 'retired'");
+    retired.commit();
+  }
   const auto erased = erase_case(*library_, case_id_, std::nullopt);
   ASSERT_TRUE(erased) << erased.error().text;
   for (const char* table : {"training_case", "lesion", "standard", "standard_band"})

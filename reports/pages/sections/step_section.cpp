@@ -1,9 +1,9 @@
-#include "reports/pages/step_section.h"
+#include "reports/pages/sections/step_section.h"
 
 #include <string>
 
 #include "assessment/grading/reason_words.h"
-#include "reports/pages/metric_details.h"
+#include "reports/pages/sections/metric_details.h"
 #include "reports/words/metric_words.h"
 #include "reports/words/step_card.h"
 

@@ -1,8 +1,8 @@
-#include "reports/pages/grade_section.h"
+#include "reports/pages/sections/grade_section.h"
 
 #include "assessment/grading/plain_words.h"
 #include "assessment/grading/reason_words.h"
-#include "reports/pages/metric_details.h"
+#include "reports/pages/sections/metric_details.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 

@@ -1,4 +1,4 @@
-#include "reports/pages/beam_table.h"
+#include "reports/pages/sections/beam_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "reports/pages/metric_details.h"
+#include "reports/pages/sections/metric_details.h"
 
 #include "assessment/registry.h"
 #include "reports/words/metric_card.h"
