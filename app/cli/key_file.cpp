@@ -1,6 +1,5 @@
 #include "app/cli/key_file.h"
 
-
 #include <algorithm>
 #include <filesystem>
 #include <span>

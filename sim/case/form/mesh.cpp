@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kMagic = 0x4d4c4453;  // "SDLM"
 constexpr std::uint32_t kFormat = 1;
 constexpr std::uint32_t kMaxCount = 20'000'000;  // 20 million triangles are 500 MB: no skin needs more
-constexpr float kFarthestVertexMm = 1e7F;              // ten times what import takes of an origin
+constexpr float kFarthestVertexMm = 1e7F;        // ten times what import takes of an origin
 
 struct Header {
   std::uint32_t magic, format, vertices, triangles;
