@@ -299,6 +299,8 @@ void Trainer::tell_conditions() {
 void Trainer::watch(const std::string& attempt_id) {
   if (resuming_) return;
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
+  const auto attempt = casedb::find_attempt(library_, attempt_id);
+  if (!attempt || (attempt_id != expert_ && attempt->person_id != account_.person_id)) return;
   refusal_.clear();
   watched_from_ = screen_;
   watched_id_ = attempt_id;
