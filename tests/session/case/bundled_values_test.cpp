@@ -25,6 +25,12 @@
 namespace seldinger::session {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__  // where each takes ten times as long
+constexpr std::size_t kOneOf = 12;
+#else
+constexpr std::size_t kOneOf = 3;
+#endif
+
 namespace fs = std::filesystem;
 
 constexpr double kStandIn = 1234.567890123;  // for a NaN, which SQL cannot say
@@ -208,9 +214,9 @@ TEST_F(BundledValues, EachIsRefusedOrHarmless) {
         };
         auto values = values_for(type);
         values.insert(values.begin(), "NULL");
-        if (std::getenv("SELDINGER_FUZZ") == nullptr)  // NOLINT: every third, another third in each column
+        if (std::getenv("SELDINGER_FUZZ") == nullptr)  // NOLINT: one of kOneOf, another in each column
           for (std::size_t at = values.size(); at-- > 0;)
-            if (at % 3 != static_cast<std::size_t>(columns) % 3)
+            if (at % kOneOf != static_cast<std::size_t>(columns) % kOneOf)
               values.erase(values.begin() + static_cast<long>(at));
         const int taken_before = taken_;
         for (const std::string& value : values) {
