@@ -105,7 +105,14 @@ TEST_F(BundleSenderTest, ASignatureTellsWhoSent) {
   EXPECT_FALSE(find_received(away_, case_id_).value().trusted_as.has_value());
 }
 
-// One byte of 200 places of the file, and every byte of its head: told, whichever it is.
+// One byte of 200 places of the file, and every byte of its head: told, whichever it is. Beside a sanitizer,
+// where each takes twenty times as long, every seventh.
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::size_t kPlaceStep = 7;
+#else
+constexpr std::size_t kPlaceStep = 1;
+#endif
+
 TEST_F(BundleSenderTest, AnyByteOfASignedBundleCounts) {
   ASSERT_TRUE(write_bundle(home_, {case_id_}, file_, "0.1.0", key_of(7)).has_value());
   const std::string good = fixtures::whole_file(file_);
@@ -118,7 +125,8 @@ TEST_F(BundleSenderTest, AnyByteOfASignedBundleCounts) {
   std::vector<std::size_t> places;
   for (std::size_t at = 0; at < head; ++at) places.push_back(at);
   for (std::size_t i = 0; i < 200; ++i) places.push_back(i * (good.size() - 1) / 199);
-  for (const std::size_t at : places)
+  for (std::size_t i = 0; i < places.size(); i += kPlaceStep) {
+    const std::size_t at = places[i];
     for (const char flip : {'\x01', '\x03', '\x80'}) {
       std::string bad = good;
       bad[at] = static_cast<char>(bad[at] ^ flip);
@@ -127,7 +135,8 @@ TEST_F(BundleSenderTest, AnyByteOfASignedBundleCounts) {
       ASSERT_TRUE(known.contains(code)) << at << " of " << good.size() << ": " << code;
       ++told[code];
     }
-  EXPECT_GE(told["bad_signature"], 96 * 3);
+  }
+  EXPECT_GE(told["bad_signature"], static_cast<int>(96 / kPlaceStep * 3));
   EXPECT_EQ(state_of(away_), before);
 }
 
