@@ -265,6 +265,16 @@ struct FakeSite {
   std::optional<Site> site;
 };
 
+// The site with one attempt of somebody who is this to the reader.
+inline void give(FakeSite& fake, casedb::Role role, const casedb::Relation& relation) {
+  const std::string reader = "person-of-" + casedb::name_of(role);
+  const std::string other = "person-of-other-zzz999";
+  fake.questions.relations.clear();
+  fake.questions.relations[reader][relation.own ? reader : other] = relation;
+  fake.questions.attempts = {attempt_row(
+      kOwnAttempt, relation.nobodys ? std::nullopt : std::optional<std::string>(relation.own ? reader : other))};
+}
+
 inline std::string header_of(const Response& response, const std::string& name) {
   std::string all;
   for (const auto& [one, value] : response.headers) {

@@ -1,0 +1,88 @@
+// Methods, paths, long lists and types of answers.
+#include <gmock/gmock.h>
+
+#include <vector>
+
+#include "tests/web/fake_site.h"
+
+namespace seldinger::web {
+namespace {
+
+using casedb::Role;
+
+TEST(Routes, OtherMethodsAndOtherPathsAreRefused) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  for (const char* method : {"PUT", "DELETE", "OPTIONS", "TRACE", "PATCH", "CONNECT"}) {
+    const Response response = browser.send(browser.request(method, "/attempts"));
+    EXPECT_EQ(response.status, 405) << method;
+    EXPECT_EQ(header_of(response, "Allow"), "GET, HEAD");
+  }
+  EXPECT_EQ(header_of(browser.send(browser.request("PUT", "/login")), "Allow"), "GET, HEAD, POST");
+  for (const char* path : {"/nothing", "/attempts/", "/attempts/x", "/../attempts", "//attempts", "/attempts/..",
+                           "/attempts/0190A1B2-0000-7000-8000-0000000000A1", "/style.css/", "/favicon.ico",
+                           "/attempts/0190a1b2-0000-7000-8000-0000000000a1/", "/LOGIN"}) {
+    EXPECT_EQ(browser.get(path).status, 404) << path;
+    EXPECT_EQ(browser.post(path, "token=x").status, 404) << path;
+  }
+}
+
+TEST(Routes, PagesOfALongListAreCutAndClamped) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  fake.questions.attempts.clear();
+  for (int i = 0; i < 120; ++i) {
+    std::string id = kOwnAttempt;
+    id.replace(33, 3, std::to_string(100 + i));
+    fake.questions.attempts.push_back(attempt_row(id, std::nullopt));
+  }
+  browser.log_in_as(Role::mentor);
+  const auto shown = [&](const std::string& path) {
+    const std::string html = browser.get(path).body;
+    std::size_t count = 0;
+    for (std::size_t at = html.find("<tr><th scope=\"row\">"); at != html.npos;
+         at = html.find("<tr><th scope=\"row\">", at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  EXPECT_EQ(shown("/attempts"), 50U);
+  EXPECT_EQ(shown("/attempts?page=3"), 20U);
+  EXPECT_EQ(shown("/attempts?page=99999999999999999999999"), 50U);
+  for (const char* odd : {"0", "-1", "x", "", "1e3"})
+    EXPECT_EQ(shown(std::string("/attempts?page=") + odd), 50U) << odd;
+  EXPECT_EQ(shown("/attempts?page=77"), 20U);
+}
+
+TEST(Routes, PictureHealthAndMetricsAnswerInTheirTypes) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  const Response picture = browser.get("/attempts/" + kOthersAttempt + "/picture.png");
+  EXPECT_EQ(picture.content_type, "image/png");
+  EXPECT_EQ(picture.body.size(), fake.questions.picture.size());
+  const Response metrics = browser.get("/attempts/" + kOthersAttempt + "/metrics.json");
+  EXPECT_EQ(metrics.content_type, "application/json");
+  EXPECT_EQ(
+      metrics.body,
+      R"({"attempt_id":")" + kOthersAttempt +
+          R"(","synthetic":false,"metrics":[{"id":"hit","version":1,"value":1.0,"unit":"bool","reason":null},)"
+          R"({"id":"vis_joint","version":1,"value":null,"unit":"share","reason":"no_endpoint"}]})"
+          "\n");
+  EXPECT_EQ(browser.get("/healthz").body, "{\"status\":\"ok\",\"version\":\"9.8.7\"}\n");
+  EXPECT_EQ(browser.get("/style.css").content_type, "text/css; charset=utf-8");
+}
+
+TEST(Routes, APictureThatIsNoneIsNotServed) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  fake.questions.picture = std::vector<std::byte>(100, std::byte{'<'});
+  EXPECT_EQ(browser.get("/attempts/" + kOthersAttempt + "/picture.png").status, 500);
+  fake.questions.attempts[1].picture_sha256.clear();
+  EXPECT_EQ(browser.get("/attempts/" + kOthersAttempt + "/picture.png").status, 404);
+}
+
+}  // namespace
+}  // namespace seldinger::web
