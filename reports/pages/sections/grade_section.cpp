@@ -43,7 +43,7 @@ void add_criterion(Html& html, const CriterionResult& one, const assessment::Exp
   html.raw("<tr><th scope=\"row\">").add(metric_details(one.criterion.metric, one.criterion.version));
   if (one.criterion.critical) html.raw(" <span class=\"mark critical\">critical</span>");
   if (one.of_the_time_limit) html.raw(" <span class=\"mark\">time limit</span>");
-  html.raw("</th><td class=\"number\" data-label=\"You\">");
+  html.raw("</th><td class=\"number\" data-label=\"Measured\">");
   if (one.value && one.unit == "bool")
     html.text(*one.value != 0.0 ? "Yes" : "No");
   else if (one.value)
@@ -78,7 +78,8 @@ void add_criteria(Html& html, const casedb::AttemptGrade& grade) {
   html.raw(
       "<table class=\"list criteria\">\n<caption>To pass, every criterion must be met. Nothing makes up for a "
       "critical "
-      "error.</caption>\n<thead><tr><th scope=\"col\">Criterion</th><th scope=\"col\" class=\"number\">You</th>"
+      "error.</caption>\n<thead><tr><th scope=\"col\">Criterion</th><th scope=\"col\" "
+      "class=\"number\">Measured</th>"
       "<th scope=\"col\" class=\"number\">To pass</th>");
   if (grade.experts.standard()) html.raw("<th scope=\"col\" class=\"number\">Consultants</th>");
   html.raw("<th scope=\"col\">Result</th></tr></thead>\n<tbody>\n");
@@ -95,7 +96,7 @@ void add_score(Html& html, const casedb::AttemptGrade& grade) {
   if (grade.score.value) {
     html.raw(
         "<table>\n<caption>What the score is made of</caption>\n<thead><tr><th scope=\"col\">Metric</th><th "
-        "scope=\"col\" class=\"number\">You</th><th scope=\"col\" class=\"number\">Consultants’ mean</th><th "
+        "scope=\"col\" class=\"number\">Measured</th><th scope=\"col\" class=\"number\">Consultants’ mean</th><th "
         "scope=\"col\" class=\"number\">SD</th><th scope=\"col\" class=\"number\">SD at least</th><th "
         "scope=\"col\" class=\"number\">z</th></tr></thead>\n<tbody>\n");
     for (const assessment::ScorePart& part : grade.score.parts) {
