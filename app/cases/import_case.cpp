@@ -63,6 +63,8 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
                                           const std::string& origin, casedb::FaceChoice face, bool denoise,
                                           bool large) {
+  if (!title.empty())
+    if (const auto fit = casedb::check_case_title(title); !fit) return fit.error();
   progress("reading the volume");
   auto read = casedb::read_source(source, series, large ? casedb::kLargeCtFile : casedb::kCtFile);
   if (!read) return read.error();

@@ -154,8 +154,14 @@ void read_table(Pieces& from, Sqlite& database, const std::string& case_id, std:
   const std::set<std::string> empty = columns_to_staying_tables(database, name);
   Statement insert = insertion(database, name, columns);
   const auto rows = from.number<std::uint32_t>();
+  const bool is_case = table == known.begin();
   for (std::uint32_t row = 0; row < rows; ++row) {
-    for (const std::string& column : columns) bind_value(insert, column, from);
+    for (const std::string& column : columns) {
+      Pieces value = from;
+      bind_value(insert, column, from);
+      if (is_case && column == "title" && static_cast<Kind>(value.number<std::uint8_t>()) == Kind::text)
+        insert.bind(column, fitted_title(value.text()));
+    }
     insert.run();
   }
   // None belongs to another case, or to nobody known here.
@@ -172,6 +178,19 @@ std::int64_t count_of(Sqlite& database, std::string_view table) {
 std::vector<TravellingTable> case_last() {
   const auto tables = travelling_tables();
   return {tables.rbegin(), tables.rend()};
+}
+
+// The empty schema of each version, made once in a thread: walking the migrations takes longer than most bundles. A
+// jail has what its parent had.
+Sqlite& empty_of(int version) {
+  thread_local std::map<int, std::unique_ptr<Sqlite>> known;
+  std::unique_ptr<Sqlite>& empty = known[version];
+  if (!empty) {
+    auto made = std::make_unique<Sqlite>(":memory:", Sqlite::Mode::create);
+    build(*made, library_schema(), version);
+    empty = std::move(made);
+  }
+  return *empty;
 }
 
 }  // namespace
@@ -198,9 +217,7 @@ std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_
   return out;
 }
 
-RowsReader::RowsReader(int version) : empty_(":memory:", Sqlite::Mode::create) {
-  build(empty_, library_schema(), version);
-}
+RowsReader::RowsReader(int version) : empty_(empty_of(version)) {}
 
 base::Result<std::unique_ptr<Sqlite>> RowsReader::read(std::span<const std::byte> bytes,
                                                        const std::string& case_id) {

@@ -20,7 +20,8 @@ constexpr std::size_t kMostRowBytes = std::size_t{8} << 20;  // of one case; its
 // Nobody and nothing that stays is named in them (casedb/tables.h).
 std::vector<std::byte> bytes_from_rows(Sqlite& library, const std::string& case_id);
 
-// Reads rows that were written at one version of the schema.
+// Reads rows that were written at one version of the schema, in one thread. Of a case's title it takes what is one
+// (fitted_title).
 class RowsReader {
  public:
   explicit RowsReader(int version);
@@ -29,7 +30,7 @@ class RowsReader {
   base::Result<std::unique_ptr<Sqlite>> read(std::span<const std::byte> bytes, const std::string& case_id);
 
  private:
-  Sqlite empty_;  // made once: it is copied, not walked, for each case
+  Sqlite& empty_;  // of this thread; it is copied, not walked, for each case
 };
 
 // SHA-256 of what cannot change of a case without its being another: all its rows, but for the columns that may.

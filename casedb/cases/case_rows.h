@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "casedb/cases/authoring.h"
@@ -24,11 +25,13 @@ std::vector<LesionRow> read_lesions(Sqlite& database, const std::optional<std::s
 std::optional<std::vector<StructureRow>> read_structures(Sqlite& database, const std::string& case_id);
 
 base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& load, const CaseRow& row);
-base::Result<std::vector<StoredLabels>> load_label_maps(Sqlite& database, const LoadAsset& load,
-                                                        const CaseRow& row);
+std::vector<std::string> label_map_names(Sqlite& database, const CaseRow& row);  // the case's own first
 
 // 1 to 100 bytes on one line, no space at its ends.
 bool is_sound_name(const std::string& name);
+// As check_case_title takes it: controls and spaces at the ends away, cut to what a title holds. Cases of before
+// titles were checked at import have others.
+std::string fitted_title(std::string_view title);
 // Finite, within the volume, no larger than it, HU that a voxel can hold.
 bool is_sound_lesion(const CaseRow& row, const cases::LesionForm& form);
 double radius_of(const cases::LesionForm& form);  // of the ball of its volume; an irregular one's: its mean
@@ -49,7 +52,7 @@ class CaseContents {
   LoadAsset load_;
   const CaseRow& row_;
   std::optional<Present> classes_;
-  std::optional<std::map<std::string, Present>> labels_;
+  std::map<std::string, Present> labels_;
 };
 
 // `bad_structure`, `bad_geometry`, and what reading the files refuses.

@@ -3,11 +3,13 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "casedb/cases/case_rows.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/cases/structure_json.h"
 #include "casedb/database/tables.h"
+#include "casedb/database/utf8.h"
 #include "casedb/database/uuid.h"
 #include "sim/base/check.h"
 #include "sim/volume/volume_bytes.h"
@@ -24,9 +26,15 @@ constexpr double kFarthestOriginMm = 1e6;                         // as import t
 constexpr std::int64_t kMostOfAKind = 1000;                       // lesions, structures of a case
 constexpr double kNearlyPerpendicular = 0.01, kNearlyOne = 0.01;  // of directions that a scanner rounded
 
+// The end of a control character in UTF-8 (ISO 6429: C0, DEL; C1 are C2 80 to C2 9F).
+bool is_control(char before, char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x20 || byte == 0x7F || (before == '\xC2' && byte >= 0x80 && byte < 0xA0);
+}
+
 bool on_one_line(std::string_view text) {
-  return std::none_of(text.begin(), text.end(),
-                      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+  char before = 0;
+  return std::none_of(text.begin(), text.end(), [&](char c) { return is_control(std::exchange(before, c), c); });
 }
 
 bool is_whole(std::string_view column, std::int64_t value) {
@@ -110,8 +118,24 @@ bool is_sound_name(const std::string& name) {
 }
 
 base::Result<void> check_case_title(const std::string& title) {
-  if (!is_sound_name(title)) return base::Error{"bad_title", "a title has 1 to 100 bytes on one line"};
+  if (!is_sound_name(title) || !is_text(title))
+    return base::Error{"bad_title", "a title has 1 to 100 bytes on one line"};
   return {};
+}
+
+std::string fitted_title(std::string_view title) {
+  std::string fitted;
+  while (!title.empty()) {
+    const std::string_view rest = title;
+    if (!next_character(title)) break;
+    const std::string_view one = rest.substr(0, rest.size() - title.size());
+    const std::string_view shown = on_one_line(one) ? one : " ";
+    if (fitted.empty() && shown == " ") continue;
+    if (fitted.size() + shown.size() > kMostName) break;
+    fitted += shown;
+  }
+  fitted.erase(fitted.find_last_not_of(' ') + 1);
+  return fitted.empty() ? "untitled" : fitted;
 }
 
 bool is_sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
@@ -156,18 +180,19 @@ base::Result<bool> CaseContents::has(volume::TissueClass tissue) {
 }
 
 base::Result<bool> CaseContents::has(const std::string& labels_sha256, int label) {
-  if (!labels_) {
-    const auto maps = load_label_maps(database_, load_, row_);
-    if (!maps) return maps.error();
-    labels_.emplace();
-    for (const StoredLabels& map : *maps) {
-      Present& present = (*labels_)[map.sha256];
-      present.fill(false);
-      for (const std::uint8_t one : map.labels.label) present[one] = true;
-    }
+  if (label < 1 || label > 255) return false;
+  auto map = labels_.find(labels_sha256);
+  if (map == labels_.end()) {  // one after the other: many would not fit into memory
+    const std::vector<std::string> names = label_map_names(database_, row_);
+    if (std::ranges::find(names, labels_sha256) == names.end()) return false;
+    const auto bytes = load_(labels_sha256);
+    if (!bytes) return bytes.error();
+    const auto labels = volume::labels_from_bytes(*bytes);
+    if (!labels) return labels.error();
+    map = labels_.emplace(labels_sha256, Present{}).first;
+    for (const std::uint8_t one : labels->label) map->second[one] = true;
   }
-  const auto map = labels_->find(labels_sha256);
-  return map != labels_->end() && label >= 1 && label <= 255 && map->second[static_cast<std::size_t>(label)];
+  return map->second[static_cast<std::size_t>(label)];
 }
 
 base::Result<void> check_place(CaseContents& contents, const CaseRow& row, const StructureRow& structure) {
@@ -193,7 +218,7 @@ bool rows_are_sound(Sqlite& database, const std::string& case_id) {
   }
   if (found.size() != 1) return false;
   const CaseRow& row = found.front();
-  if (!is_sound_grid(row) || !check_setting(row)) return false;
+  if (!check_case_title(row.title) || !is_sound_grid(row) || !check_setting(row)) return false;
   for (const LesionRow& lesion : read_lesions(database, case_id)) {
     const double radius_mm = radius_of(lesion.form);
     if (!is_sound_lesion(row, lesion.form) || !(std::abs(lesion.lesion.radius_mm / radius_mm - 1.0) <= 1e-6))

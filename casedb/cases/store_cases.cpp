@@ -223,6 +223,7 @@ std::string add_case(Library& library, const NewCase& new_case) {
                              static_cast<std::size_t>(volume.size_voxels.z);
   CHECK(voxels > 0 && volume.hu.size() == voxels);
   CHECK(!new_case.labels || new_case.labels->label.size() == voxels);
+  CHECK(check_case_title(new_case.title));
 
   NewAssets assets(library);
   const std::string volume_sha256 = assets.add(volume::bytes_from_volume(volume));

@@ -200,19 +200,18 @@ base::Result<std::string> add_label_map(Library& library, const std::string& cas
   return sha256;
 }
 
-base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row) {
-  return load_label_maps(library.database(), asset_loader(library), row);
-}
-
-base::Result<std::vector<StoredLabels>> load_label_maps(Sqlite& database, const LoadAsset& load,
-                                                        const CaseRow& row) {
+std::vector<std::string> label_map_names(Sqlite& database, const CaseRow& row) {
   std::vector<std::string> names;
   if (!row.labels_sha256.empty()) names.push_back(row.labels_sha256);
   Statement added = question(database, "label_maps_of_case");
   for (added.bind("case_id", row.case_id); added.step();) names.push_back(added.text("labels_sha256"));
+  return names;
+}
+
+base::Result<std::vector<StoredLabels>> load_label_maps(Library& library, const CaseRow& row) {
   std::vector<StoredLabels> maps;
-  for (const std::string& sha256 : names) {
-    const auto bytes = load(sha256);
+  for (const std::string& sha256 : label_map_names(library.database(), row)) {
+    const auto bytes = library.load_asset(sha256);
     if (!bytes) return bytes.error();
     auto labels = volume::labels_from_bytes(*bytes);
     if (!labels) return labels.error();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "casedb/import/dicom/rle.h"
 
@@ -32,13 +33,19 @@ std::optional<unsigned> short_of(const DicomDataSet& data_set, DicomTag tag, Dic
 struct Cells {
   unsigned allocated = 0, stored = 0, high = 0;  // bits
   bool is_signed = false;
-  std::optional<unsigned> padding;
+  std::optional<std::pair<int, int>> padding;  // PS3.3 §C.7.5.1.1.2: one value or a range, of whole cells
+  int value_of(std::uint32_t cell) const {
+    return is_signed && cell >= 0x8000 ? static_cast<int>(cell) - 0x10000 : static_cast<int>(cell);
+  }
+  bool is_padding(std::uint32_t cell) const {
+    return allocated == 16 && padding && value_of(cell) >= padding->first && value_of(cell) <= padding->second;
+  }
   std::uint32_t mask() const {
     const std::uint32_t pixel = stored >= 32 ? ~0U : (1U << stored) - 1;
     return pixel << (high + 1 - stored);
   }
   std::uint32_t cleared(std::uint32_t cell) const {
-    if (allocated == 16 && padding && *padding == cell) return cell;
+    if (is_padding(cell)) return cell;
     const bool negative = is_signed && (cell >> high & 1U) != 0;
     const std::uint32_t above = high >= 31 ? 0 : ~((1U << (high + 1)) - 1);
     const std::uint32_t whole = allocated >= 32 ? ~0U : (1U << allocated) - 1;
@@ -133,7 +140,9 @@ base::Result<int> clear_hidden_bits(DicomDataSet& data_set, DicomFormat format) 
   cells.stored = short_of(data_set, 0x00280101, format).value_or(cells.allocated);
   cells.high = short_of(data_set, 0x00280102, format).value_or(cells.stored - 1);
   cells.is_signed = short_of(data_set, 0x00280103, format).value_or(0) == 1;
-  cells.padding = short_of(data_set, 0x00280120, format);
+  if (const auto first = short_of(data_set, 0x00280120, format))
+    cells.padding = std::minmax(cells.value_of(*first),
+                                cells.value_of(short_of(data_set, 0x00280121, format).value_or(*first)));
   for (DicomElement& element : data_set) {
     for (DicomDataSet& item : element.items) {
       const auto inside = clear_hidden_bits(item, element.inside);

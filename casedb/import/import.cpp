@@ -32,10 +32,15 @@ bool is_nifti_header(const char* bytes, std::size_t size) {
   return size >= 348 && std::memcmp(bytes + 344, "n+1", 4) == 0;
 }
 
-bool is_metaimage_header(std::string_view start) {
-  const std::string_view text = start.substr(0, std::min<std::size_t>(start.size(), 4096));
-  return text.find("ElementDataFile") != std::string_view::npos || text.starts_with("ObjectType") ||
-         (text.starts_with("NDims") && text.find('=') != std::string_view::npos);
+// By its first keys, or, where its name says so, by anything that is a key: a comment may be longer than the start.
+bool is_metaimage_header(std::string_view start, bool named_so) {
+  if (start.find("ElementDataFile") != std::string_view::npos || start.starts_with("ObjectType")) return true;
+  const std::string_view key = start.substr(0, start.find_first_of(" =\r\n"));
+  const std::size_t after = std::min(start.find_first_not_of(' ', key.size()), start.size());
+  const bool is_key = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_';
+  }) && start.substr(after).starts_with('=');
+  return is_key && (named_so || key == "NDims");
 }
 
 base::Result<Source> read_volume(const std::filesystem::path& file, FileFormat format,
@@ -51,7 +56,7 @@ std::optional<FileFormat> format_of(std::string_view start, const std::string& e
   if (packed) return extension == ".nii.gz" ? std::optional(FileFormat::nifti) : std::nullopt;
   if (is_nifti_header(start.data(), start.size()) && extension == ".nii") return FileFormat::nifti;
   if (start.starts_with("NRRD000")) return FileFormat::nrrd;
-  if (is_metaimage_header(start)) return FileFormat::metaimage;
+  if (is_metaimage_header(start, extension == ".mha" || extension == ".mhd")) return FileFormat::metaimage;
   return std::nullopt;
 }
 

@@ -33,18 +33,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBundlePiece = std::size_t{1} << 20;
+constexpr std::size_t kBundlePiece = std::size_t{1} << 20, kSha256Digits = 64;
 
 const base::Error kDamaged{"damaged", "the bundle is damaged"};
 const base::Error kBadValues{"bundle_values", "a value in a case of the bundle is none that this program stores"};
 const base::Error kTooLarge{"too_large", "the bundle would unpack to far more than a CT does"};
 
-// In a jail, where room is made for it.
+// In a jail, where room and time are made for what is unpacked next.
+void announce_part(std::uint64_t unpacked, std::uint64_t packed) {
+  announce_largest(packed + unpacked);
+  announce_work(packed + unpacked);
+}
+
 bool plausible(std::uint64_t unpacked, std::uint64_t packed) {
   if (unpacks_too_far(kBundlePart, packed, unpacked)) return false;
-  announce_largest(packed + unpacked);
+  announce_part(unpacked, packed);
   return true;
 }
+
+// What CaseContents holds of a voxel at once: HU, labels, and classes that are made of them.
+constexpr std::uint64_t kMostOfAVoxel = 4;
+// A case is worth so many bytes of work besides its files: its rows are read, and a few of its files twice.
+constexpr std::uint64_t kWorkOfACase = 8 * kMiB;
 
 using Assets = std::map<std::string, const BundledAsset*>;  // by name
 
@@ -85,13 +95,19 @@ base::Result<void> check_authored_files(const OpenFile& file, Sqlite& rows, cons
   for (maps.bind("case_id", case_id); maps.step();) {
     const auto bytes = read_asset(file, *assets.at(maps.text("labels_sha256")));
     if (!bytes) return bytes.error();
-    if (!plausible(voxels, bytes->size())) return kTooLarge;
     if (volume::stored_voxels(*bytes) != voxels) return kDamaged;
+    announce_part(voxels, bytes->size());
     const auto labels = volume::labels_from_bytes(*bytes);
     if (!labels || !is_sound_label_map(row, *labels)) return kDamaged;
   }
   CaseContents contents(
-      rows, [&](const std::string& sha256) { return read_asset(file, *assets.at(sha256)); }, row);
+      rows,
+      [&](const std::string& sha256) {
+        const BundledAsset& asset = *assets.at(sha256);
+        announce_part(kMostOfAVoxel * voxels, asset.bytes);
+        return read_asset(file, asset);
+      },
+      row);
   const auto structures = read_structures(rows, case_id);
   CHECK(structures);  // rows_are_sound
   for (const StructureRow& structure : *structures)
@@ -99,7 +115,8 @@ base::Result<void> check_authored_files(const OpenFile& file, Sqlite& rows, cons
   return {};
 }
 
-// The files of a case are what they are used as.
+// The files of a case are what they are used as. How far labels and classes unpack is no question of their own:
+// nearly empty ones shrink ten thousand times, and they have as many voxels as the volume, which was judged.
 base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::string& case_id,
                                const Assets& assets) {
   Statement row = question(rows, "cases");
@@ -128,15 +145,15 @@ base::Result<void> check_files(const OpenFile& file, Sqlite& rows, const std::st
   if (!row.is_null("labels_sha256")) {
     const auto bytes = read_asset(file, *asset("labels_sha256"));
     if (!bytes) return bytes.error();
-    if (!plausible(count, bytes->size())) return kTooLarge;
     if (volume::stored_voxels(*bytes) != count) return kDamaged;
+    announce_part(count, bytes->size());
     const auto labels = volume::labels_from_bytes(*bytes);
     if (!labels || labels->label.size() != count) return kDamaged;
   }
   if (!row.is_null("classes_sha256")) {
     const auto bytes = read_asset(file, *asset("classes_sha256"));
     if (!bytes) return bytes.error();
-    if (!plausible(count, bytes->size())) return kTooLarge;
+    announce_part(count, bytes->size());
     if (!volume::classes_from_bytes(*bytes, static_cast<std::size_t>(count))) return kDamaged;
   }
   return check_authored_files(file, rows, case_id, assets, count);
@@ -158,6 +175,7 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list, boo
   for (const BundledAsset& asset : list.assets) {
     assets.emplace(asset.sha256, &asset);
     if (!unpacks) continue;
+    announce_work(asset.bytes);
     Sha256 hash;
     for (std::uint64_t done = 0; done < asset.bytes; done += kBundlePiece)
       hash.add(file.read(asset.offset + done,
@@ -167,6 +185,7 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list, boo
   std::set<std::string> used;
   RowsReader reader(list.schema);
   for (const BundledCase& part : list.cases) {
+    if (unpacks) announce_work(kWorkOfACase + part.bytes);
     const auto rows = read_rows(file, reader, part);
     if (!rows) return rows.error();
     std::set<std::string> named = assets_named(**rows);
@@ -181,24 +200,36 @@ base::Result<void> check_parts(const OpenFile& file, const BundleList& list, boo
   return {};
 }
 
-// Reads all of the file in a jail. What is read of it afterwards out here is read with the same hashes.
-base::Result<void> check_inside(const OpenFile& file) {
+// Reads all of the file in a jail, and answers its list. What is read of it afterwards out here is read with the
+// hashes of that list and no other's, also when somebody writes to the file meanwhile.
+base::Result<BundleList> checked_list(const OpenFile& file) {
+  const RowsReader known(newest_version(library_schema()));  // so that the jail has its schema already
   JailInputs inputs;
   inputs.descriptors = {file.descriptor()};
   inputs.bytes = kMostFileListBytes + 4 * kMostRowBytes;
-  base::Result<void> result;
+  base::Result<std::string> checked = base::Error{};
   const auto read = read_in_jail(
       inputs,
       [&](Outlet& out) {
         const auto list = read_bundle_list(file);
         const auto sound = list ? check_parts(file, *list, true, [](const auto&...) {}) : list.error();
         out.put(sound.has_value());
-        if (!sound) out.put_error(sound.error());
+        if (sound)
+          out.put_text(list->head_sha256);
+        else
+          out.put_error(sound.error());
       },
       [&](Inlet& in) {
-        if (!in.take_flag()) result = in.take_error();
+        if (in.take_flag())
+          checked = in.take_text(kSha256Digits);
+        else
+          checked = in.take_error();
       });
-  return read ? result : read;
+  if (!read) return read.error();
+  if (!checked) return checked.error();
+  auto list = read_bundle_list(file);
+  if (list && list->head_sha256 != *checked) return kDamaged;
+  return list;
 }
 
 Bundle told(const BundleList& list, std::uint64_t bytes) {
@@ -356,8 +387,7 @@ base::Result<Bundle> check_bundle(const fs::path& file) {
   return without_paths([&]() -> base::Result<Bundle> {
     if (!fs::is_regular_file(file)) return not_found();
     const OpenFile in(fs::canonical(file));
-    if (const auto sound = check_inside(in); !sound) return sound.error();
-    const auto list = read_bundle_list(in);
+    const auto list = checked_list(in);
     if (!list) return list.error();
     return told(*list, in.size());
   });
@@ -367,8 +397,7 @@ base::Result<Unbundled> import_bundle(Library& library, const fs::path& file) {
   return without_paths([&]() -> base::Result<Unbundled> {
     if (!fs::is_regular_file(file)) return not_found();
     const OpenFile in(fs::canonical(file));
-    if (const auto sound = check_inside(in); !sound) return sound.error();
-    const auto list = read_bundle_list(in);
+    const auto list = checked_list(in);
     if (!list) return list.error();
     try {
       for (;;) {

@@ -145,10 +145,13 @@ base::Result<BundleList> read_bundle_list(const OpenFile& file) {
   if (sha256_hex(bytes) != std::string_view(header.list_sha256, sizeof header.list_sha256)) return kDamagedFile;
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   BundleList list;
+  Sha256 head;
+  head.add(start);
   std::uint64_t parts_from = sizeof header + header.list_bytes;
   if (header.format == kSignedFormat) {
     const std::vector<std::byte> part = file.read(parts_from, kSignatureBytes);
     if (part.size() < kSignatureBytes) return kDamagedFile;
+    head.add(part);
     Signature signature{};
     std::memcpy(signature.data(), part.data() + kPublicKeyBytes, signature.size());
     list.signing_key = base::hex_from_bytes(std::span(part).first(kPublicKeyBytes));
@@ -156,6 +159,7 @@ base::Result<BundleList> read_bundle_list(const OpenFile& file) {
       return base::Error{"bad_signature", "the bundle's signature is not that of the key it names"};
     parts_from += kSignatureBytes;
   }
+  list.head_sha256 = head.hex();
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     if (end == std::string_view::npos || !read_line(text.substr(0, end), list)) return kDamagedFile;

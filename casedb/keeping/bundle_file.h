@@ -44,6 +44,7 @@ struct BundleList {
   // The public key whose signature holds; nothing: unsigned. It signs the header, which names the list by its hash,
   // which so names every part.
   std::optional<std::string> signing_key;
+  std::string head_sha256;  // of header and signature: which file this is the list of, to the last byte
 };
 
 // Header, list and signature, if there is a key; the parts follow. Fills in where each will lie.

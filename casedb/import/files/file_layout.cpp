@@ -12,7 +12,8 @@ namespace seldinger::casedb {
 namespace {
 
 constexpr std::int64_t kMostVoxelsAlong = 4096, kMostVoxels = static_cast<std::int64_t>(volume::kMaxVoxels);
-constexpr std::uint64_t kLongestHeader = 1 << 16;
+constexpr std::size_t kMostLines = 20'000;
+constexpr std::uint64_t kLongestHeader = 1 << 20;  // segmentations of 3D Slicer write tags of each segment
 
 }  // namespace
 
@@ -60,7 +61,7 @@ TextHeader read_text_header(const std::filesystem::path& file, const std::string
   const auto bytes = read_bytes(file, 0, kLongestHeader);
   if (!bytes) return header;
   std::string line;
-  for (std::size_t i = 0; i < bytes->size() && !header.ended; ++i) {
+  for (std::size_t i = 0; i < bytes->size() && !header.ended && header.lines.size() < kMostLines; ++i) {
     const char c = static_cast<char>((*bytes)[i]);
     if (c != '\n') {
       line.push_back(c);

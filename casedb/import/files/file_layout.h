@@ -40,8 +40,8 @@ void check_layout(const FileLayout& layout, const UnpackingLimit& limit, Problem
 std::filesystem::path data_file_beside(const std::filesystem::path& header, const std::string& name,
                                        Problems& problems);
 
-// Lines of a text header, 64 KiB at most, and where the data begins; a header ends after `last_key` (MetaImage) or
-// an empty line.
+// Lines of a text header, 1 MiB and 20,000 at most, and where the data begins; a header ends after `last_key`
+// (MetaImage) or an empty line.
 struct TextHeader {
   std::vector<std::string> lines;
   std::size_t data_offset = 0;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -33,6 +34,17 @@ void limit(int resource, rlim_t most, bool for_good) {
   now.rlim_cur = std::min(now.rlim_max, most);
   if (for_good) now.rlim_max = now.rlim_cur;
   ::setrlimit(static_cast<__rlimit_resource>(resource), &now);
+}
+
+rlim_t seconds_for(std::uint64_t work_bytes) {
+  return std::min(kMostJailSeconds, kJailSpareSeconds + work_bytes / kSlowestBytesPerSecond);
+}
+
+void raise(int child, __rlimit_resource resource, const std::function<rlim_t(rlim_t)>& raised) {
+  rlimit now{};
+  if (::prlimit(child, resource, nullptr, &now) != 0 || now.rlim_cur == RLIM_INFINITY) return;
+  now.rlim_cur = std::min(now.rlim_max, raised(now.rlim_cur));
+  ::prlimit(child, resource, &now, nullptr);
 }
 
 // close_range(2) came with Linux 5.9.
@@ -86,28 +98,24 @@ bool leave_system_calls() {
 
 }  // namespace
 
-bool confine(std::vector<int> kept, std::uint64_t bytes) {
+bool confine(std::vector<int> kept, std::uint64_t bytes, std::uint64_t work_bytes) {
   if (!kConfines) return true;
   leave_descriptors(std::move(kept));
   ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
   ::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0);
   limit(RLIMIT_CORE, 0, true);
   limit(RLIMIT_FSIZE, 0, true);
-  limit(RLIMIT_CPU, kJailSpareSeconds + bytes / kSlowestBytesPerSecond, false);
+  limit(RLIMIT_CPU, seconds_for(work_bytes), false);
   limit(RLIMIT_AS, mapped_bytes() + kJailSpareBytes + 2 * bytes, false);
   return leave_system_calls();
 }
 
 void widen(int child, std::uint64_t bytes) {
-  if (!kConfines) return;
-  const auto add = [&](__rlimit_resource resource, rlim_t more) {
-    rlimit now{};
-    if (::prlimit(child, resource, nullptr, &now) != 0 || now.rlim_cur == RLIM_INFINITY) return;
-    now.rlim_cur = std::min(now.rlim_max, now.rlim_cur + more);
-    ::prlimit(child, resource, &now, nullptr);
-  };
-  add(RLIMIT_AS, 2 * bytes);
-  add(RLIMIT_CPU, bytes / kSlowestBytesPerSecond);
+  if (kConfines) raise(child, RLIMIT_AS, [&](rlim_t now) { return now + 2 * bytes; });
+}
+
+void allow_work(int child, std::uint64_t work_bytes) {
+  if (kConfines) raise(child, RLIMIT_CPU, [&](rlim_t) { return seconds_for(work_bytes); });
 }
 
 }  // namespace seldinger::casedb

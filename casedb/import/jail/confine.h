@@ -17,15 +17,18 @@ constexpr std::uint64_t kJailSpareBytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kJailSpareSeconds = 60;
 constexpr std::uint64_t kSlowestBytesPerSecond = std::uint64_t{2}
                                                  << 20;  // of processor time: JPEG 2000 makes 10 MB
+constexpr std::uint64_t kMostJailSeconds = 4 * 3600;     // whatever it says that it has to do
 
 // Closes every descriptor but `kept` (standard input, output and error lead nowhere); limits address space to what
-// is mapped now, 64 MiB and twice `bytes`, processor time likewise, files written and core dumps to nothing; and,
-// where the kernel has seccomp, leaves only the system calls in which memory is taken and open descriptors are read
-// and written: no file, socket, process, thread or executable page can be made. Everything else fails with EPERM.
-// False: the kernel refused seccomp, the rest holds.
-bool confine(std::vector<int> kept, std::uint64_t bytes);
+// is mapped now, 64 MiB and twice `bytes`, processor time to what `work_bytes` need, files written and core dumps
+// to nothing; and, where the kernel has seccomp, leaves only the system calls in which memory is taken and open
+// descriptors are read and written: no file, socket, process, thread or executable page can be made. Everything
+// else fails with EPERM. False: the kernel refused seccomp, the rest holds.
+bool confine(std::vector<int> kept, std::uint64_t bytes, std::uint64_t work_bytes);
 
 // Gives a confined child of this process room for so many more bytes.
 void widen(int child, std::uint64_t bytes);
+// Its processor time from now on: what so many bytes, all that it goes through, need.
+void allow_work(int child, std::uint64_t work_bytes);
 
 }  // namespace seldinger::casedb

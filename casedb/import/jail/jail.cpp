@@ -23,10 +23,9 @@ namespace seldinger::casedb {
 namespace {
 
 // A frame: its kind, how long it is, its bytes.
-constexpr char kData = 'd', kOpen = 'o', kAnnounce = 'a', kEnd = 'e';
+constexpr char kData = 'd', kOpen = 'o', kAnnounce = 'a', kWork = 'w', kEnd = 'e';
 constexpr std::size_t kHeadBytes = 9, kLongestRequest = 1 << 16, kBuffered = 1 << 16;
-constexpr int kSilenceMs = 10 * 60 * 1000;  // a reader that is waited for so long will not come
-constexpr std::uint64_t kMostAnnounced = std::uint64_t{16} << 30;
+constexpr std::uint64_t kMostAnnounced = std::uint64_t{16} << 30, kMostWork = std::uint64_t{1} << 60;
 
 void send_all(int socket, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
@@ -80,10 +79,22 @@ int receive_descriptor(int socket) {
   return descriptor;
 }
 
-// What of the child's is text is printed by us: nothing in it may steer a terminal.
+// What of the child's is text is printed by us: nothing in it may steer a terminal, neither in UTF-8 nor in the
+// eight bits of older ones (ISO 6429: C0, DEL, C1).
 std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  std::size_t follow = 0;  // bytes that go on the character under way
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool follows = byte >= 0x80 && byte < 0xC0 && follow > 0;
+    if (follows) {
+      --follow;
+      continue;
+    }
+    follow = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : byte >= 0xC2 ? 1 : 0;
+    const bool c1 = byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (byte < 0x20 || (byte >= 0x7F && byte < 0xA0) || c1) text[i] = '?';
+    if (c1) follow = 0;  // so that its second byte is none of a character either
+  }
   return text;
 }
 
@@ -117,7 +128,7 @@ int open_from_outside(const std::filesystem::path& file, Links links) {
     if (::getppid() != parent || socket < 0) ::_exit(1);
     std::vector<int> kept = inputs.descriptors;
     kept.push_back(socket);
-    static_cast<void>(confine(std::move(kept), inputs.bytes));
+    static_cast<void>(confine(std::move(kept), inputs.bytes, inputs.bytes + inputs.work_bytes));
     Outlet outlet(socket);
     outlet_of_this_jail = &outlet;
     open_inputs_by(&open_from_outside);
@@ -222,8 +233,16 @@ void Outlet::put_error(const base::Error& error) {
 }
 
 void Outlet::announce(std::uint64_t bytes) {
+  announce(kAnnounce, bytes);
+}
+
+void Outlet::announce_work(std::uint64_t bytes) {
+  announce(kWork, bytes);
+}
+
+void Outlet::announce(char kind, std::uint64_t bytes) {
   flush();
-  frame(kAnnounce, std::as_bytes(std::span(&bytes, 1)));
+  frame(kind, std::as_bytes(std::span(&bytes, 1)));
   static_cast<void>(receive_descriptor(socket_));
 }
 
@@ -250,6 +269,10 @@ void announce_largest(std::uint64_t bytes) {
   largest = bytes;
 }
 
+void announce_work(std::uint64_t bytes) {
+  if (outlet_of_this_jail != nullptr) outlet_of_this_jail->announce_work(bytes);
+}
+
 bool jail_filters_calls() {
   bool filtered = false;
   const auto asked = read_in_jail(
@@ -262,10 +285,13 @@ JailUse last_jail_use() noexcept {
   return last_use;
 }
 
+Inlet::Inlet(int socket, int child, const JailInputs& inputs)
+    : socket_(socket), child_(child), inputs_(inputs), work_bytes_(inputs.bytes + inputs.work_bytes) {}
+
 void Inlet::receive(std::span<std::byte> into) {
   while (!into.empty()) {
     pollfd waits{socket_, POLLIN, 0};
-    const int ready = ::poll(&waits, 1, kSilenceMs);
+    const int ready = ::poll(&waits, 1, static_cast<int>(inputs_.longest_silence.count()));
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) throw JailBroken();
     const ssize_t got = ::recv(socket_, into.data(), into.size(), 0);
@@ -288,6 +314,23 @@ void Inlet::answer_open(std::size_t size) {
   send_descriptor(socket_, opened.number());
 }
 
+void Inlet::answer_announced(std::size_t size, bool is_work) {
+  std::uint64_t bytes = 0;
+  if (size != sizeof bytes) throw JailBroken();
+  receive(std::as_writable_bytes(std::span(&bytes, 1)));
+  if (!is_work) {
+    if (bytes > kMostAnnounced - announced_bytes_) throw JailBroken();
+    announced_bytes_ += bytes;
+    last_use.announced_bytes += bytes;
+    widen(child_, bytes);
+  }
+  if (bytes > kMostWork - work_bytes_) throw JailBroken();
+  work_bytes_ += bytes;
+  last_use.work_bytes = work_bytes_;
+  allow_work(child_, work_bytes_);
+  send_descriptor(socket_, -1);
+}
+
 // Up to the next frame of data, or the end.
 void Inlet::next_frame() {
   while (left_ == 0 && !ended_) {
@@ -302,17 +345,10 @@ void Inlet::next_frame() {
       case kOpen:
         answer_open(size);
         break;
-      case kAnnounce: {
-        std::uint64_t bytes = 0;
-        if (size != sizeof bytes) throw JailBroken();
-        receive(std::as_writable_bytes(std::span(&bytes, 1)));
-        if (bytes > kMostAnnounced - announced_bytes_) throw JailBroken();
-        announced_bytes_ += bytes;
-        last_use.announced_bytes += bytes;
-        widen(child_, bytes);
-        send_descriptor(socket_, -1);
+      case kAnnounce:
+      case kWork:
+        answer_announced(size, static_cast<char>(head[0]) == kWork);
         break;
-      }
       case kEnd:
         if (size != 0) throw JailBroken();
         ended_ = true;
@@ -382,6 +418,7 @@ base::Result<void> read_in_jail(const JailInputs& inputs, const std::function<vo
   theirs.close();
   const Child child(id, began_bytes);
   last_use.announced_bytes = inputs.bytes;
+  last_use.work_bytes = inputs.bytes + inputs.work_bytes;
   try {
     Inlet inlet(ours.number(), id, inputs);
     takes(inlet);

@@ -3,6 +3,7 @@
 // checked as any other outside data (docs/decisions/0047).
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -26,9 +27,11 @@ struct JailInputs {
   std::optional<std::filesystem::path> beside;  // besides any regular file of this folder that is no link
   std::vector<int> descriptors;                 // open already, to go on reading from
   std::uint64_t bytes = 0;                      // what of them must lie in memory at once
+  std::uint64_t work_bytes = 0;                 // what is gone through besides, one after the other
+  std::chrono::milliseconds longest_silence = std::chrono::minutes(10);  // a reader silent for longer is given up
 };
 
-// The child's end. `open` and `announce` wait for the parent.
+// The child's end. `open`, `announce` and `announce_work` wait for the parent.
 class Outlet {
  public:
   explicit Outlet(int socket) : socket_(socket) {}
@@ -42,10 +45,12 @@ class Outlet {
   void put_problem(const base::Problem& problem);
   void put_error(const base::Error& error);
   void announce(std::uint64_t bytes);
+  void announce_work(std::uint64_t bytes);
   int open(const std::filesystem::path& file, bool links);
   void end();
 
  private:
+  void announce(char kind, std::uint64_t bytes);
   void frame(char kind, std::span<const std::byte> bytes);
   void flush();
   int socket_;
@@ -56,7 +61,7 @@ class Outlet {
 class JailBroken {};
 class Inlet {
  public:
-  Inlet(int socket, int child, const JailInputs& inputs) : socket_(socket), child_(child), inputs_(inputs) {}
+  Inlet(int socket, int child, const JailInputs& inputs);
   void take_bytes(std::span<std::byte> into);
   template <typename T>
   T take() {
@@ -76,11 +81,12 @@ class Inlet {
  private:
   void next_frame();
   void answer_open(std::size_t size);
+  void answer_announced(std::size_t size, bool is_work);
   void receive(std::span<std::byte> into);
   int socket_, child_;
   const JailInputs& inputs_;
   std::uint64_t left_ = 0;  // of the frame of data that is under way
-  std::uint64_t announced_bytes_ = 0;
+  std::uint64_t announced_bytes_ = 0, work_bytes_;
   bool ended_ = false;
 };
 
@@ -88,6 +94,9 @@ class Inlet {
 // memory one at a time only the largest counts. Nothing outside a jail.
 void announce_bytes(std::uint64_t bytes);
 void announce_largest(std::uint64_t bytes);
+// Before bytes are gone through, packed and unpacked: processor time for all that was told so far, and a sign of
+// life. What is announced above is such work already.
+void announce_work(std::uint64_t bytes);
 
 // Runs `reads` in a child and `takes` here, at the same time; `takes` takes all that `reads` puts. Refused:
 // `reader_died` (by a signal, a limit, or because it said what it must not). Throws base::Failure("no_reader") when
@@ -100,10 +109,10 @@ base::Result<void> read_in_jail(const JailInputs& inputs, const std::function<vo
 bool jail_filters_calls();
 
 // What the last jail of this thread took: memory beyond what this process held when it began, what it had announced
-// (with JailInputs::bytes), processor time.
+// (with JailInputs::bytes), also as work, processor time.
 struct JailUse {
   std::size_t peak_bytes = 0;
-  std::uint64_t announced_bytes = 0;
+  std::uint64_t announced_bytes = 0, work_bytes = 0;
   double cpu_s = 0.0;
 };
 JailUse last_jail_use() noexcept;

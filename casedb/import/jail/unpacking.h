@@ -21,7 +21,8 @@ constexpr UnpackingLimit kLargeCtFile{64 * kMiB, 100.0,
                                       8 * kGiB};               // the most voxels there are (volume.h), in doubles
 constexpr UnpackingLimit kDicomDataSet{64 * kMiB, 2.0, kGiB};  // deflated as a whole: headers and pixels
 constexpr UnpackingLimit kDicomPixels{64 * kMiB, 100.0, 4 * kGiB};  // JPEG and its kin, RLE
-// Parts of a bundle: labels and classes of a made-up body shrink about 100-fold under zstd.
+// Volume and skin of a bundle's case. Its labels and classes, which may be nearly empty, have as many voxels as the
+// volume, whatever they were packed into.
 constexpr UnpackingLimit kBundlePart{24 * kMiB, 1000.0, 4 * kGiB};
 // A label map of a case: on the case's own grid in the widest type, or on one that is finer.
 constexpr UnpackingLimit label_file_limit(std::uint64_t case_voxels) noexcept {

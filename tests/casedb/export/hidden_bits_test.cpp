@@ -100,6 +100,27 @@ TEST(HiddenBits, SoundPicturesStayByteForByte) {
   EXPECT_EQ(pixels(padded), cells({0xF830, 0x0123, 0x0831}));
 }
 
+// Only the first value stayed: cells of the rest of the range became tissue.
+TEST(HiddenBits, TheDeclaredRangeOfPaddingStays) {
+  const auto cleared = [](bool is_signed, unsigned first, unsigned limit, std::initializer_list<unsigned> before) {
+    DicomDataSet set = picture({16, 12, 11, is_signed}, cells(before));
+    DicomDataSet padding;
+    put(padding, 0x00280120, "US", cells({first}));
+    put(padding, 0x00280121, "US", cells({limit}));
+    set.insert(set.begin(), std::make_move_iterator(padding.begin()), std::make_move_iterator(padding.end()));
+    EXPECT_EQ(clear_hidden_bits(set, kLittle).value(), 1);
+    return pixels(set);
+  };
+  EXPECT_EQ(cleared(false, 0xF830, 0xF83F, {0xF830, 0xF839, 0xF83F, 0xF840}),
+            cells({0xF830, 0xF839, 0xF83F, 0x0840}));
+  EXPECT_EQ(cleared(false, 0xF83F, 0xF830, {0xF830, 0xF839, 0xF83F, 0xF82F}),
+            cells({0xF830, 0xF839, 0xF83F, 0x082F}))
+      << "whichever end is named first";
+  // From -2048 to 4096, as signed pixels have it.
+  EXPECT_EQ(cleared(true, 0xF800, 0x1000, {0xF800, 0x1000, 0x7123, 0x8123}),
+            cells({0xF800, 0x1000, 0x0123, 0x0123}));
+}
+
 std::string item(std::string fragment) {
   if (fragment.size() % 2 != 0) fragment += '\0';
   return cells({0xE000FFFE}, false, 4) + cells({static_cast<unsigned>(fragment.size())}, false, 4) + fragment;

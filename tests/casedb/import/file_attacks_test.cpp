@@ -53,7 +53,23 @@ TEST_F(FileAttacks, ALongLineOfNrrd) {
     EXPECT_EQ(refusal(write("a.nrrd", nrrd(text + "\n") + voxels())), "damaged") << length;
     EXPECT_EQ(refusal(write("a.nrrd", nrrd(text + ": y\n") + voxels())), "damaged") << length;
   }
-  EXPECT_EQ(refusal(write("a.nrrd", nrrd("# " + std::string(70000, 'x') + "\n") + voxels())), "truncated");
+  EXPECT_EQ(refusal(write("a.nrrd", nrrd("# " + std::string(1 << 20, 'x') + "\n") + voxels())), "truncated");
+  EXPECT_EQ(refusal(write("a.mha", meta(std::string(1 << 20, '\n')) + voxels())), "truncated");
+}
+
+// 3D Slicer writes some 650 letters of each segment: refused as `truncated` above 64 KiB.
+TEST_F(FileAttacks, AHeaderOfManyLongLinesIsLawful) {
+  std::string tags;
+  for (int segment = 0; segment < 110; ++segment)
+    tags += "Segment" + std::to_string(segment) + "_Tags:=" + std::string(650, 't') + "\n";
+  EXPECT_EQ(refusal(write("a.nrrd", nrrd(tags) + voxels())), "");
+}
+
+// The same comment was read behind ObjectType, and `damaged` at the front.
+TEST_F(FileAttacks, ALongCommentAtTheFrontIsLawful) {
+  const std::string comment = "Comment = " + std::string(5000, 'c') + "\n";
+  EXPECT_EQ(refusal(write("a.mha", comment + meta("") + voxels())), "");
+  EXPECT_EQ(refusal(write("a.mha", std::string(5000, 'c') + meta("") + voxels())), "damaged");
 }
 
 TEST_F(FileAttacks, ALongCommentOfMetaImageIsLawful) {

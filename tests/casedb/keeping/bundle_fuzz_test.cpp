@@ -5,7 +5,7 @@
 #include "casedb/import/jail/jail.h"
 #include "casedb/keeping/bundle.h"
 #include "casedb/keeping/check.h"
-#include "tests/casedb/bundle_samples.h"
+#include "tests/casedb/keeping/mutate_bundle.h"
 #include "tests/fixtures/allocations.h"
 #include "tests/fixtures/cpu_time.h"
 #include "tests/fixtures/mutate.h"
@@ -54,6 +54,7 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
   const int rounds = fixtures::fuzz_rounds(500);
   for (int round = 0; round < rounds; ++round) {
     const std::size_t kind = fixtures::any_below(rng, 4);
+    const bool knows_format = round % 2 == 0;
     if (kind == 0) {  // as a disk or a line does it: noticed, whatever it is
       std::string damaged = bytes;
       fixtures::mutate(damaged, rng);
@@ -61,15 +62,16 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
     } else {
       Parts parts = good;
       if (kind == 1) {
-        fixtures::mutate(parts.list, rng);
+        (knows_format ? mutate_list : fixtures::mutate)(parts.list, rng);
         put_as_listed(file, parts);
       } else if (kind == 2) {
-        fixtures::mutate(parts.rows[fixtures::any_below(rng, parts.rows.size())], rng);
+        (knows_format ? mutate_rows : fixtures::mutate)(parts.rows[fixtures::any_below(rng, parts.rows.size())],
+                                                        rng);
         put(file, parts);
       } else {
         const auto [name, content] = parts.assets[fixtures::any_below(rng, parts.assets.size())];
         std::string damaged = content;
-        fixtures::mutate(damaged, rng);
+        (knows_format ? mutate_head : fixtures::mutate)(damaged, rng);
         const auto swapped = std::as_bytes(std::span(damaged));
         swap_asset(parts, name, {swapped.begin(), swapped.end()});
         put(file, parts);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 
@@ -212,6 +213,55 @@ TEST_F(Jail, ItsTimeAndItsFilesAreLimited) {
   EXPECT_TRUE(read.has_value());
 }
 
+// Only what lay in memory at once counted: a bundle of 500 large cases, or 7,000 pictures to de-identify, died of
+// SIGXCPU after the minute that any reader has.
+TEST_F(Jail, WorkOneAfterTheOtherCountsTogether) {
+  if (!kConfines) GTEST_SKIP() << "no limit beside a sanitizer";
+  JailInputs inputs;
+  inputs.bytes = 3 * kSlowestBytesPerSecond;
+  inputs.work_bytes = 4 * kSlowestBytesPerSecond;
+  const auto seconds_of = [](int child) {
+    rlimit limit{};
+    EXPECT_EQ(::prlimit(child, RLIMIT_CPU, nullptr, &limit), 0);
+    return limit.rlim_cur;
+  };
+  const auto read = read_in_jail(
+      inputs,
+      [](Outlet& out) {
+        out.put(::getpid());
+        announce_work(0);
+        for (int part = 0; part < 1000; ++part) announce_work(kSlowestBytesPerSecond / 2);
+        out.put(::getpid());
+        announce_work(0);
+        announce_work(std::uint64_t{1} << 50);
+        out.put(::getpid());
+        announce_work(0);
+      },
+      [&](Inlet& in) {
+        EXPECT_EQ(seconds_of(in.take<int>()), kJailSpareSeconds + 7);
+        EXPECT_EQ(seconds_of(in.take<int>()), kJailSpareSeconds + 507);
+        EXPECT_EQ(seconds_of(in.take<int>()), kMostJailSeconds) << "it may lie, but not without end";
+      });
+  EXPECT_TRUE(read.has_value());
+}
+
+// It said nothing while it worked, and was given up after ten minutes.
+TEST_F(Jail, WorkIsASignOfLife) {
+  JailInputs inputs;
+  inputs.longest_silence = std::chrono::milliseconds(1000);
+  const auto works = [](bool says_so) {
+    for (int part = 0; part < 4; ++part) {
+      const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(400);
+      while (std::chrono::steady_clock::now() < end) {
+      }
+      if (says_so) announce_work(1);
+    }
+    return 1;
+  };
+  EXPECT_EQ(answer([&] { return works(true); }, inputs), 1);
+  EXPECT_EQ(answer([&] { return works(false); }, inputs), -1);
+}
+
 TEST_F(Jail, WhateverItDiesOfIsOneRefusal) {
   const auto nothing = [](Inlet& in) { static_cast<void>(in.take<int>()); };
   EXPECT_EQ(refusal([](Outlet&) { std::abort(); }, nothing), "reader_died");
@@ -275,6 +325,18 @@ TEST_F(Jail, WhatItMustNotSayIsNotBelieved) {
           {}, [](Outlet& out) { out.put_text("a\x1b[31m\nb"); }, [&](Inlet& in) { shown = in.take_text(100); })
           .has_value());
   EXPECT_EQ(shown, "a?[31m?b");
+  // C1, which went through: 9B is what ESC [ is, in eight bits and in UTF-8.
+  ASSERT_TRUE(read_in_jail(
+                  {},
+                  [](Outlet& out) {
+                    out.put_text(
+                        "a\x9B"
+                        "31m\xC2\x9B"
+                        "b \xC3\x9F \xE2\x82\xAC \xE4");
+                  },
+                  [&](Inlet& in) { shown = in.take_text(100); })
+                  .has_value());
+  EXPECT_EQ(shown, "a?31m??b \xC3\x9F \xE2\x82\xAC \xE4");
 }
 
 TEST_F(Jail, LongAnswersComeWhole) {
