@@ -47,7 +47,10 @@ std::string address_text(const sockaddr_storage& from) {
 }  // namespace
 
 Response short_refusal(int status) {
-  return {.status = status, .content_type = "text/plain; charset=utf-8", .body = "The request is refused.\n"};
+  Response refused{
+      .status = status, .content_type = "text/plain; charset=utf-8", .body = "The request is refused.\n"};
+  if (status == 503) refused.headers.emplace_back("Retry-After", "5");
+  return refused;
 }
 
 Connections::Connections(int listening, Hooks hooks, const ConnectionLimits& limits)
@@ -132,6 +135,17 @@ bool Connections::make_room(const std::string& address) {
   return true;
 }
 
+// An address may hold as many of a lane as it leaves free: however many others hold it, there is room for one more.
+bool Connections::has_room(Lane lane, const std::string& address) const {
+  std::size_t own = 0, all = 0;
+  for (const auto& [id, one] : table_) {
+    if (one.state != State::asking || one.lane != lane) continue;
+    ++all;
+    if (one.address == address) ++own;
+  }
+  return own + all < limits_.most_asking[static_cast<std::size_t>(lane)];
+}
+
 void Connections::accept_one(int socket, std::string address) {
   if (!make_room(address)) {
     const std::string refused = bytes_of(short_refusal(503), true);
@@ -185,10 +199,8 @@ void Connections::take_request(std::uint64_t id, Connection& connection) {
     wipe(head.request);
     return;
   }
-  const auto asking = std::count_if(table_.begin(), table_.end(), [&](const auto& one) {
-    return one.second.state == State::asking && one.second.address == connection.address;
-  });
-  if (static_cast<std::size_t>(asking) >= limits_.most_asking_of_address) {
+  const Lane lane = hooks_.lane_of(head.request);
+  if (!has_room(lane, connection.address)) {
     wipe(head.request);
     return refuse(id, connection, 503);
   }
@@ -196,7 +208,8 @@ void Connections::take_request(std::uint64_t id, Connection& connection) {
   head.request.from = connection.address;
   casedb::wipe(connection.received);
   connection.state = State::asking;
-  hooks_.on_request(id, std::move(head.request));
+  connection.lane = lane;
+  hooks_.on_request(id, lane, std::move(head.request));
 }
 
 bool Connections::read(std::uint64_t id, Connection& connection) {
@@ -315,32 +328,43 @@ void Connections::serve(const std::vector<std::pair<std::uint64_t, short>>& read
   }
 }
 
+void Connections::wait_and_serve() {
+  std::vector<pollfd> waited = {{wake_, POLLIN, 0}, {stopping_.load() ? -1 : listening_, POLLIN, 0}};
+  std::vector<std::uint64_t> ids = {0, 0};
+  for (const auto& [id, one] : table_) {
+    if (one.state == State::asking) continue;
+    waited.push_back({one.socket, static_cast<short>(one.state == State::writing ? POLLOUT : POLLIN), 0});
+    ids.push_back(id);
+  }
+  if (::poll(waited.data(), waited.size(), ms_to_next_deadline()) < 0 && errno != EINTR)
+    throw base::Failure("network", "the server cannot wait for its connections");
+  std::uint64_t woken = 0;
+  [[maybe_unused]] const ssize_t drained = ::read(wake_, &woken, sizeof woken);
+  std::vector<std::pair<std::uint64_t, short>> ready;
+  for (std::size_t i = 2; i < waited.size(); ++i)
+    if (waited[i].revents != 0) ready.emplace_back(ids[i], waited[i].revents);
+  serve(ready);
+  send_answers();
+  pass_deadlines();
+  if (waited[1].revents != 0) accept_all();
+}
+
+// Who has asked gets the answer; who has not is closed.
+void Connections::finish() {
+  for (auto it = table_.begin(); it != table_.end();)
+    it = it->second.state == State::reading ? close(it) : std::next(it);
+  const auto deadline = Clock::now() + limits_.stop;
+  while (!table_.empty() && Clock::now() < deadline) wait_and_serve();
+}
+
 void Connections::run() {
   const EndedLater ended{[this] {
     const std::lock_guard lock(mutex_);
     ended_ = true;
     taken_.notify_all();
   }};
-  while (!stopping_.load()) {
-    std::vector<pollfd> waited = {{wake_, POLLIN, 0}, {listening_, POLLIN, 0}};
-    std::vector<std::uint64_t> ids = {0, 0};
-    for (const auto& [id, one] : table_) {
-      if (one.state == State::asking) continue;
-      waited.push_back({one.socket, static_cast<short>(one.state == State::writing ? POLLOUT : POLLIN), 0});
-      ids.push_back(id);
-    }
-    if (::poll(waited.data(), waited.size(), ms_to_next_deadline()) < 0 && errno != EINTR)
-      throw base::Failure("network", "the server cannot wait for its connections");
-    std::uint64_t woken = 0;
-    [[maybe_unused]] const ssize_t drained = ::read(wake_, &woken, sizeof woken);
-    std::vector<std::pair<std::uint64_t, short>> ready;
-    for (std::size_t i = 2; i < waited.size(); ++i)
-      if (waited[i].revents != 0) ready.emplace_back(ids[i], waited[i].revents);
-    serve(ready);
-    send_answers();
-    pass_deadlines();
-    if (waited[1].revents != 0) accept_all();
-  }
+  while (!stopping_.load()) wait_and_serve();
+  finish();
 }
 
 }  // namespace seldinger::web

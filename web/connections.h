@@ -10,12 +10,14 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "web/request_guard.h"
+#include "web/workers.h"
 
 struct pollfd;
 
@@ -24,20 +26,24 @@ namespace seldinger::web {
 // A class behind one proxy is one address: what an address may hold open is more than a class needs at a time, and
 // what it holds beyond that costs itself, never others.
 struct ConnectionLimits {
-  std::size_t most = 512;                    // in all; a process has 1024 files by default
+  std::size_t most = 896;                    // in all; a process has 1024 files by default
   std::size_t most_waiting_of_address = 64;  // whose request has not come whole
-  std::size_t most_asking_of_address = 256;  // whose request is being answered: half of all, so others find room
+  // Whose request is being answered, by lane: of these an address may hold as many as it leaves free, half when it
+  // is alone. All lanes together leave room for others to ask; a class of 100 fits into the log-ins.
+  std::array<std::size_t, kLanes> most_asking = {384, 224, 128, 128};
   std::size_t most_unsent_bytes = std::size_t{16} << 20;
   std::chrono::milliseconds read{5000};    // the whole request
   std::chrono::milliseconds write{10000};  // the whole answer
   std::chrono::milliseconds linger{1000};  // until the other side has closed, too
+  std::chrono::milliseconds stop{5000};    // for answers that are being made when the server is stopped
 };
 
 class Connections {
  public:
   struct Hooks {
+    std::function<Lane(const Request& request)> lane_of;
     // A whole request; answered later by answer(), or at once.
-    std::function<void(std::uint64_t connection, Request request)> on_request;
+    std::function<void(std::uint64_t connection, Lane lane, Request request)> on_request;
     // A connection of this address was closed to make room.
     std::function<void(const std::string& address)> on_dropped;
   };
@@ -47,7 +53,8 @@ class Connections {
   Connections(const Connections&) = delete;
   Connections& operator=(const Connections&) = delete;
 
-  // Until stop(). Throws base::Failure ("network") when the listening socket dies.
+  // Until stop(); then whoever asks is still answered, nobody else. Throws base::Failure ("network") when the
+  // listening socket dies.
   void run();
   void stop() noexcept;  // from any thread, also from a signal handler; before run() too
   // The whole answer to its request, from any thread but run()'s; empty: the connection is closed without one.
@@ -61,6 +68,7 @@ class Connections {
     int socket = -1;
     std::string address;
     State state = State::reading;
+    std::optional<Lane> lane{};  // that makes the answer; none: a refusal
     Clock::time_point deadline;
     std::string received{}, unsent{};
     std::size_t sent = 0;
@@ -81,6 +89,9 @@ class Connections {
   void take_request(std::uint64_t id, Connection& connection);
   bool write(Connection& connection);
   bool linger(Connection& connection);
+  bool has_room(Lane lane, const std::string& address) const;
+  void wait_and_serve();
+  void finish();
   void send_answers();
   void bound_unsent();
   void pass_deadlines();

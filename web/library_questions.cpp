@@ -37,11 +37,12 @@ class ActingFor {
 
 class LibraryQuestions final : public Questions {
  public:
-  LibraryQuestions(std::array<casedb::Library, 4> handles, CaseChecker check)
+  LibraryQuestions(std::array<casedb::Library, 5> handles, CaseChecker check)
       : pages_(std::move(handles[0])),
         recordings_(std::move(handles[1])),
         first_(std::move(handles[2])),
         second_(std::move(handles[3])),
+        changes_(std::move(handles[4])),
         check_(std::move(check)) {}
 
   std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
@@ -52,8 +53,8 @@ class LibraryQuestions final : public Questions {
   }
 
   void log_out(const std::string& person_id) override {
-    const std::lock_guard lock(pages_.mutex);
-    casedb::log_out(pages_.library, person_id);
+    const std::lock_guard lock(changes_.mutex);
+    casedb::log_out(changes_.library, person_id);
   }
 
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
@@ -90,21 +91,21 @@ class LibraryQuestions final : public Questions {
 
   base::Result<void> give_facts(const std::string& person_id,
                                 const std::map<std::string, std::string>& answers) override {
-    const std::lock_guard lock(pages_.mutex);
-    const ActingFor reader(pages_.library, person_id);
-    return casedb::give_facts(pages_.library, person_id, answers);
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor reader(changes_.library, person_id);
+    return casedb::give_facts(changes_.library, person_id, answers);
   }
 
   base::Result<void> give_consent(const std::string& person_id, const std::string& text_id) override {
-    const std::lock_guard lock(pages_.mutex);
-    const ActingFor reader(pages_.library, person_id);
-    return casedb::give_consent(pages_.library, person_id, text_id);
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor reader(changes_.library, person_id);
+    return casedb::give_consent(changes_.library, person_id, text_id);
   }
 
   base::Result<void> withdraw_consent(const std::string& person_id, const std::string& text_id) override {
-    const std::lock_guard lock(pages_.mutex);
-    const ActingFor reader(pages_.library, person_id);
-    return casedb::withdraw_consent(pages_.library, person_id, text_id);
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor reader(changes_.library, person_id);
+    return casedb::withdraw_consent(changes_.library, person_id, text_id);
   }
 
   base::Result<casedb::Erased> erase_attempts_of(const std::string& person_id) override {
@@ -206,6 +207,7 @@ class LibraryQuestions final : public Questions {
  private:
   Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
   Handle first_, second_;      // a password is long to hash
+  Handle changes_;             // a change may wait for another program's
   CaseChecker check_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
@@ -222,9 +224,12 @@ base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, C
   if (!first.has_value()) return first.error();
   auto second = casedb::Library::open(library.folder());
   if (!second.has_value()) return second.error();
-  return std::unique_ptr<Questions>(std::make_unique<LibraryQuestions>(
-      std::array{std::move(library), std::move(*recordings), std::move(*first), std::move(*second)},
-      std::move(check)));
+  auto changes = casedb::Library::open(library.folder());
+  if (!changes.has_value()) return changes.error();
+  return std::unique_ptr<Questions>(
+      std::make_unique<LibraryQuestions>(std::array{std::move(library), std::move(*recordings), std::move(*first),
+                                                    std::move(*second), std::move(*changes)},
+                                         std::move(check)));
 }
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,

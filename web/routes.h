@@ -47,7 +47,7 @@ struct Route {
 
 std::span<const Route> routes();
 
-// Which threads answer it; what is no route is a page.
+// Of its route; what is no route is a page.
 Lane lane_of(const Request& request);
 
 // Whether `path` fits; fills the pattern's id.

@@ -56,8 +56,8 @@ struct Server::Parts {
         listener(std::move(listener_in)),
         site(*questions, surroundings),
         connections(listener->file(),
-                    {[this](std::uint64_t id, Request request) {
-                       const Lane lane = lane_of(request);
+                    {[this](const Request& request) { return site.lane_of(request); },
+                     [this](std::uint64_t id, Lane lane, Request request) {
                        workers->add(lane, {id, std::move(request)});
                      },
                      [this](const std::string& address) { site.security.note("connection dropped", address); }}) {}

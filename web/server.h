@@ -30,8 +30,8 @@ class Server {
 
   // Answers until stop(). Throws base::Failure ("network") when the socket dies.
   void run();
-  // Makes run() return once what is being answered is. From any thread, also from a signal handler; before run()
-  // too.
+  // Makes run() return once what was asked is answered, or 5 s later. From any thread, also from a signal handler;
+  // before run() too.
   void stop() noexcept;
 
  private:

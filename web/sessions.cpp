@@ -62,11 +62,6 @@ void Sessions::end(const std::string& id) {
   by_hash_.erase(hash);
 }
 
-void Sessions::end_all_of(const std::string& person_id) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(by_hash_, [&](const auto& entry) { return entry.second.person_id == person_id; });
-}
-
 std::size_t Sessions::count() {
   const std::lock_guard lock(mutex_);
   drop_dead(surroundings_.now_us());

@@ -34,7 +34,6 @@ class Sessions {
   // The living session of this id, which is thereby used; none when unknown, idle too long or too old.
   std::optional<Session> find(const std::string& id);
   void end(const std::string& id);
-  void end_all_of(const std::string& person_id);
   std::size_t count();
 
  private:

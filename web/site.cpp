@@ -91,13 +91,27 @@ std::string Site::place_of(const Request& request, const std::string& name) {
   const auto reader = reader_of(request);
   if (reader && casedb::folded_name(reader->account.login_name) == folded)
     return "session of " + reader->account.person_id;
-  return "address " + request.from;
+  // Whoever has one address of the loopback has all sixteen million.
+  const bool here =
+      request.from.starts_with("127.") || request.from == "::1" || request.from.starts_with("::ffff:127.");
+  return here ? "this machine" : "address " + request.from;
+}
+
+Lane Site::lane_of(const Request& request) {
+  const Lane lane = web::lane_of(request);
+  if (lane == Lane::pages || lane == Lane::log_in) return lane;
+  const casedb::Secret id{cookie(request, cookies.session)};
+  return sessions.find(id.text) ? lane : Lane::pages;
+}
+
+std::string Site::log_fault(const std::string& what) const {
+  std::string id = surroundings.random_id().substr(0, 8);
+  surroundings.log("error " + id + ": " + what);
+  return id;
 }
 
 Response Site::fault(int status, const Reader* reader, const std::string& what) const {
-  const std::string id = surroundings.random_id().substr(0, 8);
-  surroundings.log("error " + id + ": " + what);
-  return refusal(status, reader, id);
+  return refusal(status, reader, log_fault(what));
 }
 
 std::optional<Reader> Site::reader_of(const Request& request) {
@@ -108,8 +122,8 @@ std::optional<Reader> Site::reader_of(const Request& request) {
   // once.
   const auto account = questions.find_account(session->person_id);
   if (!account.has_value() || !account->enabled || account->password_mark != session->password_mark) {
-    sessions.end_all_of(session->person_id);
-    security.note("sessions ended: the account was changed", request.from, session->person_id);
+    sessions.end(id.text);  // others may have begun since
+    security.note("session ended: the account was changed", request.from, session->person_id);
     return std::nullopt;
   }
   return Reader{*account, session->form_token};

@@ -12,6 +12,7 @@
 #include "web/security_log.h"
 #include "web/sessions.h"
 #include "web/surroundings.h"
+#include "web/workers.h"
 
 namespace seldinger::web {
 
@@ -53,7 +54,10 @@ class Site {
   std::string known_browser(const std::string& name) const;
   // Where this request tries to log in from under this name.
   std::string place_of(const Request& request, const std::string& name);
+  // Which threads answer it. What needs a session and has none is only refused, as pages are.
+  Lane lane_of(const Request& request);
   // Logs what happened (no patient data, no names) under an id, which the page carries.
+  std::string log_fault(const std::string& what) const;
   Response fault(int status, const Reader* reader, const std::string& what) const;
 
  private:

@@ -6,7 +6,7 @@ namespace seldinger::web {
 namespace {
 
 // Pages read one library, which answers one question at a time: more threads would only hold more memory.
-constexpr std::array<std::size_t, 3> kThreads = {4, 2, 1};
+constexpr std::array<std::size_t, kLanes> kThreads = {4, 2, 1, 1};
 
 }  // namespace
 

@@ -19,9 +19,11 @@ namespace seldinger::web {
 
 enum class Lane {
   pages,
-  log_in,  // a password's hash takes 64 MiB and 60 ms by design: two at once
-  heavy,   // what takes a whole case into memory: one at a time
+  log_in,   // a password's hash takes 64 MiB and 60 ms by design: two at once
+  heavy,    // what takes a whole case into memory: one at a time
+  changes,  // what may wait for another program that writes: one at a time
 };
+inline constexpr std::size_t kLanes = 4;
 
 struct Job {
   std::uint64_t connection = 0;
@@ -49,7 +51,7 @@ class Workers {
   void run(Queue& queue);
 
   const std::function<void(Job)> work_;
-  std::array<Queue, 3> queues_;
+  std::array<Queue, kLanes> queues_;
   std::vector<std::thread> threads_;
 };
 

@@ -76,7 +76,6 @@ int run_recompute(const Arguments& arguments) {
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
-  casedb::audit_alone(*library, casedb::Act::recompute);
   std::vector<casedb::AttemptRow> attempts;
   if (arguments.has("--attempt")) {
     auto one = casedb::find_attempt(*library, arguments.text("--attempt"));
@@ -85,6 +84,7 @@ int run_recompute(const Arguments& arguments) {
   } else {
     attempts = casedb::list_attempts(*library);
   }
+  casedb::audit_alone(*library, casedb::Act::recompute);
   std::stable_sort(attempts.begin(), attempts.end(),
                    [](const auto& a, const auto& b) { return a.case_id < b.case_id; });
   Recomputed sum;

@@ -35,12 +35,18 @@ int write_bundle_of(const Arguments& arguments, const std::vector<std::string>& 
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::hand_out_case); !by) return refuse(by.error());
-  // Before anything leaves.
-  if (case_ids.empty()) casedb::audit_alone(*library, casedb::Act::export_cases);
-  for (const std::string& case_id : case_ids)
-    if (const auto row = casedb::find_case(*library, case_id))
-      casedb::audit_alone(*library, casedb::Act::export_cases, {"case", row->case_id});
-  return print_bundle(arguments, casedb::write_bundle(*library, case_ids, out, kVersion, secret_key));
+  const auto written = casedb::write_bundle(*library, case_ids, out, kVersion, secret_key);
+  const auto outcome = written ? casedb::Outcome::done : casedb::Outcome::refused;
+  try {
+    if (case_ids.empty()) casedb::audit_alone(*library, casedb::Act::export_cases, {}, outcome);
+    for (const std::string& case_id : case_ids)
+      if (const auto row = casedb::find_case(*library, case_id))
+        casedb::audit_alone(*library, casedb::Act::export_cases, {"case", row->case_id}, outcome);
+  } catch (...) {
+    if (written) std::filesystem::remove(out);  // nothing leaves unnoted
+    throw;
+  }
+  return print_bundle(arguments, written);
 }
 
 int run_case_bundle(const Arguments& arguments) {

@@ -1,6 +1,7 @@
 // backup, restore, check.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
@@ -22,8 +23,14 @@ int run_backup(const Arguments& arguments) {
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
-  casedb::audit_alone(*library, casedb::Act::back_up);
   const auto copied = casedb::back_up(*library, arguments.positional(0), kVersion);
+  try {
+    casedb::audit_alone(*library, casedb::Act::back_up, {},
+                        copied ? casedb::Outcome::done : casedb::Outcome::refused);
+  } catch (...) {
+    if (copied) std::filesystem::remove_all(arguments.positional(0));  // nothing leaves unnoted
+    throw;
+  }
   if (!copied) return refuse(copied.error());
   print_copied(arguments, "backed up", *copied);
   return kDone;
@@ -53,16 +60,21 @@ int run_check(const Arguments& arguments) {
   const bool repair = arguments.has("--repair");
   const std::string from = arguments.text("--from");
   if (!from.empty() && !repair) throw UsageError("--from goes with --repair");
+  std::optional<casedb::Actor> repairs;
   if (repair) {
     auto library = open_acting(arguments);
     // Of a damaged one nobody can be asked, and nothing is taken away.
     if (!library && library.error().code != "damaged") return refuse(library.error());
     if (library) {
       if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
-      casedb::audit_alone(*library, casedb::Act::repair);
+      repairs = library->actor();
     }
   }
   auto report = casedb::check_library(arguments.required("--library"), repair, from);
+  if (repairs)
+    if (auto library = casedb::Library::open(arguments.text("--library")))
+      casedb::audit_alone(*library, *repairs, casedb::Act::repair, {},
+                          report ? casedb::Outcome::done : casedb::Outcome::refused);
   if (!report) return refuse(report.error());
   if (noted)
     if (auto library = casedb::Library::open(arguments.text("--library"));

@@ -35,7 +35,7 @@ base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& a
                                        const std::function<void(const std::string& url)>& ready) {
   keep_memory_to_itself();
   const std::filesystem::path folder = library.folder();
-  casedb::audit_alone(library, casedb::Act::start_server);
+  const casedb::Actor starts = library.actor();
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
   auto server = web::open_server(std::move(library), {at.host, at.port}, kVersion, log, session::check_case);
   if (!server && server.error().code == "port_taken" && at.any_port_if_taken) {
@@ -44,6 +44,9 @@ base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& a
     server = web::open_server(std::move(*again), {at.host, 0}, kVersion, log, session::check_case);
   }
   if (!server) return server.error();
+  auto noted = casedb::Library::open(folder);
+  if (!noted) return noted.error();
+  casedb::audit_alone(*noted, starts, casedb::Act::start_server, {}, casedb::Outcome::done);
   running = &*server;
   struct sigaction action {};
   action.sa_handler = on_signal;

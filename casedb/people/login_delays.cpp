@@ -56,6 +56,12 @@ std::int64_t LoginDelays::begin(std::string_view name, std::string_view place, s
   return 0;
 }
 
+void LoginDelays::take_back(std::string_view name, std::string_view place) {
+  const std::lock_guard lock(mutex_);
+  const auto found = tries_.find({folded_name(name), std::string(place)});
+  if (found != tries_.end() && --found->second.failures <= 0) tries_.erase(found);
+}
+
 void LoginDelays::forget(std::string_view name, std::string_view place) {
   const std::lock_guard lock(mutex_);
   tries_.erase({folded_name(name), std::string(place)});

@@ -19,8 +19,9 @@ class LoginDelays {
  public:
   // Whole seconds to wait; 0: go on, and the try counts as failed until forget() is called.
   std::int64_t begin(std::string_view name, std::string_view place, std::int64_t now_us);
-  void forget(std::string_view name, std::string_view place);  // the password was right
-  void forget(std::string_view name);                          // at every place: somebody lets them in again
+  void take_back(std::string_view name, std::string_view place);  // the try of begin() was not answered
+  void forget(std::string_view name, std::string_view place);     // the password was right
+  void forget(std::string_view name);                             // at every place: somebody lets them in again
   // The longest that anybody has to wait who tries this name now; 0: nobody has to.
   std::int64_t longest_wait_s(std::string_view name, std::int64_t now_us);
 

@@ -49,7 +49,7 @@ base::Result<void> set_role(Library& library, const std::string& name, Role role
 // From now on; what was before stays, and with it what earlier attempts count as. `no_user`.
 base::Result<void> set_level(Library& library, const std::string& name, Level level);
 // The account when name and password fit and it is enabled; takes the same time whether or not the name exists.
-// Kept in the audit log, either way.
+// Kept in the audit log, either way, when it can be written; of names that nobody has once a minute.
 std::optional<Account> log_in(Library& library, const std::string& name, const std::string& password);
 void log_out(Library& library, const std::string& person_id);  // only keeps that somebody did
 

@@ -72,21 +72,20 @@ void add_account(Library& library, const std::string& person_id, Role role, cons
   transaction.commit();
 }
 
-void remove_account(Sqlite& database, const std::string& person_id) {
-  Transaction transaction(database);
-  question(database, "remove_account").bind("person_id", person_id).run();
-  question(database, "remove_person").bind("person_id", person_id).run();
+void remove_account(Library& library, const std::string& person_id) {
+  Transaction transaction(library.database());
+  question(library.database(), "remove_account").bind("person_id", person_id).run();
+  question(library.database(), "remove_person").bind("person_id", person_id).run();
+  audit(library, Act::add_account, {"person", person_id}, Outcome::refused);
   transaction.commit();
 }
 
-// False when somebody else has the name.
+// Within a transaction. False when somebody else has the name.
 bool add_identity(Sqlite& identities, const std::string& person_id, const std::string& name) {
-  Transaction transaction(identities);
   Statement insert = question(identities, "add_identity");
   insert.bind("person_id", person_id).bind("name", name).bind("created_us", now_us());
   if (!insert.step()) return false;
   CHECK(!insert.step());
-  transaction.commit();
   return true;
 }
 
@@ -100,6 +99,35 @@ void store_hash(Library& library, const std::string& person_id, const std::strin
       .run();
   if (!old_hash) audit(library, Act::set_password, {"person", person_id});
   transaction.commit();
+}
+
+constexpr std::int64_t kUnknownNamesApart_us = 60 * 1000000LL;
+
+// Names that nobody has are kept once a minute: whoever tries them would else write as fast as passwords are
+// hashed.
+bool is_told_already(Library& library) {
+  Statement row = question(library.database(), "last_log_in_of_nobody");
+  if (!row.step()) return false;
+  const std::int64_t ago_us = now_us() - row.integer("at_us");
+  return ago_us >= 0 && ago_us < kUnknownNamesApart_us;
+}
+
+// As much to write as a row, and nothing new: the time it takes does not tell which names there are.
+void write_as_before(Sqlite& database) {
+  if (database.read_only()) return;
+  Transaction transaction(database);
+  database.run("PRAGMA user_version = " + std::to_string(database.integer("PRAGMA user_version")));
+  transaction.commit();
+}
+
+// A log-in that cannot be kept, on a full disk or beside a program that writes, is one all the same: whoever may
+// read what is there gets in to see what is wrong (docs/decisions/0046).
+void audit_log_in(Library& library, const Actor& actor, const Object& of_whom, Outcome outcome) {
+  try {
+    if (of_whom.id.empty() && is_told_already(library)) return write_as_before(library.database());
+    audit_alone(library, actor, Act::log_in, of_whom, outcome);
+  } catch (const base::Failure&) {
+  }
 }
 
 // Within the transaction that takes an admin away.
@@ -146,22 +174,21 @@ base::Result<std::string> add_user(Library& library, const std::string& name, Ro
   if (const auto fit = check_new_user(name, password); !fit) return fit.error();
   if (find_identity(library, name)) return kNameTaken;
   std::string person_id = new_uuid();
-  // The account first: one without a name can never log in, a name without an account would be taken for ever.
-  add_account(library, person_id, role, hash_password(password));
-  bool named = false;
+  const std::string hash = hash_password(password);
+  // Nothing is done of a name that cannot be stored. The account is committed first: one without a name can never
+  // log in, a name without an account would be taken for ever.
+  Transaction name_taken(library.identities());
+  if (!add_identity(library.identities(), person_id, name)) return kNameTaken;  // another process was faster
+  add_account(library, person_id, role, hash);
   try {
-    named = add_identity(library.identities(), person_id, name);
+    name_taken.commit();
   } catch (const base::Failure&) {
     try {
-      remove_account(library.database(), person_id);
+      remove_account(library, person_id);
     } catch (const base::Failure&) {
       // It stays without a name; what went wrong first is what the caller hears.
     }
     throw;
-  }
-  if (!named) {  // another process was faster
-    remove_account(library.database(), person_id);
-    return kNameTaken;
   }
   return person_id;
 }
@@ -242,16 +269,20 @@ std::optional<Account> log_in(Library& library, const std::string& name, const s
   const bool fits = verify_password(hash, password);
   const Object of_whom = account.person_id.empty() ? Object{} : Object{"person", account.person_id};
   if (!fits || account.person_id.empty() || !account.enabled) {
-    audit_alone(library, Actor::nobody(), Act::log_in, of_whom, Outcome::refused);
+    audit_log_in(library, Actor::nobody(), of_whom, Outcome::refused);
     return std::nullopt;
   }
   if (needs_rehash(hash)) {
     const std::string better = hash_password(password);
-    store_hash(library, account.person_id, better, hash);
-    hash = better;
+    try {
+      store_hash(library, account.person_id, better, hash);
+      hash = better;
+    } catch (const base::Failure&) {
+      // Next time.
+    }
   }
   account.password_mark = mark_of(hash, epoch);
-  audit_alone(library, Actor::person(account.person_id), Act::log_in, of_whom, Outcome::done);
+  audit_log_in(library, Actor::person(account.person_id), of_whom, Outcome::done);
   return account;
 }
 

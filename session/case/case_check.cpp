@@ -123,7 +123,9 @@ CaseCheck check_loaded_case(std::string content_mark, const cases::Case& scene, 
   const auto inside = [&](const glm::dvec3& p) {
     return volume::inside(scene.volume, glm::dvec3(voxel_from_lps * glm::dvec4(p, 1.0)));
   };
-  for (const casedb::StructureRow& one : structures) {
+  // By number, as lesions are: a name is what somebody typed, and what was found is told to researchers, too.
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    const casedb::StructureRow& one = structures[i];
     if (one.kind != casedb::StructureKind::drawn) continue;
     bool within = true;
     std::optional<glm::dvec3> where;
@@ -136,8 +138,10 @@ CaseCheck check_loaded_case(std::string content_mark, const cases::Case& scene, 
       where = (bounds.low_lps_mm + bounds.high_lps_mm) / 2.0;
       within = inside(*where);
     }
-    checks.push_back({"structure_in_volume", within,
-                      one.name + (within ? " lies within the volume" : " reaches out of the volume"), where});
+    checks.push_back(
+        {"structure_in_volume", within,
+         "structure " + std::to_string(i + 1) + (within ? " lies within the volume" : " reaches out of the volume"),
+         where});
   }
   const assessment::Guidance guidance{
       casedb::manner_of(row),

@@ -31,7 +31,10 @@ class FakeQuestions final : public Questions {
     }
     return std::nullopt;
   }
-  void log_out(const std::string& person_id) override { logged_out.push_back(person_id); }
+  void log_out(const std::string& person_id) override {
+    if (during_log_out) during_log_out();
+    logged_out.push_back(person_id);
+  }
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
     for (const casedb::Account& account : list_accounts()) {
       if (account.person_id == person_id) return account;
@@ -116,7 +119,10 @@ class FakeQuestions final : public Questions {
     const std::lock_guard lock(mutex);
     return mark;
   }
-  casedb::Health health() override { return health_now; }
+  casedb::Health health() override {
+    if (during_health) during_health();
+    return health_now;
+  }
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow&) override {
     ++case_checks;
     if (during_check) during_check();
@@ -148,7 +154,7 @@ class FakeQuestions final : public Questions {
   std::optional<std::string> curricula_asked_for;
   std::vector<std::byte> picture;
   std::function<void()> fault;  // thrown from questions about attempts and accounts
-  std::function<void()> during_log_in;
+  std::function<void()> during_log_in, during_log_out, during_health;
   std::function<void()> during_check;
   std::optional<base::Error> check_refusal;
   std::atomic<int> log_ins = 0, case_checks = 0;

@@ -16,6 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -70,18 +71,21 @@ class HeldTest : public ::testing::Test {
     }
     return worst;
   }
-  // The whole answer to a log-in; `cookie` what to send with it beside the form's.
-  std::string log_in(const std::string& name, const std::string& password,
-                     const std::string& from = "127.0.0.1") const {
+  // A log-in with the form's token and cookie.
+  std::string log_in_request(const std::string& name, const std::string& password, const std::string& from) const {
     const std::string form = get("/login", "", from);
     const std::size_t at = form.find("Set-Cookie: ");
     if (at == form.npos) return form;
     const std::string cookie = form.substr(at + 12, form.find(';', at) - at - 12);
     const std::string body = "name=" + name + "&password=" + password + "&token=" + form_token(form, "/login");
-    return ask("POST /login HTTP/1.1\r\nHost: 127.0.0.1\r\nSec-Fetch-Site: same-origin\r\nCookie: " + cookie +
-                   "\r\nContent-Type: application/x-www-form-urlencoded\r\nContent-Length: " +
-                   std::to_string(body.size()) + "\r\n\r\n" + body,
-               from);
+    return "POST /login HTTP/1.1\r\nHost: 127.0.0.1\r\nSec-Fetch-Site: same-origin\r\nCookie: " + cookie +
+           "\r\nContent-Type: application/x-www-form-urlencoded\r\nContent-Length: " + std::to_string(body.size()) +
+           "\r\n\r\n" + body;
+  }
+  // The whole answer to it.
+  std::string log_in(const std::string& name, const std::string& password,
+                     const std::string& from = "127.0.0.1") const {
+    return ask(log_in_request(name, password, from), from);
   }
   static std::string session_of(const std::string& answer) {
     const std::size_t at = answer.find("Set-Cookie: ");
@@ -214,6 +218,78 @@ TEST_F(HeldTest, AClassOfAHundredBehindOneAddressIsInWithinAMinute) {
   EXPECT_EQ(in.load(), 100);
   EXPECT_EQ(most.load(), 2) << "two hashes at once: 64 MiB each";
   EXPECT_LT(since(start), milliseconds(60000));
+}
+
+// Was: 84 of 84 pages of a reader of that address got 503, and of two addresses everybody's.
+TEST_F(HeldTest, WhoFillsTheLogInsHoldsUpNoPageAndNoLogInOfOthers) {
+  const std::string session = session_of(log_in("trainee", "correct+horse+battery"));
+  std::atomic<bool> over = false;
+  fake_.questions->during_log_in = [&] {
+    while (!over.load()) fixtures::let_pass(0.01);
+  };
+  std::vector<std::unique_ptr<RawClient>> flood;
+  for (const char* from : {"127.0.0.1", "127.0.0.2"}) {
+    const std::string request = log_in_request("mentor", "wrong-password", from);
+    for (int i = 0; i < 300; ++i) {
+      flood.push_back(std::make_unique<RawClient>(port(), from));
+      flood.back()->send(request);
+    }
+    EXPECT_THAT(flood.back()->read_all(), AllOf(StartsWith("HTTP/1.1 503"), HasSubstr("\r\nRetry-After: 5\r\n")));
+    for (const char* good : {"127.0.0.1", "127.0.0.2", "127.0.0.3"}) {
+      const auto start = Clock::now();
+      EXPECT_THAT(get("/attempts", session, good), StartsWith("HTTP/1.1 200")) << good;
+      EXPECT_LT(since(start), kGood) << good;
+    }
+  }
+  RawClient other(port(), "127.0.0.3");
+  other.send(log_in_request("mentor", "correct+horse+battery", "127.0.0.3"));
+  EXPECT_EQ(other.read_all(milliseconds(100)), "") << "it waits for its turn, it is not refused";
+  over = true;
+  EXPECT_THAT(other.read_all(), StartsWith("HTTP/1.1 "));
+}
+
+// Was: whoever was not logged in waited among those who were, and 256 of them left no room.
+TEST_F(HeldTest, WhoHasNoSessionIsNoHeavyQuestion) {
+  const std::string session = session_of(log_in("mentor", "correct+horse+battery"));
+  const std::string path = "/cases/" + kDraftCase + "/checks.json";
+  std::atomic<bool> inside = false, over = false;
+  fake_.questions->during_check = [&] {
+    for (inside = true; !over.load();) fixtures::let_pass(0.01);
+  };
+  std::thread reader([&] { EXPECT_THAT(get(path, session), StartsWith("HTTP/1.1 200")); });
+  EXPECT_TRUE(fixtures::until([&] { return inside.load(); }));
+  const auto start = Clock::now();
+  RawClient stranger(port());
+  stranger.send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+  EXPECT_THAT(stranger.read_all(milliseconds(2000)), StartsWith("HTTP/1.1 401"));
+  EXPECT_LT(since(start), kGood);
+  over = true;
+  reader.join();
+}
+
+// Was: four log-outs that waited for another program's change took all who answer pages.
+TEST_F(HeldTest, ChangesThatWaitHoldUpNoPage) {
+  std::vector<std::string> sessions;
+  for (int i = 0; i < 6; ++i) sessions.push_back(session_of(log_in("trainee", "correct+horse+battery")));
+  std::atomic<bool> over = false;
+  fake_.questions->during_log_out = [&] {
+    while (!over.load()) fixtures::let_pass(0.01);
+  };
+  std::vector<std::unique_ptr<RawClient>> leaving;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const std::string body = "token=" + form_token(get("/attempts", sessions[i]), "/logout");
+    leaving.push_back(std::make_unique<RawClient>(port()));
+    leaving.back()->send("POST /logout HTTP/1.1\r\nHost: 127.0.0.1\r\nSec-Fetch-Site: same-origin\r\n" +
+                         sessions[i] + "Content-Type: application/x-www-form-urlencoded\r\nContent-Length: " +
+                         std::to_string(body.size()) + "\r\n\r\n" + body);
+  }
+  const auto start = Clock::now();
+  RawClient reader(port());
+  reader.send("GET /attempts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + sessions[5] + "\r\n");
+  EXPECT_THAT(reader.read_all(milliseconds(2000)), StartsWith("HTTP/1.1 200"));
+  EXPECT_LT(since(start), kGood);
+  over = true;
+  for (auto& client : leaving) EXPECT_THAT(client->read_all(), StartsWith("HTTP/1.1 303"));
 }
 
 // Was: in 7 times of 14.

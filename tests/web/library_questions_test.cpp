@@ -3,12 +3,15 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <thread>
 
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/versions.h"
 #include "casedb/database/audit.h"
+#include "casedb/database/sqlite.h"
 #include "casedb/people/consent.h"
 #include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
@@ -219,6 +222,42 @@ TEST(LibraryQuestions, WhoLogsInAndOutAndDecidesIsInTheAuditLog) {
               ::testing::ElementsAre("log_in nobody refused", "log_in person done", "give_consent person done",
                                      "erase_attempts person done", "log_out person done"));
   EXPECT_TRUE(casedb::problems_of_audit(*elsewhere).empty());
+}
+
+// Was: 4.7 s, as long as the log-out waited.
+TEST(LibraryQuestions, AChangeThatWaitsForAnotherProgramHoldsUpNoPage) {
+  casedb::Library library = fresh_library();
+  const std::string mia = casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).value();
+  auto elsewhere = casedb::Library::open(library.folder());
+  auto questions = std::move(questions_of(std::move(library)).value());
+  elsewhere->database().run("BEGIN IMMEDIATE");
+  std::atomic<bool> begun = false, waited = false;
+  std::thread leaving([&] {
+    begun = true;
+    EXPECT_NO_THROW(questions->log_out(mia));
+    waited = true;
+  });
+  while (!begun.load()) std::this_thread::yield();
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_EQ(questions->list_accounts().size(), 1U);
+  EXPECT_FALSE(waited.load()) << "the page came while the log-out waited";
+  elsewhere->database().run("ROLLBACK");
+  leaving.join();
+}
+
+// Was: 503 after five seconds, and a try that counted as failed; nobody got in when the disk was full.
+TEST(LibraryQuestions, TheRightPasswordOpensALibraryThatCannotBeWritten) {
+  casedb::Library library = fresh_library();
+  ASSERT_TRUE(casedb::add_user(library, "Mia", casedb::Role::mentor, kPassword).has_value());
+  auto elsewhere = casedb::Library::open(library.folder());
+  RealSite real(std::move(library));
+  FakeBrowser browser(real.site);
+  elsewhere->database().run("BEGIN IMMEDIATE");
+  EXPECT_EQ(browser.log_in("Mia", "correct+horse+battery").status, 303);
+  EXPECT_EQ(browser.get("/attempts").status, 200);
+  EXPECT_EQ(browser.log_in("Mia", "wrong+password").status, 403);
+  EXPECT_THAT(real.world.log, ::testing::Contains(HasSubstr("security: logged in; ")));
+  elsewhere->database().run("ROLLBACK");
 }
 
 TEST(OpenServer, AnswersOverALibraryWithRandomThatNobodyGuesses) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "casedb/people/people.h"
+#include "sim/base/failure.h"
 #include "tests/web/fake_site.h"
 
 namespace seldinger::web {
@@ -169,7 +170,7 @@ TEST_F(LoginTest, WhoKnowsANameShutsItsOwnerOutNeitherFromElsewhereNorFromABrows
   for (int i = 0; i < 30; ++i) browser.log_in("mentor", "wrong-password");
   ASSERT_EQ(browser.log_in_as(Role::mentor).status, 429);
   FakeBrowser elsewhere(*fake.site);
-  elsewhere.from = "127.0.0.9";
+  elsewhere.from = "192.0.2.9";
   EXPECT_EQ(elsewhere.log_in_as(Role::mentor).status, 303);
   EXPECT_EQ(known.log_in_as(Role::mentor).status, 303) << "of the same address";
   FakeBrowser with_session(*fake.site);
@@ -185,6 +186,62 @@ TEST_F(LoginTest, WhoKnowsANameShutsItsOwnerOutNeitherFromElsewhereNorFromABrows
   FakeBrowser forging(*fake.site);
   forging.cookies["seldinger_known_8080"] = std::string(128, 'a');
   EXPECT_EQ(forging.log_in_as(Role::mentor).status, 429);
+}
+
+// Was: 503 without a word to drop the cookie, and the session lived on for its twelve hours.
+TEST_F(LoginTest, WhoLogsOutIsOutThoughTheLibraryCannotKeepIt) {
+  browser.log_in_as(Role::mentor);
+  const auto cookies = browser.cookies;
+  const std::string token = form_token(browser.get("/attempts").body, "/logout");
+  fake.questions.during_log_out = [] { throw base::Failure("disk", "the disk is full"); };
+  EXPECT_EQ(header_of(browser.post("/logout", "token=" + token), "Location"), "/login");
+  EXPECT_EQ(browser.cookies.count("seldinger_8080"), 0U);
+  browser.cookies = cookies;
+  EXPECT_EQ(browser.get("/attempts").status, 303);
+  EXPECT_THAT(fake.log.back(), MatchesRegex("error [0-9a-f]{8}: disk: a log-out is not in the audit log"));
+}
+
+// Was: five more free tries from each of the sixteen million addresses that this machine has.
+TEST_F(LoginTest, AllAddressesOfThisMachineAreOnePlace) {
+  for (int i = 0; i < 5; ++i) browser.log_in("mentor", "wrong-password");
+  for (const char* from : {"127.0.0.9", "127.200.3.4", "::1", "::ffff:127.0.0.1"}) {
+    FakeBrowser other(*fake.site);
+    other.from = from;
+    EXPECT_EQ(other.log_in_as(Role::mentor).status, 429) << from;
+  }
+}
+
+// Was: the right password counted five times as a failure while the disk was full, and its owner waited after that.
+TEST_F(LoginTest, WhatTheLibraryCouldNotAnswerIsNoFailure) {
+  fake.questions.during_log_in = [] { throw base::Failure("disk", "the disk is full"); };
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(browser.log_in_as(Role::mentor).status, 503) << i;
+  fake.questions.during_log_in = {};
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(browser.log_in("mentor", "wrong-password").status, 403) << i;
+  fake.questions.during_log_in = [] { throw base::Failure("disk", "the disk is full"); };
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 503);
+  fake.questions.during_log_in = {};
+  EXPECT_EQ(browser.log_in("mentor", "wrong-password").status, 403) << "the fifth";
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 429) << "failures of before are not forgotten";
+}
+
+// Was: 303, the new one ended with the old.
+TEST_F(LoginTest, AnOldSessionDoesNotEndTheNewOne) {
+  FakeBrowser old(*fake.site);
+  old.log_in_as(Role::mentor);
+  for (casedb::Account& account : fake.questions.accounts) account.password_mark = "changed";
+  browser.log_in_as(Role::mentor);
+  EXPECT_EQ(old.get("/attempts").status, 303);
+  EXPECT_EQ(browser.get("/attempts").status, 200);
+}
+
+// Was: a line for each address, 5000 here.
+TEST_F(LoginTest, TheLogIsBoundedHoweverManyAddressesFail) {
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 5000; ++i) fake.site->security.note("log-in failed", "192.0.2." + std::to_string(i));
+    fake.now_us += 10000000;
+  }
+  EXPECT_EQ(fake.log.size(), 515U) << "twice 256 and one, and how many were left out of the first";
+  EXPECT_THAT(fake.log, ::testing::Contains("security: more than are told one by one; 4743 times more"));
 }
 
 // Was: 60 tries of all names together, then one a second: the victim was in 7 times of 14.
@@ -228,7 +285,7 @@ TEST_F(LoginTest, TheLogTellsWhatHappenedAndNamesNobody) {
   EXPECT_THAT(all, ContainsRegex("security: log-in delayed; address [0-9a-f]{8}; account person-of-mentor\n"));
   EXPECT_THAT(all, ContainsRegex("security: logged in; address [0-9a-f]{8}; account person-of-trainee\n"));
   EXPECT_THAT(all,
-              ContainsRegex("security: sessions ended: the account was changed; .*account person-of-trainee\n"));
+              ContainsRegex("security: session ended: the account was changed; .*account person-of-trainee\n"));
   EXPECT_THAT(all, Not(HasSubstr("127.0.0.1")));
   EXPECT_THAT(all, Not(HasSubstr("nobody")));
 }

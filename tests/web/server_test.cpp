@@ -270,6 +270,26 @@ TEST(ServerStart, StopEndsItQuicklyEvenBeforeItRunsAndWithClientsHanging) {
   EXPECT_FALSE(RawClient(server.port()).connected());
 }
 
+// Was: an answer that was finished after stop() was never sent.
+TEST(ServerStart, WhoHasAskedIsAnsweredThoughItIsStopped) {
+  FakeServer fake;
+  std::atomic<bool> inside = false, over = false;
+  fake.questions->health_now = casedb::Health::ok;
+  fake.questions->during_health = [&] {
+    for (inside = true; !over.load();) std::this_thread::sleep_for(milliseconds(5));
+  };
+  std::thread thread([&] { fake.server.run(); });
+  RawClient client(fake.server.port()), half(fake.server.port());
+  client.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  half.send("GET /healthz HTTP/1.1\r\n");
+  while (!inside.load()) std::this_thread::sleep_for(milliseconds(5));
+  fake.server.stop();
+  EXPECT_EQ(half.read_all(), "") << "who has not asked is closed";
+  over = true;
+  EXPECT_THAT(client.read_all(), StartsWith("HTTP/1.1 200"));
+  thread.join();
+}
+
 TEST(ServerStart, APortIsFreeAgainAfterTheServerIsGone) {
   int port = 0;
   for (int i = 0; i < 3; ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "app/attempts/this_program.h"
 #include "casedb/cases/changeable_case.h"
@@ -32,7 +33,13 @@ void Trainer::log_in(const std::string& name, const std::string& password) {
     refusal_ = "Too many tries. Try again in " + std::to_string(wait_s) + " s.";
     return;
   }
-  const auto account = casedb::log_in(library_, name, password);
+  std::optional<casedb::Account> account;
+  try {
+    account = casedb::log_in(library_, name, password);
+  } catch (const base::Failure&) {
+    delays_.take_back(name, kThisStation);  // nobody was told whether it was right
+    throw;
+  }
   if (!account) {
     refusal_ = "Name or password is not right.";
     return;
@@ -139,11 +146,17 @@ void Trainer::log_out() {
   interrupted_.reset();
   trying_ = resuming_ = false;
   choices_ = {};
-  if (!account_.person_id.empty()) casedb::log_out(library_, account_.person_id);
+  // First: whoever leaves is out, whatever becomes of the library.
+  const std::string person_id = std::exchange(account_, {}).person_id;
   library_.act_for(casedb::Actor::nobody());
-  account_ = {};
   refusal_.clear();
   screen_ = TrainerScreen::log_in;
+  if (person_id.empty()) return;
+  try {
+    casedb::log_out(library_, person_id);
+  } catch (const base::Failure& failure) {
+    refusal_ = std::string("Logged out, but the library could not note it: ") + failure.what();
+  }
 }
 
 void Trainer::list_choices() {

@@ -284,6 +284,27 @@ TEST_F(ActingTest, DecisionsWithASessionOrAPasswordAreThePersons) {
   EXPECT_EQ(call("case show", {draft_}).out.find("operator"), std::string::npos);
 }
 
+// Was: "done" before it was tried, and nothing of how it went.
+TEST_F(ActingTest, WhatFailsIsNotKeptAsDone) {
+  const auto kept = [&] {
+    const casedb::AuditRow row = last_row();
+    return row.act + " " + row.result;
+  };
+  library_ = folder_ / "sound";  // the other one was changed past the program
+  static_cast<void>(casedb::open_library(library_));
+  const std::string out = (folder_ / "out").string();
+  EXPECT_EQ(call("backup", {out}).code, "");
+  EXPECT_EQ(kept(), "back_up done");
+  EXPECT_EQ(call("backup", {out}).code, "exists");
+  EXPECT_EQ(kept(), "back_up refused");
+  EXPECT_EQ(call("check", {"--repair", "--from", (folder_ / "nowhere").string()}).code, "no_backup");
+  EXPECT_EQ(kept(), "repair refused");
+  EXPECT_EQ(call("check", {"--repair"}).code, "");
+  EXPECT_EQ(kept(), "repair done");
+  EXPECT_EQ(call("recompute", {"--attempt", "0190a1b2-0000-7000-8000-0000000000ff"}).code, "no_attempt");
+  EXPECT_EQ(kept(), "repair done") << "nothing was scored again";
+}
+
 TEST_F(ActingTest, AProofThatDoesNotFitIsRefusedNotTakenForNone) {
   EXPECT_EQ(call("case review", {draft_, "--by", "mentor", "--password-file", "-"}, "wrong password\n").code,
             "bad_log_in");

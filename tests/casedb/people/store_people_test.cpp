@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "casedb/database/audit.h"
 #include "casedb/database/uuid.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/login_name.h"
@@ -192,6 +193,49 @@ TEST_F(StorePeopleTest, ANameThatCannotBeStoredLeavesNoAccount) {
   EXPECT_THROW(static_cast<void>(add_user(library_, "ann", Role::trainee, "a password")), base::Failure);
   EXPECT_EQ(library_.database().integer("SELECT count(*) FROM account"), 0);
   EXPECT_EQ(library_.database().integer("SELECT count(*) FROM person"), 0);
+}
+
+// Was: "add_account done" stayed of an account that was never there.
+TEST_F(StorePeopleTest, AnAccountThatCouldNotBeNamedIsNotKeptAsDone) {
+  const std::int64_t before = audit_head(library_).count;
+  {
+    Library elsewhere = open_library(folder_);
+    elsewhere.identities().run("BEGIN IMMEDIATE");
+    EXPECT_THROW(static_cast<void>(add_user(library_, "ann", Role::trainee, "a password")), base::Failure);
+  }
+  EXPECT_EQ(audit_head(library_).count, before);
+  EXPECT_EQ(library_.database().integer("SELECT count(*) FROM account"), 0);
+  add("ann");
+  EXPECT_EQ(refusal("ann"), "name_taken");
+  EXPECT_EQ(audit_head(library_).count, before + 1);
+  EXPECT_TRUE(problems_of_audit(library_).empty());
+}
+
+// Was: a row for each, 12 a second as fast as passwords are hashed.
+TEST_F(StorePeopleTest, NamesThatNobodyHasAreKeptOnceAMinute) {
+  add("ann");
+  const std::int64_t before = audit_head(library_).count;
+  Library elsewhere = open_library(folder_);
+  const auto written = [&] { return elsewhere.database().integer("PRAGMA data_version"); };
+  for (int i = 0; i < 5; ++i) {
+    const std::int64_t last = written();
+    EXPECT_FALSE(log_in(library_, "nobody" + std::to_string(i), "a password").has_value());
+    EXPECT_NE(written(), last) << i << ": it takes as long as of a name that is there";
+  }
+  EXPECT_EQ(audit_head(library_).count, before + 1);
+  for (int i = 0; i < 2; ++i) EXPECT_FALSE(log_in(library_, "ann", "wrong password").has_value());
+  EXPECT_EQ(audit_head(library_).count, before + 3) << "of an account that is there each is kept";
+}
+
+// Was: thrown, though name and password fit: nobody got into a full library.
+TEST_F(StorePeopleTest, ALogInThatCannotBeKeptIsOneAllTheSame) {
+  add("ann");
+  const std::int64_t before = audit_head(library_).count;
+  library_.database().run("PRAGMA query_only = ON");
+  EXPECT_TRUE(log_in(library_, "ann", "a password").has_value());
+  EXPECT_FALSE(log_in(library_, "ann", "wrong password").has_value());
+  library_.database().run("PRAGMA query_only = OFF");
+  EXPECT_EQ(audit_head(library_).count, before);
 }
 
 // A password from before there were rules for new ones goes on working.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "casedb/database/audit.h"
+#include "casedb/database/sqlite.h"
 #include "casedb/grading/curriculum.h"
 #include "tests/app/window/trainer/trainer_case.h"
 
@@ -43,6 +44,20 @@ TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
   EXPECT_TRUE(trainer.choices().empty()) << "a draft is for the case editor";
   ASSERT_EQ(trainer.drafts().size(), 1U);
   EXPECT_EQ(trainer.drafts()[0].title, "Ball");
+}
+
+// Was: thrown with the account still logged in.
+TEST_F(TrainerTest, WhoLogsOutIsOutThoughTheLibraryCannotKeepIt) {
+  Trainer trainer(open());
+  trainer.log_in("mona", kPassword);
+  ASSERT_EQ(trainer.screen(), TrainerScreen::choose);
+  casedb::Library library = open();
+  library.database().run("BEGIN IMMEDIATE");
+  EXPECT_NO_THROW(trainer.log_out());
+  EXPECT_EQ(trainer.screen(), TrainerScreen::log_in);
+  EXPECT_TRUE(trainer.account().person_id.empty());
+  EXPECT_NE(trainer.refusal().find("could not note it"), std::string::npos) << trainer.refusal();
+  library.database().run("ROLLBACK");
 }
 
 // Before, no log-in at a workstation left a trace, and a new version was nobody's but by its name.
