@@ -59,7 +59,8 @@ constexpr ErrorCode kLibraryCodes[] = {
      "`seldinger check --repair --from BACKUP`, or import the same source or bundle again."},
     {"value_damaged", kFinds,
      "A stored value is not what was stored: a disk turned a bit over, or somebody changed it past this program.",
-     "`seldinger check --repair --from BACKUP`; of a metric, `seldinger recompute` tells what it was."},
+     "`seldinger check --repair --from BACKUP`; of a metric, `seldinger recompute` tells what it was. Where no "
+     "backup has it, `seldinger check --repair --accept-damaged` takes it as it is."},
     {"asset_orphaned", kFinds, "A file of `assets/` belongs to no row; an import may be under way.",
      "`seldinger check --repair` when nothing is being imported."},
     {"unknown_file", kFinds, "`assets/` holds files that are not this program's.", "Move them out."},

@@ -59,7 +59,9 @@ int run_check(const Arguments& arguments) {
   const auto noted = noted_head(arguments);
   const bool repair = arguments.has("--repair");
   const std::string from = arguments.text("--from");
+  const bool accept = arguments.has("--accept-damaged");
   if (!from.empty() && !repair) throw UsageError("--from goes with --repair");
+  if (accept && !repair) throw UsageError("--accept-damaged goes with --repair");
   std::optional<casedb::Actor> repairs;
   if (repair) {
     auto library = open_acting(arguments);
@@ -76,6 +78,11 @@ int run_check(const Arguments& arguments) {
       casedb::audit_alone(*library, *repairs, casedb::Act::repair, {},
                           report ? casedb::Outcome::done : casedb::Outcome::refused);
   if (!report) return refuse(report.error());
+  if (accept)
+    if (auto library = open_acting(arguments)) {
+      if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
+      casedb::accept_damaged_values(*library, *report);
+    }
   if (noted)
     if (auto library = casedb::Library::open(arguments.text("--library"));
         library && !casedb::still_stands(*library, *noted))
@@ -87,6 +94,8 @@ int run_check(const Arguments& arguments) {
       std::printf("removed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     for (const base::Problem& problem : report->healed)
       std::printf("healed: %s: %s\n", problem.code.c_str(), problem.text.c_str());
+    for (const base::Problem& problem : report->accepted)
+      std::printf("accepted: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     for (const base::Problem& problem : report->findings)
       std::printf("finding: %s: %s\n", problem.code.c_str(), problem.text.c_str());
     std::printf("%zu cases, %zu attempts, %zu files: %s\n", report->cases, report->attempts, report->assets,
@@ -101,6 +110,8 @@ constexpr Option kCheckOptions[] = {
     {"--audit-head", "COUNT:HASH",
      "tells whether the row that `seldinger audit` once printed as the last still stands"},
     {"--from", "BACKUP", "with --repair: files and values that are hurt come back from this backup of the library"},
+    {"--accept-damaged", nullptr,
+     "with --repair: values that are hurt and in no backup count from now on as they are; the audit log says so"},
     kJson};
 
 }  // namespace

@@ -26,7 +26,8 @@ std::string json_of_check(const casedb::CheckReport& report) {
                {"assets", report.assets},
                {"findings", problems_json(report.findings)},
                {"repaired", problems_json(report.repaired)},
-               {"healed", problems_json(report.healed)}})
+               {"healed", problems_json(report.healed)},
+               {"accepted", problems_json(report.accepted)}})
              .dump(2) +
          "\n";
 }

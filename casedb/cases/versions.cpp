@@ -229,7 +229,7 @@ base::Result<void> try_to_publish(Library& library, const std::string& case_id, 
     int cohorts = 0;
     {
       Statement insert = question(library.database(), "add_case_cohorts");
-      insert.bind("case_id", case_id).bind("person_id", wanted->by.person_id).bind("now_us", now_us());
+      insert.bind("case_id", case_id).bind("person_id", wanted->by.person_id);
       while (insert.step()) ++cohorts;
     }
     if (cohorts == 0) return base::Error{"no_cohort", "you lead no cohort that the case could reach"};

@@ -66,6 +66,7 @@ constexpr ActRow kActRows[] = {
     {Act::erase_case, "erase_case", "deletes a case"},
     {Act::recompute, "recompute", "scores attempts again"},
     {Act::repair, "repair", "repairs the library"},
+    {Act::accept_damaged, "accept_damaged", "takes a damaged value as it is"},
     {Act::start_server, "start_server", "starts the server"},
 };
 

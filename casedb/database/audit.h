@@ -71,6 +71,7 @@ enum class Act {
   // The program.
   recompute,
   repair,
+  accept_damaged,
   start_server,
 };
 inline constexpr std::size_t kActs = static_cast<std::size_t>(Act::start_server) + 1;

@@ -15,7 +15,9 @@
 
 namespace seldinger::casedb {
 
-// Table and id: the rows' first column, or the first two with '/' between.
+// Table and id: the rows' first column; where single rows go while others of it stay (told_by_two), the first two
+// with
+// '/' between. Before schema 21 of the library metrics, steps and conditions had the first two, and nothing else.
 using DigestOf = std::pair<std::string, std::string>;
 
 bool has_digests(Sqlite& database);
@@ -28,10 +30,14 @@ std::vector<base::Problem> damaged_values(Sqlite& database);
 
 // Within a transaction: takes what is there now as it is, save that what differed still does by as much.
 void renew_digests(Sqlite& database, const std::map<DigestOf, std::uint64_t>& differences);
-// Within a transaction, of rows that are gone.
-void forget_digests(Sqlite& database, const std::string& id);
+// By XOR; a digest of 0 is none. With the difference of digest_differences() the rows as they are become what was
+// stored.
+void change_digest(Sqlite& database, const DigestOf& whose, std::uint64_t by);
+// Within a transaction: of rows that are gone, whatever was damaged of them.
+void forget_if_gone(Sqlite& database, const DigestOf& whose);
+void forget_digests(Sqlite& database, const std::string& id);  // of all of an attempt, a case or a person
 
-// The condition on a table's rows that belong to :id.
+// The condition on a table's rows that belong to :id; by the table's own key.
 std::string rows_of_digest(Sqlite& database, const std::string& table);
 
 }  // namespace seldinger::casedb

@@ -5,8 +5,11 @@
 #include <sqlite3.h>
 
 #include <limits>
+#include <optional>
+#include <set>
 #include <span>
 
+#include "casedb/database/digests.h"
 #include "sim/base/check.h"
 #include "sim/base/hash.h"
 
@@ -91,12 +94,14 @@ bool has_digest(std::string_view table) noexcept {
 }
 
 bool told_by_two(std::string_view table) noexcept {
-  return table == "metric_value" || table == "attempt_step" || table == "attempt_condition";
+  return table == "enrolment" || table == "programme_director" || table == "replay_watched" ||
+         table == "standard_attempt" || table == "study_researcher";
 }
 
 // What the transaction under way changed: for whom, and by how much the digests of table and id differ.
 struct Sqlite::Changes {
   std::map<std::pair<std::string, std::string>, std::uint64_t> digests;
+  std::set<std::pair<std::string, std::string>> fewer;  // of whom rows went
   bool watched = false;
 
   static void note(void* self, sqlite3* connection, int operation, const char* schema, const char* table_name,
@@ -111,10 +116,14 @@ struct Sqlite::Changes {
         CHECK(read(connection, column, &value) == SQLITE_OK);
         return value;
       });
-      changes.digests[{std::string(table), id}] ^= hash;
+      const std::pair whose(std::string(table), id);
+      changes.digests[whose] ^= hash;
+      return whose;
     };
-    if (operation != SQLITE_INSERT) add(&sqlite3_preupdate_old);
-    if (operation != SQLITE_DELETE) add(&sqlite3_preupdate_new);
+    std::optional<std::pair<std::string, std::string>> before, now;
+    if (operation != SQLITE_INSERT) before = add(&sqlite3_preupdate_old);
+    if (operation != SQLITE_DELETE) now = add(&sqlite3_preupdate_new);
+    if (before && before != now) changes.fewer.insert(*before);
   }
 };
 
@@ -341,22 +350,18 @@ std::string Sqlite::text(std::string_view sql) {
 
 void Sqlite::forget_changes() noexcept {
   changes_->digests.clear();
+  changes_->fewer.clear();
 }
 
 void Sqlite::write_digests() {
   const auto changed = std::exchange(changes_->digests, {});
+  const auto fewer = std::exchange(changes_->fewer, {});
   if (changed.empty() || integer("SELECT count(*) FROM sqlite_schema WHERE name = 'digest'") == 0) return;
   // XOR, whose order does not matter and which takes away what it added.
-  Statement add = prepare(
-      "INSERT INTO digest (of_table, of_id, sum) VALUES (:of_table, :of_id, :sum) "
-      "ON CONFLICT DO UPDATE SET sum = (sum | excluded.sum) - (sum & excluded.sum)");
-  Statement drop = prepare("DELETE FROM digest WHERE of_table = :of_table AND of_id = :of_id AND sum = 0");
-  for (const auto& [whose, sum] : changed) {
-    if (sum == 0) continue;
-    add.bind("of_table", whose.first).bind("of_id", whose.second);
-    add.bind("sum", static_cast<std::int64_t>(sum)).run();
-    drop.bind("of_table", whose.first).bind("of_id", whose.second).run();
-  }
+  for (const auto& [whose, sum] : changed)
+    if (sum != 0) change_digest(*this, whose, sum);
+  // A row that had been damaged leaves its damage in the digest; with the last row that goes too.
+  for (const auto& whose : fewer) forget_if_gone(*this, whose);
 }
 
 Sqlite::Unguarded::Unguarded(Sqlite& database) : database_(database) {

@@ -34,7 +34,8 @@ class DatabaseFailure : public base::Failure {
 };
 
 bool has_digest(std::string_view table) noexcept;
-// Digests tell the rows of a table by their first column, and those of which an attempt has many by two.
+// Digests tell the rows of a table by their first column, or by two where a row can go while others of the first
+// column stay: its damage goes with it.
 bool told_by_two(std::string_view table) noexcept;
 
 // One prepared question. Parameters and columns go by name: `:case_id` in SQL is bind("case_id", …).

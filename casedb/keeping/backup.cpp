@@ -30,20 +30,27 @@ struct Listed {
 };
 using List = std::map<std::string, Listed>;  // by the name below the folder
 
-// Copies a file into a new folder and tells what was copied.
-Listed copied_file(const fs::path& from, const fs::path& to) {
-  const OpenFile in(from);
-  NewFile out(to);
+// Reads a file piece by piece, however large it is.
+template <typename Use>
+Listed read_by_pieces(const fs::path& file, const Use& use) {
+  const OpenFile in(file);
   Sha256 hash;
-  Listed copied;
+  Listed read;
   for (std::uint64_t at = 0; at < in.size(); at += kPiece) {
     const std::vector<std::byte> piece = in.read(at, kPiece);
     hash.add(piece);
-    out.write(piece);
-    copied.bytes += piece.size();
+    use(piece);
+    read.bytes += piece.size();
   }
+  read.sha256 = hash.hex();
+  return read;
+}
+
+// Copies a file into a new folder and tells what was copied.
+Listed copied_file(const fs::path& from, const fs::path& to) {
+  NewFile out(to);
+  const Listed copied = read_by_pieces(from, [&](const auto& piece) { out.write(piece); });
   out.keep_unsynced();
-  copied.sha256 = hash.hex();
   return copied;
 }
 
@@ -170,10 +177,8 @@ base::Result<Copied> backed_up(Library& library, const fs::path& out, const std:
     const auto copied = copy_assets(library, folder, list);
     if (!copied) return copied.error();
     if (!*copied) continue;
-    for (const char* file : {kDatabaseFile, kIdentitiesFile}) {
-      const std::vector<std::byte> bytes = read_whole(folder / file);
-      list[file] = {bytes.size(), sha256_hex(bytes)};
-    }
+    for (const char* file : {kDatabaseFile, kIdentitiesFile})
+      list[file] = read_by_pieces(folder / file, [](const auto&) {});
     if (const auto sound = check_copy(folder, list); !sound) return sound.error();
     const std::string text = text_of(list, program_version);
     write_durably(folder / kListFile, std::as_bytes(std::span(text)));

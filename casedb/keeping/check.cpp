@@ -22,6 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// An id as the audit log takes it; of others, as the hash of a session or the name of a programme, nothing.
+std::string id_to_note(const DigestOf& whose) {
+  const std::string id = whose.second.substr(whose.second.rfind('/') + 1);
+  const bool plain = id.size() <= 36 && id.find_first_not_of("0123456789abcdefghijklmnopqrstuvwxyz_-") == id.npos;
+  return plain ? id : std::string();
+}
+
 // Files that no row names and temporary files whose writer is gone.
 void check_files_in_assets(Library& library, bool repair, CheckReport& report) {
   const fs::path folder = library.folder() / kAssetsFolder;
@@ -208,6 +215,30 @@ std::vector<base::Problem> problems_of(Sqlite& database) {
       problems.insert(problems.begin(), {"database_damaged", "a database is damaged; restore a backup"});
   }
   return problems;
+}
+
+void accept_damaged_values(Library& library, CheckReport& report) {
+  if (std::ranges::any_of(report.findings, [](const auto& one) { return one.code == "database_damaged"; })) return;
+  const auto accept = [&](Sqlite& database) {
+    const std::vector<std::string> tables = tables_of(database);
+    for (const auto& [whose, difference] : digest_differences(database)) {
+      if (std::ranges::find(tables, whose.first) == tables.end()) continue;
+      change_digest(database, whose, difference);
+      audit(library, Act::accept_damaged, {whose.first, id_to_note(whose)});
+      report.accepted.push_back({"value_damaged", in_words(whose) + " is kept as it is now"});
+    }
+  };
+  {
+    Transaction transaction(library.database());
+    Transaction of_names(library.identities());
+    accept(library.database());
+    accept(library.identities());
+    transaction.commit();  // noted first
+    of_names.commit();
+  }
+  std::erase_if(report.findings, [](const auto& one) { return one.code == "value_damaged"; });
+  for (Sqlite* database : {&library.database(), &library.identities()})
+    for (base::Problem& problem : damaged_values(*database)) report.findings.push_back(std::move(problem));
 }
 
 base::Result<CheckReport> check_library(const fs::path& folder, bool repair, const fs::path& from) {

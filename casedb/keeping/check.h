@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "casedb/database/library.h"
 #include "casedb/database/sqlite.h"
 #include "sim/base/result.h"
 
@@ -18,6 +19,7 @@ struct CheckReport {
   std::vector<base::Problem> findings;
   std::vector<base::Problem> repaired;  // found and taken away
   std::vector<base::Problem> healed;    // found and put back from a backup
+  std::vector<base::Problem> accepted;  // found and taken as it is
   std::size_t cases = 0, attempts = 0, assets = 0;
   bool holds() const noexcept { return findings.empty(); }
 };
@@ -28,6 +30,10 @@ struct CheckReport {
 // changed. Refused as Library::open does, save for `damaged`, which is a finding, and as heal does.
 base::Result<CheckReport> check_library(const std::filesystem::path& folder, bool repair,
                                         const std::filesystem::path& from = {});
+
+// Of what the check found, values that are not what was stored are from now on what is stored, each noted in the
+// audit log; for when no backup has them. Not of a damaged database, and not the definitions of tables and rules.
+void accept_damaged_values(Library& library, CheckReport& report);
 
 // Every page, every reference, every stored value and every recording of one database; empty when all holds.
 std::vector<base::Problem> problems_of(Sqlite& database);

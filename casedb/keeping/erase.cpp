@@ -177,6 +177,7 @@ void empty_person(Erasing& erasing, const std::string& person_id) {
   for (const PersonColumn& one : kRemoved)
     run_with_id(database, "DELETE FROM " + std::string(one.table) + " WHERE " + std::string(one.column) + " = :id",
                 person_id);
+  forget_digests(database, person_id);
   question(database, "empty_notes_of").bind("person_id", person_id).run();
   question(database, "withdraw_every_consent").bind("person_id", person_id).bind("withdrawn_us", now_us()).run();
   std::array<std::byte, 5> random{};

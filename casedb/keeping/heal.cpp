@@ -36,26 +36,18 @@ class Rows {
   // Of the rows that are there; none: a piece of a recording is not what its checksum says.
   std::optional<std::uint64_t> digest() {
     std::uint64_t sum = 0;
-    for (Statement rows = select(); rows.step();) {
-      if (whose_.first.ends_with("_chunk") && !is_sound_piece(rows)) return std::nullopt;
+    bool sound = true;
+    count = 0;
+    for (Statement rows = select(); rows.step(); ++count) {
+      sound = sound && (!whose_.first.ends_with("_chunk") || is_sound_piece(rows));
       sum ^= rows.digest(whose_.first).second;
     }
-    return sum;
+    return sound ? std::optional(sum) : std::nullopt;
   }
   std::uint64_t stored_digest() {
     Statement row = database_.prepare("SELECT sum FROM digest WHERE of_table = :of_table AND of_id = :of_id");
     row.bind("of_table", whose_.first).bind("of_id", whose_.second);
     return row.step() ? static_cast<std::uint64_t>(row.integer("sum")) : 0;
-  }
-  void store_digest(std::uint64_t sum) {
-    const bool none = sum == 0;
-    Statement change =
-        database_.prepare(none ? "DELETE FROM digest WHERE of_table = :of_table AND of_id = :of_id"
-                               : "INSERT INTO digest (of_table, of_id, sum) VALUES (:of_table, :of_id, :sum) "
-                                 "ON CONFLICT DO UPDATE SET sum = excluded.sum");
-    change.bind("of_table", whose_.first).bind("of_id", whose_.second);
-    if (!none) change.bind("sum", static_cast<std::int64_t>(sum));
-    change.run();
   }
   void become(Rows& others) {
     const std::vector<std::string> columns = columns_of(database_, whose_.first);
@@ -70,6 +62,8 @@ class Rows {
     for (Statement row = others.select(); row.step(); insert.run())
       for (const std::string& column : columns) insert.bind_value(column, row);
   }
+
+  std::size_t count = 0;  // of the rows that digest() went through
 
  private:
   std::string where() { return " WHERE " + rows_of_digest(database_, whose_.first); }
@@ -87,13 +81,19 @@ bool healed(Sqlite& ours, Sqlite& theirs, const DigestOf& whose) {
   Rows here(ours, whose), there(theirs, whose);
   const std::optional<std::uint64_t> backed_up = there.digest(), now = here.digest();
   if (!backed_up || *backed_up != there.stored_digest()) return false;  // the backup is hurt itself
-  if (*backed_up == here.stored_digest())
+  const std::uint64_t stored = here.stored_digest();
+  // More rows than the backup has may be of after it, when it is the digest that went back: none is taken away.
+  if (*backed_up == stored && here.count <= there.count) {
     here.become(there);
-  else if (now == backed_up)
-    here.store_digest(*backed_up);  // the digest is what was hurt
-  else
-    return false;
-  return true;
+    return true;
+  }
+  // One bit of the digest itself turned over. That rows are as in an older copy proves nothing else: a loss or a
+  // lost write looks the same, but differs in about half of the bits.
+  if (now == backed_up && std::has_single_bit(*now ^ stored)) {
+    change_digest(ours, whose, *now ^ stored);
+    return true;
+  }
+  return false;
 }
 
 base::Result<std::vector<base::Problem>> heal_one(const fs::path& file, const fs::path& backup, bool recordings) {

@@ -74,7 +74,7 @@ std::vector<Cohort> list_cohorts(Library& library) {
   std::map<std::string, Cohort*> by_id;
   for (Cohort& one : cohorts) by_id.emplace(one.cohort_id, &one);
   Statement learners = question(library.database(), "learners_of_cohorts");
-  for (learners.bind("now_us", now_us()); learners.step();)
+  while (learners.step())
     by_id.at(learners.text("cohort_id"))
         ->learners.push_back({learners.text("person_id"), learners.integer("still") != 0,
                               learners.small_integer("attempts"), learners.small_integer("with_hit"),
@@ -104,15 +104,13 @@ base::Result<void> enrol(Library& library, const std::string& cohort_id, const s
   Transaction transaction(library.database());
   if (const auto known = check_person(library, person_id); !known) return known.error();
   if (const auto cohort = check_cohort(library, cohort_id); !cohort) return cohort.error();
-  const std::int64_t now = now_us();
   for (const Enrolment& one : list_enrolments(library, cohort_id))
-    if (one.person_id == person_id && one.post == post && one.from_us <= now && one.to_us.value_or(now + 1) > now)
-      return {};
+    if (one.person_id == person_id && one.post == post && !one.to_us) return {};
   question(library.database(), "add_enrolment")
       .bind("cohort_id", cohort_id)
       .bind("person_id", person_id)
       .bind("post", name_of(post))
-      .bind("from_us", now)
+      .bind("from_us", now_us())
       .run();
   audit(library, Act::enrol, {"person", person_id});
   transaction.commit();

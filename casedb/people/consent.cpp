@@ -85,7 +85,7 @@ base::Result<void> end_researcher(Library& library, const std::string& study_id,
 
 bool is_researcher_of(Library& library, const std::string& study_id, const std::string& person_id) {
   Statement row = question(library.database(), "is_researcher_of");
-  CHECK(row.bind("study_id", study_id).bind("person_id", person_id).bind("now_us", now_us()).step());
+  CHECK(row.bind("study_id", study_id).bind("person_id", person_id).step());
   return row.integer("found") != 0;
 }
 

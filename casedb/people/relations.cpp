@@ -10,7 +10,7 @@ namespace seldinger::casedb {
 std::unordered_map<std::string, Relation> relations_of(Library& library, const std::string& reader_id) {
   std::unordered_map<std::string, Relation> relations;
   Statement rows = question(library.database(), "relations");
-  for (rows.bind("reader", reader_id).bind("now_us", now_us()); rows.step();) {
+  for (rows.bind("reader", reader_id); rows.step();) {
     Relation relation;
     relation.own = rows.integer("own") != 0;
     relation.own_cohort = rows.integer("own_cohort") != 0;
@@ -33,8 +33,7 @@ Relation relation_to(Library& library, const std::string& reader_id, const std::
 Relation relation_to_cohort(Library& library, const std::string& reader_id, const std::string& cohort_id,
                             const std::string& programme) {
   Statement row = question(library.database(), "relation_to_cohort");
-  row.bind("reader", reader_id).bind("cohort_id", cohort_id).bind("programme", programme);
-  CHECK(row.bind("now_us", now_us()).step());
+  CHECK(row.bind("reader", reader_id).bind("cohort_id", cohort_id).bind("programme", programme).step());
   Relation relation;
   relation.own_cohort = row.integer("leads") != 0;
   relation.own_programme = row.integer("directs") != 0;
@@ -43,7 +42,7 @@ Relation relation_to_cohort(Library& library, const std::string& reader_id, cons
 
 bool reaches_own_cohort(Library& library, const std::string& case_id, const std::string& person_id) {
   Statement row = question(library.database(), "case_reaches");
-  CHECK(row.bind("case_id", case_id).bind("person_id", person_id).bind("now_us", now_us()).step());
+  CHECK(row.bind("case_id", case_id).bind("person_id", person_id).step());
   return row.integer("reaches") != 0;
 }
 

@@ -198,7 +198,8 @@ std::vector<Account> list_users(Library& library) {
   for (Statement all = question(library.identities(), "identities"); all.step();)
     names.emplace(all.text("person_id"), all.text("name"));
   std::vector<Account> users;
-  for (Statement all = question(library.database(), "accounts"); all.step();)
+  Statement all = question(library.database(), "accounts");
+  for (all.bind("now_us", now_us()); all.step();)
     if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
       users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
                        mark_of(all.text("password_hash"), all.integer("epoch")), level_from(all.text("level"))});
@@ -244,9 +245,14 @@ base::Result<void> set_level(Library& library, const std::string& name, Level le
   const auto identity = find_identity(library, name);
   if (!identity) return kNoUser;
   Transaction transaction(library.database());
+  const std::int64_t now = now_us();
+  question(library.database(), "remove_levels_to_come")
+      .bind("person_id", identity->person_id)
+      .bind("now_us", now)
+      .run();
   question(library.database(), "add_level")
       .bind("person_id", identity->person_id)
-      .bind("since_us", now_us())
+      .bind("now_us", now)
       .bind("level", name_of(level))
       .run();
   audit(library, Act::set_level, {"person", identity->person_id});

@@ -1,4 +1,2 @@
--- What somebody is from now on, whatever a clock that was once ahead said before.
-INSERT INTO person_level (person_id, since_us, level)
-VALUES (:person_id, max(:since_us, coalesce(
-  (SELECT max(since_us) + 1 FROM person_level WHERE person_id = :person_id), :since_us)), :level)
+-- What somebody is from :now_us on. What a clock that was ahead said of the time to come never holds.
+INSERT INTO person_level (person_id, since_us, level) VALUES (:person_id, :now_us, :level)

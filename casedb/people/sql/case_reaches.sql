@@ -2,7 +2,7 @@
 -- of the cohorts that this mentor led then.
 SELECT EXISTS (
   SELECT 1 FROM case_cohort JOIN enrolment USING (cohort_id)
-  WHERE case_id = :case_id AND person_id = :person_id AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE case_id = :case_id AND person_id = :person_id AND to_us IS NULL
 ) OR EXISTS (
   SELECT 1 FROM case_decision
   WHERE case_id = :case_id AND person_id = :person_id AND decision = 'published'

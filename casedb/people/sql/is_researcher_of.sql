@@ -1,5 +1,5 @@
--- Whether somebody works on a study at :now_us.
+-- Whether somebody works on a study.
 SELECT EXISTS (
   SELECT 1 FROM study_researcher
-  WHERE study_id = :study_id AND person_id = :person_id AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE study_id = :study_id AND person_id = :person_id AND to_us IS NULL
 ) AS found

@@ -1,4 +1,4 @@
--- Everybody who is or was a learner in a cohort, whether at :now_us, and what they did while they were: attempts that
+-- Everybody who is or was a learner in a cohort, whether still, and what they did while they were: attempts that
 -- they made themselves, of those how many have a known newest value of hit, and how many hit.
 WITH done AS (
   SELECT person_id, attempt_id, started_us, (
@@ -7,7 +7,7 @@ WITH done AS (
     ORDER BY version DESC LIMIT 1) AS hit
   FROM attempt WHERE operator_name = 'person' AND person_id IS NOT NULL
 ), learner AS (
-  SELECT cohort_id, person_id, max(from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)) AS still
+  SELECT cohort_id, person_id, max(to_us IS NULL) AS still
   FROM enrolment WHERE post = 'learner'
   GROUP BY cohort_id, person_id
 )

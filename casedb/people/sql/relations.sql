@@ -1,16 +1,16 @@
--- What everybody is to :reader at :now_us, as far as it is anything.
+-- What everybody is to :reader, as far as it is anything.
 WITH led AS (
   SELECT cohort_id FROM enrolment
-  WHERE person_id = :reader AND post = 'mentor' AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE person_id = :reader AND post = 'mentor' AND to_us IS NULL
 ), directed AS (
   SELECT cohort_id FROM cohort JOIN programme_director USING (programme)
-  WHERE person_id = :reader AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE person_id = :reader AND to_us IS NULL
 ), learning AS (
   SELECT cohort_id, person_id FROM enrolment
-  WHERE post = 'learner' AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE post = 'learner' AND to_us IS NULL
 ), studied AS (
   SELECT consenting.person_id FROM study_researcher JOIN consenting USING (study_id)
-  WHERE study_researcher.person_id = :reader AND from_us <= :now_us AND (to_us IS NULL OR to_us > :now_us)
+  WHERE study_researcher.person_id = :reader AND to_us IS NULL
 )
 SELECT person_id,
   person_id = :reader AS own,

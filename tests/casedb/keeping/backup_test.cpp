@@ -12,6 +12,7 @@
 #include "casedb/database/disk.h"
 #include "casedb/keeping/check.h"
 #include "tests/casedb/library_samples.h"
+#include "tests/fixtures/allocations.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -40,6 +41,22 @@ class BackupTest : public testing::Test {
     return copied ? "none" : copied.error().code;
   }
 };
+
+// Was: both databases whole in memory, only to be hashed: 450 MB of 413 MB.
+TEST_F(BackupTest, TakesNoMoreMemoryForALargeDatabase) {
+  make();
+  {
+    Sqlite database(folder_ / "seldinger.sqlite");
+    database.run(
+        "CREATE TABLE large (bytes BLOB); INSERT INTO large VALUES (zeroblob(64000000)); DROP TABLE large");
+  }
+  Library library = open_library(folder_);
+  const std::size_t before = fixtures::live_bytes();
+  fixtures::forget_peak();
+  ASSERT_TRUE(back_up(library, backup_, "0.1.0").has_value());
+  EXPECT_GT(fs::file_size(backup_ / "seldinger.sqlite"), 64'000'000U);
+  EXPECT_LT(fixtures::peak_bytes() - before, std::size_t{16} << 20);
+}
 
 TEST_F(BackupTest, ComesBackAsItWas) {
   make();

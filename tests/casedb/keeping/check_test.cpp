@@ -228,14 +228,13 @@ TEST_F(CheckTest, ANameWithoutAPersonIsFoundAndNotTold) {
 }
 
 // Was: "all holds", and the page showed the other number.
-TEST_F(CheckTest, AChangedValueIsToldWithAttemptAndMetric) {
+TEST_F(CheckTest, AChangedValueIsToldWithItsAttempt) {
   change_unseen(
       "seldinger.sqlite",
       "DROP TRIGGER metric_value_is_immutable; UPDATE metric_value SET value = 4.322 WHERE value = 4.321");
   const CheckReport report = check_library(folder_, false).value();
   EXPECT_EQ(codes(report.findings), (Codes{"value_damaged", "value_damaged"}));  // and the trigger
-  EXPECT_EQ(report.findings.front().text,
-            "the value of time_total of attempt " + attempt_id_ + " is not what was stored");
+  EXPECT_EQ(report.findings.front().text, "a value of attempt " + attempt_id_ + " is not what was stored");
 }
 
 // Was: an account's role or an attempt's owner changed by SQL, and "all holds".

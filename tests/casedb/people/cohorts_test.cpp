@@ -50,6 +50,34 @@ TEST_F(CohortsTest, AMentorLeadsTheLearnersOfTheCohortAsLongAsBothBelongToIt) {
   EXPECT_FALSE(to(mona_, tina_).own_cohort);
 }
 
+// Was: void until the clock came there again; and what was ended while it was ahead went on meanwhile.
+TEST_F(CohortsTest, WhatBeganOrEndedWhileTheClockWasAheadCounts) {
+  const std::string study = add_study(library_, "Needles").value();
+  ASSERT_TRUE(enrol(library_, cohort_, mona_, Post::mentor));
+  ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner));
+  ASSERT_TRUE(appoint_director(library_, "Radiology", dora_));
+  ASSERT_TRUE(add_researcher(library_, study, rita_));
+  const std::string ahead_us = std::to_string(now_us() + 365 * 86'400'000'000);
+  const auto set_all = [&](const std::string& column) {
+    Transaction transaction(library_.database());
+    for (const char* table : {"enrolment", "programme_director", "study_researcher"})
+      library_.database().run(std::string("UPDATE ") + table + " SET " + column + " = " + ahead_us);
+    transaction.commit();
+  };
+  const auto counts = [&] {
+    return std::vector<bool>{to(mona_, tina_).own_cohort, to(dora_, tina_).own_programme,
+                             relation_to_cohort(library_, mona_, cohort_, "Radiology").own_cohort,
+                             relation_to_cohort(library_, dora_, cohort_, "Radiology").own_programme,
+                             is_researcher_of(library_, study, rita_)};
+  };
+  set_all("from_us");
+  EXPECT_EQ(counts(), std::vector<bool>(5, true));
+  ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner)) << "twice is once";
+  EXPECT_EQ(list_enrolments(library_, cohort_).size(), 2U);
+  set_all("to_us");
+  EXPECT_EQ(counts(), std::vector<bool>(5, false));
+}
+
 TEST_F(CohortsTest, ADirectorHasTheLearnersOfTheProgramme) {
   ASSERT_TRUE(enrol(library_, cohort_, tina_, Post::learner));
   EXPECT_FALSE(to(dora_, tina_).own_programme);

@@ -318,6 +318,11 @@ TEST_F(StorePeopleTest, AClockThatWasAheadHoldsNoChangeBack) {
   for (const Level level : {Level::trainee, Level::consultant}) {
     ASSERT_TRUE(set_level(library_, "ann", level).has_value());
     EXPECT_EQ(list_users(library_).at(0).level.value(), level);
+    // Was: stored a year ahead, so that what the list showed counted for no attempt.
+    const bool counts = library_.database().integer("SELECT count(*) FROM person_level WHERE level = '" +
+                                                    std::string(name_of(level)) +
+                                                    "' AND since_us <= " + std::to_string(now_us())) == 1;
+    EXPECT_TRUE(counts);
   }
   ASSERT_TRUE(give_fact(library_, person_id, "handedness", "right").has_value());
   EXPECT_EQ(newest_facts(list_facts(library_, person_id)).at("handedness").answer, "right");

@@ -1,0 +1,3 @@
+-- One digest for all metrics of an attempt, one for its steps, one for its conditions; of enrolments, appointments,
+-- watched replays and standards one for each person or attempt, so that erasing them takes their digests too
+-- (casedb/database/digests.h). Every step writes all digests anew when it is done, this one in that form.
