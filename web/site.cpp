@@ -91,10 +91,7 @@ std::string Site::place_of(const Request& request, const std::string& name) {
   const auto reader = reader_of(request);
   if (reader && casedb::folded_name(reader->account.login_name) == folded)
     return "session of " + reader->account.person_id;
-  // Whoever has one address of the loopback has all sixteen million.
-  const bool here =
-      request.from.starts_with("127.") || request.from == "::1" || request.from.starts_with("::ffff:127.");
-  return here ? "this machine" : "address " + request.from;
+  return "address " + request.from;
 }
 
 Lane Site::lane_of(const Request& request) {
