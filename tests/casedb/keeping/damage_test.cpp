@@ -57,8 +57,7 @@ class DamageTest : public testing::Test {
   std::vector<std::string> found() {
     std::vector<std::string> texts;
     const CheckReport report = check_library(folder_, false).value();
-    for (const base::Problem& problem : report.findings)
-      texts.push_back(problem.code + ": " + problem.text);
+    for (const base::Problem& problem : report.findings) texts.push_back(problem.code + ": " + problem.text);
     return texts;
   }
   std::vector<std::string> none_;
