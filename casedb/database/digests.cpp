@@ -104,7 +104,10 @@ std::string printable(const std::string& id) {
 }  // namespace
 
 bool has_digests(Sqlite& database) {
-  return database.integer("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'digest'") > 0;
+  // Two places hold the table's name: damage to one of them does not hide what the digests tell.
+  return database.integer(
+             "SELECT (SELECT count(*) FROM sqlite_schema WHERE name = 'digest') + "
+             "(SELECT count(*) FROM pragma_table_info('digest'))") > 0;
 }
 
 std::map<DigestOf, std::uint64_t> digest_differences(Sqlite& database) {

@@ -159,7 +159,9 @@ int Statement::parameter(std::string_view name) const {
 
 int Statement::column(std::string_view name) const {
   const auto found = columns_.find(name);
-  CHECK(found != columns_.end());
+  // Our questions name their columns, but what a table or a view calls them stands in the file.
+  if (found == columns_.end())
+    throw DatabaseFailure(DatabaseFailure::Kind::damaged, "the database is damaged: a table lacks a column");
   return found->second;
 }
 
@@ -238,7 +240,8 @@ std::int64_t Statement::integer(std::string_view name) const {
 
 int Statement::small_integer(std::string_view name) const {
   const std::int64_t value = integer(name);
-  CHECK(value >= std::numeric_limits<int>::min() && value <= std::numeric_limits<int>::max());
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max())
+    throw DatabaseFailure(DatabaseFailure::Kind::damaged, "the database is damaged: a number is out of its range");
   return static_cast<int>(value);
 }
 
@@ -356,7 +359,7 @@ void Sqlite::forget_changes() noexcept {
 void Sqlite::write_digests() {
   const auto changed = std::exchange(changes_->digests, {});
   const auto fewer = std::exchange(changes_->fewer, {});
-  if (changed.empty() || integer("SELECT count(*) FROM sqlite_schema WHERE name = 'digest'") == 0) return;
+  if (changed.empty() || !has_digests(*this)) return;
   // XOR, whose order does not matter and which takes away what it added.
   for (const auto& [whose, sum] : changed)
     if (sum != 0) change_digest(*this, whose, sum);

@@ -63,7 +63,7 @@ class Statement {
   std::string text(std::string_view column) const;       // empty for null
   std::string_view view(std::string_view column) const;  // as text, until the next step or rewind
   std::int64_t integer(std::string_view column) const;
-  int small_integer(std::string_view column) const;  // CHECKs that it fits
+  int small_integer(std::string_view column) const;  // damaged, where it does not fit
   double real(std::string_view column) const;
   std::vector<std::byte> bytes(std::string_view column) const;
 

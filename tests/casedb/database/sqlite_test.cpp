@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <atomic>
+#include <functional>
 #include <limits>
 #include <thread>
 
@@ -53,6 +54,22 @@ TEST_F(SqliteTest, ValuesComeBackAsTheyWentIn) {
   EXPECT_EQ(row.bytes("d"), bytes);
   EXPECT_TRUE(row.is_null("e"));
   EXPECT_FALSE(row.step());
+}
+
+// Was: the program ended. A turned bit in a table's definition renames a column, one in a number makes it large.
+TEST_F(SqliteTest, AnotherColumnAndALargeNumberAreDamage) {
+  database_.run("CREATE TABLE t (a INTEGER) STRICT; INSERT INTO t VALUES (4294967297)");
+  Statement row = database_.prepare("SELECT * FROM t");
+  ASSERT_TRUE(row.step());
+  for (const auto& read :
+       {std::function<void()>([&] { row.small_integer("a"); }), std::function<void()>([&] { row.integer("b"); })}) {
+    try {
+      read();
+      ADD_FAILURE() << "was read";
+    } catch (const DatabaseFailure& failure) {
+      EXPECT_EQ(failure.kind(), DatabaseFailure::Kind::damaged);
+    }
+  }
 }
 
 TEST_F(SqliteTest, EmptyTextAndBytesAreNotNull) {

@@ -108,6 +108,18 @@ TEST_P(BitFlipsTest, EveryFlipOfADatabaseIsToldOrChangesNoValue) {
   EXPECT_GT(said, flips() / 2) << "too few bits held something";
 }
 
+// Was: under another name the table of the digests was not found, and nothing that they would tell was told.
+TEST_P(BitFlipsTest, TheNameOfTheDigestsTableIsToldToo) {
+  const fs::path file = folder_ / GetParam();
+  const std::string name = "tabledigestdigest";  // type, name and table of the schema's row
+  const std::size_t at = fixtures::whole_file(file).find(name);
+  ASSERT_NE(at, std::string::npos);
+  for (std::size_t byte = at; byte < at + name.size(); ++byte)
+    for (const std::size_t bit : {0U, 5U})  // another letter, and the same one large
+      with_flipped(file, byte * 8 + bit, [&] { EXPECT_NE(told(), "") << byte - at << " bit " << bit; });
+  EXPECT_EQ(told(), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, BitFlipsTest, testing::Values("seldinger.sqlite", "identities.sqlite"),
                          [](const auto& file) { return std::string(file.param).substr(0, 9); });
 
