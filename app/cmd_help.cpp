@@ -1,8 +1,10 @@
 // help.
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include "app/cli/error_codes.h"
+#include "app/cli/words.h"
 #include "app/commands.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/operators/profile.h"
@@ -54,14 +56,16 @@ int run_help(const Arguments& arguments) {
     std::fputs(help_text().c_str(), stdout);
     return kDone;
   }
-  bool found = false;
+  std::vector<std::string> known;
+  std::string text;
   for (const Command& command : commands()) {
-    const std::string name = command.name;
-    if (name != wanted && name.rfind(wanted + " ", 0) != 0) continue;
-    std::fputs(help_text(command).c_str(), stdout);
-    found = true;
+    known.emplace_back(command.name);
+    known.push_back(known.back().substr(0, known.back().find(' ')));
+    if (wanted == command.name) text += help_text(command);
   }
-  if (!found) throw UsageError("there is no command of that name");
+  if (text.empty()) text = help_text_of_noun(wanted);  // `case` begins many
+  if (text.empty()) throw UsageError("there is no command " + shown(wanted) + did_you_mean(wanted, known));
+  std::fputs(text.c_str(), stdout);
   return kDone;
 }
 

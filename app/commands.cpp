@@ -1,8 +1,9 @@
 #include "app/commands.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "sim/base/training_only.h"
 
@@ -104,15 +105,77 @@ SELDINGER_COMMANDS(ROW)
 
 namespace {
 
+// The nouns of help, in its order.
+struct Group {
+  const char* title;
+  std::vector<std::string_view> nouns;
+};
+const std::vector<Group>& groups() {
+  static const std::vector<Group> kGroups = {
+      {"To begin", {"demo", "train", "serve", "doctor", "help"}},
+      {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
+      {"Attempts", {"simulate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
+      {"People", {"user", "login", "logout", "audit", "cohort", "study", "consent"}},
+      {"The library", {"backup", "restore", "check"}},
+      {"Pictures", {"render", "sheet"}},
+      {"Hands", {"haptics", "device"}},
+      {"Measurements", {"bench", "goals"}}};
+  return kGroups;
+}
+
+std::string_view noun_of(const Command& command) {
+  const std::string_view name = command.name;
+  return name.substr(0, name.find(' '));
+}
+
 std::string synopsis(const Command& command) {
   std::string text = std::string("seldinger ") + command.name;
   if (*command.positionals != '\0') text += std::string(" ") + command.positionals;
-  for (const Option& option : options_of(command)) {
-    text += std::string(" [") + option.name;
-    if (option.value != nullptr) text += std::string(" ") + option.value;
-    text += option.repeatable ? " …]" : "]";
+  return text + (options_of(command).empty() ? "" : " [options]");
+}
+
+constexpr std::size_t kHelpColumns = 80;
+
+std::size_t columns_of(std::string_view text) {  // of UTF-8, a column a letter
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
+}
+
+// `text` in lines of at most kHelpColumns, each after `indent` spaces; the first one goes on after `lead`.
+std::string wrapped(const std::string& lead, std::size_t indent, const std::string& text) {
+  std::string made = lead;
+  std::size_t column = columns_of(lead);
+  if (column > indent || (column == indent && lead.find_last_not_of(' ') == lead.size() - 1 && !lead.empty())) {
+    made += "\n";
+    column = 0;
   }
-  return text;
+  made += std::string(indent - column, ' ');
+  column = indent;
+  std::istringstream words(text);
+  bool first = true;
+  for (std::string word; words >> word; first = false) {
+    if (!first && column + 1 + columns_of(word) > kHelpColumns) {
+      made += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (!first) {
+      made += ' ';
+      ++column;
+    }
+    made += word;
+    column += columns_of(word);
+  }
+  return made + "\n";
+}
+
+std::string typed_name(const Option& option) {
+  std::string name = option.name;
+  if (option.value != nullptr) name += std::string(" ") + option.value;
+  return name + (option.repeatable ? " …" : "");
+}
+
+bool is_of(std::string_view example, const Command& command) {
+  const std::string name = command.name;
+  return example == name || example.starts_with(name + " ");
 }
 
 }  // namespace
@@ -125,43 +188,87 @@ std::span<const Command> commands() {
 }
 
 std::string help_text(const Command& command) {
-  std::string text = synopsis(command) + "\n  " + command.summary + "\n";
-  for (const Option& option : options_of(command)) {
-    std::string name = option.name;
-    if (option.value != nullptr) name += std::string(" ") + option.value;
-    name.resize(std::max<std::size_t>(name.size(), 26), ' ');
-    text += "  " + name + " " + option.help + "\n";
-  }
+  std::string text = synopsis(command) + "\n" + wrapped("  ", 2, command.summary);
+  std::string lines;
+  for (const std::string_view example : examples())
+    if (is_of(example, command)) lines += "  seldinger " + std::string(example) + "\n";
+  if (!lines.empty()) text += "\nExamples\n" + lines;
+  const std::vector<Option> options = options_of(command);
+  if (!options.empty()) text += "\nOptions\n";
+  for (const Option& option : options) text += wrapped("  " + typed_name(option), 22, option.help);
   return text;
+}
+
+std::string help_text_of_noun(std::string_view noun) {
+  std::string lines;
+  for (const Command& command : commands()) {
+    const std::string name = command.name;
+    if (noun_of(command) != noun || name == noun) continue;
+    lines += wrapped("  " + name + (*command.positionals != '\0' ? std::string(" ") + command.positionals : ""), 26,
+                     command.summary);
+  }
+  if (lines.empty()) return lines;
+  return lines + "\n`seldinger help " + std::string(noun) +
+         " …` tells the options of one of them, with examples.\n";
 }
 
 std::string help_text() {
   std::string text =
-      std::string("seldinger: training in image-guided needle puncture. ") + base::kTrainingOnly + "\n\n";
-  for (const Command& command : commands()) {
-    std::string name = command.name;
-    if (*command.positionals != '\0') name += std::string(" ") + command.positionals;
-    name.resize(std::max<std::size_t>(name.size(), 22), ' ');
-    text += "  " + name + " " + command.summary + "\n";
+      wrapped("", 0, std::string("seldinger: training in image-guided needle puncture. ") + base::kTrainingOnly);
+  for (const Group& group : groups()) {
+    text += "\n" + std::string(group.title) + "\n";
+    for (const std::string_view noun : group.nouns) {
+      std::string of_noun;
+      for (const Command& command : commands()) {
+        const std::string name = command.name;
+        if (noun_of(command) != noun) continue;
+        if (name == noun)
+          text +=
+              wrapped("  " + name + (*command.positionals != '\0' ? std::string(" ") + command.positionals : ""),
+                      22, command.summary);
+        else
+          of_noun += (of_noun.empty() ? "" : ", ") + name.substr(noun.size() + 1);
+      }
+      if (!of_noun.empty()) text += wrapped("  " + std::string(noun), 22, of_noun);
+    }
   }
-  return text + "\n`seldinger help COMMAND` lists a command's options; `seldinger --version` prints the version.\n";
+  return text +
+         "\nFor example\n  seldinger demo --no-serve          a case, a lesion, attempts\n"
+         "  seldinger case show Built          a case by the beginning of its title\n"
+         "  seldinger help case                what can be done with cases\n"
+         "  seldinger help case lesion         one command, its options and examples\n"
+         "  seldinger --version\n\n" +
+         wrapped("", 0,
+                 "A case, lesion, attempt, study, cohort or curriculum is called by its id, its title, or a "
+                 "beginning (four letters or more) that no other has.");
 }
 
 std::string commands_markdown() {
   std::string text =
-      "# Commands\n\nMade from the table in `app/commands.cpp` by `seldinger help --commands`; a test compares.\n"
+      "# Commands\n\nMade from the table in `app/commands.cpp` by `seldinger help --commands`; a test compares, "
+      "and "
+      "another types every example (`tests/e2e/examples_test.cpp`).\n"
       "Lengths in mm, coordinates in LPS. Exit codes: 0 done · 1 ran and its check did not hold · 2 usage · "
-      "3 the input is refused, nothing is changed · 4 the environment fails (disk, database, GL).\n";
+      "3 the input is refused, nothing is changed · 4 the environment fails (disk, database, GL).\n"
+      "`--` ends the options: what follows is no option, though it begins with dashes.\n\n"
+      "Where `--library` is left out, the library is what the environment's `SELDINGER_LIBRARY` says, else the "
+      "demo's "
+      "(`seldinger/demo` under the user's data folder). CASE, LESION, ATTEMPT, STUDY, COHORT and CURRICULUM may be "
+      "an "
+      "id, a title, or a beginning of four letters or more that no other has. With `--json` an error is also "
+      "printed to standard "
+      "output, as `{\"error\": {\"code\", \"text\"}}` ([codes](errors.md)).\n";
   for (const Command& command : commands()) {
-    text += "\n## " + std::string(command.name) + "\n\n" + command.summary + "\n\n```\n" + synopsis(command) +
-            "\n```\n";
+    text += "\n## " + std::string(command.name) + "\n\n" + command.summary + "\n\n```\n" + synopsis(command) + "\n";
+    for (const std::string_view example : examples())
+      if (is_of(example, command)) text += "\nseldinger " + std::string(example);
+    text += "\n```\n";
     if (options_of(command).empty()) continue;
     text += "\n| option | what |\n|---|---|\n";
     for (const Option& option : options_of(command)) {
-      std::string value = option.value == nullptr ? "" : std::string(" ") + option.value;
-      for (std::size_t at = 0; (at = value.find('|', at)) != std::string::npos; at += 2)
-        value.replace(at, 1, "\\|");
-      text += "| `" + std::string(option.name) + value + "` | " + option.help + " |\n";
+      std::string name = typed_name(option);
+      for (std::size_t at = 0; (at = name.find('|', at)) != std::string::npos; at += 2) name.replace(at, 1, "\\|");
+      text += "| `" + name + "` | " + option.help + " |\n";
     }
   }
   return text;

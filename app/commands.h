@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "app/cli/command.h"
 
@@ -11,8 +12,12 @@ namespace seldinger::app {
 // Every command, in the order in which help lists them; a command's row is made in its cmd_*.cpp.
 std::span<const Command> commands();
 
-// `seldinger help` and docs/commands.md.
+// Examples of all of them, without the program's name, in an order in which they can be typed.
+std::span<const std::string_view> examples();
+
+// `seldinger help`, `help case`, `help case lesion` and docs/commands.md.
 std::string help_text();
+std::string help_text_of_noun(std::string_view noun);  // empty: no command begins with that word alone
 std::string help_text(const Command& command);
 std::string commands_markdown();
 

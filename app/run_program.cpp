@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/version.h"
+#include "app/cli/words.h"
 #include "app/commands.h"
 #include "sim/base/failure.h"
 
@@ -28,7 +29,32 @@ const Command* find_command(std::span<const Command> commands, const std::vector
   return nullptr;
 }
 
+// What is wrong with a command's name: of a noun alone, or one beside the mark.
+std::string no_such_command(const std::vector<std::string>& words, std::span<const Command> commands) {
+  std::vector<std::string> names = {"--version"}, of_noun;
+  for (const Command& command : commands) {
+    const std::string name = command.name, noun = name.substr(0, name.find(' '));
+    names.push_back(name);
+    if (name != noun && noun == words[0]) of_noun.push_back(name.substr(noun.size() + 1));
+  }
+  if (!of_noun.empty()) {
+    if (words.size() == 1 || words[1].starts_with("-")) return words[0] + " what? It goes with " + one_of(of_noun);
+    return words[0] + " goes with " + one_of(of_noun) + ", not " + shown(words[1]) +
+           did_you_mean(words[1], of_noun);
+  }
+  const std::string both = words.size() > 1 ? words[0] + " " + words[1] : words[0];
+  const std::string meant = did_you_mean(both, names);
+  return "there is no command " + shown(words[0]) + (meant.empty() ? did_you_mean(words[0], names) : meant);
+}
+
+int misused(const std::string& text, const std::string& where_to_look) {
+  std::fprintf(stderr, "usage: %s\n%s\n", text.c_str(), where_to_look.c_str());
+  answer_as_json(base::Error{"usage", text});
+  return kUsage;
+}
+
 int run(std::vector<std::string> words, std::span<const Command> commands) {
+  if (std::find(words.begin(), words.end(), "--json") != words.end()) answer_errors_as_json();
   if (words.empty()) words = {"help"};
   if (words[0] == "--version") {
     std::printf("seldinger %s\n", kVersion);
@@ -38,25 +64,24 @@ int run(std::vector<std::string> words, std::span<const Command> commands) {
   std::size_t used = 0;
   const Command* command = find_command(commands, words, used);
   if (command == nullptr) {
-    std::fputs("usage: there is no such command; `seldinger help` lists them\n", stderr);
-    return kUsage;
+    const bool noun = !help_text_of_noun(words[0]).empty();
+    return misused(no_such_command(words, commands), noun ? "`seldinger help " + words[0] + "` tells what each does"
+                                                          : "`seldinger help` lists the commands");
   }
   words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(used));
-  if (std::find(words.begin(), words.end(), "--help") != words.end()) {
+  const auto end_of_options = std::find(words.begin(), words.end(), kEndOfOptions);
+  if (std::find(words.begin(), end_of_options, "--help") != end_of_options) {
     std::fputs(help_text(*command).c_str(), stdout);
     return kDone;
   }
   try {
     return command->run(Arguments(*command, words));
   } catch (const UsageError& error) {
-    std::fprintf(stderr, "usage: %s\n%s", error.what(), help_text(*command).c_str());
-    return kUsage;
+    return misused(error.what(), std::string("`seldinger help ") + command->name + "` tells what it takes");
   } catch (const base::Failure& failure) {
-    std::fprintf(stderr, "error: %s: %s\n", failure.code().c_str(), failure.what());
-    return kEnvironment;
+    return fail(kEnvironment, {failure.code(), failure.what()});
   } catch (const std::bad_alloc&) {
-    std::fputs("error: memory: there is not enough memory\n", stderr);
-    return kEnvironment;
+    return fail(kEnvironment, base::Error{"memory", "there is not enough memory"});
   }
 }
 
@@ -69,8 +94,7 @@ int run_program(int argc, char** argv, std::span<const Command> commands) {
     return run({argv + 1, argv + argc}, commands);
   } catch (const std::exception&) {
     // What a library says may hold a path or a value; it stays out of the error.
-    std::fputs("error: internal: something unexpected went wrong\n", stderr);
-    return kEnvironment;
+    return fail(kEnvironment, base::Error{"internal", "something unexpected went wrong"});
   }
 }
 

@@ -28,10 +28,14 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   return make_signals(setting, recording);
 }
 
+Scored score(const Signals& signals) {
+  return {measure_all(signals), walk_steps(signals)};
+}
+
 base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording) {
   const auto signals = signals_of(scene, recording);
   if (!signals) return signals.error();
-  return Scored{measure_all(*signals), walk_steps(*signals)};
+  return score(*signals);
 }
 
 base::Result<std::vector<MetricValue>> measure(const cases::Case& scene, const cases::Recording& recording) {

@@ -19,6 +19,7 @@ struct Scored {
   std::vector<MetricValue> metrics;
   std::vector<StepResult> steps;
 };
+Scored score(const Signals& signals);
 base::Result<Scored> score(const cases::Case& scene, const cases::Recording& recording);
 
 // The metrics alone.

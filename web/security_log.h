@@ -17,8 +17,8 @@ class SecurityLog {
   explicit SecurityLog(const Surroundings& surroundings);
 
   // "security: log-in failed; address 3fa1b2c4; account 0190a1b2-…". The same thing of the same address is written
-  // at most once in ten seconds; what came meanwhile is counted in the next line. Beyond 256
-  // lines in ten seconds the rest is one line with its count, so nobody fills a disk with many addresses either.
+  // at most once in ten seconds; what came meanwhile is counted in the next line. Beyond 256 lines
+  // in ten seconds the rest is one line with its count, so nobody fills a disk with many addresses either.
   void note(std::string_view what, const std::string& address, const std::string& person_id = {});
 
  private:

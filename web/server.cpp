@@ -90,17 +90,39 @@ Server::Server(Server&&) noexcept = default;
 Server& Server::operator=(Server&&) noexcept = default;
 Server::~Server() = default;
 
-base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surroundings surroundings,
-                                  const ServeOptions& options) {
+namespace {
+
+std::string address_of(const ServeOptions& options) {
+  return options.host == "localhost" ? "127.0.0.1" : options.host;
+}
+
+// The port, which may be any free one.
+base::Result<int> listen(Listener& listener, const ServeOptions& options) {
   if (!is_loopback_address(options.host)) {
     return base::Error{"not_loopback", "the server listens on this machine only: 127.0.0.1, ::1 or localhost"};
   }
-  ::mallopt(M_ARENA_MAX, 2);  // each thread's own would keep what its largest answer took
   if (options.port < 0 || options.port > 65535) return base::Error{"bad_port", "a port is 0 to 65535"};
-  const std::string address = options.host == "localhost" ? "127.0.0.1" : options.host;
-  auto listener = std::make_unique<Listener>();
-  const auto port = listener->listen_at(address, options.port);
+  const auto port = listener.listen_at(address_of(options), options.port);
   if (!port) return base::Error{"port_taken", "cannot listen on port " + std::to_string(options.port)};
+  return *port;
+}
+
+}  // namespace
+
+base::Result<void> Server::can_listen(const ServeOptions& options) {
+  Listener listener;
+  const auto port = listen(listener, options);
+  if (!port) return port.error();
+  return {};
+}
+
+base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surroundings surroundings,
+                                  const ServeOptions& options) {
+  ::mallopt(M_ARENA_MAX, 2);  // each thread's own would keep what its largest answer took
+  const std::string address = address_of(options);
+  auto listener = std::make_unique<Listener>();
+  const auto port = listen(*listener, options);
+  if (!port) return port.error();
   surroundings.port = *port;
   auto parts = std::make_unique<Parts>(std::move(questions), std::move(surroundings), std::move(listener));
   const std::string shown = address == "::1" ? "[::1]" : address;

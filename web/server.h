@@ -21,6 +21,8 @@ class Server {
   // Listens when it returns. Refused: `not_loopback`, `bad_port`, `port_taken`.
   static base::Result<Server> open(std::unique_ptr<Questions> questions, Surroundings surroundings,
                                    const ServeOptions& options);
+  // Whether it would, now: nothing of `host` and `port` is held when this returns. Refused as `open`.
+  static base::Result<void> can_listen(const ServeOptions& options);
   Server(Server&&) noexcept;
   Server& operator=(Server&&) noexcept;
   ~Server();

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 
+#include "app/acting/names.h"
 #include "app/acting/read_password.h"
 #include "app/acting/token_file.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "casedb/database/credentials.h"
 #include "casedb/people/login_session.h"
 
@@ -32,7 +35,7 @@ std::optional<Account> account_of(casedb::Library& library, const Arguments& arg
 base::Result<std::optional<Account>> by_password(casedb::Library& library, const Arguments& arguments) {
   if (!arguments.has("--password-file")) return std::optional<Account>();
   auto password = read_password_of(arguments.text("--password-file"));
-  if (!password) return password.error();
+  if (!password) return error_of("--password-file", arguments.text("--password-file"), password.error());
   auto account = casedb::log_in(library, arguments.required("--by"), *password);
   casedb::wipe(*password);
   if (!account) return base::Error{"bad_log_in", "name or password is not right"};
@@ -47,7 +50,7 @@ base::Result<std::optional<Account>> by_session(casedb::Library& library, const 
   if (!told && !named && owner) return std::optional<Account>();
   auto token =
       read_token(told ? std::filesystem::path(arguments.text("--token-file")) : token_file_of(library.folder()));
-  if (!token) return token.error();
+  if (!token) return told ? error_of("--token-file", arguments.text("--token-file"), token.error()) : token.error();
   std::optional<Account> account;
   if (*token) {
     account = casedb::account_of_login_session(library, **token);
@@ -59,15 +62,19 @@ base::Result<std::optional<Account>> by_session(casedb::Library& library, const 
   return fits ? account : std::nullopt;
 }
 
-}  // namespace
+base::Result<casedb::Library> with_names(base::Result<casedb::Library> library, const Arguments& arguments) {
+  if (library)
+    if (const auto settled = settle_names(*library, arguments); !settled) return settled.error();
+  return library;
+}
 
-base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone where_none, uid_t uid) {
-  const std::string folder = arguments.required("--library");
+base::Result<casedb::Library> open_for(const Arguments& arguments, WhereNone where_none, uid_t uid) {
+  const std::filesystem::path folder = library_folder(arguments);
   if (arguments.has("--password-file")) arguments.required("--by");
   // Nobody is known to a library that is only being made.
   const bool create = where_none == WhereNone::create && !arguments.has("--by") && !arguments.has("--token-file");
   auto library = create ? casedb::Library::open_or_create(folder) : casedb::Library::open(folder);
-  if (!library) return library;
+  if (!library) return error_of_library(arguments, library.error());
   const bool owner = owns(*library, uid);
   auto proven = by_password(*library, arguments);
   if (!proven) return proven.error();
@@ -91,6 +98,18 @@ base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone 
   }
   library->act_for({ActorKind::library_operator, person_id});
   return library;
+}
+
+}  // namespace
+
+base::Result<casedb::Library> open_library(const Arguments& arguments) {
+  auto library = casedb::Library::open(library_folder(arguments));
+  if (!library) return error_of_library(arguments, library.error());
+  return with_names(std::move(library), arguments);
+}
+
+base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone where_none, uid_t uid) {
+  return with_names(open_for(arguments, where_none, uid), arguments);
 }
 
 base::Result<std::optional<std::string>> acting(casedb::Library& library, const Arguments& arguments,

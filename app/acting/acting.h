@@ -18,8 +18,12 @@ inline constexpr Option kWhose{"--user", "NAME", "whose account"};
 
 enum class WhereNone { refuse, create };
 
-// Opens --library; it then acts for the person of --by who has given their password or has a session, else for the
-// operator: the operating system's account `uid` that owns the library, or root. Refused as Library::open, and
+// Opens the command's library (app/cli/library_place.h) to look into; what was called by title or beginning in its
+// arguments is an id after that (app/acting/names.h). Refused as Library::open, and `ambiguous`.
+base::Result<casedb::Library> open_library(const Arguments& arguments);
+
+// The same to act in; it then acts for the person of --by who has given their password or has a session, else for
+// the operator: the operating system's account `uid` that owns the library, or root. Refused as open_library, and
 // `bad_log_in`, `no_session`, `bad_token_file`, `not_proven` (neither proof nor owner).
 base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone where_none = WhereNone::refuse,
                                           uid_t uid = ::geteuid());

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/acting/read_password.h"
 #include "app/acting/token_file.h"
 #include "app/cli/command.h"
@@ -18,7 +19,7 @@ std::filesystem::path token_file(const Arguments& arguments, const casedb::Libra
 }
 
 int run_login(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   auto password = read_password_of(arguments.text("--password-file", "-"));
   if (!password) return refuse(password.error());
@@ -39,7 +40,7 @@ int run_login(const Arguments& arguments) {
 }
 
 int run_logout(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const std::filesystem::path file = token_file(arguments, *library);
   auto token = read_token(file);

@@ -216,20 +216,18 @@ std::string json_of_users(const std::vector<casedb::Account>& accounts) {
   return text({{"users", list}});
 }
 
-std::string json_of_facts(const DoctorAnswer& doctor) {
-  Json json = Json::object();
-  for (const auto& [name, value] : doctor.facts) json[name] = value;
-  return text(json);
-}
-
 std::string json_of_demo(const DemoAnswer& demo) {
   Json accounts = Json::array();
   for (const auto& [name, password] : demo.passwords) accounts.push_back({{"name", name}, {"password", password}});
   Json lesion = casedb::json_of_lesion(demo.lesion);
   lesion["rule"] = demo.lesion_rule;
   lesion["depth_below_skin_mm"] = demo.lesion_depth_mm;
+  Json warnings = Json::array();
+  for (const base::Problem& warning : demo.found.warnings)
+    warnings.push_back({{"code", warning.code}, {"text", warning.text}});
   return text({{"case_id", demo.found.case_id},
                {"title", demo.found.title},
+               {"warnings", warnings},
                {"lesion", lesion},
                {"attempts", attempts_json(demo.attempts)},
                {"accounts", accounts},

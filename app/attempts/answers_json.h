@@ -43,10 +43,6 @@ struct DemoAnswer {
   std::string url;                                             // empty when not served
 };
 
-struct DoctorAnswer {
-  std::vector<std::pair<std::string, std::string>> facts;
-};
-
 std::string json_of_case(const casedb::CaseParts& parts);
 std::string json_of_cases(const std::vector<casedb::CaseParts>& cases);
 std::string json_of_samples(const std::vector<PointSample>& samples);
@@ -69,7 +65,6 @@ std::string json_of_attempts(const std::vector<casedb::AttemptRow>& attempts,
 std::string json_of_replay(std::optional<bool> verified, std::optional<std::uint64_t> first_difference_tick,
                            const std::string& reason);
 std::string json_of_users(const std::vector<casedb::Account>& accounts);
-std::string json_of_facts(const DoctorAnswer& doctor);
 std::string json_of_demo(const DemoAnswer& demo);
 
 }  // namespace seldinger::app

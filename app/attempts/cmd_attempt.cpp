@@ -1,7 +1,10 @@
 // attempt list, attempt show.
 #include <cstdio>
+#include <map>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
+#include "app/attempts/attempt_line.h"
 #include "app/attempts/grade_text.h"
 #include "app/attempts/metrics_text.h"
 #include "app/cli/command.h"
@@ -16,14 +19,13 @@
 namespace seldinger::app {
 namespace {
 
-std::string value_of(const casedb::AttemptRow& attempt, const char* id, const char* format) {
-  for (const assessment::MetricValue& metric : attempt.metrics)
-    if (metric.id == id && metric.value) {
-      char text[32];
-      std::snprintf(text, sizeof text, format, *metric.value);
-      return text;
-    }
-  return "–";
+// Padded, or cut with "…", to so many letters of UTF-8.
+std::string in_columns(const std::string& text, std::size_t columns) {
+  std::size_t letters = 0, kept = 0;  // kept: bytes of the first columns − 1 letters
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80 && ++letters == columns) kept = i;
+  if (letters <= columns) return text + std::string(columns - letters, ' ');
+  return text.substr(0, kept) + "…";
 }
 
 std::string who(const casedb::AttemptRow& attempt) {
@@ -44,7 +46,7 @@ void print_course(const Course& course) {
 }
 
 int run_attempt_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto left_behind = session::close_interrupted_attempts(*library);
   if (!left_behind.empty())
@@ -59,19 +61,20 @@ int run_attempt_list(const Arguments& arguments) {
     return kDone;
   }
   if (attempts.empty()) std::puts("There is no attempt yet; `seldinger simulate` makes some.");
+  std::map<std::string, std::string> names;
+  for (const casedb::Account& one : casedb::list_users(*library)) names[one.person_id] = one.login_name;
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const casedb::AttemptRow& attempt = attempts[i];
-    std::printf("%s  %s  %-22s seed %-6llu %-12s hit %s  %6s mm from the centre  %6s s\n",
-                attempt.attempt_id.c_str(), reports::utc_text(attempt.started_us).c_str(), who(attempt).c_str(),
-                static_cast<unsigned long long>(attempt.seed), reports::verdict_word(grades[i].verdict).c_str(),
-                value_of(attempt, "hit", "%.0f").c_str(), value_of(attempt, "tip_target_dist", "%.1f").c_str(),
-                value_of(attempt, "time_total", "%.1f").c_str());
+    const std::string name = attempt.person_id ? names[*attempt.person_id] : "";
+    std::printf("%s  %s  %s  %s  %s\n", attempt.attempt_id.c_str(), reports::utc_text(attempt.started_us).c_str(),
+                in_columns(attempt.case_title, 28).c_str(), in_columns(maker_text(attempt, name), 26).c_str(),
+                outcome_text(grades[i].verdict, attempt.metrics).c_str());
   }
   return kDone;
 }
 
 int run_attempt_show(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());
@@ -108,7 +111,7 @@ int run_attempt_show(const Arguments& arguments) {
 Command attempt_list_command() {
   return {.name = "attempt list",
           .options = kLibraryJson,
-          .summary = "Lists the attempts, newest first.",
+          .summary = "Lists the attempts, newest first: on which case, by whom, and how it went.",
           .run = &run_attempt_list};
 }
 

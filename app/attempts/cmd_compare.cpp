@@ -1,6 +1,7 @@
 // attempt compare.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/attempts/compare_json.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
@@ -34,17 +35,18 @@ void print_comparison(const casedb::Comparison& comparison) {
 }
 
 int run_attempt_compare(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library"), case_id = arguments.required("--case");
+  arguments.required("--case");
   std::optional<cases::Modality> modality;
   if (arguments.has("--modality")) {
     modality = casedb::modality_from(arguments.text("--modality"));
     if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   }
-  const std::filesystem::path out = arguments.text("--out");
-  if (arguments.has("--out") && out.extension() != ".html") throw UsageError("--out must end in .html");
-  auto library = casedb::Library::open(folder);
+  std::filesystem::path out;
+  if (arguments.has("--out")) out = file_of("--out", arguments.text("--out"), {".html"});
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
-  const auto comparison = casedb::compare_attempts(*library, case_id, arguments.text("--lesion"), modality);
+  const auto comparison =
+      casedb::compare_attempts(*library, arguments.text("--case"), arguments.text("--lesion"), modality);
   if (!comparison) return refuse(comparison.error());
   if (arguments.has("--out")) write_file(out, reports::compare_page(*comparison, reports::style_sheet()));
   if (arguments.has("--json"))
@@ -56,8 +58,8 @@ int run_attempt_compare(const Arguments& arguments) {
 
 constexpr Option kCompareOptions[] = {
     kLibrary,
-    {"--case", "ID", "the case"},
-    {"--lesion", "ID", "of attempts at this target; default that of the newest attempt"},
+    {"--case", "CASE", "the case"},
+    {"--lesion", "LESION", "of attempts at this target; default that of the newest attempt"},
     {"--modality", "mpr|xray|ultrasound", "of attempts with it; default that of the newest attempt"},
     {"--out", "FILE.html", "a page of its own, in place of the text"},
     kJson};

@@ -7,6 +7,7 @@
 #include "app/attempts/export_json.h"
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
+#include "app/cli/words.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/people/consent.h"
 #include "reports/export/raw_export.h"
@@ -36,9 +37,9 @@ int run_export(const Arguments& arguments) {
   const std::string out = arguments.required("--out");
   reports::RawChoice choice;
   if (arguments.has("--raw")) choose(arguments.text("--raw"), choice);
-  if (arguments.has("--case")) choice.case_id = arguments.text("--case");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  if (arguments.has("--case")) choice.case_id = arguments.text("--case");
   if (arguments.has("--study")) {
     const auto study = casedb::find_study(*library, arguments.text("--study"));
     if (!study) return refuse(study.error());
@@ -57,12 +58,12 @@ int run_export(const Arguments& arguments) {
   choice.exact = choice.study_id.has_value() && !key_file.empty();
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
   auto key = key_from_file(key_file);
-  if (!key) return refuse(key.error());
+  if (!key) return refuse(error_of("--key", key_file, key.error()));
   const auto done = reports::export_raw(*library, out, choice, *key);
   key->fill(std::byte{0});
   if (!done) {
     if (key_is_new) std::filesystem::remove(key_file);  // refused: nothing is changed
-    return refuse(done.error());
+    return refuse(error_of("--out", out, done.error()));
   }
   try {
     casedb::audit_alone(*library, casedb::Act::export_attempts,
@@ -87,7 +88,7 @@ int run_export(const Arguments& arguments) {
 constexpr Option kExportOptions[] = {
     kLibrary,
     {"--out", "DIR", "the new folder"},
-    {"--case", "ID", "attempts at this case only; default: every attempt"},
+    {"--case", "CASE", "attempts at this case only; default: every attempt"},
     {"--study", "STUDY", "of those who consent to it; default: of those who consent to research with this library"},
     {"--raw", "poses,forces,frames,events|none", "what of the recordings; default all of them"},
     {"--key", "FILE",

@@ -6,6 +6,7 @@
 #include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/cli/command.h"
+#include "app/cli/progress.h"
 #include "assessment/score.h"
 #include "session/case/case_build.h"
 
@@ -89,10 +90,14 @@ int run_recompute(const Arguments& arguments) {
                    [](const auto& a, const auto& b) { return a.case_id < b.case_id; });
   Recomputed sum;
   Scenes scenes(*library);
-  for (const casedb::AttemptRow& attempt : attempts) {
-    ++sum.attempts;
-    if (const auto done = recompute(*library, attempt, scenes, sum); !done)
-      sum.not_scored.emplace_back(attempt.attempt_id, done.error());
+  {
+    Progress progress(attempts.size());
+    for (const casedb::AttemptRow& attempt : attempts) {
+      ++sum.attempts;
+      if (const auto done = recompute(*library, attempt, scenes, sum); !done)
+        sum.not_scored.emplace_back(attempt.attempt_id, done.error());
+      progress.one_done();
+    }
   }
   if (arguments.has("--json")) {
     std::fputs(json_of_recompute(sum).c_str(), stdout);
@@ -110,7 +115,7 @@ int run_recompute(const Arguments& arguments) {
 }
 
 constexpr Option kRecomputeOptions[] = {
-    kLibrary, {"--attempt", "ID", "this one only; default: every attempt"}, kJson};
+    kLibrary, {"--attempt", "ATTEMPT", "this one only; default: every attempt"}, kJson};
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // replay.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/cli/command.h"
 #include "app/replay/replay_output.h"
@@ -49,10 +50,8 @@ base::Result<Verdict> draw(casedb::Library& library, const casedb::AttemptRow& a
 }
 
 int run_replay(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
-  const double rate_hz = arguments.number("--rate-hz", kDefaultReplayHz);
-  if (!(rate_hz >= 1.0 && rate_hz <= kMostReplayHz)) throw UsageError("--rate-hz is 1 to 60");
-  auto library = casedb::Library::open(folder);
+  const double rate_hz = arguments.number("--rate-hz", kDefaultReplayHz, 1.0, kMostReplayHz);
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto attempt = casedb::find_attempt(*library, arguments.positional(0));
   if (!attempt) return refuse(attempt.error());

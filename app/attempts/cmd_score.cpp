@@ -2,12 +2,15 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
 #include "app/attempts/grade_text.h"
 #include "app/attempts/metrics_text.h"
 #include "app/attempts/poses_csv.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "app/pictures/scene.h"
 #include "app/pictures/xray_sight.h"
 #include "assessment/score.h"
@@ -72,16 +75,16 @@ base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_
   return {};
 }
 
-base::Result<assessment::Scored> score_poses(const std::string& poses, const std::string& scene_path,
-                                             const std::string& library, std::vector<std::string>& notes) {
+base::Result<assessment::Scored> score_poses(const Arguments& arguments, std::vector<std::string>& notes) {
+  const std::string scene_path = arguments.required("--scene"), library = library_folder_if_any(arguments).string();
   const auto scene = read_scene(scene_path, notes);
-  if (!scene) return scene.error();
+  if (!scene) return error_of("--scene", scene_path, scene.error());
   if (scene->motion)
     return base::Error{"bad_scene", "poses are scored in a patient who lies still: scene.motion", {}};
-  const auto text = read_text(poses);
+  const auto text = read_text_of(arguments, "--poses");
   if (!text) return text.error();
   auto recording = recording_from_csv(*text);
-  if (!recording) return recording.error();
+  if (!recording) return error_of("--poses", arguments.text("--poses"), recording.error());
   auto volume = volume_of(*scene, library);
   if (!volume) return volume.error();
   cases::Case built;
@@ -112,10 +115,11 @@ base::Result<assessment::Scored> score_poses(const std::string& poses, const std
 }
 
 // What it is worth as measured now; `grade` is set with it.
-base::Result<assessment::Scored> score_attempt(const std::string& attempt_id, const std::string& folder,
+base::Result<assessment::Scored> score_attempt(const Arguments& arguments,
                                                std::optional<casedb::AttemptGrade>& grade) {
-  auto library = casedb::Library::open(folder);
+  auto library = open_library(arguments);
   if (!library) return library.error();
+  const std::string attempt_id = arguments.positional(0);
   auto attempt = casedb::find_attempt(*library, attempt_id);
   if (!attempt) return attempt.error();
   const auto recording = casedb::load_recording(*library, attempt_id);
@@ -137,9 +141,7 @@ int run_score(const Arguments& arguments) {
   if (stored == arguments.has("--poses")) throw UsageError("give either ATTEMPT or --poses with --scene");
   std::vector<std::string> notes;
   std::optional<casedb::AttemptGrade> grade;
-  const auto scored = stored ? score_attempt(arguments.positional(0), arguments.required("--library"), grade)
-                             : score_poses(arguments.text("--poses"), arguments.required("--scene"),
-                                           arguments.text("--library"), notes);
+  const auto scored = stored ? score_attempt(arguments, grade) : score_poses(arguments, notes);
   if (!scored) return refuse(scored.error());
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (arguments.has("--json")) {

@@ -5,11 +5,14 @@
 
 #include "app/acting/acting.h"
 #include "app/attempts/answers_json.h"
+#include "app/attempts/attempt_line.h"
 #include "app/attempts/grade_text.h"
 #include "app/attempts/metrics_text.h"
 #include "app/attempts/this_program.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/progress.h"
+#include "app/cli/words.h"
 #include "session/attempt/simulation.h"
 
 namespace seldinger::app {
@@ -20,8 +23,9 @@ base::Result<assessment::OperatorProfile> profile_of(const std::string& name) {
   if (!name.ends_with(".json"))
     throw UsageError("--operator is novice, intermediate, expert, learner or a .json file");
   const auto text = read_text(name, 1U << 20U);
-  if (!text) return text.error();
-  return assessment::profile_from_json(*text);
+  if (!text) return error_of("--operator", name, text.error());
+  auto profile = assessment::profile_from_json(*text);
+  return profile ? std::move(profile) : error_of("--operator", name, profile.error());
 }
 
 // "cough@12.5"
@@ -49,12 +53,27 @@ session::SimulatedAttempt graded(casedb::Library& library, casedb::Grader& grade
   return attempt;
 }
 
-void print(const session::SimulatedAttempt& attempt) {
-  std::printf("attempt %s  simulated %s  seed %llu\n", attempt.attempt_id.c_str(), attempt.operator_name.c_str(),
-              static_cast<unsigned long long>(attempt.seed));
-  if (attempt.grade) std::fputs(text_of_grade(*attempt.grade).c_str(), stdout);
-  print_metrics(attempt.metrics);
+// A line; with --details grade and metrics below it.
+void print(const Arguments& arguments, const session::SimulatedAttempt& attempt) {
+  const auto verdict = attempt.grade ? attempt.grade->grade.verdict : assessment::Verdict::no_rule;
+  std::printf("attempt %s  simulated %s  seed %-4llu %s\n", attempt.attempt_id.c_str(),
+              attempt.operator_name.c_str(), static_cast<unsigned long long>(attempt.seed),
+              outcome_text(verdict, attempt.metrics).c_str());
+  if (arguments.has("--details")) {
+    if (attempt.grade) std::fputs(text_of_grade(*attempt.grade).c_str(), stdout);
+    print_metrics(attempt.metrics);
+  }
   std::fflush(stdout);  // it is stored: whoever reads along may know
+}
+
+void print_sum(const std::vector<session::SimulatedAttempt>& attempts) {
+  std::size_t passed = 0, graded = 0;
+  for (const session::SimulatedAttempt& one : attempts) {
+    if (!one.grade || one.grade->grade.verdict == assessment::Verdict::no_rule) continue;
+    ++graded;
+    passed += one.grade->grade.verdict == assessment::Verdict::passed ? 1 : 0;
+  }
+  if (attempts.size() > 1 && graded > 0) std::printf("%zu of %zu passed\n", passed, graded);
 }
 
 int resume(const Arguments& arguments) {
@@ -88,14 +107,13 @@ int resume(const Arguments& arguments) {
   if (arguments.has("--json"))
     std::fputs(json_of_simulation({stored}).c_str(), stdout);
   else
-    print(stored);
+    print(arguments, stored);
   return kDone;
 }
 
 int run_simulate(const Arguments& arguments) {
   if (arguments.has("--resume")) return resume(arguments);
-  arguments.required("--library");
-  const std::string case_id = arguments.required("--case");
+  arguments.required("--case");
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto count = arguments.whole("--count", 1, 1, 100'000);
   std::optional<std::size_t> people;
@@ -119,17 +137,20 @@ int run_simulate(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::simulate_attempts); !by)
     return refuse(by.error());
-  auto simulation =
-      session::Simulation::prepare(*library, this_program(), case_id, arguments.text("--lesion"), kind, modality);
+  auto simulation = session::Simulation::prepare(*library, this_program(), arguments.text("--case"),
+                                                 arguments.text("--lesion"), kind, modality);
   if (!simulation) return refuse(simulation.error());
   if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
   std::vector<session::SimulatedAttempt> attempts;
   casedb::Grader grader(*library);  // against the experts as they were before this run
+  const auto trials = session::simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
+  Progress progress(trials.size());
   const auto stored = [&](session::SimulatedAttempt attempt) {
     attempts.push_back(graded(*library, grader, std::move(attempt)));
-    if (!arguments.has("--json")) print(attempts.back());
+    progress.clear();
+    if (!arguments.has("--json")) print(arguments, attempts.back());
+    progress.one_done();
   };
-  const auto trials = session::simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
   if (!arguments.has("--real-time")) {
     const auto done =
         simulation->attempts(trials, static_cast<std::size_t>(jobs), !arguments.has("--no-pictures"), stored);
@@ -146,14 +167,18 @@ int run_simulate(const Arguments& arguments) {
       stored(std::move(*attempt));
     }
   }
-  if (arguments.has("--json")) std::fputs(json_of_simulation(attempts).c_str(), stdout);
+  progress.clear();
+  if (arguments.has("--json"))
+    std::fputs(json_of_simulation(attempts).c_str(), stdout);
+  else
+    print_sum(attempts);
   return kDone;
 }
 
 constexpr Option kSimulateOptions[] = {
     kLibrary,
-    {"--case", "ID", "the case"},
-    {"--lesion", "ID", "the target; default the case's first lesion"},
+    {"--case", "CASE", "the case"},
+    {"--lesion", "LESION", "the target; default the case's first lesion"},
     {"--operator", "novice|intermediate|expert|learner|FILE.json",
      "who (docs/operators.md); a learner is better with each attempt"},
     {"--seed", "N", "attempt i uses seed N + i"},
@@ -161,6 +186,7 @@ constexpr Option kSimulateOptions[] = {
     {"--people", "P",
      "of P different people with that profile: the same for the same seed; default the profile itself"},
     {"--jobs", "N", "threads; default one for each core. The results are the same"},
+    {"--details", nullptr, "grade, sentences and every metric of each, not a line alone"},
     {"--no-pictures", nullptr, "store no picture of the moment of firing"},
     {"--instrument", "access|core", "default the case's. access: the tip decides; core: the fired notch"},
     {"--modality", "mpr|xray|ultrasound", "default the case's; else one of its further ones"},

@@ -12,7 +12,7 @@ namespace seldinger::app {
 namespace {
 
 int run_case_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   std::vector<casedb::CaseParts> cases;  // no more of each than the list shows
   std::unordered_map<std::string, std::vector<casedb::LesionRow>> lesions_of;
@@ -34,7 +34,7 @@ int run_case_list(const Arguments& arguments) {
 }
 
 int run_case_show(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto parts = casedb::load_parts(*library, arguments.positional(0));
   if (!parts) return refuse(parts.error());
@@ -79,7 +79,6 @@ int run_case_show(const Arguments& arguments) {
 }
 
 int run_case_lesion(const Arguments& arguments) {
-  arguments.required("--library");
   if (arguments.has("--remove")) {
     auto library = open_acting(arguments);
     if (!library) return refuse(library.error());
@@ -87,16 +86,14 @@ int run_case_lesion(const Arguments& arguments) {
     const auto removed = casedb::remove_lesion(*library, arguments.positional(0), arguments.text("--remove"));
     return removed ? kDone : refuse(removed.error());
   }
-  const auto center = parse_point(arguments.required("--center-mm"));
-  if (!center) throw UsageError("--center-mm needs X,Y,Z in mm");
+  const glm::dvec3 center = point_of("--center-mm", arguments.required("--center-mm"));
   cases::LesionForm form;
-  form.center_lps_mm = *center;
+  form.center_lps_mm = center;
   if (arguments.has("--radii-mm")) {
-    const auto radii = parse_point(arguments.text("--radii-mm"));
-    if (!radii || arguments.has("--radius-mm") || arguments.has("--irregular"))
-      throw UsageError("--radii-mm needs A,B,C in mm, and no other radius");
+    if (arguments.has("--radius-mm") || arguments.has("--irregular"))
+      throw UsageError("--radii-mm takes no other radius beside it");
     form.kind = cases::LesionKind::ellipsoid;
-    form.radii_mm = *radii;
+    form.radii_mm = point_of("--radii-mm", arguments.text("--radii-mm"));
   } else {
     arguments.required("--radius-mm");
     form.radii_mm = glm::dvec3(arguments.number("--radius-mm", 0.0));

@@ -6,13 +6,14 @@
 #include "app/cases/deidentify_json.h"
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
+#include "app/cli/words.h"
 #include "casedb/export/deidentify.h"
 
 namespace seldinger::app {
 namespace {
 int run_deidentify(const Arguments& arguments) {
   auto key = key_from_file(arguments.text("--key"));
-  if (!key) return refuse(key.error());
+  if (!key) return refuse(error_of("--key", arguments.text("--key"), key.error()));
   if (::isatty(STDERR_FILENO) != 0) std::fputs("taking out what identifies …\n", stderr);
   const auto done = casedb::deidentify(arguments.positional(0), arguments.positional(1), *key);
   key->fill(std::byte{0});

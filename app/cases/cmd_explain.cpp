@@ -1,6 +1,7 @@
 // case explain: what a case's scene holds, what moves its tissue, and what that costs.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cases/case_answers_json.h"
 #include "app/cli/command.h"
 #include "casedb/cases/authoring.h"
@@ -10,7 +11,7 @@ namespace seldinger::app {
 namespace {
 
 int run_case_explain(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const std::string case_id = arguments.positional(0);
   const auto row = casedb::find_case(*library, case_id);

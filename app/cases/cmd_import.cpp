@@ -7,26 +7,35 @@
 #include "app/cases/import_case.h"
 #include "app/cases/privacy_text.h"
 #include "app/cli/command.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "casedb/cases/permissions.h"
+#include "casedb/cases/versions.h"
+#include "casedb/import/ct_rules.h"
 
 namespace seldinger::app {
 
 namespace {
 
-casedb::FaceChoice face_choice(const std::string& text) {
-  if (text == "refuse") return casedb::FaceChoice::refuse;
-  if (text == "crop") return casedb::FaceChoice::crop;
-  if (text == "deface") return casedb::FaceChoice::deface;
-  throw UsageError("--face is refuse, crop or deface");
+// Told and not refused: the same CT may well carry two cases; whoever forgot it would do the work twice.
+void tell_same_ct(casedb::Library& library, const casedb::CaseRow& row) {
+  for (const casedb::CaseRow& other : casedb::list_case_heads(library))
+    if (other.case_id != row.case_id && other.volume_sha256 == row.volume_sha256)
+      std::fprintf(stderr, "note: the library has this CT already, in case %s, “%s”, version %d (%s)\n",
+                   other.case_id.c_str(), other.title.c_str(), other.version, name_of(other.state).c_str());
 }
 
 int run_import(const Arguments& arguments) {
-  const std::filesystem::path folder = arguments.required("--library");
+  const std::filesystem::path folder = library_folder(arguments);
   const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
   if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
-  const casedb::FaceChoice face = face_choice(arguments.text("--face", "refuse"));
+  const FaceWish face = face_of(arguments);
+  if (face.choice == casedb::FaceChoice::overrule) {
+    arguments.required("--by");
+    if (const auto sound = casedb::check_note(face.overruled_because); !sound) return refuse(sound.error());
+  }
   // Asked before the source is read: without a library nobody is known, and the operator makes one.
   std::optional<std::string> confirmed_by;
   std::optional<casedb::Library> library;
@@ -39,14 +48,19 @@ int run_import(const Arguments& arguments) {
       if (!by) return refuse(by.error());
       confirmed_by = *by;
     }
+    if (face.choice == casedb::FaceChoice::overrule)
+      if (const auto by = acting(*library, arguments, casedb::Action::overrule_face); !by)
+        return refuse(by.error());
     if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   }
   auto imported = import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"), "import",
                               face, arguments.has("--denoise"), arguments.has("--large"));
-  if (!imported) return refuse(imported.error());
+  if (!imported) return refuse(error_of("SOURCE", arguments.positional(0), imported.error()));
   imported->no_burned_in_text = arguments.has("--no-burned-in-text");
   imported->burned_in_checked_by = confirmed_by;
   imported->modality = *modality;
+  if (*modality == cases::Modality::xray)
+    if (auto thin = casedb::thin_slab(imported->volume)) imported->warnings.push_back(std::move(*thin));
   imported->position = *position;
   if (!library) {
     auto made = open_acting(arguments, WhereNone::create);
@@ -56,6 +70,7 @@ int run_import(const Arguments& arguments) {
   const std::string case_id = casedb::add_case(*library, *imported);
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
+  tell_same_ct(*library, *row);
   if (arguments.has("--json")) {
     std::fputs(json_of_case(casedb::load_parts(*library, *row)).c_str(), stdout);
     return kDone;
@@ -70,15 +85,12 @@ int run_import(const Arguments& arguments) {
 }
 
 int run_sample(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
   arguments.required("--lps");
   std::vector<PointSample> samples;
   for (const std::string& text : arguments.all("--lps")) {
-    const auto point = parse_point(text);
-    if (!point) throw UsageError("--lps needs X,Y,Z in mm");
-    samples.push_back({*point, {}, {}, {}});
+    samples.push_back({point_of("--lps", text), {}, {}, {}});
   }
-  auto library = casedb::Library::open(folder);
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());
@@ -135,8 +147,8 @@ constexpr Option kImportOptions[] = {
     kSeries,
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
     {"--position", "supine|prone|lateral_left|lateral_right", "how the patient lies; default supine"},
-    {"--face", "refuse|crop|deface",
-     "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"},
+    kFaceOrOverrule,
+    kReason,
     {"--denoise", nullptr, "takes noise out of a noisy CT, edges kept (docs/decisions/0021)"},
     {"--large", nullptr, "takes a file whose voxels are more than 4 GiB unpacked, up to 8"},
     {"--no-burned-in-text", nullptr, "you looked through the slices and saw no text in them"},

@@ -1,6 +1,7 @@
 // case mesh.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
 #include "casedb/cases/cases.h"
@@ -10,9 +11,8 @@ namespace seldinger::app {
 namespace {
 
 int run_case_mesh(const Arguments& arguments) {
-  const std::string out = arguments.required("--out");
-  if (!out.ends_with(".glb")) throw UsageError("--out is a .glb file");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  const std::filesystem::path out = file_of("--out", arguments.required("--out"), {".glb"});
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());

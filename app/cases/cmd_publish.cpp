@@ -11,7 +11,7 @@ namespace seldinger::app {
 namespace {
 
 int run_case_check(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const std::string& case_id = arguments.positional(0);
   const auto checks = session::check_case(*library, case_id);

@@ -3,6 +3,7 @@
 #include "app/cases/setting_options.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/words.h"
 #include "assessment/grading/rule_json.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/setting_table.h"
@@ -31,8 +32,7 @@ void read_composed(const Arguments& arguments, const casedb::SettingOption& opti
       break;
     }
     case casedb::Composed::planned_entry:
-      setting.planned_entry_lps_mm = parse_point(arguments.text(name));
-      if (!setting.planned_entry_lps_mm) throw UsageError(name + " needs X,Y,Z in mm");
+      setting.planned_entry_lps_mm = point_of(name, arguments.text(name));
       break;
     case casedb::Composed::pass_rule:  // read_criteria: several options make one
       break;
@@ -70,7 +70,9 @@ void read_criteria(const Arguments& arguments, assessment::PassRule& rule) {
     if (!arguments.has(option)) continue;
     for (const std::string& text : arguments.all(option)) {
       auto criterion = assessment::criterion_from(text);
-      if (!criterion) throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE");
+      if (!criterion)
+        throw UsageError(std::string(option) + " is METRIC<=VALUE, METRIC>=VALUE or METRIC=VALUE, not " +
+                         shown(text));
       criterion->critical = std::string(option) == "--critical";
       rule.criteria.push_back(std::move(*criterion));
     }
@@ -83,13 +85,11 @@ void read_setting(const Arguments& arguments, casedb::CaseSetting& setting) {
 }
 
 int run_case_setting(const Arguments& arguments) {
-  arguments.required("--library");
-  const std::string case_id = arguments.positional(0);
   std::optional<assessment::PassRule> rule;
   if (arguments.has("--rule")) {
     if (arguments.has("--pass") || arguments.has("--critical"))
       throw UsageError("a rule is a file, or --pass and --critical");
-    const auto text = read_text(arguments.text("--rule"), 1U << 20U);
+    const auto text = read_text_of(arguments, "--rule", 1U << 20U);
     if (!text) return refuse(text.error());
     auto read = assessment::rule_from_json(*text);
     if (!read) return refuse(read.error());
@@ -101,6 +101,7 @@ int run_case_setting(const Arguments& arguments) {
   }
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
+  const std::string case_id = arguments.positional(0);
   const auto row = casedb::find_case(*library, case_id);
   if (!row) return refuse(row.error());
   if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());

@@ -6,6 +6,7 @@
 #include "app/cases/case_answers_json.h"
 #include "app/cases/label_file.h"
 #include "app/cli/command.h"
+#include "app/cli/words.h"
 
 namespace seldinger::app {
 namespace {
@@ -14,23 +15,20 @@ namespace {
 void read_drawn(const Arguments& arguments, casedb::StructureRow& row) {
   std::optional<glm::dvec3> center;
   if (arguments.has("--center-mm")) {
-    center = parse_point(arguments.text("--center-mm"));
-    if (!center) throw UsageError("--center-mm needs X,Y,Z in mm");
+    center = point_of("--center-mm", arguments.text("--center-mm"));
   }
   if (arguments.has("--tube")) {
     cases::Tube tube;
     for (const std::string& text : arguments.all("--tube")) {
-      const auto point = parse_point(text);
-      if (!point) throw UsageError("--tube needs X,Y,Z in mm, once a point");
-      tube.points_lps_mm.push_back(*point);
+      tube.points_lps_mm.push_back(point_of("--tube", text));
     }
     arguments.required("--radius-mm");
     tube.radius_mm = arguments.number("--radius-mm", 0.0);
     row.drawn = std::move(tube);
   } else if (arguments.has("--radii-mm")) {
-    const auto radii = parse_point(arguments.text("--radii-mm"));
-    if (!center || !radii) throw UsageError("an ellipsoid needs --center-mm X,Y,Z and --radii-mm A,B,C");
-    row.drawn = cases::Ellipsoid{*center, *radii};
+    const glm::dvec3 radii = point_of("--radii-mm", arguments.text("--radii-mm"));
+    if (!center) throw UsageError("an ellipsoid needs --center-mm X,Y,Z and --radii-mm A,B,C");
+    row.drawn = cases::Ellipsoid{*center, radii};
   } else {
     arguments.required("--radius-mm");
     if (!center) throw UsageError("a sphere needs --center-mm X,Y,Z and --radius-mm R");
@@ -64,7 +62,6 @@ base::Result<void> find_label(casedb::Library& library, const std::string& wante
 }
 
 int run_case_structure(const Arguments& arguments) {
-  arguments.required("--library");
   if (arguments.has("--remove")) {
     auto library = open_acting(arguments);
     if (!library) return refuse(library.error());
@@ -73,7 +70,6 @@ int run_case_structure(const Arguments& arguments) {
     return removed ? kDone : refuse(removed.error());
   }
   casedb::StructureRow row;
-  row.case_id = arguments.positional(0);
   row.name = arguments.required("--name");
   const auto rule = cases::structure_rule_from(arguments.required("--rule"));
   if (!rule) throw UsageError("--rule is advisory, major, critical, must_cross, organ or target");
@@ -97,6 +93,7 @@ int run_case_structure(const Arguments& arguments) {
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
+  row.case_id = arguments.positional(0);
   if (by_label) {
     std::string label_name;
     if (const auto found = find_label(*library, arguments.text("--label"), row, label_name); !found)
@@ -117,7 +114,6 @@ int run_case_structure(const Arguments& arguments) {
 }
 
 int run_case_label(const Arguments& arguments) {
-  arguments.required("--library");
   std::vector<std::pair<int, std::string>> names;
   for (const std::string& text : arguments.all("--name")) {
     const std::size_t at = text.find('=');
@@ -126,13 +122,15 @@ int run_case_label(const Arguments& arguments) {
       throw UsageError("--name is N=NAME, N from 1 to 255");
     names.emplace_back(static_cast<int>(*number), text.substr(at + 1));
   }
+  const std::string numbering = arguments.text("--numbering", "own");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto may = may_work_on(*library, arguments); !may) return refuse(may.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());
-  const auto read = read_label_file(arguments.positional(1), *row, names);
-  if (!read) return refuse(read.error());
+  const auto read = read_label_file(arguments.positional(1), *row, names,
+                                    numbering == "own" ? Numbering::own : Numbering::total_segmentator);
+  if (!read) return refuse(error_of("FILE", arguments.positional(1), read.error()));
   const auto sha256 = casedb::add_label_map(*library, row->case_id, read->labels);
   if (!sha256) return refuse(sha256.error());
   std::array<std::size_t, 256> voxels{};
@@ -167,7 +165,11 @@ constexpr Option kStructureOptions[] = {
     {"--remove", "NAME", "takes one away again"},
     kJson};
 
-constexpr Option kLabelOptions[] = {kLibrary, {"--name", "N=TEXT", "what label N is called", true}, kJson};
+constexpr Option kLabelOptions[] = {
+    kLibrary,
+    {"--name", "N=TEXT", "what label N is called", true},
+    {"--numbering", "own|totalsegmentator", "whose numbers the labels have: names and tissues follow; default own"},
+    kJson};
 
 }  // namespace
 

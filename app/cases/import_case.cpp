@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <system_error>
 
+#include "casedb/cases/authoring.h"
 #include "casedb/export/dicom_series.h"
+#include "casedb/import/ct_rules.h"
 #include "casedb/import/diffusion.h"
 #include "casedb/import/import.h"
 #include "casedb/import/skin/surface.h"
@@ -59,24 +61,40 @@ std::optional<std::string> series_of(const Arguments& arguments) {
   return arguments.text(kSeries.name);
 }
 
+FaceWish face_of(const Arguments& arguments) {
+  const std::string text = arguments.text(kFace.name, "refuse"), reason = arguments.text(kReason.name);
+  if (text == "overrule") {
+    if (reason.find_first_not_of(' ') == std::string::npos) throw UsageError("--face overrule needs a --reason");
+    return {casedb::FaceChoice::overrule, reason};
+  }
+  if (arguments.has(kReason.name)) throw UsageError("--reason goes with --face overrule");
+  if (text == "refuse") return {};
+  if (text == "crop") return {casedb::FaceChoice::crop, {}};
+  if (text == "deface") return {casedb::FaceChoice::deface, {}};
+  throw UsageError("--face is refuse, crop or deface");
+}
+
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin, casedb::FaceChoice face, bool denoise,
+                                          const std::string& origin, const FaceWish& face, bool denoise,
                                           bool large) {
   if (!title.empty())
     if (const auto fit = casedb::check_case_title(title); !fit) return fit.error();
   progress("reading the volume");
   auto read = casedb::read_source(source, series, large ? casedb::kLargeCtFile : casedb::kCtFile);
   if (!read) return read.error();
-  const auto face_state = casedb::settle_face(read->volume, face, read->says_head);
-  if (!face_state) return face_state.error();
+  if (const auto judged = casedb::judge_ct(*read); !judged) return judged.error();
+  const bool overruled =
+      face.choice == casedb::FaceChoice::overrule && casedb::find_face(read->volume, read->says_head).found;
+  const auto face_state = casedb::settle_face(read->volume, face.choice, read->says_head);
+  if (!face_state) return casedb::with_doubted_hu(face_state.error(), *read);
   if (denoise) {
     progress("taking noise away");
     read->warnings.push_back(casedb::denoise(read->volume));
   }
   progress("making the skin");
   auto skin = casedb::skin_surface(read->volume);
-  if (!skin) return skin.error();
+  if (!skin) return casedb::with_doubted_hu(skin.error(), *read);
   casedb::NewCase made;
   const glm::ivec3 size = read->volume.size_voxels;
   made.title = !title.empty() ? title
@@ -89,6 +107,7 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   made.warnings = std::move(read->warnings);
   made.slices_used = read->slices_used;
   made.face_state = *face_state;
+  if (overruled) made.face_overruled = face.overruled_because;
   made.dropped = std::move(read->dropped);
   return made;
 }

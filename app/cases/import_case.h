@@ -17,12 +17,29 @@ namespace seldinger::app {
 inline constexpr Option kSeries{"--series", "UID|N", "which series, when the folder holds several"};
 std::optional<std::string> series_of(const Arguments& arguments);  // nothing where it was not given
 
+inline constexpr Option kFace{
+    "--face", "refuse|crop|deface",
+    "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away"};
+// The same, where somebody may be behind the command who overrules the detector.
+inline constexpr Option kFaceOrOverrule{
+    "--face", "refuse|crop|deface|overrule",
+    "a volume with a face: default refuse; crop keeps what is below the chin; deface takes the face's front away; "
+    "overrule: an admin (--by) says that it is none, with --reason"};
+inline constexpr Option kReason{"--reason", "TEXT", "why what looks like a face is none; kept with the case"};
+
+// What becomes of what looks like a face, and why it is taken for none (where it is overruled).
+struct FaceWish {
+  casedb::FaceChoice choice = casedb::FaceChoice::refuse;
+  std::string overruled_because;
+};
+// Throws UsageError, also where there is no reason to overrule, or one to do something else.
+FaceWish face_of(const Arguments& arguments);
+
 // `large`: up to kLargeCtFile. An empty title becomes "CT, <nx> x <ny> x <nz>". Progress goes to standard error
 // when it is a terminal.
 base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::optional<std::string>& series, const std::string& title,
-                                          const std::string& origin,
-                                          casedb::FaceChoice face = casedb::FaceChoice::refuse,
+                                          const std::string& origin, const FaceWish& face = {},
                                           bool denoise = false, bool large = false);
 
 // The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.

@@ -6,6 +6,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "casedb/import/import.h"
+#include "sim/volume/label_numbering.h"
 
 namespace seldinger::app {
 namespace {
@@ -27,7 +28,8 @@ bool same_grid(const volume::Volume& a, const volume::Volume& b) {
 }  // namespace
 
 base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const casedb::CaseRow& row,
-                                        const std::vector<std::pair<int, std::string>>& names) {
+                                        const std::vector<std::pair<int, std::string>>& names,
+                                        Numbering numbering) {
   std::uint64_t case_voxels = 1;
   for (int axis = 0; axis < 3; ++axis) case_voxels *= static_cast<std::uint64_t>(row.size_voxels[axis]);
   const auto source = casedb::read_source(file, {}, casedb::label_file_limit(case_voxels));
@@ -42,7 +44,10 @@ base::Result<LabelFile> read_label_file(const std::filesystem::path& file, const
 
   LabelFile read;
   read.labels.names.push_back("none");
-  for (int label = 1; label <= highest; ++label) read.labels.names.push_back("label " + std::to_string(label));
+  for (int label = 1; label <= highest; ++label) {
+    const auto known = numbering == Numbering::own ? std::nullopt : volume::total_segmentator_label(label);
+    read.labels.names.push_back(known ? known->name : "label " + std::to_string(label));
+  }
   for (const auto& [label, name] : names) {
     if (label > highest) return base::Error{"bad_labels", "a label that is named is not in the file"};
     read.labels.names[static_cast<std::size_t>(label)] = name;

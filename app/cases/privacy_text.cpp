@@ -1,5 +1,6 @@
 #include "app/cases/privacy_text.h"
 
+#include <algorithm>
 #include <map>
 
 namespace seldinger::app {
@@ -27,7 +28,10 @@ std::string privacy_text(const casedb::CaseRow& row) {
     by_reason[one.reason] += one.count;
     all += one.count;
   }
-  std::string text = std::string("face     ") + casedb::name_of(row.face_state) + "\n";
+  const bool overruled = std::any_of(row.warnings.begin(), row.warnings.end(),
+                                     [](const base::Problem& one) { return one.code == "face_overruled"; });
+  std::string text = std::string("face     ") + casedb::name_of(row.face_state) +
+                     (overruled ? ", the detector's finding overruled by an admin" : "") + "\n";
   text += "burned-in text: ";
   text += !row.burned_in_checked ? "not confirmed that there is none"
           : row.burned_in_checked->person_id

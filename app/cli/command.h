@@ -31,7 +31,9 @@ struct Command {
 };
 
 // Options that many commands share.
-inline constexpr Option kLibrary{"--library", "DIR", "the library's folder"};
+inline constexpr Option kLibrary{
+    "--library", "DIR", "the library's folder; else SELDINGER_LIBRARY of the environment, else the demo's"};
+inline constexpr Option kNewLibrary{"--new-library", nullptr, "make the library if there is none"};
 inline constexpr Option kJson{"--json", nullptr, "one JSON document on standard output, nothing else"};
 inline constexpr Option kLibraryJson[] = {kLibrary, kJson};
 inline constexpr Option kJsonOnly[] = {kJson};
@@ -47,7 +49,16 @@ inline constexpr Option kActs[] = {
     {"--token-file", "FILE", "proof: a session of `seldinger login`; default the one in the user's state folder"}};
 std::vector<Option> options_of(const Command& command);  // its own, and kActs where it acts
 
-// Prints `error: <code>: <text>` and the findings to standard error; returns kRefused.
-int refuse(const base::Error& error);
+// The names of its words in the synopsis, in order: "CASE", "FILE".
+std::vector<std::string> words_of(const Command& command);
+
+// From now on errors are printed to standard output too, as --json answers them.
+void answer_errors_as_json();
+void answer_as_json(const base::Error& error);  // where they are
+// From now on an error of that code says what was typed, too.
+void errors_are_of(const char* code, const std::string& what, const std::string& typed);
+// Prints a line `error: <code>: <text>` and one for each finding to standard error; returns `exit_code`.
+int fail(int exit_code, const base::Error& error);
+int refuse(const base::Error& error);  // fail with kRefused
 
 }  // namespace seldinger::app

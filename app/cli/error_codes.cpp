@@ -24,10 +24,19 @@ constexpr ErrorCode kFilesCodes[] = {
     {"damaged", kRefuses, "Stored or copied bytes are not what they must be.",
      "Restore a backup, or copy the file again."}};
 
+constexpr ErrorCode kCallCodes[] = {
+    {"usage", kMisused,
+     "The command was called wrongly: on standard error the line begins `usage: `, and this is its code with "
+     "`--json`.",
+     "`seldinger help COMMAND`."},
+    {"ambiguous", kRefuses, "Several cases, attempts or others are called so, or their ids or titles begin so.",
+     "Give more of the id: the error lists them."}};
+
 constexpr ErrorCode kLibraryCodes[] = {
     {"no_library", kRefuses,
-     "There is no library in the folder, or a scene names a case and no `--library` is given.",
-     "Check `--library`; `seldinger import` and `seldinger demo` make a library."},
+     "There is no library in the folder, or a scene names a case and there is no home folder to look for one.",
+     "Check `--library` or SELDINGER_LIBRARY; `seldinger import`, `seldinger demo` and `seldinger user add "
+     "--new-library` make a library."},
     {"not_a_library", kRefuses, "The folder, or the database in it, is another program's, or is empty.",
      "Give another folder."},
     {"newer_schema", kRefuses, "The library or bundle was written by a newer version of this program.",
@@ -110,6 +119,10 @@ constexpr ErrorCode kCaseCodes[] = {
     {"not_meaningful", kRefuses | kFinds, "A metric of a pass rule can have no value on this case.",
      "`seldinger case check` lists what the rule may name."},
     {"twice", kRefuses | kFinds, "A pass rule asks for the same metric twice in the same way.", "Drop one."},
+    {"never_met", kFinds, "A criterion asks for what its metric never reaches: a share above 1, a count below 0.",
+     "Name a limit that can be met."},
+    {"contradictory", kFinds, "Two criteria of a pass rule cannot both be met.",
+     "Drop or change one; the message names both."},
     {"not_finite", kRefuses | kFinds,
      "A value is not a finite number: a voxel, a row of a curve, a force, the limit of a criterion.",
      "Give a number."},
@@ -133,6 +146,8 @@ constexpr ErrorCode kCaseCodes[] = {
     {"rule_present", kRefuses | kFinds, "The case has no pass rule.", "`seldinger case setting --pass`."},
     {"rule_meaningful", kRefuses | kFinds, "A criterion of the pass rule means nothing on this case.",
      "`seldinger case check` lists what the rule may name."},
+    {"rule_possible", kRefuses | kFinds, "No attempt could meet the pass rule.",
+     "Change the criteria that the message names."},
     {"burned_in_unchecked", kRefuses, "Nobody has confirmed that the pictures hold no burned-in text.",
      "Look through the slices, then `seldinger case confirm --no-burned-in-text`."},
     {"not_checked", kRefuses, "This server cannot run the check of a case.",
@@ -297,12 +312,16 @@ constexpr ErrorCode kImportCodes[] = {
     {"parametric_map", kRefuses, "Parametric maps, which hold no HU.", "Give a CT series."},
     {"encapsulated_document", kRefuses, "Documents (PDF or such).", "Give a CT series."},
     {"localizer", kRefuses, "Localizer pictures, which are not slices.", "Give a CT series."},
-    {"derived", kRefuses, "A projection (MIP, VRT, SSD …) or a map of another quantity.",
+    {"derived", kRefuses,
+     "A projection (MIP, VRT, SSD …) or a map of another quantity, as of iodine or electron density.",
      "Give the original series."},
     {"rgb", kRefuses, "Colour pictures.", "Give a CT series."},
     {"burned_in", kRefuses, "Text is burned into the picture, or it is a picture of a screen.",
      "Give pictures without text."},
-    {"face", kRefuses, "A face is in the volume.", "`--face crop` or `--face deface` (decision 0017)."},
+    {"face", kRefuses, "A face is in the volume.",
+     "`--face crop` or `--face deface` (decision 0017). Where it is none, an admin says so: `--face overrule`."},
+    {"face_overruled", kWarns, "An admin said that what looks like a face is none; the text is the reason given.",
+     ""},
     {"face_only", kRefuses, "Nothing but the face is left to keep below the chin.", "`--face deface`."},
     {"not_dicom", kWarns | kRefuses,
      "Files with the ending of the slices are not DICOM; were they slices, the series is not whole. "
@@ -315,11 +334,31 @@ constexpr ErrorCode kImportCodes[] = {
     {"no_series", kRefuses, "There is no such series.",
      "`--series` takes a UID or a number that the message lists."},
     {"single_slice", kWarns, "The case is one slice.", ""},
+    {"few_slices", kWarns, "The case is two slices.", ""},
+    {"thick_slices", kWarns | kRefuses,
+     "Slices or voxels of more than 10 mm; of 30 mm and more they are refused (docs/import.md).",
+     "Give the thin slices of the same scan."},
+    {"thin_slab", kWarns,
+     "The CT is shorter along an axis than the fluoroscope's smallest field, so that pictures show where it ends.",
+     "Give a longer part of the scan, or practise it with ultrasound or slices."},
+    {"one_value", kRefuses, "Every voxel has the same value.", "Export the series again."},
+    {"normalised", kRefuses, "All values lie from −1 to 1: a mask or a scaled picture.", "Give the volume in HU."},
+    {"virtual_image", kWarns,
+     "Pictures computed for one energy or without a material, or a description that says so.",
+     "Give the series of the scan itself."},
+    {"mirrored_geometry", kWarns | kRefuses,
+     "A NIfTI header's sform mirrors its qform: refused where both are said to be the scanner's.",
+     "Set the header right from the original series."},
     {"denoised", kWarns, "Anisotropic diffusion was asked for: the noise before and after.", ""},
     {"mixed_orientation", kWarns | kRefuses,
      "Pictures at 45° or more to the series: up to a quarter of it (a localizer, a reformat) are left out, more "
      "are refused.",
      "Give one series."},
+    {"mixed_patients", kRefuses,
+     "The slices of a series differ in patient ID, name, birth date or sex, or only some of them say it.",
+     "Give the series of one patient; the message tells which slices say the same."},
+    {"mixed_studies", kRefuses, "The slices of a series are of several studies, or only some say of which.",
+     "Give the series of one study; the message tells which slices say the same."},
     {"mixed_size", kRefuses, "The slices differ in width, height or pixel spacing.", "Give one series."},
     {"duplicate_slices", kWarns | kRefuses,
      "Slices at one place: with the same pixels they are dropped, with other pixels refused, as several times or "
@@ -337,7 +376,11 @@ constexpr ErrorCode kImportCodes[] = {
     {"sparse_slices", kWarns, "Gaps wider than 1.5 slice thicknesses: what lies between was not scanned.", ""},
     {"lossy", kWarns | kRefuses, "Compressed with loss: up to 8:1 a warning; above, or labelled lossless, refused.",
      "Give the original series."},
-    {"no_rescale", kWarns, "Slope or intercept is missing: 1 and 0 are taken.", ""},
+    {"no_rescale", kWarns | kRefuses,
+     "Slope or intercept is missing: 1 and 0 are taken. Refused where nothing is air, or where a face or no body "
+     "is "
+     "found: nobody knows then what the values are.",
+     "Export the series again."},
     {"bad_rescale", kRefuses, "Slope or intercept cannot be used.", "Export the series again."},
     {"not_hu", kWarns | kRefuses,
      "The values are not said to be HU; said to be another quantity (mg/ml, electron density …) they are refused.",
@@ -397,7 +440,8 @@ constexpr ErrorCode kEnvironmentCodes[] = {
     {"bench_failed", kRefuses, "A benchmark's own attempt cannot be scored.", "Report it."},
     {"embree", kFails, "Embree refused a benchmark's scene.", "Report it."}};
 
-constexpr ErrorCodeSection kSections[] = {{"Files", kFilesCodes},
+constexpr ErrorCodeSection kSections[] = {{"Calls", kCallCodes},
+                                          {"Files", kFilesCodes},
                                           {"Libraries", kLibraryCodes},
                                           {"Cases", kCaseCodes},
                                           {"People and curricula", kPeopleCodes},
@@ -415,6 +459,7 @@ std::string words_of(unsigned kinds) {
   };
   add(kWarns, "warning");
   add(kFinds, "1");
+  add(kMisused, "2");
   add(kRefuses, "3");
   add(kFails, "4");
   return words;
@@ -431,10 +476,12 @@ std::string errors_markdown() {
       "# Error codes\n\nMade from the table in `app/cli/error_codes.cpp` by `seldinger help --errors`; a test "
       "compares.\n"
       "An error is one line `error: CODE: text` on standard error; further reasons follow as `finding: CODE: "
-      "text`. "
+      "text`. With `--json` standard output holds `{\"error\": {\"code\", \"text\"}}`, with `findings` where there "
+      "are any. "
       "Warnings are kept with the case. Codes are stable, texts are not: match on codes. No text holds patient "
       "data.\n\n"
-      "Exit: 1 a check ran and found this · 3 the input is refused, nothing is changed · 4 the environment fails · "
+      "Exit: 1 a check ran and found this · 2 wrong use · 3 the input is refused, nothing is changed · 4 the "
+      "environment fails · "
       "warning: nothing is refused.\n";
   for (const ErrorCodeSection& section : error_codes()) {
     text += "\n## " + std::string(section.title) +

@@ -9,10 +9,11 @@ namespace seldinger::app {
 
 // How a code comes out; more than one bit where it depends.
 enum CodeKind : unsigned {
-  kRefuses = 1,  // the input is refused, or a reason beside the first: exit 3
-  kFails = 2,    // the environment fails: exit 4
-  kFinds = 4,    // a check ran and found this: exit 1
-  kWarns = 8     // noticed and kept with the case, nothing is refused
+  kRefuses = 1,   // the input is refused, or a reason beside the first: exit 3
+  kFails = 2,     // the environment fails: exit 4
+  kFinds = 4,     // a check ran and found this: exit 1
+  kMisused = 16,  // the command was called wrongly: exit 2
+  kWarns = 8      // noticed and kept with the case, nothing is refused
 };
 
 struct ErrorCode {

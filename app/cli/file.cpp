@@ -2,7 +2,9 @@
 
 #include <fstream>
 
+#include "app/cli/words.h"
 #include "casedb/database/disk.h"
+#include "sim/base/failure.h"
 
 namespace seldinger::app {
 
@@ -19,8 +21,21 @@ base::Result<std::string> read_text(const std::filesystem::path& path, std::size
   return text;
 }
 
+base::Result<std::string> read_text_of(const Arguments& arguments, const std::string& what, std::size_t max_bytes) {
+  auto read = read_text(arguments.typed(what), max_bytes);
+  return read ? std::move(read) : error_of(what, arguments.typed(what), read.error());
+}
+
 void write_file(const std::filesystem::path& path, const std::string& text) {
-  casedb::write_durably(path, std::as_bytes(std::span(text)), casedb::FileAccess::as_umask);
+  write_file(path, std::as_bytes(std::span(text)));
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  try {
+    casedb::write_durably(path, bytes, casedb::FileAccess::as_umask);
+  } catch (const base::Failure& failure) {
+    throw base::Failure(failure.code(), shown(path.string()) + ": " + failure.what());
+  }
 }
 
 }  // namespace seldinger::app

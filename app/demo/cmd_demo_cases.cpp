@@ -9,6 +9,8 @@
 #include "app/attempts/this_program.h"
 #include "app/cases/import_case.h"
 #include "app/cli/command.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "app/demo/demo_cases.h"
 #include "app/demo/demo_library.h"
 #include "assessment/grading/rule_json.h"
@@ -27,6 +29,7 @@ constexpr std::uint64_t kMostSeeds = 8;  // an expert of these profiles hits in 
 constexpr const char* kAuthor = "mentor";
 constexpr const char* kReviewer = "reviewer";
 constexpr const char* kDirector = "director";
+constexpr const char* kTrainee = "trainee";
 
 void progress(const char* what, const char* title) {
   if (::isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "%s: %s …\n", title, what);
@@ -143,7 +146,7 @@ base::Result<void> retire_older(casedb::Library& library, const casedb::CaseRow&
 
 base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& wanted, const casedb::NewCase& source,
                                   const char* hits) {
-  DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0};
+  DemoCaseAnswer answer{wanted.number, wanted.title, {}, {}, wanted.setting.clinic.defer, {}, 0, {}};
   const assessment::PassRule rule = with_versions(wanted.setting.rule);
   answer.case_id = newest_of(library, wanted.title, source.origin);
   if (!answer.case_id.empty()) {
@@ -180,6 +183,7 @@ base::Result<DemoCaseAnswer> make(casedb::Library& library, const DemoCase& want
   const auto now = casedb::find_case(library, answer.case_id);
   if (!now) return now.error();
   answer.state = now->state;
+  answer.warnings = now->warnings;
   return answer;
 }
 
@@ -245,6 +249,8 @@ void print(const std::vector<DemoCaseAnswer>& made) {
     else
       std::printf("    passed in attempt %s of a simulated expert, seed %llu\n", one.attempt_id.c_str(),
                   static_cast<unsigned long long>(one.seed));
+    for (const base::Problem& warning : one.warnings)
+      std::printf("    warning: %s: %s\n", warning.code.c_str(), warning.text.c_str());
   }
 }
 
@@ -261,8 +267,16 @@ void print(const DemoCasesAnswer& answer) {
   for (const DemoCurriculum& one : answer.curricula)
     std::printf("%s  curriculum of %zu: %s\n", one.curriculum_id.c_str(), one.items, one.title.c_str());
   std::printf("\nThe operators are simulated: they test the software and say nothing about validity.\n");
-  if (!answer.passwords.empty()) std::printf("\nAccounts, shown once:\n");
-  for (const auto& [name, password] : answer.passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
+}
+
+// What graded cases are made of, when they are made of this CT.
+base::Result<void> take(const std::string& path, const Arguments& arguments, Sources& sources) {
+  auto read = import_case(path, series_of(arguments), {}, "import", face_of(arguments));
+  if (!read) return read.error();
+  const auto source = source_of(read->volume);
+  if (!source) return base::Error{"no_case_fits", "no graded case is made of this CT", read->warnings};
+  sources.insert_or_assign(*source, std::move(*read));
+  return {};
 }
 
 }  // namespace
@@ -273,22 +287,24 @@ int run_demo_cases(const Arguments& arguments) {
     throw UsageError("--calyces and --modality are not of drills or graded cases");
   if (!graded && arguments.has("--ct")) throw UsageError("--ct is not of the drills: they are built in");
   Sources sources;
-  for (const std::string& path : arguments.all("--ct")) {
-    auto read = import_case(path, series_of(arguments), {}, "import");
-    if (!read) return refuse(read.error());
-    const auto source = source_of(read->volume);
-    if (!source) return refuse({"no_case_fits", "no graded case is made of this CT"});
-    sources.insert_or_assign(*source, std::move(*read));
-  }
-  auto library = casedb::Library::open_or_create(
-      arguments.has("--library") ? std::filesystem::path(arguments.text("--library")) : demo_library());
-  if (!library) return refuse(library.error());
   DemoCasesAnswer answer;
-  auto passwords = add_missing_accounts(
-      *library,
-      {{kAuthor, casedb::Role::mentor}, {kReviewer, casedb::Role::mentor}, {kDirector, casedb::Role::director}});
+  for (const std::string& path : arguments.all("--ct"))
+    if (const auto taken = take(path, arguments, sources); !taken)
+      answer.left_out.push_back(error_of("--ct", path, taken.error()));
+  // One that does not fit stops no other; where none does, nothing is made.
+  if (sources.empty() && !answer.left_out.empty()) return refuse(answer.left_out.front());
+  for (const base::Error& one : answer.left_out)
+    std::fprintf(stderr, "left out: %s: %s\n", one.code.c_str(), one.text.c_str());
+  MadeFolder folder(library_folder(arguments));
+  auto library = casedb::Library::open_or_create(folder.path());
+  if (!library) return refuse(error_of_library(arguments, library.error()));
+  auto passwords = add_missing_accounts(*library, {{kAuthor, casedb::Role::mentor},
+                                                   {kReviewer, casedb::Role::mentor},
+                                                   {kDirector, casedb::Role::director},
+                                                   {kTrainee, casedb::Role::trainee}});
   if (!passwords) return refuse(passwords.error());
   answer.passwords = std::move(*passwords);
+  if (!arguments.has("--json")) print_accounts(answer.passwords);
   const auto add = [&](const std::vector<DemoCase>& wanted, const char* title, const char* hits,
                        std::vector<DemoCaseAnswer>& made) -> base::Result<void> {
     auto all = make_all(*library, wanted, sources, hits, answer.not_made);
@@ -305,6 +321,7 @@ int run_demo_cases(const Arguments& arguments) {
   if (graded)
     if (const auto done = add(demo_cases(), "Graded cases", "hit", answer.cases); !done)
       return refuse(done.error());
+  folder.keep();
   if (arguments.has("--json"))
     std::fputs(json_of_demo_cases(answer).c_str(), stdout);
   else

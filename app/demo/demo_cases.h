@@ -64,6 +64,7 @@ struct DemoCaseAnswer {
   bool defer = false;      // the right decision; nothing to hit
   std::string attempt_id;  // the expert's that hit and passed
   std::uint64_t seed = 0;
+  std::vector<base::Problem> warnings;  // of import
 };
 struct DemoCurriculum {
   std::string title, curriculum_id;
@@ -72,6 +73,7 @@ struct DemoCurriculum {
 struct DemoCasesAnswer {
   std::vector<DemoCaseAnswer> drills, cases;
   std::vector<int> not_made;
+  std::vector<base::Error> left_out;  // of the CTs that were given: why nothing is made of them
   std::vector<DemoCurriculum> curricula;
   std::vector<std::pair<std::string, std::string>> passwords;
 };

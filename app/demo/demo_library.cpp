@@ -1,21 +1,37 @@
 #include "app/demo/demo_library.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
+#include <system_error>
 
 #include "casedb/database/credentials.h"
-#include "sim/base/failure.h"
-
+#include "casedb/database/library.h"
 #include "casedb/people/cohorts.h"
 
 namespace seldinger::app {
 
-std::filesystem::path demo_library() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
-    return std::filesystem::path(data) / "seldinger" / "demo";
-  const char* home = std::getenv("HOME");
-  if (home == nullptr || *home != '/') throw base::Failure("disk", "there is no home folder; give --library");
-  return std::filesystem::path(home) / ".local" / "share" / "seldinger" / "demo";
+MadeFolder::MadeFolder(std::filesystem::path folder) : path_(std::filesystem::absolute(std::move(folder))) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (path_.filename().empty()) path_ = path_.parent_path();  // it was given with a slash at its end
+  was_empty_ = fs::is_directory(path_, ignored) && fs::is_empty(path_, ignored) && !ignored;
+  for (fs::path above = path_; !above.empty() && !fs::exists(fs::symlink_status(above, ignored));
+       above = above.parent_path())
+    first_made_ = above;
+}
+
+MadeFolder::~MadeFolder() {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  if (kept_) return;
+  if (!first_made_.empty()) fs::remove_all(first_made_, ignored);
+  if (was_empty_)
+    for (fs::directory_iterator it(path_, ignored), end; !ignored && it != end; it.increment(ignored))
+      fs::remove_all(it->path(), ignored);
+}
+
+bool MadeFolder::holds_a_library() const {
+  return std::filesystem::exists(path_ / casedb::kDatabaseFile);
 }
 
 base::Result<Passwords> add_missing_accounts(casedb::Library& library,
@@ -33,6 +49,14 @@ base::Result<Passwords> add_missing_accounts(casedb::Library& library,
     passwords.emplace_back(name, password);
   }
   return passwords;
+}
+
+void print_accounts(const Passwords& passwords) {
+  if (passwords.empty()) return;
+  std::printf("Accounts, shown once:\n");
+  for (const auto& [name, password] : passwords) std::printf("  %-14s %s\n", name.c_str(), password.c_str());
+  std::puts("");
+  std::fflush(stdout);
 }
 
 base::Result<void> make_demo_cohort(casedb::Library& library,

@@ -1,4 +1,4 @@
-// Where the demo's library is, and who has an account in it.
+// The folder of the demo's library, and who has an account in it.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,31 @@
 
 namespace seldinger::app {
 
-// seldinger/demo under the user's data folder. Throws base::Failure("disk") when there is none.
-std::filesystem::path demo_library();
+// The folder that a run may make a library in. Unless it is kept, it goes again with all that was put into it and
+// the folders above it that were made: who is refused finds nothing. What was there before stays as it is. The
+// library in it is closed before.
+class MadeFolder {
+ public:
+  explicit MadeFolder(std::filesystem::path folder);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+  const std::filesystem::path& path() const noexcept { return path_; }
+  bool holds_a_library() const;
+  void keep() noexcept { kept_ = true; }
+
+ private:
+  std::filesystem::path path_, first_made_;  // empty: the folder was there
+  bool was_empty_ = false, kept_ = false;
+};
 
 // Accounts that are missing get random passwords, answered by name: they are shown once.
 using Passwords = std::vector<std::pair<std::string, std::string>>;
 base::Result<Passwords> add_missing_accounts(casedb::Library& library,
                                              const std::vector<std::pair<const char*, casedb::Role>>& wanted);
+
+// To standard output, at once: whoever interrupts what follows has them. Nothing if there are none.
+void print_accounts(const Passwords& passwords);
 
 // One cohort of the mentors and trainees among them, so that who leads it sees what the others did; made when there
 // is none.

@@ -30,7 +30,7 @@ int run_haptics_calibrate(const Arguments& arguments) {
   const std::string device = arguments.required("--device");
   if (device != "left" && device != "right") throw UsageError("--device is left or right");
   const std::filesystem::path file = arguments.required("--station");
-  const auto text = read_text(arguments.positional(0));
+  const auto text = read_text_of(arguments, "POINTS.csv");
   if (!text) return refuse(text.error());
   constexpr const char* kColumns[] = {"x_mm", "y_mm", "z_mm"};
   const auto rows = rows_in_csv(*text, kColumns, "point");

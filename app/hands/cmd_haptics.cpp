@@ -13,6 +13,7 @@
 #include "app/cli/command.h"
 #include "app/cli/csv.h"
 #include "app/cli/file.h"
+#include "app/cli/words.h"
 #include "app/hands/fit_answer.h"
 #include "app/hands/servo_answer.h"
 #include "app/hands/servo_trial.h"
@@ -81,7 +82,7 @@ int run_haptics_fit(const Arguments& arguments) {
   const auto gauge = cases::gauge(static_cast<int>(arguments.whole("--gauge", haptics::kTableGauge, 16, 25)));
   const auto gaussians =
       static_cast<int>(arguments.whole("--gaussians", haptics::kThesisGaussians, 1, haptics::kMostGaussians));
-  const auto text = read_text(from);
+  const auto text = read_text_of(arguments, "FILE.csv");
   if (!text) return refuse(text.error());
   constexpr const char* kColumns[] = {"depth_mm", "force_axial_n"};
   const auto rows = rows_in_csv(*text, kColumns);
@@ -108,11 +109,10 @@ int run_haptics_fit(const Arguments& arguments) {
 
 int run_haptics_selftest(const Arguments& arguments) {
   const double seconds = arguments.number("--seconds", 10.0);
-  if (!(seconds > 0.0 && seconds <= 3600.0)) throw UsageError("--seconds is above 0 and at most 3600");
+  if (!(seconds > 0.0 && seconds <= 3600.0))
+    throw UsageError("--seconds is above 0 and at most 3600, not " + shown(arguments.text("--seconds")));
   ServoAnswer answer;
-  answer.most_missed_share = arguments.number("--most-missed", kMostMissedShare);
-  if (!(answer.most_missed_share >= 0.0 && answer.most_missed_share <= 1.0))
-    throw UsageError("--most-missed is a share, 0 to 1");
+  answer.most_missed_share = arguments.number("--most-missed", kMostMissedShare, 0.0, 1.0);
   constexpr double kSkinDecimation = 0.7;  // as import's
   const auto torso = torso_under_hands(kSkinDecimation);
   if (!torso) return refuse(torso.error());

@@ -8,6 +8,7 @@
 #include "casedb/import/skin/surface.h"
 #include "sim/base/vectors.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::app {
 namespace {

@@ -5,6 +5,7 @@
 #include "app/cli/command.h"
 #include "app/cli/key_file.h"
 #include "app/cli/version.h"
+#include "app/cli/words.h"
 #include "app/library/keep_json.h"
 
 namespace seldinger::app {
@@ -23,18 +24,19 @@ int print_bundle(const Arguments& arguments, const base::Result<casedb::Bundle>&
   return kDone;
 }
 
-int write_bundle_of(const Arguments& arguments, const std::vector<std::string>& case_ids) {
-  arguments.required("--library");
+int write_bundle_of(const Arguments& arguments, bool every_case) {
   const std::string out = arguments.required("--out");
   std::optional<casedb::HashKey> secret_key;
   if (arguments.has("--sign")) {
     const auto key = existing_key(arguments.text("--sign"));
-    if (!key) return refuse(key.error());
+    if (!key) return refuse(error_of("--sign", arguments.text("--sign"), key.error()));
     secret_key = *key;
   }
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::hand_out_case); !by) return refuse(by.error());
+  std::vector<std::string> case_ids;  // none: every one
+  if (!every_case) case_ids.push_back(arguments.positional(0));
   const auto written = casedb::write_bundle(*library, case_ids, out, kVersion, secret_key);
   const auto outcome = written ? casedb::Outcome::done : casedb::Outcome::refused;
   try {
@@ -50,27 +52,30 @@ int write_bundle_of(const Arguments& arguments, const std::vector<std::string>& 
 }
 
 int run_case_bundle(const Arguments& arguments) {
-  return write_bundle_of(arguments, {arguments.positional(0)});
+  return write_bundle_of(arguments, false);
 }
 
 int run_bundle_export(const Arguments& arguments) {
-  return write_bundle_of(arguments, {});
+  return write_bundle_of(arguments, true);
 }
 
 int run_bundle_check(const Arguments& arguments) {
-  return print_bundle(arguments, casedb::check_bundle(arguments.positional(0)));
+  const auto bundle = casedb::check_bundle(arguments.positional(0));
+  if (!bundle) return refuse(error_of("FILE.sdbundle", arguments.positional(0), bundle.error()));
+  return print_bundle(arguments, bundle);
 }
 
 int run_bundle_import(const Arguments& arguments) {
   const std::string file = arguments.positional(0);
   const bool may_make = arguments.has("--new-library");
   if (may_make)  // a library is not made for what is refused
-    if (const auto sound = casedb::check_bundle(file); !sound) return refuse(sound.error());
+    if (const auto sound = casedb::check_bundle(file); !sound)
+      return refuse(error_of("FILE.sdbundle", file, sound.error()));
   auto library = open_acting(arguments, may_make ? WhereNone::create : WhereNone::refuse);
   if (!library) return refuse(library.error());
   if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   const auto cases = casedb::import_bundle(*library, file);
-  if (!cases) return refuse(cases.error());
+  if (!cases) return refuse(error_of("FILE.sdbundle", file, cases.error()));
   if (arguments.has("--json")) {
     std::fputs(json_of_unbundled(*cases).c_str(), stdout);
     return kDone;
@@ -89,7 +94,7 @@ int run_bundle_import(const Arguments& arguments) {
 
 int run_bundle_key(const Arguments& arguments) {
   auto key = key_from_file(arguments.positional(0));
-  if (!key) return refuse(key.error());
+  if (!key) return refuse(error_of("KEYFILE", arguments.positional(0), key.error()));
   const std::string public_key = casedb::public_key_of(*key);
   key->fill(std::byte{0});
   std::puts(public_key.c_str());
@@ -101,7 +106,6 @@ int run_bundle_trust(const Arguments& arguments) {
   const bool list = what == "list", add = what == "add";
   if (!list && !add && what != "remove") throw UsageError("bundle trust add KEY --label NAME, list, or remove KEY");
   if (arguments.positionals() != (list ? 1U : 2U)) throw UsageError(list ? "list takes no key" : "which key?");
-  arguments.required("--library");
   const std::string label = add ? arguments.required("--label") : "";
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -129,8 +133,7 @@ constexpr Option kBundleOptions[] = {kLibrary,
                                      {"--sign", "KEYFILE", "signs it with the secret key that `bundle key` made"},
                                      kJson};
 
-constexpr Option kImportOptions[] = {
-    kLibrary, {"--new-library", nullptr, "make the library if there is none"}, kJson};
+constexpr Option kImportOptions[] = {kLibrary, kNewLibrary, kJson};
 
 constexpr Option kTrustOptions[] = {
     kLibrary, {"--label", "NAME", "add: what signatures of that key are told as"}, kJson};

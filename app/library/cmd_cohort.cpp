@@ -27,7 +27,7 @@ int run_cohort_add(const Arguments& arguments) {
 }
 
 int run_cohort_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto cohorts = casedb::list_cohorts(*library);
   if (arguments.has("--json")) {
@@ -42,7 +42,7 @@ int run_cohort_list(const Arguments& arguments) {
 }
 
 int run_cohort_show(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto cohort = casedb::find_cohort(*library, arguments.positional(0));
   if (!cohort) return refuse(cohort.error());

@@ -21,7 +21,7 @@ int run_study_new(const Arguments& arguments) {
 }
 
 int run_study_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto studies = casedb::list_studies(*library);
   if (arguments.has("--json")) {
@@ -60,7 +60,7 @@ int run_consent_text(const Arguments& arguments) {
     if (!study) return refuse(study.error());
     study_id = study->study_id;
   }
-  const auto body = read_text(arguments.positional(0));
+  const auto body = read_text_of(arguments, "FILE");
   if (!body) return refuse(body.error());
   const auto version = casedb::add_consent_text(*library, study_id, *body);
   if (!version) return refuse(version.error());
@@ -70,7 +70,7 @@ int run_consent_text(const Arguments& arguments) {
 
 int run_consent_list(const Arguments& arguments) {
   const std::string user = arguments.required("--user");
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, user);
   if (!person) return refuse(person.error());
@@ -110,8 +110,7 @@ int run_consent_answer(const Arguments& arguments, bool give) {
 }
 
 int run_user_fact(const Arguments& arguments) {
-  auto library = arguments.positionals() == 3 ? open_acting(arguments)
-                                              : casedb::Library::open(arguments.required("--library"));
+  auto library = arguments.positionals() == 3 ? open_acting(arguments) : open_library(arguments);
   if (!library) return refuse(library.error());
   const auto person = casedb::open_account(*library, arguments.positional(0));
   if (!person) return refuse(person.error());

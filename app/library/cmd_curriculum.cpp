@@ -38,7 +38,8 @@ int run_curriculum_add(const Arguments& arguments) {
 }
 
 int run_curriculum_item(const Arguments& arguments) {
-  const std::string by = arguments.required("--by"), case_id = arguments.required("--case");
+  const std::string by = arguments.required("--by");
+  arguments.required("--case");
   std::vector<assessment::Gate> gates;
   if (arguments.has("--after"))
     for (const std::string& text : arguments.all("--after")) gates.push_back(gate_from(text));
@@ -46,7 +47,8 @@ int run_curriculum_item(const Arguments& arguments) {
   if (arguments.has("--attempt-limit")) limit = static_cast<int>(arguments.whole("--attempt-limit", 1, 1, 1000));
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto number = casedb::add_curriculum_item(*library, arguments.positional(0), case_id, limit, gates, by);
+  const auto number =
+      casedb::add_curriculum_item(*library, arguments.positional(0), arguments.text("--case"), limit, gates, by);
   if (!number) return refuse_act(*library, casedb::Act::change_curriculum, number.error());
   if (arguments.has("--json"))
     std::fputs(json_of_curriculum_item(*number).c_str(), stdout);
@@ -64,7 +66,7 @@ int run_curriculum_publish(const Arguments& arguments) {
 }
 
 int run_curriculum_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto curricula = casedb::list_curricula(*library);
   if (arguments.has("--json")) {
@@ -79,7 +81,7 @@ int run_curriculum_list(const Arguments& arguments) {
 }
 
 int run_curriculum_show(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto curriculum = casedb::find_curriculum(*library, arguments.positional(0));
   if (!curriculum) return refuse(curriculum.error());
@@ -127,7 +129,7 @@ int run_curriculum_remove(const Arguments& arguments) {
 
 constexpr Option kCurriculumItemOptions[] = {
     kLibrary,
-    {"--case", "ID", "a published case; the item is it in whatever version is published"},
+    {"--case", "CASE", "a published case; the item is it in whatever version is published"},
     {"--attempt-limit", "N", "so many a trainee; default the case's own limit"},
     {"--after", "N[:passed|:proficient]", "opens when item N is reached; default passed", true},
     kJson};

@@ -5,7 +5,9 @@
 
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
+#include "app/cli/library_place.h"
 #include "app/cli/version.h"
+#include "app/cli/words.h"
 #include "app/library/keep_json.h"
 
 namespace seldinger::app {
@@ -31,14 +33,14 @@ int run_backup(const Arguments& arguments) {
     if (copied) std::filesystem::remove_all(arguments.positional(0));  // nothing leaves unnoted
     throw;
   }
-  if (!copied) return refuse(copied.error());
+  if (!copied) return refuse(error_of("OUT", arguments.positional(0), copied.error()));
   print_copied(arguments, "backed up", *copied);
   return kDone;
 }
 
 int run_restore(const Arguments& arguments) {
-  const auto copied = casedb::restore(arguments.positional(0), arguments.required("--library"));
-  if (!copied) return refuse(copied.error());
+  const auto copied = casedb::restore(arguments.positional(0), library_folder(arguments));
+  if (!copied) return refuse(error_of("IN", arguments.positional(0), copied.error()));
   print_copied(arguments, "restored", *copied);
   return kDone;
 }
@@ -57,6 +59,7 @@ std::optional<casedb::AuditHead> noted_head(const Arguments& arguments) {
 
 int run_check(const Arguments& arguments) {
   const auto noted = noted_head(arguments);
+  const std::filesystem::path folder = library_folder(arguments);
   const bool repair = arguments.has("--repair");
   const std::string from = arguments.text("--from");
   const bool accept = arguments.has("--accept-damaged");
@@ -72,20 +75,19 @@ int run_check(const Arguments& arguments) {
       repairs = library->actor();
     }
   }
-  auto report = casedb::check_library(arguments.required("--library"), repair, from);
+  auto report = casedb::check_library(folder, repair, from);
   if (repairs)
-    if (auto library = casedb::Library::open(arguments.text("--library")))
+    if (auto library = casedb::Library::open(folder))
       casedb::audit_alone(*library, *repairs, casedb::Act::repair, {},
                           report ? casedb::Outcome::done : casedb::Outcome::refused);
-  if (!report) return refuse(report.error());
-  if (accept)
-    if (auto library = open_acting(arguments)) {
-      if (const auto by = acting(*library, arguments, casedb::Action::keep_library); !by) return refuse(by.error());
+  if (!report) return refuse(error_of_library(arguments, report.error()));
+  if (accept && repairs)
+    if (auto library = casedb::Library::open(folder)) {
+      library->act_for(*repairs);  // who was asked once already: a password on standard input is gone
       casedb::accept_damaged_values(*library, *report);
     }
   if (noted)
-    if (auto library = casedb::Library::open(arguments.text("--library"));
-        library && !casedb::still_stands(*library, *noted))
+    if (auto library = casedb::Library::open(folder); library && !casedb::still_stands(*library, *noted))
       report->findings.push_back({"audit_cut", "the audit log does not hold the row that was noted as its last"});
   if (arguments.has("--json")) {
     std::fputs(json_of_check(*report).c_str(), stdout);

@@ -1,6 +1,7 @@
 // serve.
 #include <cstdio>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
 #include "app/library/serving.h"
 
@@ -8,9 +9,8 @@ namespace seldinger::app {
 namespace {
 
 int run_serve(const Arguments& arguments) {
-  const std::string folder = arguments.required("--library");
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
-  auto library = casedb::Library::open(folder);
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto served = serve_until_stopped(std::move(*library), {arguments.text("--host", "127.0.0.1"), port},
                                           [](const std::string& url) {

@@ -39,7 +39,7 @@ void print(const casedb::Standard& standard) {
 }
 
 int run_standard_show(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto row = casedb::find_case(*library, arguments.positional(0));
   if (!row) return refuse(row.error());
@@ -56,7 +56,7 @@ int run_standard_show(const Arguments& arguments) {
 
 constexpr Option kStandardSetOptions[] = {
     kLibrary,
-    {"--lesion", "ID", "of attempts at this target; default the case's first"},
+    {"--lesion", "LESION", "of attempts at this target; default the case's first"},
     {"--modality", "mpr|xray|ultrasound", "of attempts with it; default the case's"},
     kJson};
 

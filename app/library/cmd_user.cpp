@@ -18,19 +18,24 @@ std::optional<casedb::Level> level_of(const Arguments& arguments) {
 }
 
 int run_user_add(const Arguments& arguments) {
-  arguments.required("--library");
   const auto role = casedb::role_from(arguments.required("--role"));
   if (!role) throw UsageError("--role is trainee, mentor, researcher, director or admin");
   const auto level = level_of(arguments);
-  const bool own_password_first = arguments.text("--password-file") == "-";
-  std::string password = own_password_first ? "" : read_password();
-  const auto check = [&] { return casedb::check_new_user(arguments.positional(0), password); };
-  if (!own_password_first)
-    if (const auto fit = check(); !fit) return refuse(fit.error());
-  auto library = open_acting(arguments, WhereNone::create);
-  if (!library) return refuse(library.error());
+  // A library is not made for what is refused; where one is, nobody types a password in vain.
+  const bool may_make = arguments.has("--new-library");
+  const bool password_first = may_make && arguments.text("--password-file") != "-";
+  std::string password = password_first ? read_password() : "";
+  if (password_first)
+    if (const auto fit = casedb::check_new_user(arguments.positional(0), password); !fit)
+      return refuse(fit.error());
+  auto library = open_acting(arguments, may_make ? WhereNone::create : WhereNone::refuse);
+  if (!library) {
+    base::Error error = library.error();
+    if (error.code == "no_library") error.text += "; --new-library makes one";
+    return refuse(error);
+  }
   if (const auto by = acting(*library, arguments, casedb::Action::manage_accounts); !by) return refuse(by.error());
-  if (own_password_first) password = read_password();
+  if (!password_first) password = read_password();
   const auto person = casedb::add_user(*library, arguments.positional(0), *role, password);
   casedb::wipe(password);
   if (!person) return refuse(person.error());
@@ -42,7 +47,7 @@ int run_user_add(const Arguments& arguments) {
 }
 
 int run_user_list(const Arguments& arguments) {
-  auto library = casedb::Library::open(arguments.required("--library"));
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   const auto accounts = casedb::list_users(*library);
   if (arguments.has("--json")) {
@@ -100,7 +105,7 @@ constexpr Option kLevelOption{"--level", "student|trainee|consultant",
                               "who somebody is from now on: attempts of consultants set the standard"};
 
 constexpr Option kRoleOption{"--role", "trainee|mentor|researcher|director|admin", "the role"};
-constexpr Option kUserAddOptions[] = {kLibrary, kRoleOption, kLevelOption};
+constexpr Option kUserAddOptions[] = {kLibrary, kRoleOption, kLevelOption, kNewLibrary};
 constexpr Option kUserRoleOptions[] = {kLibrary, kRoleOption};
 
 constexpr Option kUserLevelOptions[] = {kLibrary, kLevelOption};

@@ -31,6 +31,12 @@ void keep_memory_to_itself() {
     throw base::Failure("memory", "the system does not let this process keep its memory to itself");
 }
 
+base::Result<void> can_serve(const ServeAt& at) {
+  auto free = web::Server::can_listen({at.host, at.port});
+  if (!free && free.error().code == "port_taken" && at.any_port_if_taken) return {};
+  return free;
+}
+
 base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& at,
                                        const std::function<void(const std::string& url)>& ready) {
   keep_memory_to_itself();

@@ -20,6 +20,9 @@ struct ServeAt {
 // passwords pass through it. Throws base::Failure ("memory") when the system refuses.
 void keep_memory_to_itself();
 
+// Whether it would listen now, asked before anything is made for it. Refused as web::Server::open refuses.
+base::Result<void> can_serve(const ServeAt& at);
+
 // Blocks until SIGINT or SIGTERM. `ready` gets the address once the port is open. Refused as web::Server::open
 // refuses.
 base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& at,

@@ -5,31 +5,30 @@
 
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "app/pictures/meta_image.h"
 #include "app/pictures/render_json.h"
 #include "app/pictures/scene_picture.h"
 #include "app/replay/png.h"
-#include "casedb/database/disk.h"
 
 namespace seldinger::app {
 namespace {
 
 int run_render(const Arguments& arguments) {
-  const std::filesystem::path out = arguments.required("--out");
-  if (out.extension() != ".mha" && out.extension() != ".png") throw UsageError("--out must end in .mha or .png");
+  const std::filesystem::path out = file_of("--out", arguments.required("--out"), {".mha", ".png"});
   const std::string backend = arguments.text("--backend");
   if (!backend.empty() && backend != "gpu" && backend != "cpu" && backend != "reference")
     throw UsageError("--backend is gpu, cpu or reference");
   std::vector<std::string> notes;
   const auto scene = read_scene(arguments.positional(0), notes);
-  if (!scene) return refuse(scene.error());
+  if (!scene) return refuse(error_of("SCENE.json", arguments.positional(0), scene.error()));
   if (scene->room) {
-    if (out.extension() != ".png") throw UsageError("--out of a room must end in .png");
+    file_of("--out of a room", arguments.text("--out"), {".png"});
     if (backend == "cpu" || backend == "reference") throw UsageError("a room is drawn by --backend gpu alone");
-    const auto room = paint_room(*scene, arguments.text("--library"));
+    const auto room = paint_room(*scene, library_folder_if_any(arguments).string());
     if (!room) return refuse(room.error());
-    casedb::write_durably(out, png_from_rgb(room->rgb, room->width_px, room->height_px),
-                          casedb::FileAccess::as_umask);
+    write_file(out, png_from_rgb(room->rgb, room->width_px, room->height_px));
     for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
     if (arguments.has("--json"))
       std::fputs(json_of_room(*room).c_str(), stdout);
@@ -39,7 +38,7 @@ int run_render(const Arguments& arguments) {
     return kDone;
   }
   if (!scene->view) return refuse({"bad_scene", "scene.view is missing"});
-  auto painter = ScenePainter::of(*scene, arguments.text("--library"));
+  auto painter = ScenePainter::of(*scene, library_folder_if_any(arguments).string());
   if (!painter) return refuse(painter.error());
   const auto rendered = painter->paint(*scene, backend);
   if (!rendered) return refuse(rendered.error());
@@ -47,8 +46,7 @@ int run_render(const Arguments& arguments) {
   if (out.extension() == ".mha")
     write_file(out, meta_image(picture.values, picture.plane));
   else
-    casedb::write_durably(out, png_from_grey(picture.grey, picture.plane.width_px, picture.plane.height_px),
-                          casedb::FileAccess::as_umask);
+    write_file(out, png_from_grey(picture.grey, picture.plane.width_px, picture.plane.height_px));
   for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   const auto [min, max] = std::minmax_element(picture.values.begin(), picture.values.end());
   if (arguments.has("--json"))

@@ -5,6 +5,8 @@
 
 #include "app/cli/command.h"
 #include "app/cli/file.h"
+#include "app/cli/library_place.h"
+#include "app/cli/words.h"
 #include "app/pictures/scene_picture.h"
 #include "app/pictures/sheet.h"
 #include "app/replay/png.h"
@@ -14,11 +16,11 @@ namespace seldinger::app {
 namespace {
 
 int run_sheet(const Arguments& arguments) {
-  const std::filesystem::path from = arguments.positional(0), out = arguments.required("--out");
-  if (out.extension() != ".html") throw UsageError("--out must end in .html");
-  const std::string library = arguments.text("--library");
+  const std::filesystem::path from = arguments.positional(0),
+                              out = file_of("--out", arguments.required("--out"), {".html"});
+  const std::string library = library_folder_if_any(arguments).string();
   const auto sheet = read_sheet(from);
-  if (!sheet) return refuse(sheet.error());
+  if (!sheet) return refuse(error_of("SHEET.json", arguments.positional(0), sheet.error()));
 
   std::vector<reports::SheetRow> pictures;
   std::string volume_told;

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/cli/words.h"
 #include "app/pictures/scene.h"
 #include "casedb/import/skin/surface.h"
 #include "session/case/case_build.h"
@@ -14,9 +15,9 @@ base::Result<cases::Case> case_of(const Scene& scene, const std::string& folder)
   if (const auto* stored = std::get_if<VolumeOfCase>(&scene.volume)) {
     if (folder.empty()) return base::Error{"no_library", "the scene names a case, but no --library is given", {}};
     auto library = casedb::Library::open(folder);
-    if (!library) return library.error();
+    if (!library) return error_of("the library", folder, library.error());
     const auto row = casedb::find_case(*library, stored->case_id);
-    if (!row) return row.error();
+    if (!row) return error_of("the scene's case", stored->case_id, row.error());
     auto built = session::build_case(*library, *row, std::nullopt, {}, session::Needs::metrics);
     if (!built) return built.error();
     made = std::move(*built);

@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "app/cli/file.h"
+#include "app/cli/words.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/import.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::app {
 
@@ -26,14 +28,14 @@ base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& li
   if (std::holds_alternative<BuiltInTorso>(scene.volume)) return volume::make_phantom().volume;
   if (const auto* file = std::get_if<VolumeFile>(&scene.volume)) {
     auto source = casedb::read_source(file->path);
-    if (!source) return source.error();
+    if (!source) return error_of("the scene's volume", file->path.string(), source.error());
     return std::move(source->volume);
   }
   if (library.empty()) return base::Error{"no_library", "the scene names a case, but no --library is given"};
   auto opened = casedb::Library::open(library);
-  if (!opened) return opened.error();
+  if (!opened) return error_of("the library", library, opened.error());
   const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
-  if (!row) return row.error();
+  if (!row) return error_of("the scene's case", std::get<VolumeOfCase>(scene.volume).case_id, row.error());
   return casedb::load_volume(*opened, *row);
 }
 
@@ -50,9 +52,9 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
   }
   if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);
   auto opened = casedb::Library::open(library);
-  if (!opened) return opened.error();
+  if (!opened) return error_of("the library", library, opened.error());
   const auto row = casedb::find_case(*opened, std::get<VolumeOfCase>(scene.volume).case_id);
-  if (!row) return row.error();
+  if (!row) return error_of("the scene's case", std::get<VolumeOfCase>(scene.volume).case_id, row.error());
   return casedb::load_classes(*opened, *row);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sim/base/check.h"
 #include "sim/imaging/mpr/mpr.h"
 
 namespace seldinger::app {
@@ -22,7 +23,7 @@ struct Box {
   }
 };
 
-Box box_of(const cases::Case& scene, const assessment::Signals& signals) {
+Box box_of(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm) {
   Box box;
   if (!scene.lesions.empty()) {
     const cases::Lesion& target = scene.lesions.front();
@@ -30,19 +31,25 @@ Box box_of(const cases::Case& scene, const assessment::Signals& signals) {
     box.take(target.center_lps_mm + target.radius_mm);
   }
   if (scene.planned_entry_lps_mm) box.take(*scene.planned_entry_lps_mm);
-  for (std::size_t i = 0; i < signals.poses.size(); ++i)
-    if (signals.passages[i].depth_mm > -kBeforeSkinMm) box.take(signals.poses[i].tip_at_rest_lps_mm());
-  if (box.low.x > box.high.x) box.take(signals.poses.back().tip_at_rest_lps_mm());
+  for (const glm::dvec3& point : points_lps_mm) box.take(point);
   return box;
 }
 
 }  // namespace
 
 std::vector<BodyPlane> body_planes(const cases::Case& scene, const assessment::Signals& signals) {
-  const Box box = box_of(scene, signals);
+  std::vector<glm::dvec3> way;
+  for (std::size_t i = 0; i < signals.poses.size(); ++i)
+    if (signals.passages[i].depth_mm > -kBeforeSkinMm) way.push_back(signals.poses[i].tip_at_rest_lps_mm());
+  if (way.empty() && scene.lesions.empty()) way.push_back(signals.poses.back().tip_at_rest_lps_mm());
+  return body_planes(scene, way);
+}
+
+std::vector<BodyPlane> body_planes(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm) {
+  CHECK(!scene.lesions.empty() || !points_lps_mm.empty());
+  const Box box = box_of(scene, points_lps_mm);
   const glm::dvec3 size_mm = box.high - box.low, middle = 0.5 * (box.low + box.high);
-  const glm::dvec3 through =
-      scene.lesions.empty() ? signals.poses.back().tip_at_rest_lps_mm() : scene.lesions.front().center_lps_mm;
+  const glm::dvec3 through = scene.lesions.empty() ? points_lps_mm.back() : scene.lesions.front().center_lps_mm;
   const double side_mm =
       std::clamp(std::max({size_mm.x, size_mm.y, size_mm.z}) + 2.0 * kMarginMm, kLeastSideMm, kMostSideMm);
   std::vector<BodyPlane> planes;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,10 @@ struct BodyPlane : PlaneFrame {           // square
   std::vector<PlaneOutline> structures;  // those that it cuts
 };
 
-// Three through the target (or the last tip), all of one side: the way inside, 15 mm before it, target and planned
-// entry.
+// Three through the target, all of one side: target, planned entry and these points. Without a target through the
+// last point; there is one of the two.
+std::vector<BodyPlane> body_planes(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm);
+// The points: the way inside, and 15 mm before it.
 std::vector<BodyPlane> body_planes(const cases::Case& scene, const assessment::Signals& signals);
 
 }  // namespace seldinger::app

@@ -1,8 +1,9 @@
 // train: the trainer's window.
 #include <csignal>
 
+#include "app/acting/acting.h"
 #include "app/cli/command.h"
-#include "app/demo/demo_library.h"
+#include "app/cli/words.h"
 #include "app/window/desk.h"
 
 namespace seldinger::app {
@@ -40,15 +41,14 @@ base::Result<std::optional<Arms>> arms_of(const Arguments& arguments) {
   if (arguments.has("--station")) arms.station_file = arguments.text("--station");
   if (!arms.station_file.empty() && std::filesystem::exists(arms.station_file)) {
     auto known = read_station(arms.station_file);
-    if (!known) return known.error();
+    if (!known) return error_of("--station", arms.station_file.string(), known.error());
     arms.station = std::move(*known);
   }
   return std::optional<Arms>(std::move(arms));
 }
 
 int run_train(const Arguments& arguments) {
-  const std::string folder = arguments.has("--library") ? arguments.text("--library") : demo_library().string();
-  auto library = casedb::Library::open(folder);
+  auto library = open_library(arguments);
   if (!library) return refuse(library.error());
   auto arms = arms_of(arguments);
   if (!arms) return refuse(arms.error());
@@ -79,8 +79,8 @@ int run_train(const Arguments& arguments) {
 }
 
 constexpr Option kTrainOptions[] = {
-    {"--library", "DIR", "the library; else the demo's"},
-    {"--case", "ID", "whoever logs in finds this case's briefing open"},
+    kLibrary,
+    {"--case", "CASE", "whoever logs in finds this case's briefing open"},
     {"--device", "mouse|haply|virtual",
      "what holds the tools: mouse, keys, gamepad and 3-D mouse; or two arms of a Haply Inverse service, and these "
      "for what an arm does not hold; or two simulated arms that these lead, to try arms without any; default "

@@ -57,6 +57,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
     : window_(window),
       trainer_(trainer),
       speaker_(options.sound),
+      briefing_(window.context()),
       attempt_(window.context(), options, speaker_),
       watch_(window.context(), speaker_),
       editor_(window.context()),
@@ -94,6 +95,7 @@ void Desk::draw_screen() {
       choose_.draw(trainer_, keys);
       break;
     case TrainerScreen::briefing:
+      watch_.end();
       if (briefing_.draw(trainer_, keys) || trainer_.restarting()) attempt_.begin(trainer_);
       if (briefing_.take_resume()) attempt_.resume(trainer_);
       break;
@@ -102,6 +104,7 @@ void Desk::draw_screen() {
       break;
     case TrainerScreen::debrief:
       attempt_.end();
+      watch_.end();
       debrief_.draw(trainer_, keys, &attempt_.picture_at_fire());
       break;
     case TrainerScreen::watch:
@@ -132,6 +135,7 @@ void Desk::tell(const std::string& screen) {
   } else {
     line.heap_mib = heap_mib();
   }
+  if (screen == "watch") watch_.tell(line);
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   if (screen == "editor" && trainer_.editor() != nullptr) EditorPanel::tell(*trainer_.editor(), line);
   if (screen == "devices" && trainer_.device_page() != nullptr) devices_.tell(*trainer_.device_page(), line);
@@ -178,7 +182,7 @@ void Desk::turn_sound(const Keys& keys) {
   const Speaker::State now = speaker_.state();
   if (now == Speaker::State::none && sound_ != now) say("This workstation has no sound device: it is silent");
   sound_ = now;
-  if (session::clock_s() < notice_until_s_) draw_notice(notice_);
+  if (session::clock_s() < notice_until_s_) draw_notice(notice_, trainer_.screen() == TrainerScreen::attempt);
 }
 
 void Desk::go_on() {

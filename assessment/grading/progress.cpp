@@ -14,6 +14,19 @@ constexpr auto kNames = base::names<Proficiency>({{Proficiency::not_started, "no
                                                   {Proficiency::passed, "passed"},
                                                   {Proficiency::proficient, "proficient"}});
 
+struct Passes {
+  int running = 0, longest = 0;  // up to the last verdict; of all
+};
+
+Passes passes_of(std::span<const Verdict> verdicts) {
+  Passes passes;
+  for (const Verdict verdict : verdicts) {
+    if (verdict == Verdict::passed) passes.longest = std::max(passes.longest, ++passes.running);
+    if (verdict == Verdict::failed) passes.running = 0;
+  }
+  return passes;
+}
+
 }  // namespace
 
 std::string_view name_of(Proficiency proficiency) noexcept {
@@ -25,14 +38,15 @@ std::optional<Proficiency> proficiency_from(std::string_view name) noexcept {
 }
 
 Proficiency proficiency_of(std::span<const Verdict> verdicts) {
-  int running = 0, longest = 0;
-  for (const Verdict verdict : verdicts) {
-    if (verdict == Verdict::passed) longest = std::max(longest, ++running);
-    if (verdict == Verdict::failed) running = 0;
-  }
-  if (longest >= kPassesRunning) return Proficiency::proficient;
-  if (longest > 0) return Proficiency::passed;
+  const Passes passes = passes_of(verdicts);
+  if (passes.longest >= kPassesRunning) return Proficiency::proficient;
+  if (passes.longest > 0) return Proficiency::passed;
   return verdicts.empty() ? Proficiency::not_started : Proficiency::practising;
+}
+
+int passes_missing(std::span<const Verdict> verdicts) {
+  const Passes passes = passes_of(verdicts);
+  return passes.longest >= kPassesRunning ? 0 : kPassesRunning - passes.running;
 }
 
 std::vector<ItemProgress> progress_of(std::span<const ItemPast> items) {
@@ -41,6 +55,7 @@ std::vector<ItemProgress> progress_of(std::span<const ItemPast> items) {
   for (const ItemPast& item : items) {
     ItemProgress one;
     one.reached = proficiency_of(item.verdicts);
+    one.passes_missing = passes_missing(item.verdicts);
     one.open = std::all_of(item.gates.begin(), item.gates.end(), [&](const Gate& gate) {
       CHECK(gate.after < all.size());
       return all[gate.after].reached >= gate.reached;

@@ -20,6 +20,9 @@ std::optional<Proficiency> proficiency_from(std::string_view name) noexcept;
 // a run.
 Proficiency proficiency_of(std::span<const Verdict> verdicts);
 
+// How many passes running, from now on, that takes; 0 of who is.
+int passes_missing(std::span<const Verdict> verdicts);
+
 struct Gate {
   std::size_t after = 0;  // an earlier item's index
   Proficiency reached = Proficiency::passed;
@@ -38,6 +41,7 @@ struct ItemProgress {
   bool open = false;  // its gates are reached
   bool due = false;   // the first that is open, available, not proficient, and may still be attempted
   std::optional<int> attempts_left;
+  int passes_missing = 0;  // to proficient
 };
 
 // In the items' order. CHECKs that gates name earlier items.

@@ -17,7 +17,6 @@ namespace {
 using cases::Structure;
 using cases::StructureRule;
 
-constexpr double kClearanceMm = 20.0;   // nobody asks how far beyond
 constexpr std::size_t kWayPart = 64;    // points of the way asked together
 constexpr double kNeedleEndMm = 200.0;  // farther than any lumen's far wall
 
@@ -48,6 +47,28 @@ Measured count_visits(const Signals& signals, const Chosen& is, bool (*counts)(c
   return Measured::of(static_cast<double>(sum));
 }
 
+// When those visits began, or ended.
+template <typename Chosen>
+std::vector<double> times_of_visits(const Signals& signals, const Chosen& is, bool (*counts)(const Visit&),
+                                    double Visit::*when) {
+  std::vector<double> times;
+  for (const BoxedStructure& structure : chosen(signals, is))
+    for (const Visit& visit : visits_of(structure, signals.trace))
+      if (counts(visit)) times.push_back(visit.*when);
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+bool any_visit(const Visit&) {
+  return true;
+}
+bool entered(const Visit& visit) {
+  return !visit.began_inside;
+}
+bool went_through(const Visit& visit) {
+  return visit.through;
+}
+
 template <typename Chosen>
 Measured path_inside(const Signals& signals, const Chosen& is) {
   std::vector<std::vector<cases::Stretch>> inside(signals.trace.size());
@@ -63,7 +84,7 @@ Measured path_inside(const Signals& signals, const Chosen& is) {
 }
 
 Measured nogo_contacts(const Signals& signals) {
-  return count_visits(signals, &no_go, [](const Visit&) { return true; });
+  return count_visits(signals, &no_go, &any_visit);
 }
 Measured nogo_length(const Signals& signals) {
   return path_inside(signals, &no_go);
@@ -130,13 +151,13 @@ Measured clearance_min(const Signals& signals) {
     for (int piece = 0; piece <= pieces; ++piece)
       way.push_back(glm::mix(segment.from_lps_mm, segment.to_lps_mm, static_cast<double>(piece) / pieces));
   }
-  double nearest_mm = kClearanceMm;
+  double nearest_mm = kMostClearanceMm;
   auto structures = chosen(signals, &no_go);
   std::stable_partition(structures.begin(), structures.end(),
                         [](const BoxedStructure& one) { return one.drawn(); });
   for (const BoxedStructure& structure : structures)
     for (std::size_t from = 0; from < way.size(); from += kWayPart)
-      come_nearer(structure, std::span(way).subspan(from, std::min(kWayPart, way.size() - from)), -kClearanceMm,
+      come_nearer(structure, std::span(way).subspan(from, std::min(kWayPart, way.size() - from)), -kMostClearanceMm,
                   nearest_mm);
   return Measured::of(nearest_mm);
 }
@@ -154,12 +175,11 @@ Measured must_cross_length(const Signals& signals) {
 }
 
 Measured capsule_punctures(const Signals& signals) {
-  return count_visits(signals, &of_rule<StructureRule::organ>,
-                      [](const Visit& visit) { return !visit.began_inside; });
+  return count_visits(signals, &of_rule<StructureRule::organ>, &entered);
 }
 
 Measured posterior_wall(const Signals& signals) {
-  return count_visits(signals, &of_rule<StructureRule::target>, [](const Visit& visit) { return visit.through; });
+  return count_visits(signals, &of_rule<StructureRule::target>, &went_through);
 }
 
 Measured back_wall_dist(const Signals& signals) {
@@ -246,6 +266,22 @@ constexpr MetricInfo kStructuresMetrics[] = {
 };
 
 }  // namespace
+
+std::vector<double> nogo_entries_s(const Signals& signals) {
+  return times_of_visits(signals, &no_go, &any_visit, &Visit::from_s);
+}
+template <StructureRule rule>
+std::vector<double> entries_s(const Signals& signals) {
+  constexpr bool organ = rule == StructureRule::organ;  // a capsule is punctured from outside
+  return times_of_visits(signals, &of_rule<rule>, organ ? &entered : &any_visit, &Visit::from_s);
+}
+template std::vector<double> entries_s<StructureRule::critical>(const Signals&);
+template std::vector<double> entries_s<StructureRule::major>(const Signals&);
+template std::vector<double> entries_s<StructureRule::advisory>(const Signals&);
+template std::vector<double> entries_s<StructureRule::organ>(const Signals&);
+std::vector<double> far_walls_s(const Signals& signals) {
+  return times_of_visits(signals, &of_rule<StructureRule::target>, &went_through, &Visit::to_s);
+}
 
 std::span<const MetricInfo> structure_metrics() {
   return kStructuresMetrics;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assessment/metrics/metric.h"
+#include "sim/case/structure.h"
 
 namespace seldinger::assessment {
 
@@ -27,6 +28,8 @@ std::span<const MetricInfo> recording_metrics();
 std::span<const MetricInfo> procedure_metrics();
 std::span<const MetricInfo> breath_metrics();
 
+inline constexpr double kMostClearanceMm = 20.0;  // of clearance_min: nobody asks how far beyond
+
 // At the endpoint; there is one, and a target.
 bool target_hit(const Signals& signals);
 
@@ -43,6 +46,13 @@ PunctureCounts count_punctures(const Signals& signals);
 
 // Whether the needle was put to use, or the case deferred (procedure_performed). There is skin.
 bool performed(const Signals& signals);
+
+// When each visit was entered that nogo_contacts counts; of one rule's structures alone, as capsule_punctures
+// counts them; and when the far wall of a lumen was gone through, as posterior_wall does.
+std::vector<double> nogo_entries_s(const Signals& signals);
+template <cases::StructureRule rule>
+std::vector<double> entries_s(const Signals& signals);
+std::vector<double> far_walls_s(const Signals& signals);
 
 // What blind_advance_max measures, and when; nothing where no advance was unseen.
 struct BlindRun {

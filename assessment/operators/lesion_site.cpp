@@ -27,6 +27,39 @@ std::vector<glm::dvec3> ball(double radius_mm, double step_mm) {
   return offsets;
 }
 
+constexpr const char* kNone = "no place in this volume fits the rule for a lesion: ";
+
+std::string rounded(double value) {
+  return std::to_string(std::lround(value));
+}
+
+// How many places of homogeneous tissue there are, and how many of them so deep as the rule wants.
+base::Error none_of(std::size_t homogeneous, std::size_t deep, const LesionRule& rule) {
+  const std::string depths = rounded(rule.min_depth_mm) + "–" + rounded(rule.max_depth_mm) + " mm below the skin";
+  if (homogeneous == 0)
+    return {"no_lesion_site", kNone + std::string("nowhere is soft tissue (mean ") + rounded(rule.min_mean_hu) +
+                                  "–" + rounded(rule.max_mean_hu) + " HU) homogeneous within " +
+                                  rounded(rule.homogeneous_radius_mm) + " mm"};
+  if (deep == 0)
+    return {"no_lesion_site", kNone + std::string("none of ") + std::to_string(homogeneous) +
+                                  " places of homogeneous soft tissue lies " + depths};
+  return {"no_lesion_site", kNone + std::string("none of ") + std::to_string(deep) +
+                                " places of homogeneous soft tissue " + depths +
+                                " is reached by a straight path as the rule wants it"};
+}
+
+// Where the volume is thinner than what must be homogeneous.
+std::optional<base::Error> too_thin(const volume::Volume& volume, const LesionRule& rule) {
+  const double need_mm = 2.0 * rule.homogeneous_radius_mm;
+  double thinnest_mm = volume.spacing_mm.x * volume.size_voxels.x;
+  for (int axis = 1; axis < 3; ++axis)
+    thinnest_mm = std::min(thinnest_mm, volume.spacing_mm[axis] * volume.size_voxels[axis]);
+  if (thinnest_mm >= need_mm) return std::nullopt;
+  return base::Error{"no_lesion_site", kNone + std::string("the CT is a slab of ") + rounded(thinnest_mm) +
+                                           " mm, and the rule asks for " + rounded(need_mm) +
+                                           " mm of soft tissue around the lesion's centre"};
+}
+
 }  // namespace
 
 LesionRule lesion_rule(cases::Modality modality, cases::PatientPosition position) {
@@ -55,8 +88,8 @@ std::string describe(const LesionRule& rule) {
 
 base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const cases::MeshIndex& skin,
                                           const LesionRule& rule) {
-  const base::Error none{"no_lesion_site", "no place in this volume fits the rule for a lesion"};
-  if (skin.empty()) return none;
+  if (skin.empty()) return base::Error{"no_lesion_site", kNone + std::string("it has no skin")};
+  if (const auto thin = too_thin(volume, rule)) return *thin;
   // The lattice lies along the volume's axes; all samples below are nearest voxels, by integer offsets.
   const glm::ivec3 size = volume.size_voxels;
   glm::ivec3 stride;
@@ -99,9 +132,11 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
   PathLimits limits = path_limits(rule.modality, rule.position);
   limits.min_depth_mm = rule.min_depth_mm;
   limits.max_depth_mm = rule.max_depth_mm;
+  std::size_t deep = 0;
   for (const Candidate& candidate : candidates) {
     const double below_mm = -skin.closest_skin(candidate.center_lps_mm).distance_mm;
     if (below_mm < rule.min_depth_mm || below_mm > rule.max_depth_mm) continue;
+    ++deep;
     LesionSite site;
     site.lesion = {candidate.center_lps_mm, rule.radius_mm,
                    rule.lesion_hu.value_or(std::round(candidate.mean_hu + rule.contrast_hu))};
@@ -115,7 +150,7 @@ base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const ca
     site.sd_hu = candidate.sd_hu;
     return site;
   }
-  return none;
+  return none_of(candidates.size(), deep, rule);
 }
 
 }  // namespace seldinger::assessment

@@ -38,7 +38,7 @@ struct LesionSite {
 std::string describe(const LesionRule& rule);
 
 // The most homogeneous place of the rule that a plan reaches. The same for the same scene. Refused:
-// `no_lesion_site`.
+// `no_lesion_site`, with what was found against what the rule asks for.
 base::Result<LesionSite> find_lesion_site(const volume::Volume& volume, const cases::MeshIndex& skin,
                                           const LesionRule& rule = {});
 

@@ -105,7 +105,9 @@ constexpr ConditionRow kRows[] = {
                                   {"of the recorded time, with the needle guide taken up"}),
     row<&Conditions::help_level>(
         "help_level", "Help in the room", "",
-        {"2: the needle's line and the picture's plane are shown; 1: less; 0: none", kOfWindow}),
+        {"2: the needle's line, the picture's plane and whether tip and target are in the picture are shown; 1: "
+         "without the needle's line; 0: none",
+         kOfWindow}),
     row<&Conditions::pauses>("pauses", "Pauses", "count", {"how often the attempt was paused"}),
     row<&Conditions::paused_s>(
         "paused_s", "Paused for", "s",

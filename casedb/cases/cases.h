@@ -39,6 +39,9 @@ struct NewCase : CaseSetting {
   std::vector<base::Problem> warnings;
   int slices_used = 0;
   FaceState face_state = FaceState::unchecked;
+  // Why somebody who may (Action::overrule_face) took for none what the detector of faces found; empty: nobody did.
+  // Kept as the warning `face_overruled`.
+  std::string face_overruled;
   bool no_burned_in_text = false;                   // somebody looked
   std::optional<std::string> burned_in_checked_by;  // person_id, when it was a person of this library
   std::vector<Dropped> dropped;

@@ -29,6 +29,7 @@ enum class Action {
   see_case_notes,  // what people wrote beside their decisions
   work_on_case,    // in the case editor
   confirm_no_burned_in_text,
+  overrule_face,  // takes for none what the detector of faces found
   submit_case,
   approve_case,  // "own": one's own submission
   return_case,
@@ -211,6 +212,10 @@ inline constexpr Permission kPermissions[] = {
      "confirm_no_burned_in_text",
      "a mentor, director or admin confirms that no text is burned in",
      {{{Role::mentor, Role::director, Role::admin}}}},
+    {Action::overrule_face,
+     "overrule_face",
+     "an admin says that what looks like a face is none",
+     {{{Role::admin}}}},
     {Action::submit_case, "submit_case", "a mentor submits a case to review", {{{Role::mentor}}}},
     {Action::approve_case,
      "approve_case",

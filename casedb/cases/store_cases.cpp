@@ -15,6 +15,7 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "sim/base/check.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "sim/volume/volume_bytes.h"
 
 namespace seldinger::casedb {
@@ -60,12 +61,14 @@ void insert_case(Library& library, const NewCase& new_case, const std::string& c
         .bind("name", new_case.attributes[i].first)
         .bind("value", new_case.attributes[i].second)
         .run();
+  std::vector<base::Problem> warnings = new_case.warnings;
+  if (!new_case.face_overruled.empty()) warnings.push_back({"face_overruled", new_case.face_overruled});
   Statement warning = question(database, "add_case_warning");
-  for (std::size_t i = 0; i < new_case.warnings.size(); ++i)
+  for (std::size_t i = 0; i < warnings.size(); ++i)
     warning.bind("case_id", case_id)
         .bind("position", static_cast<std::int64_t>(i))
-        .bind("code", new_case.warnings[i].code)
-        .bind("text", new_case.warnings[i].text)
+        .bind("code", warnings[i].code)
+        .bind("text", warnings[i].text)
         .run();
   Statement dropped = question(database, "add_case_dropped");
   for (std::size_t i = 0; i < new_case.dropped.size(); ++i)
@@ -240,6 +243,7 @@ std::string add_case(Library& library, const NewCase& new_case) {
   insert_case(library, new_case, case_id, created_us, volume_sha256, skin_sha256, labels_sha256, classes_sha256);
   audit(library, Act::add_case, {"case", case_id});
   if (new_case.burned_in_checked_by) audit(library, Act::confirm_no_burned_in_text, {"case", case_id});
+  if (!new_case.face_overruled.empty()) audit(library, Act::overrule_face, {"case", case_id});
   transaction.commit();
   assets.keep();
   return case_id;
@@ -293,14 +297,14 @@ base::Result<std::vector<volume::TissueClass>> load_classes(const LoadAsset& loa
   if (!volume_bytes) return volume_bytes.error();
   const auto volume = volume::volume_from_bytes(*volume_bytes);
   if (!volume) return volume.error();
-  if (row.labels_sha256.empty()) return volume::tissue_classes(*volume);
+  if (row.labels_sha256.empty()) return volume::tissue_classes_by_rule_1(*volume);
   const auto label_bytes = load(row.labels_sha256);
   if (!label_bytes) return label_bytes.error();
   const auto labels = volume::labels_from_bytes(*label_bytes);
   if (!labels) return labels.error();
   if (labels->label.size() != volume->hu.size())
     return base::Error{"damaged", "the stored labels are not the volume's"};
-  return volume::tissue_classes(*volume, &*labels);
+  return volume::tissue_classes_by_rule_1(*volume, &*labels);
 }
 
 base::Result<void> confirm_no_burned_in_text(Library& library, const std::string& case_id,

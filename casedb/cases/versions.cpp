@@ -25,14 +25,6 @@ base::Error bad_state(const char* text) {
   return {"bad_state", text};
 }
 
-base::Result<void> check_note(const std::string& note) {
-  const bool sound = note.size() <= kMostNote && std::none_of(note.begin(), note.end(), [](char c) {
-                       return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-                     });
-  if (!sound) return base::Error{"bad_note", "a note is one line of at most 1000 bytes"};
-  return {};
-}
-
 // What somebody wants with a case: both known, nothing written yet.
 struct Wish {
   CaseRow row;
@@ -141,6 +133,14 @@ void copy_case(Sqlite& database, const std::string& from_case_id, const std::str
 }
 
 }  // namespace
+
+base::Result<void> check_note(const std::string& note) {
+  const bool sound = note.size() <= kMostNote && std::none_of(note.begin(), note.end(), [](char c) {
+                       return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+                     });
+  if (!sound) return base::Error{"bad_note", "a note is one line of at most 1000 bytes"};
+  return {};
+}
 
 std::string name_of(DecisionKind kind) {
   return kDecisions[static_cast<std::size_t>(kind)];

@@ -28,6 +28,9 @@ std::vector<Decision> list_decisions(Library& library, const std::string& case_i
 // The second person who approved what was submitted last; nothing when none has.
 std::optional<Decision> review_of(const std::vector<Decision>& decisions);
 
+// What somebody writes beside a decision: `bad_note` (more than one line or 1000 bytes).
+base::Result<void> check_note(const std::string& note);
+
 // All of these: `no_case`, `no_user` (disabled too), `not_allowed` (role, or a second person is needed),
 // `bad_state`, `bad_note`. A mentor submits a draft to review.
 base::Result<void> submit_case(Library& library, const std::string& case_id, const std::string& by,

@@ -32,6 +32,7 @@ enum class Act {
   add_case,
   change_case,  // lesions, structures, label maps, setting, title
   confirm_no_burned_in_text,
+  overrule_face,
   submit_case,
   return_case,
   approve_case,

@@ -16,8 +16,8 @@
 namespace seldinger::casedb {
 
 // Table and id: the rows' first column; where single rows go while others of it stay (told_by_two), the first two
-// with
-// '/' between. Before schema 21 of the library metrics, steps and conditions had the first two, and nothing else.
+// with '/' between. Before schema 21 of the library metrics, steps and conditions had the first two, and nothing
+// else.
 using DigestOf = std::pair<std::string, std::string>;
 
 bool has_digests(Sqlite& database);

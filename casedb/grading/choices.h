@@ -22,6 +22,7 @@ struct Choice {
   bool due = false;                                // what comes next in its curriculum
   std::optional<assessment::Proficiency> reached;  // none out of a curriculum
   std::optional<int> attempts_left;                // none: no end, or out of a curriculum
+  int passes_missing = 0;                          // running, to be proficient; 0 of who is
 };
 
 // A case in the making: a draft, or one in review.
@@ -40,10 +41,15 @@ struct Choices {
 // First the items of each published curriculum, in their order, then what is not in one: published cases with a
 // lesion, and for who may practise drafts too those that attempts have frozen (they are no longer changed, so
 // practice does no harm; any other is tried in the case editor, which freezes nothing). A case may be in several
-// curricula.
+// curricula. Of each case the newest version that is published for the person: it takes its forerunner's place.
 Choices choices_of(Library& library, const std::string& person_id, Role role);
 
 // What comes next: the first that is due and open. Null: nothing is.
 const Choice* next_of(const Choices& choices) noexcept;
+
+// What follows once this case is passed: what is due; where nothing is, the next open case down the list and round
+// again that is not proficient yet, before any other. The case itself where no other is open. Null: it is not
+// among them.
+const Choice* after_pass(const Choices& choices, const std::string& case_id) noexcept;
 
 }  // namespace seldinger::casedb

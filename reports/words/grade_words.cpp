@@ -55,6 +55,12 @@ std::string score_text(const assessment::Score& score) {
   return "none: the attempt is not graded";
 }
 
+std::string proficiency_text(int missing) {
+  if (missing == 0) return "You are proficient here: two passes running.";
+  return missing == 1 ? "One more pass, at the next attempt, and you are proficient here."
+                      : "Two passes running make you proficient here.";
+}
+
 std::string experts_text(const assessment::ExpertSet& set) {
   const std::string needed = std::to_string(assessment::kStandardConsultants) + " consultants with " +
                              std::to_string(assessment::kFamiliarAttempts) + " completed attempts each";

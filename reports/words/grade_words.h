@@ -11,7 +11,9 @@ namespace seldinger::reports {
 std::string verdict_text(const assessment::Grade& grade);  // "Passed", "Not passed: a critical error", …
 std::string verdict_word(
     assessment::Verdict verdict);  // for lists: "Passed", "Not passed", "Not graded", "No rule"
-std::string score_text(const assessment::Score& score);      // "63 of 100", "none: no standard"
+std::string score_text(const assessment::Score& score);  // "63 of 100", "none: no standard"
+// "One more pass, at the next attempt, and you are proficient here."; `missing`: passes running.
+std::string proficiency_text(int missing);
 std::string experts_text(const assessment::ExpertSet& set);  // who they are, how many, since when
 
 // The standard's band of this version of a metric, "0–3 mm"; empty where there is none, or for a yes and no.

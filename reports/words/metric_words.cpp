@@ -139,6 +139,13 @@ bool is_whole_day(std::int64_t time_us) {
 }
 }  // namespace
 
+std::string clock_text(double t_s) {
+  const auto whole_s = static_cast<long>(std::max(0.0, t_s));
+  char text[32];
+  std::snprintf(text, sizeof text, "%ld:%02ld", whole_s / 60, whole_s % 60);
+  return text;
+}
+
 std::string utc_text(std::int64_t time_us) {
   return utc_written(time_us, "%04d-%02u-%02u %02d:%02d UTC");
 }

@@ -29,6 +29,9 @@ std::string reason_text(const casedb::MetricValue& metric);
 // Fixed digits with a true minus sign, and no minus before a rounded zero.
 std::string number_text(double value, int digits);
 
+// A time within an attempt: "0:41".
+std::string clock_text(double t_s);
+
 // "2026-03-01 14:05 UTC" and "2026-03-01T14:05:09Z".
 std::string utc_text(std::int64_t time_us);
 std::string utc_machine_text(std::int64_t time_us);

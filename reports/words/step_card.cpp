@@ -87,6 +87,14 @@ std::string step_result_text(const StepResult& step) {
   return text + ": " + (step.reason.empty() ? mark.meaning : assessment::reason_words(step.reason));
 }
 
+std::string step_fault_text(const StepResult& step) {
+  const StepInfo* info = assessment::find_step(step.id);
+  const Mark mark = mark_of(step);
+  if (info == nullptr || !step.t_s) return "";
+  if (mark == kWrong) return words_of(info->violates);
+  return mark == kLate ? "done only now: in time until " + words_of(info->by) : "";
+}
+
 Card step_card(std::string_view id, int version) {
   Card card{std::string(id), step_label(id), 0, "", {}};
   const StepInfo* info = assessment::find_step(id);

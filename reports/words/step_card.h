@@ -32,6 +32,9 @@ std::string step_text(const assessment::StepResult& step);
 // "✓ shown at 12.3 s: a deed showed it, in time"; of one that was not asked for, why.
 std::string step_result_text(const assessment::StepResult& step);
 
+// Of one that was done wrongly or too late, what happened then: "a pulse met the hand"; else empty.
+std::string step_fault_text(const assessment::StepResult& step);
+
 // `version`: of the result that is asked about, as metric_card has it.
 Card step_card(std::string_view id, int version = 0);
 

@@ -234,10 +234,11 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
                                            : casedb::AttemptEnd::time_limit;
   const auto recording = store.recording(library_);
   if (!recording) return recording.error();
-  auto scored = assessment::score(scene_, *recording);
-  if (!scored) return scored.error();
-  outcome.metrics = std::move(scored->metrics);
-  outcome.steps = std::move(scored->steps);
+  const auto signals = assessment::signals_of(scene_, *recording);
+  if (!signals) return signals.error();
+  assessment::Scored scored = assessment::score(*signals);
+  outcome.metrics = std::move(scored.metrics);
+  outcome.steps = std::move(scored.steps);
   if (with.conditions) outcome.conditions = with.conditions();
   casedb::add_recorded(*recording, outcome.conditions);
   if (keep_ == Keep::stored) {
@@ -245,8 +246,8 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     if (const auto closed = casedb::close_attempt(library_, store.attempt_id(), outcome); !closed)
       return closed.error();
   }
-  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics), std::move(outcome.steps), *outcome.end,
-                       std::move(outcome.conditions)};
+  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics),    std::move(outcome.steps),
+                       *outcome.end,       std::move(outcome.conditions), assessment::fault_moments(*signals)};
 }
 
 }  // namespace seldinger::session

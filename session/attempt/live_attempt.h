@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/fault_moments.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "session/attempt/interrupted_attempt.h"
@@ -25,6 +26,7 @@ struct StoredAttempt {
   std::vector<assessment::StepResult> steps{};
   casedb::AttemptEnd end = casedb::AttemptEnd::stopped;
   casedb::Conditions conditions{};
+  std::vector<assessment::FaultMoment> faults{};  // told with the debrief, and not kept
 };
 
 class LiveAttempt {

@@ -2,6 +2,7 @@
 
 #include "assessment/score.h"
 #include "session/attempt/endpoint_picture.h"
+#include "session/attempt/median_attempt.h"
 #include "session/attempt/ordered_work.h"
 #include "session/attempt/simulated_attempt.h"
 #include "session/guidance/guidance.h"
@@ -103,6 +104,32 @@ base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorPro
   const auto attempt_id = casedb::add_attempt(*library_, *made);
   if (!attempt_id) return attempt_id.error();
   return SimulatedAttempt{*attempt_id, profile.name, seed, made->metrics};
+}
+
+base::Result<SimulatedAttempt> Simulation::median_attempt(const assessment::OperatorProfile& profile,
+                                                          std::span<const std::uint64_t> seeds, std::size_t jobs,
+                                                          const std::optional<std::string>& person_id) {
+  using Made = base::Result<casedb::NewAttempt>;
+  CHECK(!seeds.empty());
+  std::vector<casedb::NewAttempt> all;
+  std::optional<base::Error> refused;
+  in_order<Made>(
+      seeds.size(), jobs, [&](std::size_t i) { return make(profile, seeds[i], person_id, false); },
+      [&](std::size_t, Made made) {
+        if (made)
+          all.push_back(std::move(*made));
+        else
+          refused = made.error();
+        return !refused;
+      });
+  if (refused) return *refused;
+  std::vector<std::vector<assessment::MetricValue>> metrics;
+  for (const casedb::NewAttempt& one : all) metrics.push_back(one.metrics);
+  casedb::NewAttempt& middle = all[index_of_median(metrics)];
+  middle.picture_png = program_.file_of(picture_at_endpoint(task_.scene, middle.recording));
+  const auto attempt_id = casedb::add_attempt(*library_, middle);
+  if (!attempt_id) return attempt_id.error();
+  return SimulatedAttempt{*attempt_id, profile.name, middle.seed, middle.metrics};
 }
 
 base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,12 @@ class Simulation {
   // One attempt, stored and durable when it returns. `person_id`: whose attempt it is.
   base::Result<SimulatedAttempt> attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                          const std::optional<std::string>& person_id);
+
+  // The attempt in the middle of those of several seeds (median_attempt.h), stored as `attempt` stores it; the
+  // others are not kept.
+  base::Result<SimulatedAttempt> median_attempt(const assessment::OperatorProfile& profile,
+                                                std::span<const std::uint64_t> seeds, std::size_t jobs,
+                                                const std::optional<std::string>& person_id);
 
   // Many, on so many threads; stored in their order, so that the result is that of one thread. `stored` is told of
   // each. Without pictures none of the moment of firing is made.

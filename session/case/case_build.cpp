@@ -7,6 +7,7 @@
 #include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/view/tissue.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::session {
 namespace {
@@ -52,6 +53,25 @@ class Voxels {
   std::optional<Classes>& classes_;
   std::optional<std::vector<casedb::StoredLabels>> maps_;
 };
+
+void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
+  scene.instrument = setting.instrument;
+  scene.approach = setting.approach;
+  scene.subject = setting.subject;
+  scene.position = setting.position;
+  scene.planned_entry_lps_mm = setting.planned_entry_lps_mm;
+  if (setting.subject == cases::Subject::patient) scene.defer_is_right = setting.clinic.defer;
+  scene.breathing = setting.motion.breathing();
+  scene.yields = setting.motion.yields;
+}
+
+// Of all that was painted.
+void finish(Needs needs, cases::Case& scene) {
+  if (needs == Needs::ultrasound) scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
+  // The table is set so that the machine turns about the middle of what there is.
+  const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
+  scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
+}
 
 }  // namespace
 
@@ -102,15 +122,8 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
   scene.volume = std::move(assets.volume);
   scene.skin = std::move(assets.skin);
   scene.skin_index = std::move(assets.skin_index);
-  scene.instrument = row.instrument;
   scene.picture = picture;
-  scene.approach = row.approach;
-  scene.subject = row.subject;
-  scene.position = row.position;
-  scene.planned_entry_lps_mm = row.planned_entry_lps_mm;
-  if (row.subject == cases::Subject::patient) scene.defer_is_right = row.clinic.defer;
-  scene.breathing = row.motion.breathing();
-  scene.yields = row.motion.yields;
+  take_setting(row, scene);
 
   const std::vector<casedb::StructureRow> structures = casedb::list_structures(library, row.case_id);
   Voxels voxels(library, row, scene.volume, assets.classes);
@@ -131,10 +144,20 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
       cases::paint_class(made.shape, made.tissue, scene.volume, scene.classes);
   }
   if (target) add_lesion(*target, scene);
-  if (needs == Needs::ultrasound) scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
-  // The table is set so that the machine turns about the middle of what there is.
-  const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
-  scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
+  finish(needs, scene);
+  return scene;
+}
+
+cases::Case build_case(const casedb::NewCase& made, const cases::Picture& picture, Needs needs) {
+  cases::Case scene;
+  scene.volume = made.volume;
+  scene.skin = made.skin;
+  scene.skin_index = cases::MeshIndex(scene.skin);
+  scene.picture = picture;
+  take_setting(made, scene);
+  if (needs != Needs::metrics)
+    scene.classes = volume::tissue_classes(scene.volume, made.labels ? &*made.labels : nullptr);
+  finish(needs, scene);
   return scene;
 }
 

@@ -33,6 +33,9 @@ base::Result<cases::Case> build_case(casedb::Library& library, const casedb::Cas
                                      const std::optional<cases::LesionForm>& target, const cases::Picture& picture,
                                      Needs needs);
 
+// Of a case that is not stored yet, without lesions and structures: what a place for one is looked for in.
+cases::Case build_case(const casedb::NewCase& made, const cases::Picture& picture, Needs needs);
+
 // One more lesion of the scene, painted where pictures do not draw it themselves.
 void add_lesion(const cases::LesionForm& form, cases::Case& scene);
 

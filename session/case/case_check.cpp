@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "assessment/grading/contradictions.h"
 #include "assessment/operators/plan.h"
 #include "session/case/case_build.h"
 
@@ -32,6 +33,10 @@ void check_rule(const casedb::CaseRow& row, const assessment::Guidance& guidance
     checks.push_back({"rule_meaningful", false, problem.code + ": " + problem.text});
   if (problems.empty())
     checks.push_back({"rule_meaningful", true, "every metric is known and means something here"});
+  const auto contradictions = assessment::contradictions_of(row.rule, guidance);
+  for (const base::Problem& problem : contradictions)
+    checks.push_back({"rule_possible", false, problem.code + ": " + problem.text});
+  if (contradictions.empty()) checks.push_back({"rule_possible", true, "no criterion rules itself or another out"});
 }
 
 // Share of the lesion's voxels that are bone; of one smaller than a voxel, that voxel's.
@@ -143,9 +148,11 @@ CaseCheck check_loaded_case(std::string content_mark, const cases::Case& scene, 
          "structure " + std::to_string(i + 1) + (within ? " lies within the volume" : " reaches out of the volume"),
          where});
   }
-  const assessment::Guidance guidance{
+  assessment::Guidance guidance{
       casedb::manner_of(row),
       assessment::absent_needs(scene.structures, row.planned_entry_lps_mm.has_value(), row.subject)};
+  if (row.instrument.kind == cases::InstrumentKind::core) guidance.notch_mm = row.instrument.notch_mm;
+  guidance.defer_is_right = row.clinic.defer;
   check_rule(row, guidance, checks);
   checked.rule_may_name = assessment::meaningful_metrics(guidance);
   return checked;

@@ -18,7 +18,8 @@ using casedb::Check;
 // Each lesion inside the body and not in bone; a straight way of the instrument's length from uncut skin that meets
 // no bone, gas, nor critical or major structure, and leads through what must be crossed (not asked where the right
 // decision is to defer); a planned entry on the skin; drawn structures within the volume; a rule whose metrics are
-// known and mean something under the case's guidance. Refused: `no_case`, damaged assets.
+// known and mean something under the case's guidance, and whose criteria can be met, each and together. Refused:
+// `no_case`, damaged assets.
 base::Result<CaseCheck> check_case(casedb::Library& library, const std::string& case_id);
 
 // The same of a case that is built already, with classes and without a lesion. `content_mark`: of the case before

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -17,13 +18,14 @@ namespace seldinger::engine {
 // How far about its place an anaesthetic works (a wheal and what spreads from it): judgement. That it takes a
 // minute to work is left out: nobody trains waiting.
 constexpr double kNumbMm = 15.0;
+inline constexpr std::size_t kNumbPlaces = 4;  // that are remembered
 // Bone felt again so much later hurts again.
 constexpr double kBoneAgainSeconds = 0.5;
 
 // What must be kept from tick to tick. A new one: nothing was done yet.
 struct PatientState {
-  std::array<glm::dvec3, 4> numb_lps_mm{};  // the latest places
-  std::uint32_t numbed = 0;                 // how many there were
+  std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};  // the latest places
+  std::uint32_t numbed = 0;                           // how many there were
   bool was_in_body = false, held = false, let_go = false;
   double bone_s = -1e9;
   std::array<cases::EventKind, 4> waiting{};  // reactions not told yet, in their order

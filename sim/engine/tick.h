@@ -3,7 +3,9 @@
 // Tick, everything that changes in TickState; the same for an attempt and for its replay.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 
@@ -29,6 +31,9 @@ struct Moment {
   double event_t_s = 0.0;
   std::uint32_t capsules = 0;  // that the needle opened since the beginning,
   double capsule_n = 0.0;      // and the force that the last one took
+  // PatientState's: the latest places of the skin that are numb, at rest, and how many there were.
+  std::uint32_t numbed = 0;
+  std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};
   double told_s = 0.0;  // when what the hands wanted last was told, by whoever's clock told it; 0: it was not
 };
 

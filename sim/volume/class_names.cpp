@@ -1,12 +1,14 @@
 #include <utility>
 
 #include "sim/volume/classes.h"
+#include "sim/volume/label_numbering.h"
 
 namespace seldinger::volume {
 namespace {
 
 constexpr const char* kProkop = "Prokop and Galanski, Spiral and Multislice CT of the Body (Thieme 2003)";
 constexpr const char* kTried = "docs/decisions/0012, tried on four real volumes";
+constexpr const char* kShape = "docs/decisions/0055";
 constexpr const char* kLabel = "label";
 
 constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
@@ -22,8 +24,9 @@ constexpr std::array<TissueAbout, kTissueClasses> kAbout{{
     {"muscle", kLabel, kProkop},
     {"skin", kLabel, kProkop},
     {"connective", kLabel, kProkop},
-    {"vessel", "from 200 HU, the highest of enhanced parenchyma, and no bone", kTried},
-    {"bone", "from 150 HU where joined to bone's core (380 HU) and no plateau of contrast", kTried},
+    {"vessel", "from 200 HU, the highest of enhanced parenchyma, and no bone", kShape},
+    {"bone", "from a share of 0.4 of what is bright, drains from no contrast and has bone's size and place",
+     kShape},
     {"metal", "from 2500 HU, above cortical bone and enamel, and its rim", kTried},
 }};
 
@@ -81,7 +84,7 @@ std::optional<TissueClass> tissue_of_name(std::string_view name) noexcept {
     if (name == kAbout[at].name) return static_cast<TissueClass>(at);
   for (const auto& [known, tissue] : kNames)
     if (name == known) return tissue;
-  return std::nullopt;
+  return tissue_of_total_segmentator(name);
 }
 
 // HU of unenhanced tissue: Prokop and Galanski, Spiral and Multislice CT of the Body (Thieme 2003), as in the

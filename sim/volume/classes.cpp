@@ -6,8 +6,6 @@
 #include "sim/base/check.h"
 #include "sim/base/codec.h"
 #include "sim/base/hash.h"
-#include "sim/volume/body_mask.h"
-#include "sim/volume/class_steps.h"
 
 namespace seldinger::volume {
 namespace {
@@ -30,30 +28,7 @@ base::Error damaged(const char* text) {
   return {"damaged", text};
 }
 
-void let_labels_win(const LabelMap& labels, std::vector<TissueClass>& classes) {
-  std::vector<std::optional<TissueClass>> tissue;
-  for (const std::string& name : labels.names) tissue.push_back(tissue_of_name(name));
-  if (!tissue.empty()) tissue[0].reset();  // 0 is "no label"
-  for (std::size_t at = 0; at < classes.size(); ++at)
-    if (const auto& known = tissue[labels.label[at]]) classes[at] = *known;
-}
-
 }  // namespace
-
-std::vector<TissueClass> tissue_classes(const Volume& volume, const LabelMap* labels) {
-  std::vector<TissueClass> classes(volume.hu.size());
-  if (labels != nullptr) CHECK(labels->label.size() == classes.size());
-  {
-    const std::vector<std::uint8_t> body = body_mask(volume);
-    std::transform(body.begin(), body.end(), classes.begin(),
-                   [](std::uint8_t in) { return in != 0 ? TissueClass::soft_tissue : TissueClass::air; });
-  }
-  mark_air_spaces(volume, classes);
-  mark_hard_tissue(volume, classes);
-  mark_soft_tissue(volume, classes);
-  if (labels != nullptr) let_labels_win(*labels, classes);
-  return classes;
-}
 
 std::array<std::size_t, kTissueClasses> count_classes(std::span<const TissueClass> classes) {
   std::array<std::size_t, 256> count{};

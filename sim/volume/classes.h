@@ -48,10 +48,6 @@ double typical_hu(TissueClass tissue) noexcept;
 // The class that a label's name means ("rib" is bone); nothing for a name that is not known.
 std::optional<TissueClass> tissue_of_name(std::string_view name) noexcept;
 
-// One class per voxel, in the volume's order. A label with a known name decides; elsewhere HU, neighbours and
-// connections do. Labels: as many as voxels (CHECK). Same input, same bytes; one thread.
-std::vector<TissueClass> tissue_classes(const Volume& volume, const LabelMap* labels = nullptr);
-
 // How many voxels are of each class.
 std::array<std::size_t, kTissueClasses> count_classes(std::span<const TissueClass> classes);
 

@@ -12,38 +12,16 @@
 namespace seldinger::assessment {
 namespace {
 
-const cases::MeshIndex& box_skin() {
-  static const cases::MeshIndex skin(fixtures::box_mesh({-100.0, -100.0, -100.0}, {100.0, 0.0, 100.0}));
-  return skin;
-}
-
-// Straight down (−y) at these depths below the skin at y = 0; the picture shows the tip where `seen` says so.
+// Straight down at these depths; the picture shows the tip where `seen` says so, the target from 1 s on.
 Signals signals_of(const std::vector<Knot>& depth_mm, double seconds, const std::function<bool(double)>& seen,
                    bool fires = true) {
-  AttemptSetting setting;
-  setting.skin = &box_skin();
-  setting.modality = cases::Modality::ultrasound;
-  setting.target = cases::Lesion{{0.0, -60.0, 0.0}, 5.0, 20.0};
-  cases::Recording recording;
-  for (int i = 0; i <= std::lround(100.0 * seconds); ++i) {
-    cases::PoseSample pose;
-    pose.t_s = 0.01 * i;
-    pose.tip_lps_mm = {0.0, -reach(depth_mm, pose.t_s), 0.0};
-    pose.needle_direction = {0.0, -1.0, 0.0};
-    pose.probe_axial = {0.0, -1.0, 0.0};
-    recording.poses.push_back(pose);
-    if (i % 4 == 0) {
-      cases::FrameTruth frame;
-      frame.t_s = pose.t_s;
-      frame.target = pose.t_s >= 1.0;
-      frame.needle_tip = seen(pose.t_s);
-      recording.frames.push_back(frame);
-    }
+  StraightDown made = straight_down(depth_mm, seconds);
+  for (cases::FrameTruth& frame : made.recording.frames) {
+    frame.target = frame.t_s >= 1.0;
+    frame.needle_tip = seen(frame.t_s);
   }
-  if (fires) recording.endpoint = cases::Endpoint{seconds, recording.poses.back().tip_lps_mm, {0.0, -1.0, 0.0}};
-  auto signals = make_signals(setting, recording);
-  EXPECT_TRUE(signals);
-  return std::move(*signals);
+  if (!fires) made.recording.endpoint.reset();
+  return made.signals();
 }
 
 std::vector<double> times_of(const std::vector<Moment>& moments, MomentKind kind) {

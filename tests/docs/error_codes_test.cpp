@@ -113,7 +113,8 @@ bool makes_a_code(std::string_view all_before) {
     return true;
   if (take_end(before, ",")) {
     take_name(before);
-    return take_end(before, "::") && (before.ends_with("{DicomKind") || before.ends_with("say(&DicomSlice"));
+    return take_end(before, "::") && (before.ends_with("{DicomKind") || before.ends_with("{CtVerdict") ||
+                                      before.ends_with("say(&DicomSlice"));
   }
   if (take_end(before, "Failure(")) return true;
   if (!take_end(before, "{")) return false;

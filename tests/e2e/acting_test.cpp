@@ -75,7 +75,7 @@ TEST_F(ActingCommands, OneShellNoLongerLooksLikeThreePeople) {
 TEST_F(ActingCommands, RolesChangeAndAccountsOpenAgain) {
   fixtures::CommandLibrary& library = library_;
   for (const char* user : {"adam --role admin", "tina --role trainee"})
-    library.done(std::string("user add ") + user);
+    library.done(std::string("user add ") + user + " --new-library");
   const std::string token = " --token-file '" + library.folder().string() + "/tina'";
   library.done("login tina" + token);
   library.done("user fact tina confidence 4 --by tina" + token);

@@ -1,6 +1,7 @@
 // Making cases at the command line: lesions, structures, label maps, checks, and the graded cases.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/answers.h"
@@ -14,7 +15,7 @@ using fixtures::run;
 
 using fixtures::kProgram;
 
-// A small body in a MetaImage: a trunk of soft tissue of 60 mm radius in air, with a plate of bone in front.
+// A small body in a MetaImage: a trunk of soft tissue of 60 mm radius in air, with a piece of bone in front.
 void write_ball(const std::filesystem::path& file, bool labels) {
   constexpr int kSize = 70;
   std::ofstream out(file, std::ios::binary);
@@ -25,12 +26,13 @@ void write_ball(const std::filesystem::path& file, bool labels) {
   for (int k = 0; k < kSize; ++k)
     for (int j = 0; j < kSize; ++j)
       for (int i = 0; i < kSize; ++i) {
-        const double x = -207.0 + 6.0 * i, y = -69.0 + 2.0 * j;
-        const bool inside = x * x / 9.0 + y * y <= 60.0 * 60.0;  // 360 mm wide: no head
+        const double x = -207.0 + 6.0 * i, y = -69.0 + 2.0 * j, z = -69.0 + 2.0 * k;
+        const bool bone = y < -45.0 && std::abs(x) < 15.0 && std::abs(z) < 30.0;  // more would be a full bladder
+        const bool inside = x * x / 9.0 + y * y <= 60.0 * 60.0;                   // 360 mm wide: no head
         const std::int16_t value = labels ? static_cast<std::int16_t>(x > 20 && x < 45 && inside ? 2 : 0)
-                                          : static_cast<std::int16_t>(!inside     ? -1000
-                                                                      : y < -45.0 ? 900
-                                                                                  : 50);
+                                          : static_cast<std::int16_t>(!inside ? -1000
+                                                                      : bone  ? 900
+                                                                              : 50);
         out.write(reinterpret_cast<const char*>(&value), 2);
       }
 }
@@ -74,6 +76,15 @@ class AuthoringCommands : public testing::Test {
   }
 };
 
+TEST_F(AuthoringCommands, TheSameCtOnceMoreIsToldAtTheImport) {
+  const auto again = call("import " + (scratch_ / "ball.mha").string() + " --title Again");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(
+      again.err.find("note: the library has this CT already, in case " + case_id_ + ", “Ball”, version 1 (draft)"),
+      std::string::npos)
+      << again.err;
+}
+
 TEST_F(AuthoringCommands, EachCheckFailsForItsReason) {
   EXPECT_EQ(failed(check(1)), "lesion_present rule_present ");
   answer("case lesion " + case_id_ + " --center-mm 0,30,0 --radius-mm 6 --hu 20 --json");
@@ -109,6 +120,22 @@ TEST_F(AuthoringCommands, PublishingNamesWhatTheCheckFound) {
   answer("case lesion " + case_id_ + " --center-mm 0,30,0 --radius-mm 6 --hu 20 --json");
   ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1'").exit_code, 0);
   EXPECT_EQ(code_of("case publish " + case_id_ + " --by nobody --own-cohort"), "no_user") << "the case is ready";
+}
+
+TEST_F(AuthoringCommands, ARuleThatNobodyCanMeetIsToldAndNotPublished) {
+  answer("case lesion " + case_id_ + " --center-mm 0,30,0 --radius-mm 6 --hu 20 --json");
+  ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1' --pass 'skin_punctures <= 0'").exit_code, 0);
+  EXPECT_EQ(failed(check(1)), "rule_possible ");
+  const auto refused = call("case publish " + case_id_ + " --by nobody --own-cohort");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("finding: rule_possible: contradictory: “Target hit: yes” (hit >= 1) and “Skin "
+                             "punctures: none” (skin_punctures <= 0) cannot both be met"),
+            std::string::npos)
+      << refused.err;
+  ASSERT_EQ(call("case setting " + case_id_ + " --pass 'advance_visible_share >= 80'").exit_code, 0);
+  EXPECT_EQ(failed(check(1)), "rule_possible ") << "a share, not per cent";
+  ASSERT_EQ(call("case setting " + case_id_ + " --pass 'hit >= 1' --pass 'skin_punctures <= 1'").exit_code, 0);
+  EXPECT_EQ(failed(check(0)), "");
 }
 
 TEST_F(AuthoringCommands, LesionsInBoneAndOutsideAreTold) {
@@ -160,6 +187,8 @@ TEST_F(AuthoringCommands, LabelMapsAreTakenResampledAndRefused) {
   constexpr std::size_t kSlice = 70UL * 70UL * 2UL;
   for (std::size_t k = 0; k < 35; ++k) coarse += text.substr(data + 2 * k * kSlice, kSlice);
   std::ofstream(scratch_ / "coarse.mha", std::ios::binary) << coarse;
+  const Json numbered = answer("case label " + case_id_ + " " + file + " --numbering totalsegmentator --json");
+  EXPECT_EQ(numbered.at("labels").at(0).at("name"), "kidney_right") << "label 2";
   const Json resampled = answer("case label " + case_id_ + " " + (scratch_ / "coarse.mha").string() + " --json");
   EXPECT_EQ(resampled.at("resampled"), true);
   const double voxels = same.at("labels")[0].at("voxels"), got = resampled.at("labels")[0].at("voxels");

@@ -95,7 +95,7 @@ TEST(Cli, BadSourcesAreRefusedAndTheLibraryStaysByteIdentical) {
     SCOPED_TRACE(source);
     const auto ran = run(kProgram + " import '" + source + "' --library " + library, scratch);
     expect_refused(ran);
-    EXPECT_EQ(ran.err.find(source), std::string::npos) << "a path may name a patient";
+    EXPECT_NE(ran.err.find("SOURCE \"" + source + "\": "), std::string::npos) << "as it was typed";
     EXPECT_EQ(fixtures::fingerprint(library), before);
     const auto fresh = run(kProgram + " import '" + source + "' --library " + library + "_new", scratch);
     EXPECT_EQ(fresh.exit_code, 3);
@@ -416,8 +416,13 @@ TEST(Cli, RefusedDemosAndUsersMakeNoLibrary) {
     EXPECT_EQ(run(demo + more + " --series 2", scratch).exit_code, 2);
     EXPECT_EQ(run(demo + more + ct + ct + " --series 2", scratch).exit_code, 2);
   }
-  expect_refused(run("echo short | " + kProgram + " user add Bob --role trainee --library " + library, scratch),
-                 "weak_password");
+  expect_refused(
+      run("echo short | " + kProgram + " user add Bob --role trainee --new-library --library " + library, scratch),
+      "weak_password");
+  // Only a command that says so makes a library.
+  expect_refused(
+      run("echo a long password | " + kProgram + " user add Bob --role trainee --library " + library, scratch),
+      "no_library");
   expect_refused(run(kProgram + " doctor --library " + library, scratch), "no_library");
   EXPECT_FALSE(std::filesystem::exists(library));
 }
@@ -437,7 +442,7 @@ TEST(Cli, UsersNeedGoodPasswordsAndUniqueNames) {
   const std::string library = (scratch / "library").string();
   const auto add = [&](const std::string& name, const std::string& role, const std::string& password) {
     return run("printf '%s\\n' '" + password + "' | " + kProgram + " user add '" + name + "' --role " + role +
-                   " --library " + library,
+                   " --new-library --library " + library,
                scratch);
   };
   EXPECT_EQ(add("Ada", "mentor", "a good long password").exit_code, 0);
@@ -453,11 +458,19 @@ TEST(Cli, UsersNeedGoodPasswordsAndUniqueNames) {
 
 TEST(Cli, DoctorSaysWhatIsHere) {
   const auto scratch = fixtures::fresh_folder("cli_doctor");
-  const auto ran = run(kProgram + " doctor --json", scratch);
-  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const std::string home =
+      "env -u SELDINGER_LIBRARY XDG_DATA_HOME='" + scratch.string() + "/home' DISPLAY= WAYLAND_DISPLAY= ";
+  const auto ran = run(home + kProgram + " doctor --json", scratch);
+  EXPECT_EQ(ran.exit_code, 1) << "without a display nobody trains";
   const Json facts = Json::parse(ran.out);
-  for (const char* fact : {"version", "gl", "devices", "real_time", "readers"})
+  for (const char* fact : {"version", "gl", "devices", "real_time", "readers", "films", "library_folder"})
     EXPECT_TRUE(facts.contains(fact)) << fact;
+  EXPECT_EQ(facts.at("display"), "none");
+  EXPECT_EQ(facts.at("can_train"), "no");
+  EXPECT_EQ(facts.at("why").at(0), "there is no display to open the window on");
+  const auto text = run(home + kProgram + " doctor", scratch);
+  EXPECT_NE(text.out.find("\ncan train: no\n  there is no display"), std::string::npos) << text.out;
+  EXPECT_FALSE(std::filesystem::exists(scratch / "home")) << "looking makes no library";
 }
 
 }  // namespace

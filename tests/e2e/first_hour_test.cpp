@@ -170,5 +170,22 @@ TEST_F(FirstHour, ThePagesCommandsRunAsTheyStand) {
   EXPECT_NE(fixtures::whole_file(scratch_ / "sheet.html").find("Training only"), std::string::npos);
 }
 
+TEST_F(FirstHour, SomebodyCanTrainAndLearnsThePasswordAtOnce) {
+  std::set<std::string> names;
+  for (const Json& one : made_.at("accounts")) names.insert(one.at("name"));
+  EXPECT_EQ(names, (std::set<std::string>{"mentor", "reviewer", "director", "trainee"}));
+  // Interrupted while the attempts are made, the accounts have been shown.
+  for (const auto& [words, last] : {std::pair{"--drills", "trainee"}, {"--no-serve", "expert"}}) {
+    const std::string library = (scratch_ / words).string(), to = " --library '" + library + "'";
+    const auto ran =
+        run(kProgram + " demo " + words + to + " > shown & pid=$!; for i in $(seq 600); do grep -q '^  " + last +
+                " ' shown && break; sleep 0.1; done; kill -KILL $pid; cat shown",
+            scratch_);
+    EXPECT_EQ(ran.out.rfind("Accounts, shown once:\n  mentor ", 0), 0U) << ran.out;
+    const auto made = run(kProgram + " attempt list --json" + to, scratch_);
+    EXPECT_LT(Json::parse(made.out).at("attempts").size(), 3U) << "it was at work when the accounts were shown";
+  }
+}
+
 }  // namespace
 }  // namespace seldinger

@@ -27,7 +27,7 @@ class GradingCommands : public testing::Test {
   }
   // A case from a real abdomen under MPR, with a rule; published.
   std::string real_case() {
-    done("user add mentor --role mentor");
+    done("user add mentor --role mentor --new-library");
     const Json made = answer("import '" + fixtures::shared_data_dir().string() +
                              "/ct-abdomen-contrast-dicom' --title Liver --no-burned-in-text --by mentor");
     const std::string id = made.at("case_id");

@@ -101,8 +101,10 @@ TEST_F(KeepTest, ACaseGoesToAnotherSite) {
   EXPECT_EQ(command("bundle check " + at("a.sdbundle")).exit_code, 0);
   EXPECT_EQ(command("bundle export --out " + at("all.sdbundle") + " --library " + library_).exit_code, 0);
   const std::string other = " --library " + at("other");
-  ASSERT_EQ(run("echo a-long-password | " + kProgram + " user add bob --role mentor" + other, scratch_).exit_code,
-            0);
+  ASSERT_EQ(
+      run("echo a-long-password | " + kProgram + " user add bob --role mentor --new-library" + other, scratch_)
+          .exit_code,
+      0);
   const auto taken = command("bundle import " + at("a.sdbundle") + " --json" + other);
   ASSERT_EQ(taken.exit_code, 0) << taken.err;
   EXPECT_EQ(Json::parse(taken.out).at("stored").at(0), case_id_);

@@ -2,6 +2,7 @@
 // is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -125,6 +126,10 @@ TEST_F(SimulateTest, SaysEverywhereThatItIsSynthetic) {
     const auto text = run(kProgram + " " + words + " --library " + library_, scratch_);
     EXPECT_NE(text.out.find("Simulated expert"), std::string::npos) << text.out;
   }
+  // On which case, and by whom.
+  const std::string listed = run(kProgram + " attempt list --library " + library_, scratch_).out;
+  EXPECT_NE(listed.find("Simulated expert, seed 3"), std::string::npos) << listed;
+  EXPECT_NE(listed.find(cases_[0].at("title").get<std::string>().substr(0, 20)), std::string::npos) << listed;
   // Nobody simulated passes for a person.
   const auto file = scratch_ / "person.json";
   std::ofstream(file) << R"({"name": "person"})";
@@ -133,6 +138,18 @@ TEST_F(SimulateTest, SaysEverywhereThatItIsSynthetic) {
           scratch_);
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("bad_operator"), std::string::npos) << refused.err;
+}
+
+TEST_F(SimulateTest, IsALineAnAttemptUnlessDetailsAreAskedFor) {
+  const std::string words = " simulate --no-pictures --seed 40 --count 2 --operator expert --case " + first_case();
+  const auto brief = run(kProgram + words + " --library " + library_, scratch_);
+  ASSERT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 3) << brief.out;
+  EXPECT_NE(brief.out.find(" of 2 passed\n"), std::string::npos) << brief.out;
+  EXPECT_EQ(brief.err, "") << "progress is for terminals";
+  const auto whole = run(kProgram + words + " --details --library " + library_, scratch_);
+  EXPECT_NE(whole.out.find("\n  time_total "), std::string::npos) << whole.out;
+  EXPECT_GT(std::count(whole.out.begin(), whole.out.end(), '\n'), 50);
 }
 
 }  // namespace

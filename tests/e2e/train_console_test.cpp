@@ -130,6 +130,10 @@ TEST_F(TrainConsoleTest, ANewAttemptsKnobsStandWhereItsConsoleDoes) {
 TEST_F(TrainConsoleTest, ThePedalMakesPulsesAndDoseInTheStoredAttempt) {
   ASSERT_NO_FATAL_FAILURE(begin("xray"));
   trainee_->prepare();
+  press("g");
+  EXPECT_TRUE(fixtures::until([&] {
+    return trainee_->shows("No needle guide here: it is mounted on an ultrasound probe.");
+  })) << now();
   trainee_->screen().hold("p", 1.5);
   press("bracketleft", 4);  // both pairs of blades to 0.8
   press("h");

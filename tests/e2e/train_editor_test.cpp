@@ -22,13 +22,7 @@ constexpr std::pair<double, double> kOutside{0.043, 0.10}, kLiver{0.244, 0.447},
 class TrainEditorTest : public testing::Test {
  protected:
   void SetUp() override {
-    const std::string demo = library_.ask("demo --no-serve")["case_id"];
-    for (const char* user : {"mona --role mentor", "tina --role trainee"})
-      library_.done(std::string("user add ") + user);
-    for (const char* words :
-         {"add Autumn --programme Radiology", "enrol Autumn --user mona --mentor", "enrol Autumn --user tina"})
-      library_.done(std::string("cohort ") + words);
-    case_id_ = library_.ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
+    case_id_ = fixtures::draft_of_course(library_);
     library_.done("case lesion " + case_id_ + " --remove " + shown()["lesions"][0]["lesion_id"].get<std::string>());
     library_.done("case setting " + case_id_ + " --title 'From the case editor' --pass 'hit >= 1'");
   }
@@ -102,6 +96,13 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   EXPECT_TRUE(attempts["running"].empty());
 
   mentor_->click("Publish to my cohort");
+  mentor_->click("Not yet (Esc)");
+  EXPECT_TRUE(mentor_->passes(1.0));
+  EXPECT_EQ(shown()["state"], "draft") << "it was asked about, and not done";
+  mentor_->click("Publish to my cohort");
+  mentor_->place_of("Publish it");
+  mentor_->keep_picture();
+  mentor_->click("Publish it");
   ASSERT_TRUE(fixtures::until([&] { return editor().value("state", "") == "published"; })) << mentor_->now();
   mentor_->keep_picture();
   EXPECT_EQ(shown()["state"], "published");
@@ -152,6 +153,7 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
   ASSERT_TRUE(becomes("review")) << mentor_->now();
   mentor_->click("Approve");
   mentor_->click("Publish");
+  mentor_->click("Publish it");
   ASSERT_TRUE(becomes("published")) << mentor_->now();
   mentor_->keep_picture();
   mentor_->click("Cases");
@@ -161,6 +163,29 @@ TEST_F(TrainEditorTest, TwoMentorsReviewADraftAndEditWhatTheyPublished) {
   ASSERT_TRUE(mentor_->reaches("editor")) << mentor_->now();
   EXPECT_TRUE(fixtures::until([&] { return editor().value("state", "") == "draft"; })) << mentor_->now();
   EXPECT_EQ(state(), "published") << "trainees keep what they have";
+
+  // A draft is deleted from the list, once that is meant; one with attempts stays, and says why.
+  mentor_->place_of("History");
+  mentor_->place_of("room");
+  mentor_->keep_picture();
+  mentor_->click("Cases");
+  ASSERT_TRUE(mentor_->reaches("choose"));
+  const auto cases = [&] { return library_.ask("case list")["cases"].size(); };
+  const std::size_t before = cases();
+  mentor_->click("Delete#3");
+  mentor_->click("Keep it (Esc)");
+  EXPECT_TRUE(mentor_->passes(1.0));
+  EXPECT_EQ(cases(), before);
+  mentor_->click("Delete#3");
+  mentor_->place_of("Delete it");
+  mentor_->keep_picture();
+  mentor_->click("Delete it");
+  EXPECT_TRUE(fixtures::until([&] { return !mentor_->shows("Delete#3"); })) << mentor_->now();
+  EXPECT_EQ(cases(), before - 1);
+  mentor_->click("Delete");  // the demo's
+  mentor_->click("Delete it");
+  EXPECT_TRUE(fixtures::until([&] { return mentor_->shows("refused"); })) << mentor_->now();
+  EXPECT_EQ(cases(), before - 1);
 }
 
 }  // namespace

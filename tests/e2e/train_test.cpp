@@ -10,11 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "casedb/cases/cases.h"
-#include "casedb/people/people.h"
-#include "sim/case/form/mesh_index.h"
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/command_library.h"
+#include "tests/fixtures/straight_way.h"
 #include "tests/fixtures/trainee.h"
 
 namespace seldinger {
@@ -23,30 +21,30 @@ namespace {
 using Json = nlohmann::json;
 using fixtures::kPassword;
 
+// Share of a part of the window for which `holds` is true of red, green, blue.
+template <typename Holds>
+double share(const fixtures::RgbPicture& picture, const fixtures::Place& part, const Holds& holds) {
+  const auto [left, top] = part.at(0.0, 0.0);
+  const auto [right, bottom] = part.at(1.0, 1.0);
+  int count = 0;
+  for (int row = top; row < bottom; ++row)
+    for (int column = left; column < right; ++column) {
+      const unsigned char* p = picture.at(column, row);
+      if (holds(p[0], p[1], p[2])) ++count;
+    }
+  return count / static_cast<double>((right - left) * (bottom - top));
+}
+
 class TrainTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     library_.emplace(fixtures::fresh_folder("train"));
-    const std::string demo = library_->ask("demo --no-serve")["case_id"];
-    for (const char* user : {"mona --role mentor", "tina --role trainee"})
-      library_->done(std::string("user add ") + user);
-    library_->done("cohort add Autumn --programme Radiology");
-    library_->done("cohort enrol Autumn --user mona --mentor");
-    library_->done("cohort enrol Autumn --user tina");
-    case_id_ = library_->ask("case version " + demo + " --by mona")["case_id"];  // the demo's has attempts
-    // The entry above the target, where straight down leads to it.
-    auto library = casedb::Library::open(library_->path());
-    ASSERT_TRUE(library.has_value());
-    const auto row = casedb::find_case(*library, case_id_);
-    const cases::MeshIndex skin(casedb::load_skin(*library, *row).value());
-    target_lps_mm_ = casedb::list_lesions(*library, case_id_).front().lesion.center_lps_mm;
-    needle_mm_ = row->instrument.length_mm;
-    const cases::Closest entry = skin.closest_skin(target_lps_mm_);
-    depth_mm_ = glm::distance(target_lps_mm_, entry.point_lps_mm);
-    char place[96];
-    std::snprintf(place, sizeof place, "%.3f,%.3f,%.3f", entry.point_lps_mm.x, entry.point_lps_mm.y,
-                  entry.point_lps_mm.z);
-    library_->done("case setting " + case_id_ + " --entry-mm " + place +
+    case_id_ = fixtures::draft_of_course(*library_);
+    const fixtures::StraightWay way = fixtures::straight_way(*library_, case_id_);
+    target_lps_mm_ = way.target_lps_mm;
+    depth_mm_ = glm::distance(way.target_lps_mm, way.entry_lps_mm);
+    needle_mm_ = library_->ask("case show " + case_id_)["instrument"]["length_mm"];
+    library_->done("case setting " + case_id_ + " --entry-mm " + way.entry() +
                    " --inr 1.1 --platelets 210 --pass 'hit >= 1' --pass 'skin_punctures <= 1'");
     library_->done("case publish " + case_id_ + " --by mona --own-cohort");
   }
@@ -58,6 +56,15 @@ class TrainTest : public testing::Test {
     ASSERT_FALSE(HasFailure());
   }
   Json now() const { return trainee_->now(); }
+  // Before "Imaging seen" is ticked there is imaging to be seen: three planes, with the target's ring on each.
+  void see_planning_ct() {
+    for (const char* plane : {"Axial", "Coronal", "Sagittal"}) {
+      const fixtures::Place place = trainee_->place_of(plane);
+      const auto seen = look();
+      EXPECT_GT(share(seen, place, [](int r, int g, int b) { return r == g && g == b && r > 60; }), 0.15) << plane;
+      EXPECT_GT(share(seen, place, [](int r, int g, int b) { return g > r + 40 && g > b + 40; }), 0.002) << plane;
+    }
+  }
   // In the debrief: what a number means is one click away, or one key.
   void ask_what_was_measured() {
     const auto shows = [&](const char* name) { return fixtures::until([&] { return trainee_->shows(name); }); };
@@ -107,20 +114,6 @@ class TrainTest : public testing::Test {
   std::unique_ptr<fixtures::Trainee> trainee_;
 };
 
-// Share of a part of the window for which `holds` is true of red, green, blue.
-template <typename Holds>
-double share(const fixtures::RgbPicture& picture, const fixtures::Place& part, const Holds& holds) {
-  const auto [left, top] = part.at(0.0, 0.0);
-  const auto [right, bottom] = part.at(1.0, 1.0);
-  int count = 0;
-  for (int row = top; row < bottom; ++row)
-    for (int column = left; column < right; ++column) {
-      const unsigned char* p = picture.at(column, row);
-      if (holds(p[0], p[1], p[2])) ++count;
-    }
-  return count / static_cast<double>((right - left) * (bottom - top));
-}
-
 bool grey(int red, int green, int blue) {
   return red == green && green == blue && red > 20;
 }
@@ -132,7 +125,7 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
   EXPECT_EQ(look().width_px, 1280);
   ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
-  look();
+  ASSERT_NO_FATAL_FAILURE(see_planning_ct());
   ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
   trainee_->prepare();
   ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
@@ -153,6 +146,8 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   ASSERT_NO_FATAL_FAILURE(trainee_->fire());
   ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
   look();
+  EXPECT_TRUE(trainee_->shows("What is missing"));
+  EXPECT_TRUE(trainee_->shows("Next: once more (Enter)")) << "the only case there is";
   ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
   ASSERT_NO_FATAL_FAILURE(ask_what_a_step_is());
   trainee_->screen().press("w");
@@ -177,6 +172,42 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   for (const char* step : {"check_probe", "note_depth", "insert", "insert_to_depth"})
     EXPECT_EQ(how[step], "shown") << step << ": " << shown["steps"];
   EXPECT_EQ(library_->ask("replay " + mine + " --verify")["verified"], true);
+}
+
+// Into skin that is not numb, and beside the target: what went wrong says so, when, and one click plays it.
+TEST_F(TrainTest, WhatWentWrongSaysWhenAndPlaysIt) {
+  ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
+  ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
+  look();
+  ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
+  trainee_->screen().press("y");
+  ASSERT_TRUE(trainee_->passes(6.0));
+  ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(12.0));
+  ASSERT_NO_FATAL_FAILURE(trainee_->fire());
+  const double fired_s = now().value("attempt_s", 0.0);
+  ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
+  look();
+  EXPECT_TRUE(trainee_->shows("What is missing"));
+  EXPECT_FALSE(trainee_->shows("Next: once more (Enter)")) << "it was not passed";
+  trainee_->click("Play Target hit");
+  ASSERT_TRUE(trainee_->reaches("watch"));
+  // It begins shortly before the trigger fell, not at the beginning.
+  ASSERT_TRUE(fixtures::until([&] { return now().value("watched_s", 0.0) > 0.0; })) << now();
+  EXPECT_GT(now().value("watched_s", 0.0), fired_s - 3.5);
+  look();
+  trainee_->screen().press("Escape");
+  ASSERT_TRUE(trainee_->reaches("debrief"));
+  trainee_->click("Play Insert the needle, through skin that is numb");
+  ASSERT_TRUE(trainee_->reaches("watch"));
+  ASSERT_TRUE(fixtures::until([&] { return now().value("watched_s", 0.0) > 0.0; })) << now();
+  trainee_->screen().press("Escape");
+  ASSERT_TRUE(trainee_->reaches("debrief"));
+  // The same by keys alone: through the sentences to the first criterion, and P.
+  for (int i = 0; i < 4; ++i) trainee_->screen().press("Down");
+  ASSERT_TRUE(fixtures::until([&] { return trainee_->shows("Definition of Target hit"); })) << now();
+  look();
+  trainee_->screen().press("p");
+  ASSERT_TRUE(trainee_->reaches("watch"));
 }
 
 TEST_F(TrainTest, WhoIsNotKnownDoesNotGetIn) {

@@ -29,16 +29,16 @@ tissue::Displacement moving() {
   return tissue::displacement_of({.presses = {&press, 1}, .needle = needle, .veins = {&vein, 1}, .breath = breath});
 }
 
-struct Scene {
+struct Cut {
   volume::Volume volume;
   Inserted inserted;
   MprView view;
 };
-Scene scene() {
-  Scene s{volume::make_volume({90, 80, 80}, glm::dvec3(1.6), glm::dmat3(1.0),
-                              kSkinLpsMm - glm::dvec3(70.0, 60.0, 60.0)),
-          {},
-          {}};
+Cut cut() {
+  Cut s{volume::make_volume({90, 80, 80}, glm::dvec3(1.6), glm::dmat3(1.0),
+                            kSkinLpsMm - glm::dvec3(70.0, 60.0, 60.0)),
+        {},
+        {}};
   // Smooth, so that rounding is small in HU.
   for (int k = 0; k < 80; ++k)
     for (int j = 0; j < 80; ++j)
@@ -67,7 +67,7 @@ int apart(const HuImage& a, const HuImage& b) {
 
 // Only where rounding decides may they differ: on the edges of lesions and needle.
 TEST(MprDisplacedOnGpu, PixelByPixelIsTheReference) {
-  const Scene s = scene();
+  const Cut s = cut();
   gpu::Context context;
   MprGpu gpu(context, s.volume, WayBack::each_pixel);
   const HuImage on_gpu = gpu.render(s.view, s.inserted, moving());
@@ -76,7 +76,7 @@ TEST(MprDisplacedOnGpu, PixelByPixelIsTheReference) {
 }
 
 TEST(MprDisplacedOnGpu, ByTheGridIsTheCpu) {
-  const Scene s = scene();
+  const Cut s = cut();
   gpu::Context context;
   MprGpu gpu(context, s.volume, WayBack::grid);
   const HuImage on_gpu = gpu.render(s.view, s.inserted, moving());
@@ -85,7 +85,7 @@ TEST(MprDisplacedOnGpu, ByTheGridIsTheCpu) {
 }
 
 TEST(MprDisplacedOnGpu, OfAStillPatientIsTheSamePicture) {
-  const Scene s = scene();
+  const Cut s = cut();
   gpu::Context context;
   MprGpu still(context, s.volume), moves(context, s.volume, way_back_for(context));
   const HuImage expected = still.render(s.view, s.inserted);

@@ -3,23 +3,12 @@
 #include <limits>
 
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/gpu_cpu/ultrasound_pair.h"
 #include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
 
 namespace seldinger::imaging {
 namespace {
-
-// Fat and muscle over liver, a cyst and a piece of bone in it.
-Scene layers() {
-  return scene(
-      [](const glm::dvec3& p) {
-        if (p.y < 8.0) return TissueClass::fat;
-        if (p.y < 15.0 + 0.2 * p.x) return TissueClass::muscle;
-        if (glm::length(p - glm::dvec3(6.0, 32.0, 1.0)) < 7.0) return TissueClass::fluid;
-        return glm::length(p - glm::dvec3(-9.0, 36.0, 1.0)) < 5.0 ? TissueClass::bone : TissueClass::liver;
-      },
-      {110, 130, 40}, 1.5);
-}
 
 // A slanted probe, so that no beam runs along the faces of voxels.
 UltrasoundView slanted(UltrasoundView view) {

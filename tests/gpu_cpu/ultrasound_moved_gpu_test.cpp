@@ -8,18 +8,6 @@
 namespace seldinger::imaging {
 namespace {
 
-// Fat and muscle over liver, a cyst and a piece of bone in it.
-Scene layers() {
-  return scene(
-      [](const glm::dvec3& p) {
-        if (p.y < 8.0) return TissueClass::fat;
-        if (p.y < 15.0 + 0.2 * p.x) return TissueClass::muscle;
-        if (glm::length(p - glm::dvec3(6.0, 32.0, 1.0)) < 7.0) return TissueClass::fluid;
-        return glm::length(p - glm::dvec3(-9.0, 36.0, 1.0)) < 5.0 ? TissueClass::bone : TissueClass::liver;
-      },
-      {110, 130, 40}, 1.5);
-}
-
 // A needle dragged; and that under a press, in a breath.
 std::vector<tissue::Displacement> displacements() {
   const std::array<tissue::SkinPress, 1> press{
@@ -36,7 +24,7 @@ std::vector<tissue::Displacement> displacements() {
           tissue::displacement_of({.presses = press, .needle = needle, .breath = breath})};
 }
 
-std::vector<UltrasoundView> views() {
+std::vector<UltrasoundView> moved_views() {
   std::vector<UltrasoundView> all;
   for (UltrasoundView view : {curved_view(110.0), straight_view(45.0)})
     for (const UltrasoundMethod method : {UltrasoundMethod::scatterers, UltrasoundMethod::lattice})
@@ -63,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(LinesBy, UltrasoundMovedOnGpu, testing::Values(LinesBy:
 TEST_P(UltrasoundMovedOnGpu, IsTheCpu) {
   const Scene s = layers();
   UltrasoundGpu gpu(context_, s.tissue(), GetParam(), TissueMoves::yes);
-  for (const UltrasoundView& view : views()) {
+  for (const UltrasoundView& view : moved_views()) {
     Inserted inserted;
     inserted.needle = NeedlePose{.tip_lps_mm = view.origin_lps_mm + 22.0 * view.axial,
                                  .direction = glm::normalize(view.lateral + 0.4 * view.axial)};
@@ -82,7 +70,7 @@ TEST_P(UltrasoundMovedOnGpu, AProbeOfAnyTiltFindsTheColumns) {
   UltrasoundGpu gpu(context_, s.tissue(), GetParam(), TissueMoves::yes);
   const tissue::Displacement displacement = displacements().back();
   for (const glm::dvec3& turn : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0.1, 0.4), glm::dvec3(-0.7, 0.2, -0.75)}) {
-    UltrasoundView view = views().front();
+    UltrasoundView view = moved_views().front();
     view.lateral = glm::normalize(glm::cross(view.axial, turn));
     EXPECT_TRUE(alike(screen_pair(gpu, s.tissue(), view, {}, {}, {}, {400, 350}, displacement))) << turn.x;
   }
@@ -92,7 +80,7 @@ TEST_P(UltrasoundMovedOnGpu, WhoLiesStillHasTheSameBits) {
   const Scene s = layers();
   UltrasoundGpu still(context_, s.tissue(), GetParam()),
       may_move(context_, s.tissue(), GetParam(), TissueMoves::yes);
-  for (const UltrasoundView& view : views()) {
+  for (const UltrasoundView& view : moved_views()) {
     PolarPicture a, b, moved;
     still.polar(view, {}, {}, a);
     may_move.polar(view, {}, {}, moved, displacements().back());

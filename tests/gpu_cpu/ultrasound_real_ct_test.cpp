@@ -8,6 +8,7 @@
 #include "sim/base/rng.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/volume/classes.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/shared_data.h"
 #include "tests/gpu_cpu/ultrasound_pair.h"

@@ -13,7 +13,7 @@
 namespace seldinger::imaging {
 namespace {
 
-constexpr ProjectionMethod kMethods[] = {ProjectionMethod::exact, ProjectionMethod::slab};
+constexpr ProjectionMethod kExactOrSlab[] = {ProjectionMethod::exact, ProjectionMethod::slab};
 
 class XrayHardCases : public testing::Test {
  protected:
@@ -39,7 +39,7 @@ class XrayHardCases : public testing::Test {
   void expect_reference(const volume::Volume& volume, const XrayGeometry& geometry) {
     ASSERT_TRUE(check_geometry(geometry).has_value());
     XrayGpu gpu(context_, volume);
-    for (const ProjectionMethod method : kMethods)
+    for (const ProjectionMethod method : kExactOrSlab)
       EXPECT_TRUE(is_the_reference(gpu.project(geometry, method), volume, geometry, method))
           << static_cast<int>(method);
   }
@@ -200,7 +200,7 @@ TEST_F(XrayHardCases, FirstAndLastVoxelAndOuterHalves) {
         noise_volume({1, 1, 1}, {2.0, 3.0, 0.5}, random_rotation(rng), glm::dvec3(40.0, 0.0, -7.0), 94), 1500);
     XrayGpu gpu(context_, volume);
     const XrayGeometry geometry = random_rays(rng, glm::dvec3(40.0, 0.0, -7.0), 20.0, 0.2, 90, 90, trial % 2 == 1);
-    for (const ProjectionMethod method : kMethods) {
+    for (const ProjectionMethod method : kExactOrSlab) {
       const PathLengths picture = gpu.project(geometry, method);
       double most_mm = 0.0;
       for (int row = 0; row < 90; ++row)
@@ -291,7 +291,7 @@ TEST_F(XrayHardCases, LongRays) {
     glm::dvec3 from(0.3), to(4.7);
     from[axis] = -1e3;
     to[axis] = 4e3;
-    for (const ProjectionMethod method : kMethods) {
+    for (const ProjectionMethod method : kExactOrSlab) {
       const double chord = chord_mm(water, {from, to});
       EXPECT_NEAR(through(gpu_water, from, to, method), chord, 1e-5 * chord);
       const double expected_mm = lengths_between(volume, from, to, method).total_mm();

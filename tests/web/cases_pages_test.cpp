@@ -12,7 +12,6 @@ using casedb::Role;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr auto& kRoles = casedb::kAllRoles;
 using casedb::Relation;
 
 TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
@@ -38,7 +37,7 @@ TEST(Cases, APageNamesWhatItHoldsAndEscapesIt) {
 // Before, a researcher read titles, indication, allergy, notes and µs.
 TEST(Cases, AResearcherReadsNoFreeTextAndNoTimeOfDay) {
   constexpr std::int64_t kStartedUs = 1'772'373'909'123'456;  // 2026-03-01 14:05:09
-  for (const Role role : kRoles) {
+  for (const Role role : casedb::kAllRoles) {
     if (role == Role::trainee) continue;  // sees no case, and no others' attempts
     const bool all = role != Role::researcher;
     FakeSite fake;

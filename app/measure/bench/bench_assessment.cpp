@@ -17,6 +17,7 @@
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::measure {
 namespace {

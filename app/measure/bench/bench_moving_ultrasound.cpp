@@ -14,6 +14,7 @@
 #include "sim/imaging/ultrasound/view/motion.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::measure {
 namespace {

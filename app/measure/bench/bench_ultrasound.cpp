@@ -17,6 +17,7 @@
 #include "sim/imaging/ultrasound/view/echogenicity.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::measure {
 namespace {

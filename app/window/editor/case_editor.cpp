@@ -37,6 +37,16 @@ std::optional<glm::dvec3> skin_under(const cases::Case& scene, const glm::dvec3&
   return std::nullopt;
 }
 
+glm::dvec3 first_look(const cases::Case& scene, const std::vector<casedb::LesionRow>& lesions,
+                      const glm::dvec3& up) {
+  constexpr double kAboveMm = 1000.0;  // higher than any patient
+  if (scene.planned_entry_lps_mm) return *scene.planned_entry_lps_mm;
+  if (!lesions.empty()) return scene.skin_index.closest_skin(lesions.front().lesion.center_lps_mm).point_lps_mm;
+  const glm::dvec3 middle(scene.volume.lps_from_voxel *
+                          glm::dvec4(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0));
+  return scene.skin_index.closest_skin(middle + kAboveMm * up).point_lps_mm;
+}
+
 CaseEditor::CaseEditor(casedb::Library& library, const std::string& case_id, std::string mentor)
     : library_(library), case_id_(case_id), mentor_(std::move(mentor)), draft_case_(library.folder(), case_id) {
   new_lesion.radii_mm = glm::dvec3(8.0);
@@ -63,6 +73,11 @@ void CaseEditor::read() {
   locked_ = changeable ? "" : changeable.error().text;
   lesion = std::min(lesion, lesions_.size());
   structure = std::min(structure, structures_.size());
+}
+
+std::string CaseEditor::who(const casedb::Decision& decision) const {
+  const auto& self = library_.actor().person_id;
+  return self && *self == decision.person_id ? "you" : decision.who();
 }
 
 bool CaseEditor::done(const base::Result<void>& result, std::string words,

@@ -31,6 +31,11 @@ struct EditorSpot {
 std::optional<glm::dvec3> skin_under(const cases::Case& scene, const glm::dvec3& eye_lps_mm, const glm::dvec3& ray,
                                      const std::optional<imaging::CutPlane>& cut);
 
+// A place on the skin that a room looks at before anybody has turned it: the planned entry, else nearest to the
+// first lesion, else the patient's middle seen from above.
+glm::dvec3 first_look(const cases::Case& scene, const std::vector<casedb::LesionRow>& lesions,
+                      const glm::dvec3& up);
+
 class CaseEditor {
  public:
   // `library` must outlive it. `mentor`: the account's name.
@@ -40,6 +45,8 @@ class CaseEditor {
   const std::vector<casedb::LesionRow>& lesions() const noexcept { return lesions_; }
   const std::vector<casedb::StructureRow>& structures() const noexcept { return structures_; }
   const std::vector<casedb::Decision>& decisions() const noexcept { return decisions_; }
+  // "you", or the pseudonym: a colleague's name is not for a colleague to read (casedb/cases/permissions.h).
+  std::string who(const casedb::Decision& decision) const;
   // Why nothing can be changed; empty: it can.
   const std::string& locked() const noexcept { return locked_; }
   // The last thing that was refused, in words for the screen; empty: the last was not.

@@ -32,6 +32,13 @@ std::vector<double> depth_marks_mm(const session::ShownPicture& shown) {
   return marks;
 }
 
+int numbered_every(double px_per_cm) {
+  constexpr double kApartPx = 18.0;
+  for (const int every : {1, 2})
+    if (every * px_per_cm >= kApartPx) return every;
+  return 5;
+}
+
 Canvas console_picture(const session::ShownPicture& shown, bool flip, const Calipers& calipers,
                        const std::vector<std::string>& words) {
   CHECK(shown.picture.width_px > 0);
@@ -48,10 +55,10 @@ Canvas console_picture(const session::ShownPicture& shown, bool flip, const Cali
     return glm::dvec2(at.left, at.top) + zoom * (pixel_of(shown, flip, at_mm) + 0.5);
   };
   if (scaled) {
-    const int right = at.left + at.width;
+    const int right = at.left + at.width, every = numbered_every(10.0 * zoom / shown.pixel_mm);
     for (const double mm : depth_marks_mm(shown)) {
       const double y = place({0.0, mm}).y;
-      const bool is_long = std::lround(mm) % 50 == 0;
+      const bool is_long = std::lround(mm) % (10 * every) == 0;
       canvas.line({right + 4.0, y}, {right + (is_long ? 16.0 : 10.0), y}, 1.5, kInk);
       if (is_long && mm > 0.0)
         canvas.text(right + 20, static_cast<int>(y) - 7, kTextScale, std::to_string(std::lround(0.1 * mm)), kInk);

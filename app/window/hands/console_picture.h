@@ -19,6 +19,9 @@ glm::dvec2 pixel_of(const session::ShownPicture& shown, bool flip, const glm::dv
 // Depths to be marked, mm, one a centimetre, from the face down to the lower edge of the picture.
 std::vector<double> depth_marks_mm(const session::ShownPicture& shown);
 
+// Every how many of these marks has its number beside it, so that numbers stay apart; the others are short.
+int numbered_every(double px_per_cm);
+
 // `words`: ASCII, a line each, below the picture. The picture must have pixels (CHECKed).
 Canvas console_picture(const session::ShownPicture& shown, bool flip, const Calipers& calipers,
                        const std::vector<std::string>& words);

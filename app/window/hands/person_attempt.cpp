@@ -88,7 +88,8 @@ void PersonAttempt::take_up_tools(bool left_handed) {
                                                         scene.skin_index.normal(near.triangle), near.triangle);
   devices::HandsStart start = devices::start_over(scene.skin_index, near.point_lps_mm, aim_lps_mm,
                                                   scene.approach == cases::Approach::in_plane, left_handed);
-  if (!session::guidance_kind(scene.picture.modality).probe_guides) start.probe = plan.probe;  // laid aside
+  settings.has_guide = session::guidance_kind(scene.picture.modality).probe_guides;  // its guide is on the probe
+  if (!settings.has_guide) start.probe = plan.probe;                                 // laid aside
   hands_.emplace(scene, start, settings, left_handed ? haptics::Handedness::left : haptics::Handedness::right,
                  wanted_.arms ? &*wanted_.arms : nullptr);
   monitor_ = std::make_unique<session::Monitor>(task_->scene, 0, wanted_.by);
@@ -111,6 +112,8 @@ base::Result<session::LiveAttempt> PersonAttempt::live(casedb::Library& library)
     return base::Error{"other_case", "the interrupted attempt was made at another task than this"};
   if (const auto replayed = interrupted->replay(task_->scene); !replayed) return replayed.error();
   take_up_tools(left_handed_);
+  for (const cases::Inputs& inputs : interrupted->recording().inputs)
+    if (inputs.event != cases::EventKind::none) said_before_.push_back(inputs.event);
   const cases::Inputs& left = interrupted->recording().inputs.back();
   hands_->take_over(left, interrupted->now().state);
   fluoroscope_ = left.fluoroscope;
@@ -142,7 +145,8 @@ casedb::Conditions PersonAttempt::conditions() {
 }
 
 // By the servo.
-cases::Inputs PersonAttempt::hands(const cases::State& state) {
+cases::Inputs PersonAttempt::hands(const cases::State& state, const cases::FrameTruth* frame) {
+  if (frame != nullptr) frame_ = *frame;
   if (const auto told = told_.take()) {
     if (devices::way_of(devices::since(told_sum_, told->sum)) > 0.0)
       led_by_[hands_->mouse().held() == devices::HeldTool::needle ? 0 : 1] = told->by;
@@ -215,14 +219,18 @@ void PersonAttempt::watch(engine::Moment moment) {
   seen.frozen = hands_->frozen();
   seen.guided = mouse.guided();
   seen.in_guide = mouse.in_guide();
+  seen.guide = mouse.guide_on_probe();
+  seen.guides_asked = mouse.guides_asked();
   seen.returning = mouse.returning();
   // What an arm led is where it is; mouse and keys know what they asked for.
   const bool by_mouse = hands_->mouse_leads(haptics::Tool::needle);
   seen.inserted_mm = by_mouse ? mouse.inserted_mm() : moment.state.needle.inserted_mm;
   seen.inserted = by_mouse ? mouse.needle_inserted() : seen.inserted_mm > 0.0;
+  seen.needle_by_mouse = by_mouse;
   seen.press_mm = hands_->press_mm(moment.state);
   seen.by_mouse =
       hands_->mouse_leads(seen.held == devices::HeldTool::needle ? haptics::Tool::needle : haptics::Tool::probe);
+  seen.frame = frame_;
   seen.arms = hands_->arms();
   seen.hand_to_force_s = hand_to_force_s_;
   seen_.put(seen);
@@ -253,21 +261,21 @@ void PersonAttempt::run() {
     }
     auto attempt = live(*library);
     if (!attempt) return refuse(attempt.error());
-    const auto stored =
-        attempt->run({.hands = [this](const cases::State& state, const cases::FrameTruth*) { return hands(state); },
-                      .read = [this] { return hands_->read(); },
-                      .note = [this](const cases::State& state) { return note(state); },
-                      .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
-                      .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
-                      .paused =
-                          [this] {
-                            if (!paused_.load()) return false;
-                            hands_->let_go();
-                            return true;
-                          },
-                      .watch = [this](const engine::Moment& moment) { watch(moment); },
-                      .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); },
-                      .conditions = [this] { return conditions(); }});
+    const auto stored = attempt->run(
+        {.hands = [this](const cases::State& state, const cases::FrameTruth* frame) { return hands(state, frame); },
+         .read = [this] { return hands_->read(); },
+         .note = [this](const cases::State& state) { return note(state); },
+         .feel = [this](const engine::Tick& tick, const engine::TickState& now) { feel(tick, now); },
+         .done = [this] { return ending_.load() && said_count_.load() == heard_count_.load(); },
+         .paused =
+             [this] {
+               if (!paused_.load()) return false;
+               hands_->let_go();
+               return true;
+             },
+         .watch = [this](const engine::Moment& moment) { watch(moment); },
+         .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); },
+         .conditions = [this] { return conditions(); }});
     hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());
     stored_ = *stored;

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "app/window/hands/desk_hands.h"
 #include "session/attempt/live_attempt.h"
@@ -41,9 +42,13 @@ struct Seen {
   engine::Moment moment;
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
-  double inserted_mm = 0.0, press_mm = 0.0;  // press: of the probe's face below the skin
+  double inserted_mm = 0.0, press_mm = 0.0;    // press: of the probe's face below the skin
+  std::optional<devices::ProbeGuide> guide{};  // on the probe, taken up (devices::Hands)
+  std::uint32_t guides_asked = 0;
+  bool needle_by_mouse = true;               // as by_mouse, whichever tool is held
   bool by_mouse = true;                      // the held tool is where mouse and keys led it last, not an arm
   double hand_to_force_s = 0.0;              // from a telling to the tick that took it in
+  std::optional<cases::FrameTruth> frame{};  // what the newest picture shows, as it is recorded; none yet
   ArmsHeld arms{};
 };
 
@@ -86,6 +91,8 @@ class PersonAttempt {
   // Into the next tick in which nothing else is said, with a length or (0) without; false: too much was said at
   // once, and this is not.
   bool say(cases::EventKind kind, double length_mm = 0.0) noexcept;
+  // From `running` on: what was said before, of an attempt that is gone on with; in its order.
+  const std::vector<cases::EventKind>& said_before() const noexcept { return said_before_; }
   // No time goes by, and hands are still.
   void pause(bool paused) noexcept { paused_ = paused; }
   bool paused() const noexcept { return paused_; }
@@ -112,7 +119,7 @@ class PersonAttempt {
   void run();
   void take_up_tools(bool left_handed);
   base::Result<session::LiveAttempt> live(casedb::Library& library);
-  cases::Inputs hands(const cases::State& state);
+  cases::Inputs hands(const cases::State& state, const cases::FrameTruth* frame);
   cases::EventKind note(const cases::State& state);
   std::optional<cases::HandKind> hand_of(haptics::Tool tool, const cases::State& state) const;
   casedb::Conditions conditions();
@@ -133,6 +140,7 @@ class PersonAttempt {
   devices::EvenIntent even_;
   devices::AxialForces forces_;
   double told_s_ = 0.0, hand_to_force_s_ = 0.0;
+  std::optional<cases::FrameTruth> frame_;
   devices::HandIntent told_sum_;
   // What leads needle and probe where no arm does; what the recorder has noted last.
   std::array<cases::HandKind, 2> led_by_{cases::HandKind::mouse, cases::HandKind::mouse};
@@ -156,6 +164,7 @@ class PersonAttempt {
   std::condition_variable begun_;
   bool begin_ = false, gone_ = false;
   std::optional<std::string> resumed_;  // the attempt that is gone on with
+  std::vector<cases::EventKind> said_before_;
   bool left_handed_ = false;
   std::thread thread_;  // last: it uses the rest
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <thread>
 
+#include "app/window/hands/act_words.h"
 #include "app/window/hands/frame_plan.h"
 #include "app/window/screens/panel_device_traces.h"
 #include "app/window/screens/panels.h"
@@ -19,36 +20,11 @@ namespace {
 
 using cases::EventKind;
 
-// What can be said, in the order in which it is: a button each, and a key.
-struct Saying {
-  int key;
-  const char* label;
-  EventKind kind;
-};
-constexpr std::array<Saying, 7> kSayings = {{
-    {kF1, "F1  Probe checked", EventKind::probe_checked},
-    {kF1 + 1, "F2  Entry and depth noted", EventKind::note_plan},
-    {kF1 + 2, "F3  Aspirate", EventKind::aspirate},
-    {kF1 + 3, "F4  Anaesthetic", EventKind::anaesthetic},
-    {kF1 + 5, "F6  Nick the skin", EventKind::nick},
-    {kF1 + 6, "F7  Hold your breath", EventKind::breath_hold_request},
-    {kF1 + 7, "F8  Breathe again", EventKind::breathe_again},
-}};
-
-bool asked_for(const Saying& saying, const cases::Case& scene) {
-  if (saying.kind == EventKind::probe_checked) return scene.picture.modality == cases::Modality::ultrasound;
-  if (saying.kind == EventKind::note_plan) return true;
-  if (scene.subject == cases::Subject::phantom) return false;
-  if (saying.kind == EventKind::nick) return scene.instrument.kind == cases::InstrumentKind::core;
-  return true;
-}
-
 // The meters' full scale (design): a needle that is stopped by capsule or skin, a probe that is pressed hard.
 constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
 
 // What came at once, a notch or what a slow frame kept, is given out as by a window of 60 frames a second.
 constexpr double kLeastBetweenS = 1.0 / 60.0;
-constexpr float kPlannedPx = 190.0F;   // wide: the slider of the planned depth
 constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
 constexpr double kLookAgainS = 0.0005;
 constexpr double kLagOver = 0.9;  // of a lag that is shown, what was before counts so much
@@ -93,44 +69,8 @@ void AttemptPanel::set_up(Trainer& trainer) {
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
   watch_.begin(scene.picture.modality);
-  decided_ = scene.subject == cases::Subject::phantom;  // nobody is asked
+  acts_.begin(*trainer.attempt());
   fired_ = leaving_ = false;
-  said_.clear();
-  planned_mm_ = 0.0;
-}
-
-void AttemptPanel::say(PersonAttempt& attempt, EventKind kind, const char* words) {
-  const bool plan = kind == EventKind::note_plan;
-  if (!attempt.say(kind, plan ? planned_mm_ : 0.0)) return;
-  said_ = words;
-  if (plan && planned_mm_ > 0.0) said_ += ", " + std::to_string(std::lround(planned_mm_)) + " mm";
-}
-
-// What calipers measured is recorded as it is, and is what the needle is planned for until that is set otherwise.
-void AttemptPanel::note_measured(PersonAttempt& attempt) {
-  const auto depth_mm = monitor_.take_depth_mm();
-  if (!depth_mm || !attempt.say(EventKind::depth_measured, *depth_mm)) return;
-  planned_mm_ = std::round(*depth_mm);
-  said_ = "Depth " + std::to_string(std::lround(*depth_mm)) + " mm";
-}
-
-void AttemptPanel::draw_planned_depth(const cases::Case& scene) {
-  auto planned_mm = static_cast<float>(planned_mm_);
-  ImGui::SetNextItemWidth(kPlannedPx);
-  if (ImGui::SliderFloat("##planned", &planned_mm, 0.0F, static_cast<float>(scene.instrument.length_mm),
-                         planned_mm_ > 0.0 ? "needle in by %.0f mm" : "needle in by: not set",
-                         ImGuiSliderFlags_AlwaysClamp))
-    planned_mm_ = std::round(static_cast<double>(planned_mm));
-  note_item("planned depth");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "how far you plan to insert the needle, by its marks; F2 notes it (calipers from the skin down to "
-        "the target set it)");
-}
-
-void AttemptPanel::finish(PersonAttempt& attempt) {
-  if (attempt.task()->scene.subject == cases::Subject::patient) attempt.say(EventKind::sign_out);
-  attempt.end();
 }
 
 void AttemptPanel::keep_picture() {
@@ -140,19 +80,7 @@ void AttemptPanel::keep_picture() {
 
 void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
   PersonAttempt& attempt = *trainer.attempt();
-  const cases::Case& scene = attempt.task()->scene;
-  if (!decided_ && keys.pressed('Y')) {
-    decided_ = true;
-    say(attempt, EventKind::proceed, "Proceed");
-  } else if (!decided_ && keys.pressed('N')) {
-    decided_ = true;
-    say(attempt, EventKind::defer, "Defer");
-    finish(attempt);
-  }
-  if (decided_)
-    for (const Saying& saying : kSayings)
-      if (asked_for(saying, scene) && keys.pressed(saying.key)) say(attempt, saying.kind, saying.label + 4);
-  if (keys.pressed(kF9)) finish(attempt);
+  acts_.read_keys(attempt, seen_, flipped(), keys);
   if (keys.pressed(kEscape)) {
     leaving_ = !leaving_;
     attempt.pause(leaving_);
@@ -184,56 +112,11 @@ void AttemptPanel::draw_reaction() {
   if (info == nullptr) return;
   const std::string words = std::string("Patient: ") + info->words;
   const ImVec2 corner = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words.c_str());
-  const ImVec2 at{corner.x + 0.5F * (ImGui::GetWindowSize().x - size.x), corner.y + 14.0F};
+  const ImVec2 at{corner.x + 20.0F, corner.y + 14.0F};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({at.x - 12.0F, at.y - 6.0F}, {at.x + size.x + 12.0F, at.y + size.y + 6.0F},
                       IM_COL32(120, 40, 30, 220), 6.0F);
   draw->AddText(at, IM_COL32(255, 240, 230, 255), words.c_str());
-}
-
-void AttemptPanel::draw_steps(Trainer& trainer) {
-  PersonAttempt& attempt = *trainer.attempt();
-  const cases::Case& scene = attempt.task()->scene;
-  if (!decided_) {
-    ImGui::TextWrapped("You have signed in. Proceed with this puncture, or defer it?");
-    if (ImGui::Button("Proceed (Y)")) {
-      decided_ = true;
-      say(attempt, EventKind::proceed, "Proceed");
-    }
-    ImGui::SameLine();
-    if (ImGui::Button("Defer (N)")) {
-      decided_ = true;
-      say(attempt, EventKind::defer, "Defer");
-      finish(attempt);
-    }
-    return;
-  }
-  const float room = ImGui::GetContentRegionAvail().x;
-  float used = 0.0F;
-  for (const Saying& saying : kSayings) {
-    if (!asked_for(saying, scene)) continue;
-    const bool plan = saying.kind == EventKind::note_plan && scene.picture.modality != cases::Modality::xray;
-    const float wide = ImGui::CalcTextSize(saying.label).x + 24.0F + (plan ? kPlannedPx + 8.0F : 0.0F);
-    if (used > 0.0F && used + wide < room) ImGui::SameLine();
-    if (used + wide >= room) used = 0.0F;
-    used += wide;
-    if (plan) {
-      draw_planned_depth(scene);
-      ImGui::SameLine();
-    }
-    if (ImGui::Button(saying.label)) say(attempt, saying.kind, saying.label + 4);
-  }
-  const bool patient = scene.subject == cases::Subject::patient;
-  if (patient && trainer.may(casedb::Action::cause_event))
-    for (const cases::EventInfo& event : cases::event_kinds()) {
-      if (event.source != cases::EventSource::mentor) continue;
-      if (ImGui::Button(event.words)) say(attempt, event.kind, event.words);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
-      ImGui::SameLine();
-    }
-  if (ImGui::Button(patient ? "F9  Sign out and finish" : "F9  Finish")) finish(attempt);
-  ImGui::SameLine();
-  ImGui::TextDisabled("%s", said_.empty() ? "" : ("“" + said_ + "”").c_str());
 }
 
 void AttemptPanel::tell(TraceLine& line) {
@@ -333,6 +216,23 @@ void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
   ImGui::End();
 }
 
+// A thrown tip is deeper than the hand has pushed, and comes out last.
+void AttemptPanel::draw_depth(const cases::Instrument& instrument) {
+  const cases::State& state = seen_.moment.state;
+  const bool fired = state.fire.fired, in = fired ? state.needle.skin.in_body : seen_.inserted;
+  char depth[64];
+  std::snprintf(depth, sizeof depth, "%.0f mm of the needle are in",
+                fired ? state.needle.inserted_mm : seen_.inserted_mm);
+  const std::string words =
+      (fired ? fire_words(instrument) + "; " : std::string()) + (in ? depth : "the needle is outside");
+  if (seen_.by_mouse || by_led_arms_) {  // beside what is in the hand, where there is room
+    ImGui::SameLine();
+    if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(("· " + words).c_str()).x) ImGui::NewLine();
+  }
+  ImGui::Text("· %s", words.c_str());
+  note_item(words.c_str());
+}
+
 void AttemptPanel::draw_hands(const session::Task& task) {
   if (seen_.arms.used) draw_arms();
   const engine::Moment& moment = seen_.moment;
@@ -340,14 +240,8 @@ void AttemptPanel::draw_hands(const session::Task& task) {
   // An arm's tool is in the hand at the arm.
   if (seen_.by_mouse || by_led_arms_) {
     ImGui::Text("In the hand: %s%s (Tab)", needle ? "needle" : "probe", seen_.guided ? ", in the guide" : "");
-    ImGui::SameLine();
   }
-  if (seen_.inserted)
-    ImGui::Text("· %.0f mm of the needle are in", seen_.inserted_mm);
-  else if (moment.state.fire.fired)
-    ImGui::TextUnformatted("· fired");
-  else
-    ImGui::TextUnformatted("· the needle is outside");
+  draw_depth(task.scene.instrument);
   if (moment.force) {
     meter("needle", moment.force->needle_axial_n, kMostNeedleN);
     if (task.scene.picture.modality != cases::Modality::xray) meter("probe", moment.force->probe_n, kMostProbeN);
@@ -412,12 +306,33 @@ void AttemptPanel::draw_rates() {
   char words[96];
   std::snprintf(words, sizeof words, "%.0f /s   behind the hand: room %.0f ms, picture %.0f ms", frames_s_,
                 1e3 * room_lag_s_, 1e3 * picture_lag_s_);
-  const ImVec2 window = ImGui::GetWindowPos(), corner{window.x + 8.0F, window.y + 6.0F};
-  const ImVec2 size = ImGui::CalcTextSize(words);
+  if (ImGui::CalcTextSize(words).x > ImGui::GetWindowSize().x - 16.0F)
+    std::snprintf(words, sizeof words, "%.0f /s   room %.0f, picture %.0f ms behind", frames_s_, 1e3 * room_lag_s_,
+                  1e3 * picture_lag_s_);
+  const ImVec2 window = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words);
+  const ImVec2 corner{window.x + 8.0F, window.y + ImGui::GetWindowSize().y - size.y - 6.0F};
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({corner.x - 4.0F, corner.y - 2.0F}, {corner.x + size.x + 4.0F, corner.y + size.y + 2.0F},
                       IM_COL32(236, 240, 243, 190), 3.0F);  // the room may be dark there
   draw->AddText(corner, IM_COL32(40, 50, 60, 255), words);
+}
+
+void AttemptPanel::draw_pause(Trainer& trainer) {
+  PersonAttempt& attempt = *trainer.attempt();
+  ImGui::OpenPopup("Paused");
+  if (!ImGui::BeginPopupModal("Paused", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::TextUnformatted("No time goes by, and the hands are still.");
+  if (ImGui::Button("Go on (Esc)", {-1.0F, 0.0F})) {
+    leaving_ = false;
+    attempt.pause(false);
+    ImGui::CloseCurrentPopup();
+  }
+  const bool again = ImGui::Button("Begin again (F5)", {-1.0F, 0.0F});
+  const bool stop = ImGui::Button("Stop; what was done is kept", {-1.0F, 0.0F});
+  if (again || stop) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  if (stop) attempt.end();
+  if (again) trainer.again();
 }
 
 void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other) {
@@ -437,8 +352,12 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   begin_screen("attempt");
   draw_top(trainer);
   const ImVec2 all = ImGui::GetContentRegionAvail();
-  const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
-  begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
+  const ImVec2 corner = ImGui::GetCursorPos();
+  const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), left = all.x - right - 8.0F,
+              below = right < 480.0F ? 172.0F : 150.0F;  // what the hands hold takes two lines there
+  if (all.x != steps_for_px_) steps_px_ = below;
+  steps_for_px_ = all.x;
+  begin_picture("room", left, all.y - steps_px_ - 8.0F);
   room_.place(task.scene, seen_, keys, elapsed_s);
   read_hands(attempt, keys, pointer, ImGui::GetIO().MouseWheel, other);
   if (running && !attempt.paused()) see_told(attempt);
@@ -447,20 +366,26 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   room_.draw(task.scene, seen_, trainer.help());
   draw_reaction();
   draw_rates();
+  room_.draw_views();
   ImGui::EndChild();
-  ImGui::SameLine();
+  ImGui::SetCursorPos({corner.x + left + 8.0F, corner.y});
   begin_picture("guidance", 0.0F, all.y - below - 8.0F);
-  monitor_.draw(attempt.monitor(), seen_.moment.state, seen_.frozen, keys, &told_);
-  if (running) note_measured(attempt);
+  monitor_.draw(attempt.monitor(), seen_, trainer.help() > 0, keys, &told_);
+  if (const auto depth_mm = monitor_.take_depth_mm(); depth_mm && running)
+    acts_.note_measured(attempt, seen_, *depth_mm);
   ImGui::EndChild();
   constexpr ImGuiWindowFlags kChild = ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav;
-  ImGui::BeginChild("steps", {all.x - right - 8.0F, 0.0F}, false, kChild);
+  ImGui::SetCursorPos({corner.x, corner.y + all.y - steps_px_});
+  ImGui::BeginChild("steps", {left, steps_px_}, false, kChild);
   if (running)
-    draw_steps(trainer);
+    acts_.draw(trainer, seen_, flipped());
   else
     ImGui::TextUnformatted("The attempt is being stored and graded …");
+  // The room gives way until every button is there; not back again, for it would leap with each answer.
+  steps_px_ = std::clamp(ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y, steps_px_,
+                         std::max(steps_px_, 0.5F * all.y));
   ImGui::EndChild();
-  ImGui::SameLine();
+  ImGui::SetCursorPos({corner.x + left + 8.0F, corner.y + all.y - below});
   ImGui::BeginChild("hands", {0.0F, 0.0F}, false, kChild);
   draw_hands(task);
   ImGui::EndChild();
@@ -477,21 +402,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
     trainer.again();
     return;
   }
-  if (!leaving_) return;
-  ImGui::OpenPopup("Paused");
-  if (!ImGui::BeginPopupModal("Paused", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted("No time goes by, and the hands are still.");
-  if (ImGui::Button("Go on (Esc)", {-1.0F, 0.0F})) {
-    leaving_ = false;
-    attempt.pause(false);
-    ImGui::CloseCurrentPopup();
-  }
-  const bool again = ImGui::Button("Begin again (F5)", {-1.0F, 0.0F});
-  const bool stop = ImGui::Button("Stop; what was done is kept", {-1.0F, 0.0F});
-  if (again || stop) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-  if (stop) attempt.end();
-  if (again) trainer.again();
+  if (leaving_) draw_pause(trainer);
 }
 
 }  // namespace seldinger::app

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/window/hands/condition_watch.h"
+#include "app/window/screens/panel_acts.h"
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/sound/speaker.h"
@@ -57,27 +58,27 @@ class AttemptPanel {
   void set_up(Trainer& trainer);
   void draw_top(Trainer& trainer);
   void draw_reaction();
-  void draw_steps(Trainer& trainer);
   void draw_hands(const session::Task& task);
+  void draw_depth(const cases::Instrument& instrument);
   void draw_arms();
   void draw_arms_live(PersonAttempt& attempt);
-  void say(PersonAttempt& attempt, cases::EventKind kind, const char* words);
-  void note_measured(PersonAttempt& attempt);
-  void draw_planned_depth(const cases::Case& scene);
   void read_keys(Trainer& trainer, const Keys& keys);
-  void finish(PersonAttempt& attempt);
   void keep_picture();
+  bool flipped() const { return monitor_.knobs().screen.flip; }
   void tell_conditions(PersonAttempt& attempt, ConditionWatch::Frame& frame);
   void see(PersonAttempt& attempt);
   void see_told(PersonAttempt& attempt);
   void read_hands(PersonAttempt& attempt, const Keys& keys, const Pointer& pointer, double wheel,
                   const OtherHands& other);
   void draw_rates();
+  void draw_pause(Trainer& trainer);
 
   DeskOptions options_;
   Speaker& speaker_;
   RoomPanel room_;
   MonitorPanel monitor_;
+  ActsPanel acts_;
+  float steps_px_ = 0.0F, steps_for_px_ = 0.0F;  // how high what is said stands, in a window so wide
   gpu::ScreenPicture at_fire_;
   Seen seen_;
   ArmsSeen arms_;
@@ -85,7 +86,7 @@ class AttemptPanel {
   HandsTold told_;
   double told_s_ = 0.0, drawn_s_ = 0.0;
   bool by_led_arms_ = false;  // arms that the mouse leads
-  bool decided_ = false, fired_ = false, leaving_ = false, resuming_ = false;
+  bool fired_ = false, leaving_ = false, resuming_ = false;
   double frames_s_ = 0.0;                                                          // the window's rate, lately
   double room_lag_s_ = 0.0, picture_lag_s_ = 0.0;                                  // lately
   double hand_to_force_s_ = 0.0, hand_to_room_s_ = 0.0, hand_to_picture_s_ = 0.0;  // the longest since tell
@@ -93,8 +94,6 @@ class AttemptPanel {
   std::uint64_t pictures_ = 0, pictures_told_ = 0;
   double room_told_s_ = 0.0;
   std::string method_;
-  std::string said_;         // the last thing that was said, for the screen
-  double planned_mm_ = 0.0;  // how far the needle is to go in, as it is noted; 0: not planned
 };
 
 }  // namespace seldinger::app

@@ -1,5 +1,10 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/grading/debrief.h"
@@ -7,6 +12,7 @@
 #include "reports/words/attempt_words.h"
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
+#include "session/case/planned_way.h"
 
 namespace seldinger::app {
 namespace {
@@ -21,7 +27,7 @@ void line(const std::string& words) {
 }
 
 void laboratory(const char* what, const std::optional<double>& value, const char* unit, int digits) {
-  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "not recorded"));
+  line(std::string(what) + ": " + (value ? reports::number_text(*value, digits) + unit : "none reported"));
 }
 
 void fact(const char* what, const std::string& value) {
@@ -79,13 +85,31 @@ std::string unit_of(const std::string& metric_id) {
   return info != nullptr ? info->unit : "";
 }
 
+// Where the target lies, and the way that was planned to it.
+void draw_plan(const session::Task& task) {
+  const cases::Lesion& target = task.lesion.lesion;
+  const double depth_mm = -task.scene.skin_index.closest(target.center_lps_mm).distance_mm;
+  fact("Target", reports::number_text(2.0 * target.radius_mm, 0) + " mm across, its middle " +
+                     reports::number_text(depth_mm, 0) + " mm below the nearest skin");
+  const auto way = session::planned_way(task.scene);
+  if (!way) return;
+  const double off_deg = std::round(way->skin_angle_deg);
+  std::string words = reports::number_text(way->length_mm, 0) + " mm from the skin to its middle, " +
+                      (off_deg == 0.0 ? "straight in" : reports::number_text(off_deg, 0) + "° off straight in");
+  const double head_deg = std::round(way->head_deg);
+  if (head_deg != 0.0)
+    words +=
+        ", " + reports::number_text(std::abs(head_deg), 0) + "° towards the " + (head_deg > 0.0 ? "head" : "feet");
+  fact("Planned way", words);
+}
+
 }  // namespace
 
 bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   heading("Sign-in");
   laboratory("INR", row.clinic.inr, "", 1);
   laboratory("Platelets", row.clinic.platelets_per_nl, " · 10⁹/l", 0);
-  fact("Allergy", row.clinic.allergy.empty() ? "none recorded" : row.clinic.allergy);
+  fact("Allergy", row.clinic.allergy.empty() ? "none reported" : row.clinic.allergy);
   ImGui::Spacing();
   bool all = true;
   for (std::size_t i = 0; i < kSignIn.size(); ++i) {
@@ -103,21 +127,8 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   return all;
 }
 
-bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
+void BriefingPanel::draw_task(Trainer& trainer) {
   const casedb::CaseRow& row = trainer.chosen();
-  if (case_id_ != row.case_id) {
-    case_id_ = row.case_id;
-    checked_.fill(false);
-  }
-  begin_screen("briefing");
-  heading(row.title.c_str());
-  quiet(kTrainingOnly);
-  ImGui::Spacing();
-  const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
-  const bool left = trainer.interrupted() && !trainer.resuming();
-  const float high =
-      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
-  ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   heading("The task");
   if (!row.clinic.indication.empty()) ImGui::TextWrapped("%s", row.clinic.indication.c_str());
   fact("Guidance", modality_words(row.modality));
@@ -130,6 +141,9 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
     fact("Patient", reports::position_text(row.position));
   if (row.motion.breathing()) fact("Breathing", "the organ moves with every breath");
   if (row.time_limit_s) fact("Time limit", reports::number_text(*row.time_limit_s, 0) + " s");
+  const bool ready = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  const std::shared_ptr<const session::Task> prepared = ready ? trainer.attempt()->task() : nullptr;
+  if (prepared) draw_plan(*prepared);
   ImGui::Spacing();
   heading("To pass");
   if (row.rule.criteria.empty()) ImGui::TextWrapped("This case has no pass rule: it is practised, not graded.");
@@ -138,9 +152,34 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
          assessment::limit_text(criterion, unit_of(criterion.metric)) + (criterion.critical ? " (critical)" : ""));
     explain(criterion.metric);
   }
+  if (!row.rule.criteria.empty() && trainer.provisional())
+    quiet("Provisional: no standard of consultants has been set for this case.");
+  ImGui::Spacing();
+  heading(phantom ? "The block, cut through the target" : "The planning CT");
+  pictures_.draw(prepared);
+}
+
+bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
+  const casedb::CaseRow& row = trainer.chosen();
+  if (case_id_ != row.case_id) {
+    case_id_ = row.case_id;
+    checked_.fill(false);
+    pictures_.end();
+  }
+  begin_screen("briefing");
+  heading(row.title.c_str());
+  quiet(kTrainingOnly);
+  ImGui::Spacing();
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
+  const bool left = trainer.interrupted() && !trainer.resuming();
+  const float high =
+      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
+  ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  draw_task(trainer);
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const bool phantom = row.subject == cases::Subject::phantom;
   const bool all = phantom || draw_sign_in(row);
   if (phantom) draw_hands(row);
   ImGui::EndChild();
@@ -180,6 +219,91 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   }
   end_screen();
   return begin;
+}
+
+void PlanningPictures::end() {
+  painting_ = {};
+  of_.reset();
+  planes_.clear();
+  pictures_.clear();
+}
+
+void PlanningPictures::take(const std::shared_ptr<const session::Task>& task) {
+  if (of_.lock() != task) {
+    end();
+    of_ = task;
+    painting_ =
+        std::async(std::launch::async, [task] { return body_planes(task->scene, std::span<const glm::dvec3>{}); });
+  }
+  if (!painting_.valid() || painting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  planes_ = painting_.get();
+  for (const BodyPlane& plane : planes_)
+    pictures_.emplace_back(std::make_unique<gpu::ScreenPicture>(context_, gpu::ScreenPicture::Pixels::grey))
+        ->show(plane.ct.width_px, plane.ct.height_px, plane.ct.grey);
+}
+
+void PlanningPictures::draw_plane(std::size_t number, const cases::Case& scene, float side_px) const {
+  const BodyPlane& plane = planes_[number];
+  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(pictures_[number]->name())),
+               {side_px, side_px});
+  note_item(plane.name.c_str());
+  const ImVec2 corner = ImGui::GetItemRectMin();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float scale = side_px / static_cast<float>(plane.side_mm);
+  const auto at = [&](const glm::dvec2& mm) {
+    return ImVec2{corner.x + scale * static_cast<float>(mm.x), corner.y + scale * static_cast<float>(mm.y)};
+  };
+  const auto lines = [&](const std::vector<PlaneSegment>& segments, ImU32 colour) {
+    for (const PlaneSegment& one : segments) draw->AddLine(at(one.from_mm), at(one.to_mm), colour);
+  };
+  draw->PushClipRect(corner, ImGui::GetItemRectMax(), true);
+  lines(plane.skin, IM_COL32(235, 190, 150, 170));
+  for (const PlaneOutline& one : plane.structures) lines(one.segments, colour_of_rule(one.rule));
+  const cases::Lesion& target = scene.lesions.front();
+  const ImVec2 middle = at(plane.at(target.center_lps_mm));
+  draw->AddCircle(middle, scale * static_cast<float>(target.radius_mm), kTargetColour, 48, 1.5F);
+  if (scene.planned_entry_lps_mm) {
+    const ImVec2 entry = at(plane.at(*scene.planned_entry_lps_mm));
+    draw->AddLine(entry, middle, kTargetColour, 1.5F);
+    draw->AddCircleFilled(entry, 3.5F, kTargetColour);
+  }
+  const auto say = [&](float x, float y, const std::string& words) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    const ImVec2 from{corner.x + 4.0F + x * (side_px - size.x - 8.0F),
+                      corner.y + 2.0F + y * (side_px - size.y - 4.0F)};
+    draw->AddText({from.x + 1.0F, from.y + 1.0F}, IM_COL32(0, 0, 0, 255), words.c_str());  // liver is as light
+    draw->AddText(from, IM_COL32(205, 222, 232, 255), words.c_str());
+  };
+  say(0.0F, 0.0F, plane.name);
+  say(0.0F, 0.5F, plane.left);
+  say(1.0F, 0.5F, plane.right);
+  say(0.5F, 1.0F, plane.lower);
+  draw->PopClipRect();
+}
+
+// The axial one large, the others beside it, one below the other.
+void PlanningPictures::draw(const std::shared_ptr<const session::Task>& task) {
+  constexpr float kLeastPx = 200.0F, kGapPx = 6.0F;
+  if (task != nullptr) take(task);
+  if (task == nullptr || planes_.empty()) {
+    quiet("It is being prepared …");
+    return;
+  }
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float words_px = 2.0F * ImGui::GetTextLineHeightWithSpacing();
+  const float high = std::max(kLeastPx, std::min((room.x - kGapPx) / 1.5F, room.y - words_px));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {kGapPx, kGapPx});
+  draw_plane(0, task->scene, high);
+  ImGui::SameLine();
+  ImGui::BeginGroup();
+  for (std::size_t plane = 1; plane < planes_.size(); ++plane)
+    draw_plane(plane, task->scene, 0.5F * (high - kGapPx));
+  ImGui::EndGroup();
+  ImGui::PopStyleVar();
+  std::string legend =
+      task->scene.planned_entry_lps_mm ? "Green: the target and the planned way." : "Green: the target.";
+  if (!task->scene.structures.empty()) legend += " Red: critical structures; orange: major ones.";
+  quiet(legend.c_str());
 }
 
 }  // namespace seldinger::app

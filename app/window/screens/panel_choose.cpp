@@ -70,15 +70,18 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
   if (!versioned.empty()) trainer.new_version(versioned);
 }
 
-void draw_drafts(Trainer& trainer) {
+}  // namespace
+
+void ChoosePanel::draw_drafts(Trainer& trainer) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   ImGui::Spacing();
   heading("Drafts and reviews");
-  if (!ImGui::BeginTable("drafts", 4, kTable)) return;
+  if (!ImGui::BeginTable("drafts", 5, kTable)) return;
   ImGui::TableSetupColumn("Draft", ImGuiTableColumnFlags_WidthStretch, 5.3F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 3.0F);
-  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 1.0F);
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 6.2F * ImGui::GetFontSize());
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.4F * ImGui::GetFontSize());
   ImGui::TableHeadersRow();
   std::string opened;
   for (const Draft& draft : trainer.drafts()) {
@@ -93,15 +96,24 @@ void draw_drafts(Trainer& trainer) {
     ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
     if (noted_button("Open draft", -1.0F)) opened = draft.case_id;
+    ImGui::TableNextColumn();
+    if (trainer.may_delete(draft) && noted_button("Delete", -1.0F)) {
+      to_delete_ = draft.case_id;
+      question_.ask(
+          "Delete the draft “" + draft.title + "”, version " + std::to_string(draft.version) +
+              ", for good? What was drawn, its rule and its settings are lost; the CT stays with the cases "
+              "that share it.",
+          "Delete it", "Keep it");
+    }
     ImGui::PopID();
   }
   ImGui::EndTable();
   if (!opened.empty()) trainer.open_editor(opened);
 }
 
-}  // namespace
-
-void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
+void ChoosePanel::draw(Trainer& trainer, const Keys& pressed) {
+  const Keys none;
+  const Keys& keys = question_.open() ? none : pressed;  // a question is answered first
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
   ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
@@ -112,6 +124,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
   if (!trainer.refusal().empty()) {
     ImGui::Spacing();
     ImGui::TextWrapped("That did not work: %s", trainer.refusal().c_str());
+    note_item("refused");
   }
   ImGui::Spacing();
   if (trainer.choices().empty())
@@ -131,6 +144,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& keys) {
     draw_choices(trainer, keys, curriculum);
   }
   if (!trainer.drafts().empty()) draw_drafts(trainer);
+  if (question_.draw(pressed)) trainer.delete_draft(to_delete_);
   if (out) trainer.log_out();
   if (devices && !out) trainer.show_devices();
   end_screen();

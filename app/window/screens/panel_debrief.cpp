@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/window/screens/panel_debrief_buttons.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
+#include "assessment/fault_moments.h"
 #include "assessment/grading/plain_words.h"
 #include "assessment/grading/reason_words.h"
 #include "assessment/procedure/steps.h"
@@ -21,6 +23,7 @@
 namespace seldinger::app {
 namespace {
 
+constexpr double kLeadS = 3.0;    // a moment is played from so long before: how it came about is what teaches
 constexpr float kSignPx = 28.0F;  // where a step's words begin, behind its sign
 const ImVec4 kQuiet = {0.62F, 0.66F, 0.70F, 1.0F}, kLink = {0.62F, 0.86F, 0.97F, 1.0F};
 
@@ -80,6 +83,10 @@ ImVec4 colour_of(assessment::StepState state) {
   return {0.80F, 0.82F, 0.84F, 1.0F};
 }
 
+std::optional<double> when(const assessment::FaultMoment* fault) {
+  return fault != nullptr ? std::optional(fault->t_s) : std::nullopt;
+}
+
 bool was_asked(const assessment::StepResult& step) {
   return step.state != assessment::StepState::not_asked;
 }
@@ -104,32 +111,6 @@ void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
   ImGui::Image(
       reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->name())),
       {across, across * static_cast<float>(picture->height_px()) / static_cast<float>(picture->width_px())});
-}
-
-// Done after the screen is drawn: what it shows goes with the debrief.
-enum class Wish { none, next, again, watch, expert, cases, log_out };
-
-Wish draw_buttons(Trainer& trainer, const Keys& keys, bool escapes) {
-  Wish wish = Wish::none;
-  const auto button = [&](const char* words, int key, Wish its) {
-    if (noted_button(words) || (key != 0 && keys.pressed(key))) wish = its;
-    ImGui::SameLine();
-  };
-  const Choice* next = trainer.next();
-  if (next != nullptr && !trainer.trying() && next->case_id != trainer.chosen().case_id)
-    button(("Next: " + next->title + " (Enter)").c_str(), kEnter, Wish::next);
-  ImGui::BeginDisabled(!trainer.once_more());
-  button(trainer.once_more() ? "Again (F5)" : "No attempt left", kF5, Wish::again);
-  ImGui::EndDisabled();
-  if (!trainer.trying()) button("Watch it again (W)", 'W', Wish::watch);
-  if (!trainer.expert_attempt().empty()) button("Watch an expert (E)", 'E', Wish::expert);
-  if (trainer.trying())
-    button("Back to the case editor (Esc)", escapes ? static_cast<int>(kEscape) : 0, Wish::cases);
-  else
-    button("Cases", 0, Wish::cases);
-  button("Log out", 0, Wish::log_out);
-  quiet(kTrainingOnly);
-  return wish;
 }
 
 }  // namespace
@@ -169,7 +150,23 @@ void DebriefPanel::read_keys(const Keys& keys) {
     asked_ = asked_ < 0 ? (step > 0 ? 0 : all - 1) : std::clamp(asked_ + step, 0, all - 1);
     sought_ = true;
   }
+  if (keys.pressed('P') && asked_ >= 0 && asked_ < all && !attempt_id_.empty())
+    play_s_ = lines_[static_cast<std::size_t>(asked_)].t_s;
   if (keys.pressed(kEscape)) asked_ = -1;
+}
+
+// When it happened and what it was; one click plays it, where the attempt is kept.
+void DebriefPanel::fault(const std::string& of, const std::string& words, double t_s) {
+  if (attempt_id_.empty()) {
+    quiet((words + ", " + reports::clock_text(t_s)).c_str());
+    return;
+  }
+  ImGui::PushID(of.c_str());
+  if (ImGui::SmallButton(("Play " + reports::clock_text(t_s)).c_str())) play_s_ = t_s;
+  note_item(("Play " + of).c_str());
+  ImGui::PopID();
+  ImGui::SameLine();
+  wrapped(kQuiet, words);
 }
 
 void DebriefPanel::draw_sentences(const Debrief& debrief) {
@@ -202,7 +199,11 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
     wrapped(kLink, label);
     const std::string yours =
         result.value ? "Yours: " + own : "Yours: no value, as " + assessment::reason_words(result.reason);
-    line(label.c_str(), {Of::metric, criterion.metric, yours, criterion.version}, true);
+    const assessment::FaultMoment* wrong = nullptr;
+    if (result.outcome == assessment::Outcome::missed)
+      wrong = assessment::find_fault(debrief.faults, criterion.metric, criterion.value);
+    line(label.c_str(), {Of::metric, criterion.metric, yours, criterion.version, when(wrong)}, true);
+    if (wrong != nullptr) fault(label, wrong->words, wrong->t_s);
     ImGui::TableNextColumn();
     ImGui::TextWrapped("%s", assessment::limit_text(criterion, result.unit).c_str());
     ImGui::TableNextColumn();
@@ -218,9 +219,10 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
     wrapped(colour_of(result), mark_of(result));
   }
   ImGui::EndTable();
-  quiet((reports::experts_text(experts) +
-         (experts.standard() ? " Bar: 10th to 90th percentile; dot: yours; stroke: asked." : ""))
-            .c_str());
+  // Without one the screen's head says that the grade is provisional, and no more: how many are missing is no
+  // trainee's concern.
+  if (banded)
+    quiet((reports::experts_text(experts) + " Bar: 10th to 90th percentile; dot: yours; stroke: asked.").c_str());
 }
 
 void DebriefPanel::draw_values(const Debrief& debrief) {
@@ -260,7 +262,9 @@ void DebriefPanel::draw_measured(const Debrief& debrief, const gpu::ScreenPictur
 
 void DebriefPanel::add_steps(const Debrief& debrief) {
   for (const assessment::StepResult& step : debrief.steps)
-    if (was_asked(step)) lines_.push_back({Of::step, step.id, reports::step_result_text(step), step.version});
+    if (was_asked(step))
+      lines_.push_back({Of::step, step.id, reports::step_result_text(step), step.version,
+                        reports::step_fault_text(step).empty() ? std::nullopt : step.t_s});
 }
 
 void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
@@ -277,6 +281,11 @@ void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
     ImGui::SameLine(kSignPx);
     ImGui::TextWrapped("%s", reports::step_text(step).c_str());
     hear(reports::step_label(step.id).c_str(), first++, false);
+    if (const std::string why = reports::step_fault_text(step); !why.empty()) {
+      ImGui::Dummy({kSignPx - ImGui::GetStyle().ItemSpacing.x, 0.0F});
+      ImGui::SameLine(kSignPx);
+      fault(reports::step_label(step.id), why, *step.t_s);
+    }
   }
   ImGui::PopStyleVar();
 }
@@ -300,6 +309,11 @@ void DebriefPanel::draw_definition() {
     ImGui::TextWrapped("%s", one.text.c_str());
   }
   ImGui::Spacing();
+  if (about.t_s && !attempt_id_.empty()) {
+    if (noted_button(("Play this moment, " + reports::clock_text(*about.t_s) + " (P)").c_str()))
+      play_s_ = about.t_s;
+    ImGui::SameLine();
+  }
   if (noted_button("Back to the steps (Esc)")) asked_ = -1;
 }
 
@@ -312,10 +326,13 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
     all_ = false;
   }
   const bool escapes = asked_ < 0;
+  play_s_.reset();
   read_keys(keys);
   lines_.clear();
   begin_screen("debrief");
   heading(trainer.chosen().title.c_str());
+  ImGui::SameLine();
+  quiet(kTrainingOnly);
   ImGui::SetWindowFontScale(1.6F);
   ImGui::TextColored(colour_of(debrief.grade.grade.verdict), "%s",
                      reports::verdict_text(debrief.grade.grade).c_str());
@@ -324,6 +341,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   if (const std::string away = reports::away_text(debrief.attempt); !away.empty()) quiet(away.c_str());
   const std::string made = reports::conditions_text(debrief.attempt.conditions, std::nullopt);
   if (!made.empty()) quiet(("Made with " + made + ".").c_str());
+  draw_missing(trainer);
   ImGui::Spacing();
   draw_sentences(debrief);
   ImGui::Spacing();
@@ -334,7 +352,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   quiet("Click on a line or a step, or press Down, for what it means and how it is told.");
-  const float high = ImGui::GetContentRegionAvail().y - 50.0F;
+  const float high = ImGui::GetContentRegionAvail().y - buttons_px_;
   const float wide = ImGui::GetContentRegionAvail().x;
   ImGui::BeginChild("criteria", {0.60F * wide - 8.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_measured(debrief, picture);
@@ -351,14 +369,13 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   else
     draw_definition();
   ImGui::EndChild();
-  const Wish wish = draw_buttons(trainer, keys, escapes);
+  const float from_px = ImGui::GetCursorPosY();
+  const Wish wish = draw_debrief_buttons(trainer, keys, escapes);
+  buttons_px_ = ImGui::GetCursorPosY() - from_px + ImGui::GetStyle().ItemSpacing.y;
   end_screen();
-  if (wish == Wish::next) trainer.choose(std::string(trainer.next()->case_id));
-  if (wish == Wish::again) trainer.again();
-  if (wish == Wish::watch) trainer.watch(std::string(debrief.attempt.attempt_id));
-  if (wish == Wish::expert) trainer.watch(std::string(trainer.expert_attempt()));
-  if (wish == Wish::cases) trainer.back();
-  if (wish == Wish::log_out) trainer.log_out();
+  if (play_s_ && wish == Wish::none)
+    trainer.watch(std::string(debrief.attempt.attempt_id), std::max(0.0, *play_s_ - kLeadS));
+  do_wish(trainer, wish);
 }
 
 }  // namespace seldinger::app

@@ -1,7 +1,8 @@
 // After an attempt: three sentences first, then what was asked, what was measured, and the steps. A click on any
-// number or step, or Down, opens what it means in the place of the steps.
+// number or step, or Down, opens what it means in the place of the steps. What went wrong says when, and plays it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ class DebriefPanel {
     Of of = Of::metric;
     std::string id, words;  // what the definition is headed by: "Yours: 12 mm"
     int version = 0;
+    std::optional<double> t_s{};  // when it went wrong
     bool operator==(const Line&) const = default;
   };
 
@@ -33,6 +35,7 @@ class DebriefPanel {
   void hear(const char* name, int own, bool underlined);  // of the line that is `own` among them
   void add_steps(const Debrief& debrief);                 // as lines; they are drawn unless one is asked about
   void draw_steps(const Debrief& debrief, int first);     // from this line on
+  void fault(const std::string& of, const std::string& words, double t_s);
   void draw_sentences(const Debrief& debrief);
   void draw_criteria(const Debrief& debrief);
   void draw_values(const Debrief& debrief);
@@ -44,8 +47,10 @@ class DebriefPanel {
   int asked_ = -1;           // of the lines; -1: none, and the steps are shown
   reports::Card card_{};     // of what is asked about
   Line about_{};
-  bool all_ = false;     // every value instead of the criteria
-  bool sought_ = false;  // what is asked about was come to by a key: it is to be seen
+  std::optional<double> play_s_{};  // what is to be played from now on
+  float buttons_px_ = 50.0F;        // how high they were in the frame before
+  bool all_ = false;                // every value instead of the criteria
+  bool sought_ = false;             // what is asked about was come to by a key: it is to be seen
 };
 
 }  // namespace seldinger::app

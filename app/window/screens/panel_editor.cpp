@@ -6,6 +6,8 @@
 
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
+#include "reports/words/check_words.h"
+#include "reports/words/metric_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -132,7 +134,9 @@ void EditorPanel::draw_checks(CaseEditor& editor) {
   };
   for (const bool holds : {false, true}) {
     for (const casedb::Check& one : scene->check.checks)
-      if (one.holds == holds) line(holds ? good : bad, holds ? "✓" : "✗", one.name, one.text, one.place_lps_mm);
+      if (one.holds == holds)
+        line(holds ? good : bad, holds ? "✓" : "✗", reports::check_label(one.name), reports::check_words(one),
+             one.place_lps_mm);
     if (holds) break;
     // What publishing does not ask, and a mentor wants to know.
     if (scene->way) {
@@ -148,7 +152,8 @@ void EditorPanel::draw_checks(CaseEditor& editor) {
         line(note, "!", "planned line", "is longer than the needle", scene->way->entry_lps_mm);
     }
     if (editor.row().origin == "import" && !editor.row().burned_in_checked)
-      line(note, "!", "burned_in_unchecked", "nobody has confirmed that the pictures hold no text", std::nullopt);
+      line(note, "!", reports::check_label("burned_in_unchecked"),
+           "nobody has confirmed that the pictures hold no text", std::nullopt);
   }
 }
 
@@ -178,7 +183,7 @@ void EditorPanel::draw_actions(Trainer& trainer) {
   if (draft) {
     ImGui::BeginDisabled(!holds);
     if (noted_button("Submit for review", half)) editor.submit(note_.data());
-    if (noted_button("Publish to my cohort", half)) editor.publish(true, note_.data());
+    if (noted_button("Publish to my cohort", half)) ask_to_publish(editor, true);
     ImGui::EndDisabled();
     if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
       ImGui::SetTooltip("what no second person has seen is for your own cohort; every check must hold");
@@ -189,7 +194,7 @@ void EditorPanel::draw_actions(Trainer& trainer) {
       if (noted_button("Approve", half)) editor.judge(true, note_.data());
     } else {
       ImGui::BeginDisabled(!holds);
-      if (noted_button("Publish", half)) editor.publish(false, note_.data());
+      if (noted_button("Publish", half)) ask_to_publish(editor, false);
       ImGui::EndDisabled();
     }
   } else {
@@ -202,6 +207,29 @@ void EditorPanel::draw_actions(Trainer& trainer) {
     return;
   }
   if (noted_button("Cases", half)) trainer.leave_editor();
+}
+
+void EditorPanel::ask_to_publish(const CaseEditor& editor, bool own_cohort) {
+  const casedb::CaseRow& row = editor.row();
+  to_own_cohort_ = own_cohort;
+  std::string words = "Publish “" + row.title + "”, version " + std::to_string(row.version) + ", " +
+                      (own_cohort ? "to the cohorts that you lead now?" : "to everybody?") +
+                      " It can be practised at once, and never changes again: a correction is a new version.";
+  if (row.version > 1) words += " It takes the place of the version before it in every list.";
+  question_.ask(std::move(words), "Publish it", "Not yet");
+}
+
+void EditorPanel::draw_history(const CaseEditor& editor) {
+  if (editor.decisions().empty()) return;
+  ImGui::Spacing();
+  heading("History");
+  for (const casedb::Decision& one : editor.decisions()) {
+    const std::string note = one.note.empty() ? "" : ": " + one.note;
+    ImGui::TextWrapped("%s", (reports::utc_text(one.decided_us) + "  " + casedb::name_of(one.kind) + " by " +
+                              editor.who(one) + note)
+                                 .c_str());
+  }
+  note_item("History");
 }
 
 void EditorPanel::draw_help() {
@@ -236,6 +264,7 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
     planes_.begin();
     room_.begin();
     note_.fill('\0');
+    question_.drop();
     title_of_.clear();
     name_of_.clear();
     texts_.clear();
@@ -270,10 +299,12 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   draw_actions(trainer);
   ImGui::EndChild();
   ImGui::EndGroup();
+  const bool asked = question_.open();
+  if (question_.draw(keys)) editor.publish(to_own_cohort_, note_.data());
   end_screen();
   if (trainer.screen() != TrainerScreen::editor) return;
   draw_help();
-  read_keys(trainer, keys);
+  if (!asked) read_keys(trainer, keys);
 }
 
 }  // namespace seldinger::app

@@ -12,6 +12,7 @@
 
 #include "app/window/editor/case_editor.h"
 #include "app/window/editor/plane_painter.h"
+#include "app/window/screens/panels.h"
 #include "app/window/surface/trace.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
@@ -108,12 +109,16 @@ class EditorPanel {
   bool draw_setting(CaseEditor& editor);             // true: changed
   bool draw_setting(const casedb::SettingRow& row);  // true: changed
   void draw_checks(CaseEditor& editor);
+  void draw_history(const CaseEditor& editor);
+  void ask_to_publish(const CaseEditor& editor, bool own_cohort);
   void draw_help();
 
   EditorPlanes planes_;
   EditorRoom room_;
   std::string case_id_;
   bool help_ = false;
+  Question question_;
+  bool to_own_cohort_ = false;  // what is asked about
   std::array<char, 256> note_{}, name_{}, title_{};
   std::string name_of_, title_of_;  // what these fields were filled from
   struct TextInHand {

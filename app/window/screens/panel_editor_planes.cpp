@@ -7,35 +7,18 @@
 #include <numbers>
 
 #include "app/window/screens/panel_editor.h"
+#include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 
 namespace seldinger::app {
 namespace {
 
 constexpr ImU32 kWords = IM_COL32(205, 222, 232, 255), kCross = IM_COL32(120, 190, 230, 150);
-constexpr ImU32 kSkinLine = IM_COL32(235, 190, 150, 170), kLesion = IM_COL32(90, 230, 120, 255);
+constexpr ImU32 kSkinLine = IM_COL32(235, 190, 150, 170), kLesion = kTargetColour;
 constexpr ImU32 kChosen = IM_COL32(255, 235, 120, 255), kWay = IM_COL32(110, 235, 150, 230);
 constexpr ImU32 kWayMet = IM_COL32(255, 120, 90, 255);
 constexpr double kReachPx = 7.0, kClickPx = 4.0, kNearPlaneMm = 3.0;
 constexpr int kCorners = 64;
-
-ImU32 colour_of(cases::StructureRule rule) {
-  switch (rule) {
-    case cases::StructureRule::critical:
-      return IM_COL32(255, 90, 80, 255);
-    case cases::StructureRule::major:
-      return IM_COL32(255, 160, 70, 255);
-    case cases::StructureRule::must_cross:
-      return IM_COL32(235, 215, 90, 255);
-    case cases::StructureRule::organ:
-      return IM_COL32(190, 130, 110, 255);
-    case cases::StructureRule::target:
-      return kLesion;
-    case cases::StructureRule::advisory:
-      break;
-  }
-  return IM_COL32(165, 175, 185, 255);
-}
 
 // Draws in pixels of one plane.
 struct Pen {
@@ -174,7 +157,7 @@ void EditorPlanes::draw_picture(std::size_t plane, const CaseEditor& editor, con
     for (const PlaneSegment& segment : segments) draw->AddLine(at(segment.from_mm), at(segment.to_mm), colour);
   };
   lines(shown.painted->skin, kSkinLine);
-  for (const PlaneOutline& one : shown.painted->structures) lines(one.segments, colour_of(one.rule));
+  for (const PlaneOutline& one : shown.painted->structures) lines(one.segments, colour_of_rule(one.rule));
 }
 
 void EditorPlanes::draw_case(std::size_t plane, const CaseEditor& editor, const ImVec2& corner) {
@@ -187,7 +170,7 @@ void EditorPlanes::draw_case(std::size_t plane, const CaseEditor& editor, const 
   if (editor.tool == EditorTool::structure)
     for (std::size_t i = 0; i < structures.size(); ++i)
       if (structures[i].kind == casedb::StructureKind::drawn)
-        pen.shape(structures[i].drawn, i == editor.structure ? kChosen : colour_of(structures[i].rule));
+        pen.shape(structures[i].drawn, i == editor.structure ? kChosen : colour_of_rule(structures[i].rule));
   if (const auto& entry = editor.row().planned_entry_lps_mm) {
     const ImVec2 from = pen.at(*entry);
     const bool here = std::abs(pen.across_mm(*entry)) <= kNearPlaneMm;

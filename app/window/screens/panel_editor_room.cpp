@@ -94,7 +94,14 @@ void EditorRoom::draw(CaseEditor& editor, const Keys&, float width, float height
   const cases::Case& scene = editor.scene()->scene;
   const cases::State state;
   if (!camera_) {
-    camera_ = imaging::room_camera(room_->scene, scene, state, imaging::RoomView::operator_side);
+    // No hand holds a needle here: as if one stood where one would look.
+    const glm::dvec3 site = first_look(scene, editor.lesions(), room_->scene.frame.up);
+    cases::State looking;
+    looking.needle.tip_lps_mm = site;
+    looking.needle.direction = -room_->scene.frame.up;
+    camera_ = imaging::room_camera(room_->scene, scene, looking, imaging::RoomView::operator_side);
+    camera_->eye_lps_mm += site - camera_->target_lps_mm;
+    camera_->target_lps_mm = site;
     imaging::zoom(*camera_, kNearer);
   }
   take_mouse(editor, width, height);

@@ -449,10 +449,7 @@ void EditorPanel::draw_tool(CaseEditor& editor) {
     case EditorTool::look:
       heading("Look");
       quiet("Click: the cursor goes there, in all planes. Wheel: slice by slice. H: all keys.");
-      for (const casedb::Decision& one : editor.decisions())
-        ImGui::BulletText("%s%s%s%s", casedb::name_of(one.kind).c_str(),
-                          one.by_operator.value_or(false) ? " (entered by the operator)" : "",
-                          one.note.empty() ? "" : ": ", one.note.c_str());
+      draw_history(editor);
       break;
     case EditorTool::lesion:
       draw_lesion(editor);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
+#include "app/window/hands/act_words.h"
 #include "app/window/hands/console_picture.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
@@ -14,14 +16,32 @@ namespace seldinger::app {
 namespace {
 
 constexpr ImU32 kCaliper = IM_COL32(255, 220, 90, 255), kMonitorWords = IM_COL32(200, 220, 230, 255),
-                kBeam = IM_COL32(240, 70, 50, 255), kNothing = IM_COL32(0, 0, 0, 255);
+                kBeam = IM_COL32(240, 70, 50, 255), kNothing = IM_COL32(0, 0, 0, 255),
+                kLit = IM_COL32(80, 220, 110, 255), kFired = IM_COL32(255, 220, 90, 255),
+                kGuideLine = IM_COL32(90, 220, 255, 200);
 constexpr float kCaliperReachPx = 9.0F;  // of a caliper's end, for a hand
+constexpr float kRulerPx = 42.0F;        // beside the picture: focus, marks and numbers
 constexpr double kNoteS = 4.0;
+
+// In a line of words, before them.
+void lamp(ImU32 colour, bool lit) {
+  constexpr float kLampPx = 5.0F;
+  const float high = ImGui::GetTextLineHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos(), middle{at.x + kLampPx + 1.0F, at.y + 0.5F * high + 1.0F};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  if (lit)
+    draw->AddCircleFilled(middle, kLampPx, colour);
+  else
+    draw->AddCircle(middle, kLampPx, colour);
+  ImGui::Dummy({2.0F * kLampPx + 2.0F, high});
+  ImGui::SameLine();
+}
 
 }  // namespace
 
 void MonitorPanel::begin(const cases::Case& scene) {
   kind_ = scene.picture;
+  fire_words_ = fire_words(scene.instrument);
   machine_ = scene.fluoroscope;
   machine_state_ = {};
   shown_ = {};
@@ -72,25 +92,32 @@ void MonitorPanel::keep() {
   kept_ = console_picture(shown_, knobs_.screen.flip, calipers_, {text, "Simulated - for training only"});
 }
 
-// Depths, focus and the probe's marker.
-void MonitorPanel::draw_marks(float left, float top, float zoom, float ruler_x) {
+// Depths in centimetres and focus, beside the picture; the probe's marker, in its corner.
+void MonitorPanel::draw_marks(float left, float top, float zoom) {
+  constexpr float kFocusPx = 9.0F, kShortPx = 4.0F, kLongPx = 7.0F;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const auto y_of = [&](double mm) {
     return top + zoom * static_cast<float>(pixel_of(shown_, false, {0.0, mm}).y + 0.5);
   };
   const float across = zoom * static_cast<float>(shown_.picture.width_px), face = y_of(0.0);
   note_part("depth below the face", left, face, across, y_of(shown_.console.depth_mm) - face);
+  const float ruler = left + across + kFocusPx + 2.0F, half = 0.5F * ImGui::GetTextLineHeight();
+  const int every = numbered_every(10.0 * zoom / shown_.pixel_mm);
   for (const double mm : depth_marks_mm(shown_)) {
-    const bool is_long = std::lround(mm) % 50 == 0;
+    const long cm = std::lround(0.1 * mm);
+    const bool is_long = cm % every == 0;
     const float y = y_of(mm);
-    draw->AddLine({ruler_x - (is_long ? 10.0F : 5.0F), y}, {ruler_x, y}, kMonitorWords);
-    if (is_long && mm > 0.0)
-      draw->AddText({ruler_x - 34.0F, y - 9.0F}, kMonitorWords, std::to_string(std::lround(0.1 * mm)).c_str());
+    draw->AddLine({ruler, y}, {ruler + (is_long ? kLongPx : kShortPx), y}, kMonitorWords);
+    if (!is_long) continue;
+    const std::string number = cm == 0 ? "cm" : std::to_string(cm);
+    draw->AddText({ruler + kLongPx + 2.0F, y - half}, kMonitorWords, number.c_str());
+    note_part(("depth " + number).c_str(), ruler, y - half, kRulerPx - kFocusPx, 2.0F * half);
   }
   if (kind_.modality != cases::Modality::ultrasound) return;
   if (shown_.console.focus_mm > 0.0) {
     const float y = y_of(shown_.console.focus_mm);
-    draw->AddTriangleFilled({ruler_x - 14.0F, y}, {ruler_x, y - 7.0F}, {ruler_x, y + 7.0F}, kCaliper);
+    draw->AddTriangleFilled({ruler - kFocusPx, y}, {ruler - 1.0F, y - 6.0F}, {ruler - 1.0F, y + 6.0F}, kCaliper);
+    note_part("focus mark", ruler - kFocusPx, y - 6.0F, kFocusPx, 12.0F);
   }
   // The side of the probe's marker (lateral) is left.
   draw->AddCircleFilled({left + (knobs_.screen.flip ? across - 14.0F : 14.0F), top + 14.0F}, 5.0F, kCaliper);
@@ -131,29 +158,93 @@ void MonitorPanel::measure(float left, float top, float zoom) {
   }
 }
 
-void MonitorPanel::draw_picture(const session::Monitor& monitor, const cases::State& state, float width,
-                                float height) {
+// How the picture comes, what was fired, and a note, in a row of their own: nothing lies over the picture.
+void MonitorPanel::draw_status(const session::Monitor& monitor, const cases::State& state) {
+  const bool xray = kind_.modality == cases::Modality::xray;
+  const bool noted = !note_.empty() && session::clock_s() < note_until_s_;
+  const char* how = shown_.live ? "LIVE" : (xray ? "LAST IMAGE" : "FROZEN");
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 8.0F);
+  if (shown_.picture.width_px < 1)
+    ImGui::TextUnformatted(xray ? "no picture yet: hold the pedal (P)" : "no picture yet");
+  else
+    ImGui::Text("%s  %.0f /s", how, shown_.rate_hz);
+  if (state.fire.fired && state.needle.skin.in_body) {
+    ImGui::SameLine();
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kFired), "%s", fire_words_.c_str());
+    note_item((fire_words_ + " at the picture").c_str());
+  }
+  if (xray && state.fluoroscopy.beam_on) {
+    ImGui::SameLine();
+    lamp(kBeam, true);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kBeam), "X-RAYS ON");
+    note_item("X-RAYS ON");
+  }
+  if (noted) {
+    ImGui::SameLine();
+    ImGui::TextUnformatted(note_.c_str());
+    note_item("note");
+  } else if (shown_.picture.width_px > 0) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s, %.0f ms", monitor.method().c_str(), 1e3 * shown_.drawn_in_s);
+  }
+}
+
+// What is recorded of the newest picture, for who is still helped.
+void MonitorPanel::draw_lamps(const std::optional<cases::FrameTruth>& frame) {
+  const auto tell = [](bool lit, const char* words) {
+    lamp(lit ? kLit : kMonitorWords, lit);
+    ImGui::TextUnformatted(words);
+    note_item(words);
+  };
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 8.0F);
+  if (!frame || !frame->live) {
+    const char* words = frame ? "the picture stands still" : "no picture yet";
+    ImGui::TextDisabled("%s", words);
+    note_item(words);
+    return;
+  }
+  tell(frame->needle_tip, frame->needle_tip ? "tip in the picture" : "tip not in the picture");
+  ImGui::SameLine(0.0F, 20.0F);
+  tell(frame->target, frame->target ? "target in the picture" : "target not in the picture");
+}
+
+// The guide's line, as a machine draws it of a guide that it knows: by the probe alone, whatever the needle does.
+// Two dotted lines, so that neither lies over the needle between them; a larger dot each centimetre.
+void MonitorPanel::draw_guide(const devices::ProbeGuide& guide, float left, float top, float zoom) {
+  constexpr double kStepMm = 2.5, kAsideMm = 3.0;
+  constexpr int kStepsPerDot = 4;
+  const double angle = guide.angle_deg * (std::numbers::pi / 180.0);
+  const glm::dvec2 along{-std::copysign(std::sin(angle), guide.offset_mm), std::cos(angle)};
+  const glm::dvec2 aside{along.y, -along.x};
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float across = zoom * static_cast<float>(shown_.picture.width_px),
+              down = zoom * static_cast<float>(shown_.picture.height_px);
+  for (int step = 0; kStepMm * step * along.y <= shown_.console.depth_mm; ++step)
+    for (const double side_mm : {-kAsideMm, kAsideMm}) {
+      const glm::dvec2 at_mm = glm::dvec2(guide.offset_mm, 0.0) + kStepMm * step * along + side_mm * aside;
+      const glm::dvec2 px = pixel_of(shown_, knobs_.screen.flip, at_mm) + 0.5;
+      const ImVec2 at{left + zoom * static_cast<float>(px.x), top + zoom * static_cast<float>(px.y)};
+      if (at.x < left || at.x > left + across || at.y > top + down) continue;
+      draw->AddCircleFilled(at, step % kStepsPerDot == 0 ? 2.5F : 1.2F, kGuideLine);
+    }
+  note_part("guide line", left, top, across, down);
+}
+
+void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", {width, height});
   note_item("picture");
   notches_ = ImGui::IsItemHovered() ? static_cast<int>(std::lround(ImGui::GetIO().MouseWheel)) : 0;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 end{corner.x + width, corner.y + height};
-  const bool xray = kind_.modality == cases::Modality::xray;
-  const auto strip = [&](const char* words, float x) {
-    draw->AddRectFilled({x, corner.y + height - 26.0F},
-                        {x + ImGui::CalcTextSize(words).x + 20.0F, corner.y + height}, IM_COL32(0, 0, 0, 190));
-    draw->AddText({x + 10.0F, corner.y + height - 22.0F}, kMonitorWords, words);
-  };
   if (picture_.width_px() == 0 || shown_.picture.width_px == 0) {
     draw->AddRectFilled(corner, end, kNothing);
-    draw->AddText({corner.x + 12.0F, corner.y + 10.0F}, kMonitorWords,
-                  xray ? "no picture yet: hold the pedal (P)" : "no picture yet");
     return;
   }
   const float across = static_cast<float>(picture_.width_px()), down = static_cast<float>(picture_.height_px());
-  const float zoom = std::min(width / across, height / down);
-  const ImVec2 low{corner.x + 0.5F * (width - zoom * across), corner.y + 0.5F * (height - zoom * down)};
+  const float ruler = shown_.pixel_mm > 0.0 ? kRulerPx : 0.0F;
+  const float zoom = std::min((width - ruler) / across, height / down);
+  const ImVec2 low{corner.x + 0.5F * (width - ruler - zoom * across), corner.y + 0.5F * (height - zoom * down)};
   const ImVec2 high{low.x + zoom * across, low.y + zoom * down};
   // Beside it only: under it, in software, a ground would cost as much again.
   draw->AddRectFilled(corner, {end.x, low.y}, kNothing);
@@ -163,19 +254,23 @@ void MonitorPanel::draw_picture(const session::Monitor& monitor, const cases::St
   draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture_.name())), low, high);
   if (shown_.pixel_mm > 0.0) {
     measure(low.x, low.y, zoom);  // first: it asks for the picture's own item
-    draw_marks(low.x, low.y, zoom, corner.x + width - 8.0F);
+    draw_marks(low.x, low.y, zoom);
+    if (seen.guide) draw_guide(*seen.guide, low.x, low.y, zoom);
   }
-  if (xray && state.fluoroscopy.beam_on) {
-    draw->AddCircleFilled({corner.x + width - 24.0F, corner.y + 22.0F}, 10.0F, kBeam);
-    draw->AddText({corner.x + width - 118.0F, corner.y + 13.0F}, kBeam, "X-RAYS ON");
-  }
-  char words[160];
-  std::snprintf(words, sizeof words, "%s  %.0f /s  (%s, %.0f ms)",
-                shown_.live ? "LIVE" : (xray ? "LAST IMAGE" : "FROZEN"), shown_.rate_hz, monitor.method().c_str(),
-                1e3 * shown_.drawn_in_s);
-  strip(words, corner.x);
-  if (!note_.empty() && session::clock_s() < note_until_s_)
-    strip(note_.c_str(), corner.x + width - ImGui::CalcTextSize(note_.c_str()).x - 20.0F);
+  draw_flash(seen.moment.state, corner.x, corner.y, width, height);
+}
+
+// A frame about the picture that fades: what the picture shows of the throw stays to be seen.
+void MonitorPanel::draw_flash(const cases::State& state, float left, float top, float width, float height) {
+  constexpr float kFramePx = 8.0F;
+  const double since_s = state.t_s - state.fire.t_s;
+  if (!state.fire.fired || since_s < 0.0 || since_s >= kFlashS) return;
+  ImVec4 colour = ImGui::ColorConvertU32ToFloat4(kFired);
+  colour.w = static_cast<float>(1.0 - since_s / kFlashS);
+  const float half = 0.5F * kFramePx;
+  ImGui::GetWindowDrawList()->AddRect({left + half, top + half}, {left + width - half, top + height - half},
+                                      ImGui::ColorConvertFloat4ToU32(colour), 0.0F, 0, kFramePx);
+  note_part("flash", left, top, width, height);
 }
 
 void MonitorPanel::take_late(session::Monitor& monitor) {
@@ -183,8 +278,10 @@ void MonitorPanel::take_late(session::Monitor& monitor) {
     picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
 }
 
-void MonitorPanel::draw(session::Monitor& monitor, const cases::State& state, bool frozen, const Keys& keys,
+void MonitorPanel::draw(session::Monitor& monitor, const Seen& seen, bool lamps, const Keys& keys,
                         HandsTold* told) {
+  const cases::State& state = seen.moment.state;
+  const bool frozen = seen.frozen;
   if (monitor.take(shown_) && shown_.picture.width_px > 0)
     picture_.show(shown_.picture.width_px, shown_.picture.height_px, shown_.picture.grey);
   machine_state_ = state.fluoroscopy;
@@ -202,7 +299,10 @@ void MonitorPanel::draw(session::Monitor& monitor, const cases::State& state, bo
   }
   read_keys(monitor, frozen, told == nullptr, keys);
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  draw_picture(monitor, state, room.x, room.y - console_height(asked));
+  draw_picture(seen, room.x,
+               room.y - console_height(asked) - (lamps ? 2.0F : 1.0F) * ImGui::GetTextLineHeightWithSpacing());
+  draw_status(monitor, state);
+  if (lamps) draw_lamps(seen.frame);
   if (notches_ != 0) roll(monitor, notches_, frozen, told == nullptr);
   if (kind_.modality == cases::Modality::ultrasound) draw_ultrasound(monitor, frozen, told != nullptr);
   if (kind_.modality == cases::Modality::mpr) draw_slices(monitor, frozen, told != nullptr);

@@ -25,7 +25,8 @@ class MonitorPanel {
 
   // In what room there is. What the console asks of the attempt goes into `told`; null: an attempt that is watched,
   // whose knobs stand as they did and turn nothing but the screen.
-  void draw(session::Monitor& monitor, const cases::State& state, bool frozen, const Keys& keys, HandsTold* told);
+  // `lamps`: below the picture, whether tip and target are in it.
+  void draw(session::Monitor& monitor, const Seen& seen, bool lamps, const Keys& keys, HandsTold* told);
 
   // Between saying and showing a frame: a picture that has come since is in it, too.
   void take_late(session::Monitor& monitor);
@@ -43,8 +44,12 @@ class MonitorPanel {
 
  private:
   void read_keys(session::Monitor& monitor, bool frozen, bool watched, const Keys& keys);
-  void draw_picture(const session::Monitor& monitor, const cases::State& state, float width, float height);
-  void draw_marks(float left, float top, float zoom, float ruler_x);
+  void draw_picture(const Seen& seen, float width, float height);
+  void draw_guide(const devices::ProbeGuide& guide, float left, float top, float zoom);
+  void draw_flash(const cases::State& state, float left, float top, float width, float height);
+  void draw_lamps(const std::optional<cases::FrameTruth>& frame);
+  void draw_status(const session::Monitor& monitor, const cases::State& state);
+  void draw_marks(float left, float top, float zoom);
   void measure(float left, float top, float zoom);
   void draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns);
   bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
@@ -70,6 +75,7 @@ class MonitorPanel {
   int notches_ = 0;  // of the wheel, over the picture, in this frame
   double dose_from_s_ = 0.0, dose_from_mgy_ = 0.0, dose_mgy_min_ = 0.0;  // lately
   std::optional<Canvas> kept_;
+  std::string fire_words_;
   std::string note_;
   double note_until_s_ = 0.0;
 };

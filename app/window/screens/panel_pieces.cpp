@@ -1,6 +1,10 @@
 #include <imgui.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
 #include "casedb/cases/setting_table.h"
 
 namespace seldinger::app {
@@ -38,15 +42,62 @@ void quiet(const char* text) {
   ImGui::PopStyleColor();
 }
 
-void draw_notice(const std::string& words) {
+void Question::ask(std::string words, std::string yes, std::string no) {
+  words_ = std::move(words);
+  yes_ = std::move(yes);
+  no_ = std::move(no);
+}
+
+bool Question::draw(const Keys& keys) {
+  if (!open()) return false;
+  constexpr const char* kName = "##question";
+  if (!ImGui::IsPopupOpen(kName)) ImGui::OpenPopup(kName);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(560.0F, viewport->WorkSize.x - 40.0F), 0.0F});
+  if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return false;
+  ImGui::TextWrapped("%s", words_.c_str());
+  ImGui::Spacing();
+  const bool yes = noted_button(yes_.c_str());
+  ImGui::SameLine();
+  const bool no = noted_button((no_ + " (Esc)").c_str()) || keys.pressed(kEscape);
+  if (yes || no) {
+    drop();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+  return yes;
+}
+
+void draw_notice(const std::string& words, bool in_room) {
+  constexpr float kClockPx = 170.0F;  // what stands at the right of the room's top line
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-  const ImVec2 at{viewport->WorkPos.x + 0.5F * (viewport->WorkSize.x - size.x),
-                  viewport->WorkPos.y + viewport->WorkSize.y - size.y - 22.0F};
+  const float free = viewport->WorkSize.x - size.x;
+  const ImVec2 at{viewport->WorkPos.x + (in_room ? free - kClockPx : 0.5F * free), viewport->WorkPos.y + 8.0F};
   ImDrawList* draw = ImGui::GetForegroundDrawList();
-  draw->AddRectFilled({at.x - 14.0F, at.y - 8.0F}, {at.x + size.x + 14.0F, at.y + size.y + 8.0F},
+  draw->AddRectFilled({at.x - 14.0F, at.y - 4.0F}, {at.x + size.x + 14.0F, at.y + size.y + 4.0F},
                       IM_COL32(30, 50, 62, 235), 6.0F);
   draw->AddText(at, IM_COL32(225, 240, 248, 255), words.c_str());
+  note_place("notice", at.x - 14.0F, at.y - 4.0F, size.x + 28.0F, size.y + 8.0F);
+}
+
+unsigned int colour_of_rule(cases::StructureRule rule) {
+  switch (rule) {
+    case cases::StructureRule::critical:
+      return IM_COL32(255, 90, 80, 255);
+    case cases::StructureRule::major:
+      return IM_COL32(255, 160, 70, 255);
+    case cases::StructureRule::must_cross:
+      return IM_COL32(235, 215, 90, 255);
+    case cases::StructureRule::organ:
+      return IM_COL32(190, 130, 110, 255);
+    case cases::StructureRule::target:
+      return kTargetColour;
+    case cases::StructureRule::advisory:
+      break;
+  }
+  return IM_COL32(165, 175, 185, 255);
 }
 
 std::string modality_words(cases::Modality modality) {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "app/window/screens/panels.h"
@@ -46,6 +48,21 @@ cases::ToolPose pose_of_held(const Seen& seen) {
   return {state.probe.origin_lps_mm, state.probe.axial, state.probe.lateral};
 }
 
+// By imaging::RoomView; the key is its number.
+constexpr std::array<const char*, imaging::kRoomViewNames.size()> kViewWords = {
+    "operator’s side", "head end",         "foot end",       "from above",
+    "over the needle", "along the needle", "near the probe", "along the picture’s plane"};
+
+bool of_probe(imaging::RoomView view) {
+  return view == imaging::RoomView::near_probe || view == imaging::RoomView::along_plane;
+}
+
+std::string view_words(imaging::RoomView view) {
+  const auto number = static_cast<std::size_t>(view);
+  return std::string(kViewWords[number]) + " (" + std::to_string(number + 1) + ")";
+}
+
+constexpr double kLeastZoom = 0.25, kMostZoom = 4.0;
 constexpr float kViewDegreesPerPixel = 0.3F;
 // Of its width and height a room is drawn so large in software, where it costs by the pixel, and then stretched.
 constexpr float kViewSoftwareShare = 0.8F;
@@ -59,7 +76,17 @@ void RoomPanel::begin(const cases::Case& scene, bool left_handed) {
   inside_ = RoomInside::whole;
   room_ = std::make_unique<Room>(context_, imaging::make_room_model(scene), left_handed);
   view_ = imaging::RoomView::operator_side;
+  named_ = *view_;
+  own_ = false;
+  zoom_ = 1.0;
   begun_ = false;
+}
+
+void RoomPanel::set_view(imaging::RoomView view) {
+  if (room_ && room_->scene.probe == imaging::kNoMesh && of_probe(view)) return;
+  if (view == named_ && !own_) zoom_ = 1.0;  // once more: as it was
+  view_ = named_ = view;
+  own_ = false;
 }
 
 void RoomPanel::look_inside(std::shared_ptr<const cases::Case> scene) {
@@ -101,6 +128,9 @@ void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::S
   if (view_ && (begun_ || state.tick > 0)) {  // before a tick nobody knows where the tools are
     room.from = room.camera;
     room.to = imaging::room_camera(room.scene, scene, state, *view_);
+    imaging::zoom(room.to, zoom_);
+    imaging::stay_clear(room.to, room.scene.frame, scene.skin_index, {}, 1.0);
+    imaging::stay_off_tools(room.to, room.scene, state);
     room.on_way = begun_ ? 0.0 : 1.0;
     if (!begun_) room.camera = room.to;
     begun_ = true;
@@ -110,16 +140,24 @@ void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::S
     room.on_way = std::min(1.0, room.on_way + elapsed_s / kViewS);
     room.camera = imaging::between(room.from, room.to, room.on_way);
   }
+  if (begun_) imaging::stay_off_tools(room.camera, room.scene, state);
   const ImGuiIO& io = ImGui::GetIO();
   if (!keys.alt || (!ImGui::IsItemHovered() && !ImGui::IsItemActive())) return;
   const ImVec2 size = ImGui::GetItemRectSize();
+  const bool moves = io.MouseDelta.x != 0.0F || io.MouseDelta.y != 0.0F;
+  own_ = own_ || (moves && ImGui::IsItemActive());
   if (ImGui::IsMouseDown(ImGuiMouseButton_Left))
     imaging::orbit(room.camera, room.scene.frame, -kViewDegreesPerPixel * io.MouseDelta.x,
                    kViewDegreesPerPixel * io.MouseDelta.y);
   if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
     imaging::pan(room.camera, -io.MouseDelta.x / size.y, io.MouseDelta.y / size.y);
-  if (io.MouseWheel != 0.0F) imaging::zoom(room.camera, std::pow(0.9, io.MouseWheel));
+  if (io.MouseWheel != 0.0F) {
+    const double before = zoom_;
+    zoom_ = std::clamp(zoom_ * std::pow(0.9, io.MouseWheel), kLeastZoom, kMostZoom);
+    imaging::zoom(room.camera, zoom_ / before);
+  }
   imaging::stay_clear(room.camera, room.scene.frame, scene.skin_index, {}, size.x / std::max(1.0F, size.y));
+  imaging::stay_off_tools(room.camera, room.scene, state);
 }
 
 void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& keys, double elapsed_s) {
@@ -130,6 +168,7 @@ void RoomPanel::place(const cases::Case& scene, const Seen& seen, const Keys& ke
       "room", size,
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   if (room_) note_item("room");  // once it is made
+  ImGui::SetItemAllowOverlap();  // by the views' button
   over_ = ImGui::IsItemHovered();
   dragging_ = ImGui::IsItemActive();
   if (room_) move_camera(*room_, scene, seen.moment.state, keys, elapsed_s);
@@ -192,12 +231,40 @@ void RoomPanel::draw(const cases::Case& scene, const Seen& seen, int help) {
   options.help = help;
   options.mentor = has_inside_ && inside_ != RoomInside::whole;
   options.glass = inside_ == RoomInside::looked_through;
+  const engine::Moment& moment = seen.moment;
+  options.numb_lps_mm =
+      std::span(moment.numb_lps_mm).first(std::min<std::size_t>(moment.numbed, engine::kNumbPlaces));
   imaging::make_draw_list(room_->scene, scene, seen.moment.state, options, room_->list);
   const unsigned int name = room_->renderer.draw(room_->list, picture, seen.moment.displacement);
   drawn_.emplace(context_);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name)), {corner_px_[0], corner_px_[1]},
                  {corner_px_[0] + size_px_[0], corner_px_[1] + size_px_[1]}, {0.0F, 1.0F}, {1.0F, 0.0F});
+}
+
+void RoomPanel::draw_views() {
+  if (!room_) return;
+  std::string words = "View: " + (own_ ? std::string("your own") : view_words(named_));
+  char nearer[16];
+  std::snprintf(nearer, sizeof nearer, ", %.1f×", 1.0 / zoom_);
+  if (zoom_ != 1.0) words += nearer;
+  const float wide = ImGui::CalcTextSize(words.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  ImGui::SetCursorScreenPos({corner_px_[0] + size_px_[0] - wide - 8.0F, corner_px_[1] + 8.0F});
+  if (ImGui::Button((words + "##views").c_str())) ImGui::OpenPopup("views");
+  note_item(words.c_str());
+  ImGui::SetNextWindowPos({corner_px_[0] + size_px_[0] - 8.0F, ImGui::GetItemRectMax().y + 2.0F}, ImGuiCond_Always,
+                          {1.0F, 0.0F});  // over the room, not over the guidance's picture
+  if (!ImGui::BeginPopup("views")) return;
+  for (std::size_t i = 0; i < imaging::kRoomViewNames.size(); ++i) {
+    const auto view = static_cast<imaging::RoomView>(i);
+    if (of_probe(view) && room_->scene.probe == imaging::kNoMesh) continue;
+    const std::string name = view_words(view);
+    if (ImGui::Selectable(name.c_str(), view == named_ && !own_)) set_view(view);
+    note_item(name.c_str());
+  }
+  ImGui::TextDisabled("Alt: drag turns, right drag shifts, wheel zooms");
+  ImGui::TextDisabled("the same view once more: without zoom");
+  ImGui::EndPopup();
 }
 
 bool RoomPanel::finished(double most_s) {

@@ -53,7 +53,9 @@ class RoomPanel {
 
   bool stereo() const noexcept { return stereo_; }
   void set_stereo(bool stereo) noexcept { stereo_ = stereo; }
-  void set_view(imaging::RoomView view) noexcept { view_ = view; }
+  void set_view(imaging::RoomView view);
+  // Over the picture's upper right corner: which view it is, and a list of them.
+  void draw_views();
   RoomInside inside() const noexcept { return inside_; }
   // The next of them; what is inside takes a moment to be made.
   void look_inside(std::shared_ptr<const cases::Case> scene);
@@ -83,7 +85,10 @@ class RoomPanel {
   std::future<imaging::RoomModel> making_;  // the room with what is inside
   RoomInside inside_ = RoomInside::whole;
   bool left_handed_ = false, has_inside_ = false;
-  std::optional<imaging::RoomView> view_;  // asked for
+  std::optional<imaging::RoomView> view_;                       // asked for
+  imaging::RoomView named_ = imaging::RoomView::operator_side;  // asked for last,
+  bool own_ = false;                                            // and turned or shifted since
+  double zoom_ = 1.0;  // of its distance, by its user; kept from view to view
   bool stereo_ = false, begun_ = false;
   std::array<float, 2> corner_px_{}, size_px_{};  // where it is placed
   bool over_ = false, dragging_ = false;

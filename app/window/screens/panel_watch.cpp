@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "app/window/screens/panels.h"
 #include "reports/words/attempt_words.h"
@@ -24,6 +26,14 @@ std::string said_at(const cases::Recording& recording, double t_s) {
     if (event.t_s <= t_s && t_s < event.t_s + kShownS)
       if (const cases::EventInfo* info = cases::find_event(event.kind)) said = info->words;
   return said;
+}
+
+// What the picture that was up then showed.
+std::optional<cases::FrameTruth> frame_at(const cases::Recording& recording, double t_s) {
+  const auto next = std::upper_bound(recording.frames.begin(), recording.frames.end(), t_s,
+                                     [](double t, const cases::FrameTruth& frame) { return t < frame.t_s; });
+  if (next == recording.frames.begin()) return std::nullopt;
+  return *std::prev(next);
 }
 
 }  // namespace
@@ -84,6 +94,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
       speaker_.play(sounds_of(seen_, now, watched.scene().instrument.kind));
       seen_.moment = *moment;
     }
+    seen_.frame = frame_at(watched.recording(), seen_.moment.state.t_s);
     watched.monitor().want();
     seen_.frozen = seen_.moment.state.probe.frozen;
     heading((attempt.case_title + " – " +
@@ -97,11 +108,12 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     const double now_s = session::clock_s();
     room_.place(watched.scene(), seen_, keys, std::min(0.1, now_s - drawn_s_));
     room_.draw(watched.scene(), seen_, kHelp);
+    room_.draw_views();
     drawn_s_ = now_s;
     ImGui::EndChild();
     ImGui::SameLine();
     begin_picture("guidance", 0.0F, all.y - below - 8.0F);
-    monitor_.draw(watched.monitor(), seen_.moment.state, seen_.frozen, keys, nullptr);
+    monitor_.draw(watched.monitor(), seen_, true, keys, nullptr);
     ImGui::EndChild();
     draw_course(trainer, keys);
   }

@@ -6,6 +6,7 @@
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/sound/speaker.h"
+#include "app/window/surface/trace.h"
 #include "app/window/trainer/trainer.h"
 
 namespace seldinger::app {
@@ -15,10 +16,13 @@ class WatchPanel {
   WatchPanel(gpu::Context& context, Speaker& speaker) : speaker_(speaker), room_(context), monitor_(context) {}
 
   void draw(Trainer& trainer, const Keys& keys);
+  void tell(TraceLine& line) const { line.watched_s = seen_.moment.state.t_s; }
   MonitorPanel& guidance() noexcept { return monitor_; }
-  void end() noexcept {
+  void end() noexcept {  // the next is another, or the same from elsewhere on
+    if (shown_.empty()) return;
     room_.end();
     shown_.clear();
+    seen_ = {};
   }
 
  private:

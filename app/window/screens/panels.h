@@ -3,13 +3,17 @@
 #pragma once
 
 #include <array>
+#include <future>
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "app/replay/body_planes.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 #include "sim/base/training_only.h"
+#include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
 
@@ -25,13 +29,52 @@ class LogInPanel {
   bool begun_ = false;
 };
 
+// Asks before what cannot be taken back; nothing else hears the mouse while it does.
+class Question {
+ public:
+  void ask(std::string words, std::string yes, std::string no);
+  bool open() const noexcept { return !words_.empty(); }
+  void drop() noexcept { words_.clear(); }
+  // Each frame of its screen. True: it was said yes, just now.
+  bool draw(const Keys& keys);
+
+ private:
+  std::string words_, yes_, no_;  // words: empty: nothing is asked
+};
+
 class ChoosePanel {
  public:
   void draw(Trainer& trainer, const Keys& keys);
+
+ private:
+  void draw_drafts(Trainer& trainer);
+
+  Question question_;
+  std::string to_delete_;  // the draft that is asked about
+};
+
+// The planning CT in three planes through the target, once the case is there: target, planned way, structures,
+// skin.
+class PlanningPictures {
+ public:
+  explicit PlanningPictures(gpu::Context& context) : context_(context) {}
+  void draw(const std::shared_ptr<const session::Task>& task);  // null: it is being prepared
+  void end();
+
+ private:
+  void take(const std::shared_ptr<const session::Task>& task);
+  void draw_plane(std::size_t plane, const cases::Case& scene, float side_px) const;
+
+  gpu::Context& context_;
+  std::weak_ptr<const session::Task> of_;         // a case is large: it is not kept
+  std::future<std::vector<BodyPlane>> painting_;  // the window does not wait for it
+  std::vector<BodyPlane> planes_;
+  std::vector<std::unique_ptr<gpu::ScreenPicture>> pictures_;
 };
 
 class BriefingPanel {
  public:
+  explicit BriefingPanel(gpu::Context& context) : pictures_(context) {}
   // True: the trainee has signed in and wants to begin.
   bool draw(Trainer& trainer, const Keys& keys);
   // Once after a drawing in which the trainee wanted to go on with an interrupted attempt.
@@ -40,6 +83,9 @@ class BriefingPanel {
  private:
   bool draw_sign_in(const casedb::CaseRow& row);  // whether all of it is checked
 
+  void draw_task(Trainer& trainer);
+
+  PlanningPictures pictures_;
   std::string case_id_;
   std::array<bool, 5> checked_{};
   bool resume_ = false;
@@ -51,9 +97,11 @@ void end_screen();
 // A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
 void begin_picture(const char* name, float width, float height);
 void heading(const char* text);
-void quiet(const char* text);  // smaller in weight: what explains
+void quiet(const char* text);                              // smaller in weight: what explains
+inline constexpr unsigned int kTargetColour = 0xFF78E65A;  // as IM_COL32(90, 230, 120, 255)
+unsigned int colour_of_rule(cases::StructureRule rule);    // of its outline: red is critical
 std::string modality_words(cases::Modality modality);
-// Below, in the middle, over whatever screen is up.
-void draw_notice(const std::string& words);
+// In the top line of whatever screen is up, where nothing is pressed; `in_room`: before the clock.
+void draw_notice(const std::string& words, bool in_room);
 
 }  // namespace seldinger::app

@@ -37,6 +37,11 @@ void note_item(const char* name) {
 void note_part(const char* name, float left, float top, float width, float height) {
   if (!noted().wanted) return;
   if (!ImGui::IsItemVisible() || (ImGui::GetItemFlags() & ImGuiItemFlags_Disabled) != 0) return;
+  note_place(name, left, top, width, height);
+}
+
+void note_place(const char* name, float left, float top, float width, float height) {
+  if (!noted().wanted) return;
   std::string own(name);
   own.resize(std::min(own.size(), own.find("##")));
   std::vector<ShownItem>& items = noted().items;

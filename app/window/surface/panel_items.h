@@ -19,6 +19,8 @@ void forget_items();  // before each frame
 void note_item(const char* name);
 // A part of the last item, in Dear ImGui's coordinates: where in it something stands.
 void note_part(const char* name, float left, float top, float width, float height);
+// What stands in the window without being an item.
+void note_place(const char* name, float left, float top, float width, float height);
 // The frame's, in the order in which they were drawn.
 const std::vector<ShownItem>& noted_items();
 

@@ -37,6 +37,7 @@ struct TraceLine {
   std::string held;  // "needle" or "probe"; outside an attempt empty, as the rest
   double inserted_mm = 0.0, press_mm = 0.0, attempt_s = 0.0;
   bool fired = false;
+  std::optional<double> watched_s{};                 // where in an attempt that is watched
   cases::ConsoleSetting console{};                   // of the picture that is shown
   double gain_db = 0.0;                              // of the knob
   glm::dvec3 needle_lps_mm{0.0}, probe_lps_mm{0.0};  // tip, middle of the face

@@ -25,6 +25,7 @@ std::string json_of(const TraceLine& line) {
                  {"gain_db", line.gain_db},
                  {"needle_lps_mm", {line.needle_lps_mm.x, line.needle_lps_mm.y, line.needle_lps_mm.z}},
                  {"probe_lps_mm", {line.probe_lps_mm.x, line.probe_lps_mm.y, line.probe_lps_mm.z}}});
+  if (line.watched_s) json["watched_s"] = *line.watched_s;
   if (line.heap_mib > 0.0) json["heap_mib"] = line.heap_mib;
   if (!line.sounds.empty()) json["sounds"] = line.sounds;
   if (line.editor) {

@@ -51,6 +51,7 @@ void set_style(float scale) {
   style.Colors[ImGuiCol_HeaderHovered] = {0.20F, 0.42F, 0.52F, 0.8F};
   style.Colors[ImGuiCol_SliderGrab] = {0.30F, 0.62F, 0.76F, 1.0F};
   style.Colors[ImGuiCol_CheckMark] = {0.40F, 0.80F, 0.95F, 1.0F};
+  style.Colors[ImGuiCol_ModalWindowDimBg] = {0.0F, 0.0F, 0.0F, 0.55F};  // behind a question it is darker
   style.ScaleAllSizes(scale);
   ImGuiIO& io = ImGui::GetIO();
   static const ImWchar kLetters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x2010, 0x2044, 0x2070, 0x209F,
@@ -272,6 +273,12 @@ int Window::height_px() const noexcept {
   int width = 0, height = 0;
   glfwGetFramebufferSize(parts_->window, &width, &height);
   return height;
+}
+
+bool display_opens() {
+  if (glfwInit() != GLFW_TRUE) return false;
+  glfwTerminate();
+  return true;
 }
 
 }  // namespace seldinger::app

@@ -100,4 +100,7 @@ class Window {
   std::unique_ptr<Parts> parts_;
 };
 
+// Whether there is a display to open one on: tries, and closes it again. Not while a Window is open.
+bool display_opens();
+
 }  // namespace seldinger::app

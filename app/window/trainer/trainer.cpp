@@ -7,6 +7,7 @@
 #include "app/attempts/this_program.h"
 #include "casedb/cases/changeable_case.h"
 #include "casedb/grading/expert_replay.h"
+#include "casedb/keeping/erase.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {
@@ -189,6 +190,19 @@ void Trainer::new_version(const std::string& case_id) {
   open_editor(*made);
 }
 
+bool Trainer::may_delete(const Draft& draft) const noexcept {
+  return casedb::may(account_.role, casedb::Action::erase_case, draft.state);
+}
+
+void Trainer::delete_draft(const std::string& case_id) {
+  const auto draft =
+      std::find_if(drafts().begin(), drafts().end(), [&](const Draft& one) { return one.case_id == case_id; });
+  if (screen_ != TrainerScreen::choose || draft == drafts().end() || !may_delete(*draft)) return;
+  const auto erased = casedb::erase_case(library_, case_id, account_.person_id);
+  refusal_ = erased ? "" : erased.error().text;
+  list_choices();
+}
+
 void Trainer::leave_editor() {
   if (screen_ != TrainerScreen::editor) return;
   editor_.reset();
@@ -201,7 +215,7 @@ void Trainer::try_draft() {
   chosen_ = editor_->row();
   expert_.clear();
   restarting_ = false;
-  trying_ = true;
+  provisional_ = trying_ = true;
   prepare(nullptr);
 }
 
@@ -227,6 +241,7 @@ void Trainer::choose(const std::string& case_id) {
   }
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id, account_.person_id, account_.role).value_or("");
+  provisional_ = !casedb::has_standard(library_, chosen_);
   restarting_ = trying_ = false;
   prepare(nullptr);
 }
@@ -309,7 +324,7 @@ void Trainer::tell_conditions() {
   });
 }
 
-void Trainer::watch(const std::string& attempt_id) {
+void Trainer::watch(const std::string& attempt_id, double from_s) {
   if (resuming_) return;
   if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
   const auto attempt = casedb::find_attempt(library_, attempt_id);
@@ -318,6 +333,7 @@ void Trainer::watch(const std::string& attempt_id) {
   watched_from_ = screen_;
   watched_id_ = attempt_id;
   watched_ = std::make_unique<session::WatchedAttempt>(library_.folder(), attempt_id, by_);
+  if (from_s > 0.0) watched_->go_to(from_s);
   screen_ = TrainerScreen::watch;
 }
 
@@ -337,7 +353,7 @@ Debrief Trainer::debrief_of_try() {
   row.end = made.end;
   row.metrics = made.metrics;
   row.conditions = made.conditions;
-  return {row, casedb::Grader(library_).look_at(row), made.steps};
+  return {row, casedb::Grader(library_).look_at(row), made.steps, made.faults};
 }
 
 void Trainer::look() {
@@ -380,7 +396,8 @@ void Trainer::look() {
       refusal_ = row.error().text;
       return;
     }
-    debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id)};
+    debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id),
+                       attempt_->stored().faults};
     list_choices();  // what it opened
     screen_ = TrainerScreen::debrief;
   }

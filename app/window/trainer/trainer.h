@@ -33,6 +33,7 @@ struct Debrief {
   casedb::AttemptRow attempt;  // without an id: it was tried and is not kept
   casedb::AttemptGrade grade;
   std::vector<assessment::StepResult> steps;
+  std::vector<assessment::FaultMoment> faults{};  // of what it was graded by
 };
 
 class Trainer {
@@ -61,7 +62,12 @@ class Trainer {
   void choose(const std::string& case_id);  // of the choices; else nothing happens
   // What comes next, by what was reached when the choices were listed: the first that is due. Null: nothing is.
   const Choice* next() const noexcept;
+  // The chosen case among the choices, and what follows once it is passed (casedb::after_pass); null: it is not
+  // one.
+  const Choice* own_choice() const noexcept { return find_choice(chosen_.case_id); }
+  const Choice* after_pass() const noexcept { return casedb::after_pass(choices_, chosen_.case_id); }
   const casedb::CaseRow& chosen() const noexcept { return chosen_; }
+  bool provisional() const noexcept { return provisional_; }  // nobody has set a standard for it
   // An attempt at it that an expert passed, to watch before one's own; empty: there is none.
   const std::string& expert_attempt() const noexcept { return expert_; }
   // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
@@ -72,6 +78,9 @@ class Trainer {
   // --- the case editor; empty, and nothing happens, for everybody else ---
   const std::vector<Draft>& drafts() const noexcept { return choices_.drafts; }
   void open_editor(const std::string& case_id);  // of the drafts
+  // For good, unless attempts were made on it.
+  bool may_delete(const Draft& draft) const noexcept;
+  void delete_draft(const std::string& case_id);
   // A draft like a case that was published or that attempts were made on, the next version, in the case editor.
   void new_version(const std::string& case_id);
   CaseEditor* editor() noexcept { return editor_.get(); }
@@ -100,7 +109,7 @@ class Trainer {
   PersonAttempt* attempt() noexcept { return attempt_.get(); }
 
   // A stored attempt is watched, from briefing or debrief, and back to there. The trainee's own, or an expert's.
-  void watch(const std::string& attempt_id);
+  void watch(const std::string& attempt_id, double from_s = 0.0);
   void stop_watching();
   session::WatchedAttempt* watched() noexcept { return watched_.get(); }
 
@@ -147,7 +156,7 @@ class Trainer {
   std::unique_ptr<DevicePage> device_page_;
   std::string first_case_;  // to be opened at log-in
   std::optional<casedb::OpenAttempt> interrupted_;
-  bool restarting_ = false, trying_ = false, resuming_ = false;
+  bool provisional_ = true, restarting_ = false, trying_ = false, resuming_ = false;
   int help_ = 0;
 };
 

@@ -138,9 +138,14 @@ bool claims_no_loss(Syntax::TSType type) {
          type == Syntax::JPEGLSLossless || type == Syntax::JPEG2000Lossless;
 }
 
+// What stands behind the end is padding: zeros by PS3.5 §A.4, and FF, a fill byte of JPEG's, by some writers.
+std::span<const char> without_padding(std::span<const char> frame) {
+  while (!frame.empty() && (frame.back() == '\0' || frame.back() == '\xFF')) frame = frame.first(frame.size() - 1);
+  return frame;
+}
+
 // JPEG, JPEG-LS and JPEG 2000 all end in the marker FF D9.
 bool ends_in_marker(std::span<const char> frame) {
-  while (!frame.empty() && frame.back() == '\0') frame = frame.first(frame.size() - 1);
   return frame.size() >= 2 && frame[frame.size() - 2] == '\xFF' && frame.back() == '\xD9';
 }
 
@@ -198,6 +203,7 @@ base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, c
     auto unpacked = unpack_rle(frame, pixels_count, sample_bytes);
     return unpacked ? base::Result<std::vector<std::byte>>(std::move(*unpacked)) : damaged();
   }
+  frame = without_padding(frame);
   if (!ends_in_marker(frame)) return base::Error{"truncated", "ends before its pixels do"};
   const auto head = *family == Family::jpeg_2000 ? jpeg_2000_head(frame) : jpeg_head(frame, *family);
   if (!head || !head->is(slice)) return damaged();
@@ -207,7 +213,9 @@ base::Result<std::vector<std::byte>> decode_frame(std::span<const char> frame, c
   try {
     gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
     gdcm::Fragment fragment;
-    fragment.SetByteValue(frame.data(), gdcm::VL(static_cast<std::uint32_t>(frame.size())));
+    std::vector<char> even(frame.begin(), frame.end());
+    even.resize(even.size() + even.size() % 2, '\0');
+    fragment.SetByteValue(even.data(), gdcm::VL(static_cast<std::uint32_t>(even.size())));
     fragments->AddFragment(fragment);
     gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
     pixels.SetVR(gdcm::VR::OB);

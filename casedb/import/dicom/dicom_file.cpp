@@ -22,10 +22,12 @@ constexpr int kDeepest = 128;  // nested sequences
 constexpr DicomTag kItem = 0xFFFEE000, kItemEnd = 0xFFFEE00D, kSequenceEnd = 0xFFFEE0DD, kPixels = 0x7FE00010,
                    kSharedGroups = 0x52009229, kFrameGroups = 0x52009230;
 
-constexpr std::array<DicomTag, 36> kWanted = {
+constexpr std::array<DicomTag, 41> kWanted = {
     0x00020002, 0x00020010,                          // SOP class of the file (a DICOMDIR has no other), syntax
     0x00080008, 0x00080016, 0x00080060, 0x00089007,  // image type, SOP class, modality, frame type
+    0x0008103E,                                      // series description: searched for words (image_kind.h)
     0x00089206, 0x00089207,                          // volumetric properties, volume based calculation
+    0x00100010, 0x00100020, 0x00100030, 0x0020000D,  // name, patient ID, birth date, study: all of one?
     0x00180015, 0x00180050, 0x00180060, 0x00185100,  // body part, slice thickness, kVp, patient position
     0x0020000E, 0x00200011, 0x00200032, 0x00200037,  // series UID and number, position, orientation
     0x00280002, 0x00280004, 0x00280008, 0x00280010,

@@ -1,6 +1,7 @@
-// One DICOM file in memory: a walk over its data set that never trusts a length. Only the wanted elements are kept,
-// and none of them names a person. PS3.5 §7 (data set) and §A.4 (encapsulated pixels), PS3.10 §7.1 (preamble and
-// meta group), PS3.3 §C.7.6.16 (the functional groups in which a multi-frame image says where each frame lies).
+// One DICOM file in memory: a walk over its data set that never trusts a length. Only the wanted elements are kept;
+// those that name a person are there to tell two apart (identity.h). PS3.5 §7 (data set) and §A.4 (encapsulated
+// pixels), PS3.10 §7.1 (preamble and meta group), PS3.3 §C.7.6.16 (the functional groups in which a multi-frame
+// image says where each frame lies).
 #pragma once
 
 #include <array>

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "casedb/import/dicom/frame_pixels.h"
+#include "casedb/import/dicom/image_kind.h"
 #include "sim/volume/volume.h"
 
 namespace seldinger::casedb {
@@ -20,32 +21,6 @@ bool is_any_of(const std::string& value, std::span<const char* const> terms) {
 
 bool has_part(const std::string& image_type, const char* part) {
   return ("\\" + image_type + "\\").find(std::string("\\") + part + "\\") != std::string::npos;
-}
-
-std::string image_type_of(const DicomFile& header) {  // a frame's own type stands above the file's
-  const std::string frame_type = header.text(0x00089007);
-  return frame_type.empty() ? header.text(0x00080008) : frame_type;
-}
-
-// Projections and maps of another quantity, by the words vendors and PS3.3 §C.8.16.1 (derived pixel contrast) use
-// in an image type; reformats and averages (MPR, MEAN, RESAMPLED) stay slices of HU.
-constexpr std::array<const char*, 16> kNoSlices = {
-    "MIP",      "MAXIP", "MINIP", "MAXIMUM", "MINIMUM", "VRT",       "SSD",     "SUBTRACTION", "MULTIPLICATION",
-    "DIVISION", "CBF",   "CBV",   "MTT",     "TTP",     "PERFUSION", "QUANTITY"};
-constexpr std::array<const char*, 5> kNoSliceTechniques = {"MAX_IP", "MIN_IP", "VOLUME_RENDER", "SURFACE_RENDER",
-                                                           "CURVED_MPR"};  // PS3.3 §C.8.16.2.1.3
-
-bool is_no_slice(const DicomFile& header) {
-  std::string type = image_type_of(header) + "\\", word;
-  for (const char c : type) {
-    if (c != '\\' && c != ' ' && c != '_') {
-      word.push_back(c);
-      continue;
-    }
-    if (is_any_of(word, kNoSlices)) return true;
-    word.clear();
-  }
-  return is_any_of(header.text(0x00089207), kNoSliceTechniques) || header.text(0x00089206) == "DISTORTED";
 }
 
 void read_geometry(const DicomFile& file, DicomSlice& slice) {
@@ -183,14 +158,20 @@ DicomSlice slice_from(const DicomFile& header) {
   DicomSlice slice;
   slice.series_uid = header.text(0x0020000E);
   if (const auto number = header.numbers(0x00200011); number.size() == 1) slice.series_number = number[0];
+  slice.identity = identity_of(header);
   slice.transfer_syntax = header.transfer_syntax;
   slice.wrong_syntax = header.wrong_syntax;
   const std::string image_type = image_type_of(header);
   if (header.text(0x00280301) == "YES")
     slice.problems.push_back({"burned_in", "says that text is burned into the picture"});
   if (has_part(image_type, "SCREEN SAVE")) slice.problems.push_back({"burned_in", "is a screen picture"});
-  if (is_no_slice(header))
+  const ImageKind kind = image_kind_of(header);
+  if (kind == ImageKind::projection)
     slice.problems.push_back({"derived", "is a projection or a computed map, not a slice of HU"});
+  if (kind == ImageKind::material)
+    slice.problems.push_back({"derived", "is a map of a material, as of iodine, not a slice of HU"});
+  slice.is_virtual = kind == ImageKind::virtual_hu;
+  slice.described = kind == ImageKind::described;
   slice.secondary = has_part(image_type, "SECONDARY");
   slice.lossy = is_lossy_syntax(slice.transfer_syntax) || header.text(0x00282110) == "01";
   for (const double ratio : header.numbers(0x00282112)) slice.lossy_ratio = std::max(slice.lossy_ratio, ratio);

@@ -13,6 +13,7 @@
 
 #include "casedb/import/dicom/allow_list.h"
 #include "casedb/import/dicom/dicom_file.h"
+#include "casedb/import/dicom/identity.h"
 #include "sim/base/result.h"
 
 namespace seldinger::casedb {
@@ -30,6 +31,7 @@ struct DicomSlice {
   PixelPlace pixels;
   std::string series_uid;
   double series_number = 0.0;
+  SliceIdentity identity;
   glm::ivec2 size_px{0};       // columns, rows
   glm::dvec2 spacing_mm{0.0};  // along a row (from column to column), along a column
   glm::dvec3 position_lps_mm{0.0};
@@ -40,7 +42,7 @@ struct DicomSlice {
   std::optional<std::pair<int, int>> padding;  // stored values from–to, sign applied
   std::string transfer_syntax;
   bool lossy = false, no_rescale = false, secondary = false, not_hu = false, monochrome1 = false,
-       wrong_syntax = false;
+       wrong_syntax = false, is_virtual = false, described = false;
   double lossy_ratio = 0.0;                                     // as declared; 0 when it is not
   double thickness_mm = 0.0;                                    // 0 when it is not said
   std::vector<std::pair<std::string, std::string>> attributes;  // allow-list, validated

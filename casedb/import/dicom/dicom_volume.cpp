@@ -63,6 +63,10 @@ void judge_values(const Slices& slices, Warnings& warnings) {
   };
   say(&DicomSlice::no_rescale, "no_rescale", "rescale slope or intercept is missing: 1 and 0 are taken");
   say(&DicomSlice::not_hu, "not_hu", "the values are not said to be HU");
+  say(&DicomSlice::is_virtual, "virtual_image",
+      "virtual pictures, computed for one energy or without a material: HU are not those of the scan");
+  say(&DicomSlice::described, "virtual_image",
+      "the series' description names iodine or virtual pictures: look whether these are HU of the scan");
   say(&DicomSlice::secondary, "secondary", "derived pictures: look whether text is burned into them");
   say(&DicomSlice::monochrome1, "monochrome1",
       "low values are meant to be shown bright: HU stay as they are stored");
@@ -194,6 +198,7 @@ base::Result<Source> volume_of(Slices slices, Problems problems, Warnings warnin
     problems.add("too_many_slices", "the series has " + std::to_string(slices.size()) + " slices, more than 4096");
     return problems.error();
   }
+  judge_identity(slices, problems);
   order_slices(slices, problems, warnings);
   judge_lossy(slices, problems, warnings);
   judge_values(slices, warnings);

@@ -201,16 +201,20 @@ base::Result<std::vector<std::filesystem::path>> files_of_folder(const std::file
   std::vector<fs::path> files;
   std::set<fs::path> reached;
   std::error_code error;
-  fs::recursive_directory_iterator walk(folder, fs::directory_options::skip_permission_denied, error);
+  fs::recursive_directory_iterator walk(folder, error);
+  if (error) return base::Error{"not_readable", "the folder cannot be read"};
   for (; !error && walk != fs::recursive_directory_iterator(); walk.increment(error)) {
     std::error_code ignored;
     const bool dangling = walk->is_symlink(ignored) && !fs::exists(walk->path(), ignored);
-    if (walk.depth() >= kDeepestFolder) walk.disable_recursion_pending();
+    if (walk.depth() >= kDeepestFolder && walk->is_directory(ignored) && !walk->is_symlink(ignored))
+      return base::Error{"not_readable", "folders within the folder lie more than 16 deep: slices may be in them"};
     if (!walk->is_regular_file(ignored) && !dangling) continue;
     if (reached.insert(fs::weakly_canonical(walk->path(), ignored)).second) files.push_back(walk->path());
     if (files.size() > kMostFiles) return base::Error{"too_many_files", "the folder holds more than 50000 files"};
   }
-  if (error) return base::Error{"not_readable", "the folder cannot be read"};
+  if (error)
+    return base::Error{"not_readable", "a folder within the folder cannot be read, after " +
+                                           count_text(files.size(), "file") + ": slices may be in it"};
   std::sort(files.begin(), files.end());
   return files;
 }

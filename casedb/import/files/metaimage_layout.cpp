@@ -131,12 +131,17 @@ FileLayout metaimage_layout(const std::filesystem::path& file, Problems& problem
     problems.add("unknown_format", "bytes are to be skipped before the voxels, which is not read");
   if (!is_true(field("BinaryData")))  // MetaIO's default is text
     problems.add("unknown_format", "the voxels are stored as text, which is not read");
-  if (is_true(field("CompressedData"))) layout.packing = Packing::gzip_or_zlib;
   for (const char* order : {"BinaryDataByteOrderMSB", "ElementByteOrderMSB"})
     if (fields.contains(order)) layout.voxels.big_endian = is_true(fields.at(order));
-  if (const auto size = numbers_of(field("CompressedDataSize"));
-      size.size() == 1 && size[0] > 0.0 && size[0] < 1e15)
-    layout.packed_limit = static_cast<std::uint64_t>(size[0]);
+  if (is_true(field("CompressedData"))) {
+    layout.packing = Packing::gzip_or_zlib;
+    // Where packed voxels end nobody else says; writers of MetaImage give it always (metaImage.cxx).
+    const auto size = numbers_of(field("CompressedDataSize"));
+    if (size.size() == 1 && size[0] > 0.0 && size[0] < 1e15)
+      layout.packed_limit = static_cast<std::uint64_t>(size[0]);
+    else
+      problems.add("damaged", "the header does not say how many bytes the packed voxels take (CompressedDataSize)");
+  }
   const std::string name = field("ElementDataFile");
   if (name == "LOCAL" || name == "Local" || name == "local") {
     layout.data_file = file;

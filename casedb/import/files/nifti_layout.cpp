@@ -117,6 +117,45 @@ bool forms_differ(const NiftiHeader& header, const FileLayout& layout) {
   return false;
 }
 
+// Whether one form turns right into left against the other: axes of the one are a mirror image of the other's.
+bool forms_mirror(const NiftiHeader& header) {
+  const std::array<glm::dvec3, 3> by_qform = qform_axes(header);
+  const double q = glm::dot(glm::cross(by_qform[0], by_qform[1]), by_qform[2]);
+  const double s = glm::dot(glm::cross(header.srow_column(0), header.srow_column(1)), header.srow_column(2));
+  return q * s < 0.0;
+}
+
+// Which of the patient's sides change places between the forms; empty where it is none of them alone.
+std::string mirrored_sides(const NiftiHeader& header) {
+  static constexpr std::array<const char*, 3> kSides = {"right and left", "front and back", "head and feet"};
+  const std::array<glm::dvec3, 3> by_qform = qform_axes(header);
+  std::string sides;
+  for (int side = 0; side < 3; ++side) {
+    double along = 0.0;  // of the side's unit vector, carried from one form to the other
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      along += by_qform[axis][side] * glm::normalize(header.srow_column(axis))[side];
+    if (along < -0.5) sides += (sides.empty() ? "" : ", ") + std::string(kSides[static_cast<std::size_t>(side)]);
+  }
+  return sides;
+}
+
+void judge_two_forms(const NiftiHeader& header, bool both_of_the_scanner, FileLayout& layout, Problems& problems) {
+  if (forms_mirror(header)) {
+    const std::string sides = mirrored_sides(header);
+    const std::string text = "the sform is mirrored against the qform" +
+                             (sides.empty() ? std::string() : ": " + sides + " change places");
+    if (both_of_the_scanner)
+      problems.add("mirrored_geometry", text + ", and nobody knows which is the patient's");
+    else
+      layout.warnings.push_back({"mirrored_geometry", text + "; the one of the scanner's frame is taken"});
+  } else if (both_of_the_scanner) {
+    problems.add("no_geometry", "the header gives two places in the patient that contradict each other");
+  } else {
+    layout.warnings.push_back(
+        {"two_geometries", "the header also gives a place in another frame, which is not used"});
+  }
+}
+
 // The place in RAS, as nifti1.h has it, becomes one in LPS.
 void take_geometry(const std::array<glm::dvec3, 3>& axes, const glm::dvec3& origin, FileLayout& layout) {
   const auto lps = [](const glm::dvec3& ras) { return glm::dvec3(-ras.x, -ras.y, ras.z); };
@@ -150,13 +189,8 @@ void read_geometry(const NiftiHeader& header, FileLayout& layout, Problems& prob
       problems.add("no_geometry", "the orientation holds values that are no numbers, or out of range");
       return;
     }
-  if (sform > 0 && qform > 0 && forms_differ(header, layout)) {
-    if (sform == 1 && qform == 1)
-      problems.add("no_geometry", "the header gives two places in the patient that contradict each other");
-    else
-      layout.warnings.push_back(
-          {"two_geometries", "the header also gives a place in another frame, which is not used"});
-  }
+  if (sform > 0 && qform > 0 && forms_differ(header, layout))
+    judge_two_forms(header, sform == 1 && qform == 1, layout, problems);
   std::array<glm::dvec3, 3> axes = qform_axes(header);
   const auto size_mm = [&](std::size_t axis) { return spacing_mm[axis] > 0.0 ? spacing_mm[axis] : 1.0; };
   if (sform <= 0 || (qform > 0 && sform != 1)) {  // the sform is taken when it is the scanner's, or alone

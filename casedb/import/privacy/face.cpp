@@ -158,7 +158,7 @@ void take_front_away(volume::Volume& volume, const FaceFinding& face) {
 
 base::Result<FaceState> settle_face(volume::Volume& volume, FaceChoice choice, bool said_to_be_head) {
   const FaceFinding face = find_face(volume, said_to_be_head);
-  if (!face.found) return FaceState::none;
+  if (!face.found || choice == FaceChoice::overrule) return FaceState::none;
   if (choice == FaceChoice::refuse)
     return base::Error{"face",
                        "the volume shows a face, which can identify: crop it below the chin or deface it (--face)"};

@@ -24,11 +24,12 @@ struct FaceFinding {
 // itself.
 FaceFinding find_face(const volume::Volume& volume, bool said_to_be_head = false);
 
-enum class FaceChoice { refuse, crop, deface };
+enum class FaceChoice { refuse, crop, deface, overrule };
 
 // Leaves the volume as it is where there is no face. Crop: the part of the volume that is wholly below the chin
 // stays. Deface: from the chin to the forehead, all that lies in front of a plane 60 mm behind the foremost skin
-// becomes air, bone too. Refused: `face` (with FaceChoice::refuse), `face_only` (nothing is left below the chin).
+// becomes air, bone too. Overrule: it stays as it is, and somebody who may answers for it: FaceState::none.
+// Refused: `face` (with FaceChoice::refuse), `face_only` (nothing is left below the chin).
 base::Result<FaceState> settle_face(volume::Volume& volume, FaceChoice choice, bool said_to_be_head = false);
 
 }  // namespace seldinger::casedb

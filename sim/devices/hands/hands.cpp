@@ -119,8 +119,9 @@ void Hands::press_buttons(const HandIntent& intent) noexcept {
     pending_advance_mm_ = 0.0;
   }
   if (intent.guides % 2 != 0) {
+    ++guides_asked_;
     // A needle in tissue is not brought to another line.
-    if (guided_ || !needle_.inserted()) guided_ = !guided_;
+    guided_ = !guided_ && settings_.has_guide && !needle_.inserted();
     in_guide_ = false;
     guide_side_ = glm::dot(needle().position_lps_mm - probe().position_lps_mm, probe().side) > 0.0 ? 1.0 : -1.0;
   }
@@ -188,6 +189,11 @@ Hands::Line Hands::guide_line() const noexcept {
   return {pose.position_lps_mm + pose.side * (guide_side_ * settings_.probe_guide.offset_mm),
           glm::normalize(pose.axis * std::cos(angle_rad) - pose.side * (guide_side_ * std::sin(angle_rad))),
           glm::cross(pose.axis, pose.side)};
+}
+
+std::optional<ProbeGuide> Hands::guide_on_probe() const noexcept {
+  if (!guided_ || !on_probe()) return std::nullopt;
+  return ProbeGuide{guide_side_ * settings_.probe_guide.offset_mm, settings_.probe_guide.angle_deg};
 }
 
 void Hands::follow_guide(double elapsed_s) noexcept {

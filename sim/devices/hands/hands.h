@@ -4,6 +4,7 @@
 // Pure: no clock, lock or allocation; may run on the servo's thread.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 
@@ -54,6 +55,7 @@ struct LineGuide {
 
 struct HandsSettings {
   double needle_length_mm = 200.0;
+  bool has_guide = true;
   std::optional<LineGuide> line{};  // takes the place of `probe_guide`
   ProbeGuide probe_guide{};
 };
@@ -79,8 +81,12 @@ class Hands {
   bool needle_inserted() const noexcept { return needle_.inserted(); }
   double inserted_mm() const noexcept { return needle_.inserted_mm(); }
   double press_mm() const noexcept { return probe_.press_mm(); }
-  bool guided() const noexcept { return guided_; }        // the needle goes in the guide, or to it
-  bool in_guide() const noexcept { return in_guide_; }    // it is on the guide's line
+  bool guided() const noexcept { return guided_; }                       // the needle goes in the guide, or to it
+  bool in_guide() const noexcept { return in_guide_; }                   // it is on the guide's line
+  std::uint32_t guides_asked() const noexcept { return guides_asked_; }  // in vain, too
+  // The probe's, while it is taken up: its offset is negative where it leaves on the side that `side` points away
+  // from. Nothing: none is, or it is in space.
+  std::optional<ProbeGuide> guide_on_probe() const noexcept;
   bool returning() const noexcept { return returning_; }  // to the start; any move of the hand ends that
   // A needle in tissue and in the probe's guide holds the probe where it is.
   bool probe_held() const noexcept { return in_guide_ && on_probe() && needle_.inserted(); }
@@ -117,6 +123,7 @@ class Hands {
   bool fire_ = false, frozen_ = false, guided_ = false, in_guide_ = false, returning_ = false, keep_tilt_ = false;
   glm::dvec3 pending_slide_mm_{0.0}, pending_turn_rad_{0.0};
   double pending_advance_mm_ = 0.0;
+  std::uint32_t guides_asked_ = 0;
   double guide_side_ = -1.0;     // 1: the guide is where the probe's side points
   double along_guide_mm_ = 0.0;  // of the tip, from where the guide's line begins
 };

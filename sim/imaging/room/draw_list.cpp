@@ -11,6 +11,7 @@ namespace seldinger::imaging {
 namespace {
 
 const glm::vec4 kSkin(0.56F, 0.32F, 0.23F, 1.0F), kDrape(0.06F, 0.21F, 0.26F, 1.0F);
+const glm::vec4 kWheal(0.64F, 0.42F, 0.33F, 1.0F);
 const glm::vec4 kGel(0.62F, 0.47F, 0.22F, 1.0F), kTray(0.50F, 0.52F, 0.54F, 1.0F);
 const glm::vec4 kFloor(0.17F, 0.19F, 0.21F, 1.0F), kWalls(0.40F, 0.44F, 0.45F, 1.0F);
 const glm::vec4 kInside(0.45F, 0.14F, 0.11F, 1.0F), kBone(0.50F, 0.44F, 0.32F, 1.0F);
@@ -19,7 +20,8 @@ const glm::vec4 kPlaneLine(0.10F, 0.55F, 0.75F, 0.55F), kNeedleLine(0.85F, 0.70F
 const glm::vec4 kPlanLine(0.10F, 0.65F, 0.18F, 0.55F);
 constexpr float kGlass = 0.3F;
 constexpr double kGuideMm = 150.0, kLineRadiusMm = 0.6, kEntryRadiusMm = 3.0;
-constexpr int kTurnedPieces = 12;  // of an arc whose console was turned
+constexpr double kWhealRadiusMm = 5.0, kWhealHeightMm = 1.5;  // a bleb in the skin (design)
+constexpr int kTurnedPieces = 12;                             // of an arc whose console was turned
 
 glm::dmat4 pose(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin) {
   return glm::dmat4(glm::dvec4(x, 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), glm::dvec4(origin, 1.0));
@@ -93,6 +95,21 @@ class Maker {
     drape.mesh = room_.drapes;
     drape.both_sides = true;
     add(drape);
+  }
+
+  // What an anaesthetic raises: a flat, pale dome on the skin, which goes with it.
+  void wheals() {
+    for (const glm::dvec3& place : options_.numb_lps_mm) {
+      const glm::dvec3 z = scene_.skin_index.normal(scene_.skin_index.closest_skin(place).triangle);
+      const Axes axes = across(z, room_.frame);
+      RoomItem wheal;
+      wheal.part = RoomPart::wheal;
+      wheal.mesh = room_.ball;
+      wheal.lps_from_mesh = pose(kWhealRadiusMm * axes.x, kWhealRadiusMm * axes.y, kWhealHeightMm * z, place);
+      wheal.colour = kWheal;
+      wheal.displaced = scene_.yields || scene_.breathing.has_value();
+      add(wheal);
+    }
   }
 
   // A thrown core needle has gone on, its handle has not.
@@ -276,6 +293,7 @@ void make_draw_list(const RoomModel& room, const cases::Case& scene, const cases
   list.needs_displacement = false;
   Maker make(room, scene, state, options, list);
   make.patient();
+  make.wheals();
   if (options.needle) make.needle();
   if (options.probe) make.probe();
   make.c_arm();

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/case/case.h"
@@ -22,6 +23,7 @@ enum class RoomPart : std::uint8_t {
   table,
   floor,
   walls,
+  wheal,  // where the skin is numb
   needle_shaft,
   needle_hub,
   probe,
@@ -73,8 +75,9 @@ struct RoomOptions {
   int help = 0;
   // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
   bool mentor = false;
-  bool glass = false;                // with `mentor`: nothing is cut away, the skin can be looked through
-  bool needle = true, probe = true;  // what hands hold
+  bool glass = false;                         // with `mentor`: nothing is cut away, the skin can be looked through
+  bool needle = true, probe = true;           // what hands hold
+  std::span<const glm::dvec3> numb_lps_mm{};  // where an anaesthetic was given, of the skin at rest
 };
 
 // Of a state: the tools where hands hold them. `list` is emptied first.

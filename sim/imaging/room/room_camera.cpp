@@ -115,6 +115,16 @@ RoomCamera room_camera(const RoomModel& room, const cases::Case& scene, const ca
     case RoomView::along_needle:
       camera.eye_lps_mm = tip - needle * (scene.instrument.length_mm + 260.0) + f.up * 40.0;
       break;
+    case RoomView::along_plane: {
+      constexpr double kAbove = 0.5;  // of the way along the plane: past the needle's hub
+      const cases::ProbeState& probe = state.probe;
+      const double needle_side = glm::dot(hub - probe.origin_lps_mm, probe.lateral) < 0.0 ? -1.0 : 1.0;
+      camera.target_lps_mm = probe.origin_lps_mm;
+      camera.up = -probe.axial;
+      camera.eye_lps_mm =
+          probe.origin_lps_mm + 420.0 * glm::normalize(needle_side * probe.lateral - kAbove * probe.axial);
+      break;
+    }
     case RoomView::near_probe:
       camera.target_lps_mm = state.probe.origin_lps_mm;
       from(side, -0.7, 0.6, 380.0);
@@ -131,6 +141,7 @@ RoomCamera room_camera(const RoomModel& room, const cases::Case& scene, const ca
     look_past_probe(camera, room, state.probe, seen);
     stay_clear(camera, f, scene.skin_index, in_view, 1.0);
   }
+  stay_off_tools(camera, room, state);
   return camera;
 }
 
@@ -152,6 +163,32 @@ void stay_clear(RoomCamera& camera, const RoomFrame& frame, const cases::MeshInd
     zoom(camera, kStep);
     if (too_low_mm() > 0.0) camera.eye_lps_mm += frame.up * too_low_mm();
   }
+}
+
+void stay_off_tools(RoomCamera& camera, const RoomModel& room, const cases::State& state) {
+  constexpr double kFromToolMm = 60.0, kFarthestMm = 2400.0, kStep = 1.04;
+  const glm::dmat3 lps_from_probe(state.probe.lateral, glm::cross(state.probe.axial, state.probe.lateral),
+                                  state.probe.axial);
+  const auto near_probe = [&] {
+    if (room.probe == kNoMesh) return false;
+    const glm::dvec3 eye = glm::transpose(lps_from_probe) * (camera.eye_lps_mm - state.probe.origin_lps_mm);
+    return std::ranges::any_of(room.meshes[room.probe].vertices, [&](const gpu::Vertex& vertex) {
+      return glm::distance(glm::dvec3(vertex.place_mm), eye) < kFromToolMm;
+    });
+  };
+  // The hub and what is held of it, by its length: it is slender.
+  double hub_end_mm = 0.0;
+  if (room.hub != kNoMesh)
+    for (const gpu::Vertex& vertex : room.meshes[room.hub].vertices)
+      hub_end_mm = std::min(hub_end_mm, static_cast<double>(vertex.place_mm.z));
+  const auto near_hub = [&] {
+    const glm::dvec3 from_tip = camera.eye_lps_mm - state.needle.tip_lps_mm;
+    const double along_mm = std::clamp(glm::dot(from_tip, state.needle.direction), hub_end_mm, 0.0);
+    return glm::distance(from_tip, along_mm * state.needle.direction) < kFromToolMm;
+  };
+  while (glm::distance(camera.eye_lps_mm, camera.target_lps_mm) * kStep < kFarthestMm &&
+         (near_probe() || near_hub()))
+    zoom(camera, kStep);
 }
 
 RoomCamera between(const RoomCamera& from, const RoomCamera& to, double share) {
@@ -206,7 +243,7 @@ RoomProjection projection_of(const RoomCamera& camera, int eye, double width_per
   p.eye_lps_mm = camera.eye_lps_mm + axes[0] * aside_mm;
   p.eye_from_lps = glm::dmat4(glm::transpose(axes));
   p.eye_from_lps[3] = glm::dvec4(-(glm::transpose(axes) * p.eye_lps_mm), 1.0);
-  const double near_mm = std::max(5.0, 0.05 * distance_mm);
+  constexpr double near_mm = 5.0;  // nothing that is looked at comes as near: stay_clear, stay_off_tools
   const double half_height = near_mm * std::tan(0.5 * kDeg * camera.height_deg);
   const double half_width = half_height * width_per_height;
   const double askew = aside_mm * near_mm / distance_mm;

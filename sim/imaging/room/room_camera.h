@@ -16,9 +16,10 @@
 
 namespace seldinger::imaging {
 
-enum class RoomView { operator_side, head_end, foot_end, top, over_needle, along_needle, near_probe };
-constexpr std::array<std::string_view, 7> kRoomViewNames = {"operator_side", "head_end",     "foot_end",  "top",
-                                                            "over_needle",   "along_needle", "near_probe"};
+// along_plane: the plane of the probe's picture edge-on, from the needle's side; a needle beside it is seen to be.
+enum class RoomView { operator_side, head_end, foot_end, top, over_needle, along_needle, near_probe, along_plane };
+constexpr std::array<std::string_view, 8> kRoomViewNames = {
+    "operator_side", "head_end", "foot_end", "top", "over_needle", "along_needle", "near_probe", "along_plane"};
 std::optional<RoomView> room_view_named(std::string_view name) noexcept;
 
 struct RoomCamera {
@@ -37,6 +38,9 @@ RoomCamera room_camera(const RoomModel& room, const cases::Case& scene, const ca
 // some centimetres and every place of `in_view` is in the picture (as far as the walls allow); up, above the floor.
 void stay_clear(RoomCamera& camera, const RoomFrame& frame, const cases::MeshIndex& skin,
                 std::span<const glm::dvec3> in_view, double width_per_height);
+
+// So that no tool is cut by the picture's near plane: back from the target until the eye is clear of probe and hub.
+void stay_off_tools(RoomCamera& camera, const RoomModel& room, const cases::State& state);
 
 // On the way between two: 0 the one, 1 the other, slow at both ends; the eye turns about what is looked at.
 RoomCamera between(const RoomCamera& from, const RoomCamera& to, double share);

@@ -41,7 +41,7 @@ const Command& command_of(const std::string& name) {
 
 struct Told {
   int exit_code = 0;
-  std::string code, out;
+  std::string code, out, err;
 };
 
 class ActingTest : public testing::Test {
@@ -120,6 +120,7 @@ class ActingTest : public testing::Test {
     told.out = testing::internal::GetCapturedStdout();
     const std::string err = testing::internal::GetCapturedStderr();
     std::cin.rdbuf(before);
+    told.err = err;
     const std::size_t at = err.find("error: ");
     if (at != err.npos) told.code = err.substr(at + 7, err.find(':', at + 7) - at - 7);
     return told;
@@ -152,6 +153,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
   own_programme.own_programme = true;
   const std::vector<Asked> all = {
       {"import", {"nowhere.nii"}, Action::add_case},
+      {"import", {"nowhere.nii", "--face", "overrule", "--reason", "knees"}, Action::overrule_face},
       {"case lesion",
        {draft_, "--center-mm", "0,0,0", "--radius-mm", "1", "--hu", "1"},
        Action::work_on_case,
@@ -284,6 +286,16 @@ TEST_F(ActingTest, DecisionsWithASessionOrAPasswordAreThePersons) {
   EXPECT_EQ(call("case show", {draft_}).out.find("operator"), std::string::npos);
 }
 
+// Was: asked twice, and refused at the second time, when the password on standard input was gone.
+TEST_F(ActingTest, WhoRepairsIsAskedForThePasswordOnce) {
+  // The library was changed past the program (fill): its values are taken as they are.
+  call("check", {"--repair", "--accept-damaged", "--by", "admin", "--password-file", "-"},
+       std::string(kPassword) + "\n");
+  EXPECT_EQ(last_row().act, "accept_damaged");
+  EXPECT_EQ(last_row().actor, "person");
+  EXPECT_EQ(last_row().person_id, person_[Role::admin]);
+}
+
 // Was: "done" before it was tried, and nothing of how it went.
 TEST_F(ActingTest, WhatFailsIsNotKeptAsDone) {
   const auto kept = [&] {
@@ -401,6 +413,48 @@ TEST_F(ActingTest, WhoActsHoldsInEveryFunctionThatTakesAName) {
   EXPECT_EQ(casedb::submit_case(library, draft_, "mentor").error().code, "not_allowed");
   library.act_for(casedb::Actor::person(person_[Role::mentor]));
   EXPECT_TRUE(casedb::submit_case(library, draft_, "mentor"));
+}
+
+// Who may not see a case or an attempt is answered to its beginning as to one of nothing.
+TEST_F(ActingTest, NobodyLearnsByBeginningsWhatTheyMayNotSee) {
+  const auto by = [&](Role role) {
+    return std::vector<std::string>{"--by", casedb::name_of(role), "--token-file", token_of(role).string()};
+  };
+  const auto answer = [&](const std::string& command, const std::string& named, Role role) {
+    std::vector<std::string> words = {named};
+    if (command == "case lesion") words.insert(words.end(), {"--remove", "x"});
+    for (const std::string& one : by(role)) words.push_back(one);
+    Told told = call(command, words);
+    const std::size_t at = told.err.find(named);
+    if (at != told.err.npos) told.err.replace(at, named.size(), "…");
+    return told;
+  };
+  const std::string nothing(30, 'f');
+  const auto begin = [](const std::string& id) { return id.substr(0, 30); };
+  struct Hidden {
+    std::string command, id;
+    Role role;
+    bool seen;
+  };
+  const std::vector<Hidden> all = {
+      {"case lesion", draft_, Role::trainee, false},         {"case lesion", published_, Role::trainee, false},
+      {"case lesion", draft_, Role::admin, false},           {"case lesion", draft_, Role::director, false},
+      {"case lesion", draft_, Role::researcher, false},      {"case lesion", published_, Role::admin, true},
+      {"case lesion", draft_, Role::mentor, true},           {"attempt delete", attempt_, Role::director, false},
+      {"attempt delete", attempt_, Role::researcher, false}, {"attempt delete", attempt_, Role::trainee, true}};
+  for (const Hidden& one : all) {
+    SCOPED_TRACE(one.command + " by " + casedb::name_of(one.role));
+    const Told told = answer(one.command, begin(one.id), one.role),
+               of_nothing = answer(one.command, nothing, one.role);
+    EXPECT_EQ(of_nothing.exit_code, kRefused);
+    EXPECT_EQ(told.err == of_nothing.err && told.exit_code == of_nothing.exit_code, !one.seen)
+        << told.err << of_nothing.err;
+    renew();
+  }
+  // The operator has the files, and is told.
+  EXPECT_EQ(call("case show", {begin(draft_)}).exit_code, kDone);
+  EXPECT_EQ(call("case show", {draft_.substr(0, 4)}).code, "ambiguous") << "ids begin with their time";
+  EXPECT_EQ(call("case show", {""}).code, "no_case");
 }
 
 }  // namespace

@@ -25,6 +25,13 @@ TEST(ProgressTest, ProficientIsTwoPassesRunningInEveryRunOfUpToSix) {
       std::vector<Verdict> verdicts;
       for (int i = 0, rest = run; i < length; ++i, rest /= 4) verdicts.push_back(kAll[rest % 4]);
       EXPECT_EQ(proficiency_of(verdicts), by_letters(verdicts)) << length << " " << run;
+      const int missing = passes_missing(verdicts);
+      std::vector<Verdict> on = verdicts;
+      on.insert(on.end(), static_cast<std::size_t>(missing), passed);
+      EXPECT_EQ(by_letters(on), Proficiency::proficient) << length << " " << run;
+      if (missing == 0) continue;
+      on.pop_back();
+      EXPECT_NE(by_letters(on), Proficiency::proficient) << "fewer would do: " << length << " " << run;
     }
 }
 

@@ -76,6 +76,33 @@ inline double reach(const std::vector<Knot>& knots, double t_s) {
   return knots.back().value;
 }
 
+// Straight down (−y) at these depths below the skin of a block at y = 0, fired at the end: 100 poses and 25 frames
+// a second, in which nothing is seen; the target 60 mm deep.
+struct StraightDown {
+  AttemptSetting setting;
+  cases::Recording recording;
+
+  Signals signals() const { return make_signals(setting, recording).value(); }
+};
+inline StraightDown straight_down(const std::vector<Knot>& depth_mm, double seconds) {
+  static const cases::MeshIndex skin(fixtures::box_mesh({-100.0, -100.0, -100.0}, {100.0, 0.0, 100.0}));
+  StraightDown made;
+  made.setting.skin = &skin;
+  made.setting.modality = cases::Modality::ultrasound;
+  made.setting.target = cases::Lesion{{0.0, -60.0, 0.0}, 5.0, 20.0};
+  for (int i = 0; i <= std::lround(100.0 * seconds); ++i) {
+    cases::PoseSample pose;
+    pose.t_s = 0.01 * i;
+    pose.tip_lps_mm = {0.0, -reach(depth_mm, pose.t_s), 0.0};
+    pose.needle_direction = {0.0, -1.0, 0.0};
+    pose.probe_axial = {0.0, -1.0, 0.0};
+    made.recording.poses.push_back(pose);
+    if (i % 4 == 0) made.recording.frames.emplace_back().t_s = pose.t_s;
+  }
+  made.recording.endpoint = cases::Endpoint{seconds, made.recording.poses.back().tip_lps_mm, {0.0, -1.0, 0.0}};
+  return made;
+}
+
 // Depth along the needle: in, back by more than a fifth, redirected, in with a jiggle, a touch too far, and rest.
 inline const std::vector<Knot>& sample_depth_mm() {
   static const std::vector<Knot> kDepth = {{0.5, -25.0}, {2.0, 10.0},  {2.5, 10.0}, {4.5, 41.0}, {5.0, 41.0},

@@ -211,6 +211,30 @@ TEST(FindLesionSite, AVolumeOfAirHasNone) {
   const auto site = find_lesion_site(volume::rasterize(air), skin());
   ASSERT_FALSE(site.has_value());
   EXPECT_EQ(site.error().code, "no_lesion_site");
+  EXPECT_NE(site.error().text.find("mean 30–180 HU) homogeneous within 16 mm"), std::string::npos)
+      << site.error().text;
+}
+
+TEST(FindLesionSite, ASlabThinnerThanTheRuleIsToldWithItsNumbers) {
+  auto volume = ball({{volume::Sphere{{0, -30, 0}, 35.0}, 110.0, ""}});
+  volume.size_voxels.z = static_cast<int>(std::lround(19.0 / volume.spacing_mm.z));
+  volume.hu.resize(static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y) *
+                   static_cast<std::size_t>(volume.size_voxels.z));
+  const auto site = find_lesion_site(volume, skin());
+  ASSERT_FALSE(site.has_value());
+  const std::string slab =
+      "a slab of " + std::to_string(std::lround(volume.size_voxels.z * volume.spacing_mm.z)) + " mm";
+  EXPECT_NE(site.error().text.find(slab), std::string::npos) << site.error().text;
+  EXPECT_NE(site.error().text.find("asks for 32 mm"), std::string::npos) << site.error().text;
+}
+
+TEST(FindLesionSite, WhatIsHomogeneousAndNotDeepEnoughIsCounted) {
+  LesionRule rule;
+  rule.min_depth_mm = 99.0;
+  rule.max_depth_mm = 99.5;
+  const auto site = find_lesion_site(ball({{volume::Sphere{{0, -30, 0}, 35.0}, 110.0, ""}}), skin(), rule);
+  ASSERT_FALSE(site.has_value());
+  EXPECT_NE(site.error().text.find(" places of homogeneous soft tissue"), std::string::npos) << site.error().text;
 }
 
 TEST(Profiles, NamesAndFiles) {

@@ -34,6 +34,7 @@ constexpr Row kMatrix[] = {
     {"see_case_notes",            "",          "all",                 "",                 "all",       ""},
     {"work_on_case",              "",          "dr:all",              "",                 "",          ""},
     {"confirm_no_burned_in_text", "",          "all",                 "",                 "all",       "all"},
+    {"overrule_face",             "",          "",                    "",                 "",          "all"},
     {"submit_case",               "",          "all",                 "",                 "",          ""},
     {"approve_case",              "",          "others'",             "",                 "others'",   ""},
     {"return_case",               "",          "all",                 "",                 "all",       ""},

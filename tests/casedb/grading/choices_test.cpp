@@ -123,6 +123,32 @@ TEST_F(ChoicesTest, OutOfACurriculumOnlyThePersonsOwnAttemptsCount) {
   EXPECT_EQ(next_of(all), nullptr);
 }
 
+// Before: with nothing due, a pass led nowhere.
+TEST_F(ChoicesTest, APassLeadsOnAndTellsWhatIsMissing) {
+  const std::string one = published("One"), two = published("Two"), three = published("Three");
+  EXPECT_EQ(choices().cases[0].passes_missing, 2);
+  attempt_on(one, true);
+  EXPECT_EQ(choices().cases[0].passes_missing, 1);
+  EXPECT_EQ(after_pass(choices(), one)->case_id, two);
+  EXPECT_EQ(after_pass(choices(), three)->case_id, one) << "round again: one more pass is missing";
+  attempt_on(one, false);
+  EXPECT_EQ(choices().cases[0].passes_missing, 2) << "running";
+  for (int i = 0; i < 2; ++i) attempt_on(one, true);
+  EXPECT_EQ(choices().cases[0].passes_missing, 0);
+  EXPECT_EQ(after_pass(choices(), three)->case_id, two);
+  for (const std::string& id : {two, three, two, three}) attempt_on(id, true);
+  EXPECT_EQ(after_pass(choices(), two)->case_id, three) << "all are proficient, and another is better than none";
+  EXPECT_EQ(after_pass(choices(), "elsewhere"), nullptr);
+  ASSERT_TRUE(publish_curriculum(library_, curriculum("Year", {published("Four")}), "Dan"));
+  EXPECT_EQ(after_pass(choices(), two)->title, "Four") << "what is due comes first";
+}
+
+TEST_F(ChoicesTest, TheOnlyCaseFollowsItself) {
+  const std::string only = published("Only");
+  attempt_on(only, true);
+  EXPECT_EQ(after_pass(choices(), only)->case_id, only);
+}
+
 TEST_F(ChoicesTest, WhatIsPublishedToACohortReachesNobodyElse) {
   const std::string alone = published("Alone"), item = published("In a curriculum");
   ASSERT_TRUE(publish_curriculum(library_, curriculum("Year", {item}), "Dan"));
@@ -197,12 +223,29 @@ TEST_F(ChoicesTest, ACaseOfTwoCurriculaIsInBothAndANewVersionTakesItsPlace) {
   EXPECT_EQ(choices().cases[0].case_id, first) << "a draft is nobody's case";
   publish(second);
   const Choices all = choices();
-  ASSERT_EQ(titles(all), (Titles{"Year: One", "Extra: One", "One"}));
+  ASSERT_EQ(titles(all), (Titles{"Year: One", "Extra: One"})) << "the first, though not retired, is out of sight";
   EXPECT_EQ(all.cases[0].case_id, second);
-  EXPECT_EQ(all.cases[2].case_id, first) << "it was not retired";
-  ASSERT_TRUE(retire_case(library_, first, "Mia"));
   ASSERT_TRUE(retire_case(library_, second, "Mia"));
+  EXPECT_EQ(titles(choices()), (Titles{"Year: One", "Extra: One"})) << "the first is there again";
+  EXPECT_EQ(choices().cases[0].case_id, first);
+  ASSERT_TRUE(retire_case(library_, first, "Mia"));
   EXPECT_EQ(titles(choices()), Titles{}) << "an item without a case cannot be chosen";
+}
+
+// Before: both stood in the list under one title.
+TEST_F(ChoicesTest, OfFreePracticeTheNewestVersionThatReachesSomebodyIsListed) {
+  const std::string first = published("One");
+  library_.database().run("DROP TRIGGER training_case_published_keeps_its_name");
+  library_.database().run("UPDATE training_case SET audience = 'everyone' WHERE state = 'published'");
+  published("Two");
+  const std::string second = new_version(library_, first, "Mia").value();
+  EXPECT_EQ(choices().cases.at(0).case_id, first) << "a draft replaces nothing";
+  publish(second);  // for Mia's cohort
+  ASSERT_EQ(titles(choices()), (Titles{"One", "Two"})) << "in the first's place";
+  EXPECT_EQ(choices().cases[0].case_id, second);
+  const Choices elsewhere = choices_of(library_, user("Ann", Role::trainee), Role::trainee);
+  ASSERT_EQ(elsewhere.cases.size(), 1U);
+  EXPECT_EQ(elsewhere.cases[0].case_id, first) << "the second never reached her";
 }
 
 // Before: for Eve the item was gone and its case open as free practice, though the first is not passed.

@@ -8,6 +8,7 @@
 #include "tests/casedb/import/packed_frame.h"
 #include "tests/casedb/import/peak_memory.h"
 #include "tests/fixtures/cpu_time.h"
+#include "tests/fixtures/mutate.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -63,6 +64,30 @@ TEST_F(DicomBounds, FramesThatPromiseAnotherSizeThanTheHeader) {
   EXPECT_EQ(promising(kJpegLs, "\xFF\xF7", 5, std::string(4, '\xFF')), "damaged");
   EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 6, std::string("\0\0\xFF\xFF\0\0\xFF\xFF", 8)), "damaged");
   EXPECT_EQ(promising(kJpeg2000, "\xFF\x51", 22, std::string("\0\0\0\1\0\0\0\1", 8)), "damaged");  // a tile a pixel
+}
+
+// JPEG 2000 streams with FF behind their end were refused as cut.
+TEST_F(DicomBounds, PaddingBehindAFramesEndIsNoPartOfIt) {
+  constexpr glm::ivec2 kSize{16, 12};
+  std::vector<int> stored;
+  for (int i = 0; i < 16 * 12; ++i) stored.push_back(i * 5 - 300);
+  for (const char* syntax : {kJpeg, kJpegLs, kJpeg2000}) {
+    std::string frame = packed_frame(syntax, kSize, stored);
+    frame.resize(frame.rfind("\xFF\xD9") + 2);
+    for (const std::string& padding : {std::string("\xFF"), std::string("\xFF\xFF\xFF\xFF"),
+                                       std::string("\0\xFF\0", 3), std::string(4097, '\xFF')}) {
+      std::string padded = frame + padding;
+      if (padded.size() % 2 != 0) padded.push_back(padding.back());
+      const auto source =
+          read(write("PLANTED.dcm", TestDicom::ct_slice(kSize).fragments(syntax, {padded}).bytes()));
+      ASSERT_TRUE(source) << syntax << source.error().text;
+      for (std::size_t i = 0; i < stored.size(); ++i) ASSERT_EQ(source->volume.hu[i], stored[i]) << syntax;
+    }
+    // Without its end it is cut, padded or not.
+    const std::string cut = frame.substr(0, frame.size() - 4) + std::string(4, '\xFF');
+    EXPECT_EQ(refusal(write("PLANTED.dcm", TestDicom::ct_slice(kSize).fragments(syntax, {cut}).bytes())),
+              "truncated");
+  }
 }
 
 TEST_F(DicomBounds, RleFramesThatLie) {
@@ -168,7 +193,8 @@ TEST_F(DicomBounds, ALargeMultiFrameFileIsHeldOnce) {
 }
 
 TEST_F(DicomBounds, MutatedFilesNeverHarm) {
-  for (const FuzzedReader reader : kFuzzedReaders) fuzz_import(folder_, reader, 20240607, 500);
+  for (const FuzzedReader reader : kFuzzedReaders)
+    fuzz_import(folder_, reader, 20240607, fixtures::fuzz_rounds(500));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 namespace seldinger::casedb {
 namespace {
 
-constexpr glm::ivec2 kSize{4, 3};
-constexpr const char* kRle = "1.2.840.10008.1.2.5";
+constexpr glm::ivec2 kFrame{4, 3};
+constexpr const char* kRleSyntax = "1.2.840.10008.1.2.5";
 constexpr std::uint32_t kSharedGroups = 0x52009229, kFrameGroups = 0x52009230, kPosition = 0x00209113;
 
 std::vector<glm::dvec3> places(std::initializer_list<double> heights_mm) {
@@ -21,7 +21,7 @@ std::vector<glm::dvec3> places(std::initializer_list<double> heights_mm) {
 class DicomEnhanced : public ImportCase {
  protected:
   // The shuffled file below: heights 0, 2, 4, 6 are frames 1, 3, 0, 2.
-  static TestDicom shuffled() { return enhanced_ct(kSize, places({4, 0, 6, 2})); }
+  static TestDicom shuffled() { return enhanced_ct(kFrame, places({4, 0, 6, 2})); }
   void expect_shuffled(const base::Result<Source>& source) {
     ASSERT_TRUE(source) << source.error().code << source.error().text;
     EXPECT_EQ(source->volume.size_voxels, glm::ivec3(4, 3, 4));
@@ -72,17 +72,17 @@ TEST_F(DicomEnhanced, SequencesOfUndefinedLengthAndWithinUnknownOnes) {
 
 TEST_F(DicomEnhanced, PackedFramesByTableOrOneFragmentEach) {
   const auto frames = rle_frames(4);
-  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRle, frames).bytes())));
-  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRle, frames, {0, 1, 2, 3}).bytes())));
+  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, frames).bytes())));
+  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, frames, {0, 1, 2, 3}).bytes())));
   // One frame in two fragments: with a table it is known which, without one nobody says.
   std::vector<std::string> split = frames;
   split[1] = frames[1].substr(0, 64);
   split.insert(split.begin() + 2, frames[1].substr(64));
-  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRle, split, {0, 1, 3, 4}).bytes())));
-  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRle, split).bytes())), "damaged");
-  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRle, frames, {0, 2, 3}).bytes())), "");
+  expect_shuffled(read(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, split, {0, 1, 3, 4}).bytes())));
+  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, split).bytes())), "damaged");
+  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, frames, {0, 2, 3}).bytes())), "");
   std::vector<std::string> fewer(frames.begin(), frames.begin() + 3);
-  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRle, fewer).bytes())), "damaged");
+  EXPECT_EQ(refusal(write("PLANTED.dcm", shuffled().fragments(kRleSyntax, fewer).bytes())), "damaged");
 }
 
 TEST_F(DicomEnhanced, FramesInJpegAreTheSampleTwice) {
@@ -143,13 +143,13 @@ TEST_F(DicomEnhanced, FewerPixelsThanFrames) {
 }
 
 TEST_F(DicomEnhanced, TwoTimesAtOnePlaceAreRefused) {
-  EXPECT_EQ(refusal(write("PLANTED.dcm", enhanced_ct(kSize, places({0, 2, 0, 2})).bytes())), "duplicate_slices");
+  EXPECT_EQ(refusal(write("PLANTED.dcm", enhanced_ct(kFrame, places({0, 2, 0, 2})).bytes())), "duplicate_slices");
 }
 
 TEST_F(DicomEnhanced, FramesOfSeveralFilesMakeOneVolume) {
-  write("a", enhanced_ct(kSize, places({0, 4})).bytes());
-  write("b", enhanced_ct(kSize, places({6, 2})).bytes());
-  write("c", TestDicom::ct_slice(kSize, 7).at({-3.0, 4.0, 8.0}).bytes());
+  write("a", enhanced_ct(kFrame, places({0, 4})).bytes());
+  write("b", enhanced_ct(kFrame, places({6, 2})).bytes());
+  write("c", TestDicom::ct_slice(kFrame, 7).at({-3.0, 4.0, 8.0}).bytes());
   const auto source = read(folder_);
   ASSERT_TRUE(source) << source.error().text;
   EXPECT_EQ(source->volume.size_voxels.z, 5);

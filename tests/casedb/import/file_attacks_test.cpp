@@ -112,11 +112,12 @@ TEST_F(FileAttacks, TwoMegabytesDoNotBecomeTwoThousand) {
   const std::string zeros = gzip_of_zeros(), header = Nifti({1000, 1000, 1000}, glm::dmat4(1.0)).bytes("");
   ASSERT_LT(zeros.size(), std::size_t{3} << 20);
   write("v.raw.gz", zeros);
-  const std::filesystem::path bombs[] = {
-      write("a.nii.gz", gzip(header) + zeros), write("b.nrrd", nrrd("", "1000 1000 1000", "gzip") + zeros),
-      write("c.nhdr", nrrd("data file: v.raw.gz\n", "1000 1000 1000", "gzip")),
-      write("d.mha", meta("CompressedData = True\n", "1000 1000 1000") + zeros),
-      write("e.mhd", meta("CompressedData = True\n", "1000 1000 1000", "v.raw.gz"))};
+  const std::string size = "CompressedData = True\nCompressedDataSize = " + std::to_string(zeros.size()) + "\n";
+  const std::filesystem::path bombs[] = {write("a.nii.gz", gzip(header) + zeros),
+                                         write("b.nrrd", nrrd("", "1000 1000 1000", "gzip") + zeros),
+                                         write("c.nhdr", nrrd("data file: v.raw.gz\n", "1000 1000 1000", "gzip")),
+                                         write("d.mha", meta(size, "1000 1000 1000") + zeros),
+                                         write("e.mhd", meta(size, "1000 1000 1000", "v.raw.gz"))};
   for (const std::filesystem::path& bomb : bombs) {
     const PeakMemory memory;
     EXPECT_EQ(refusal(bomb), "too_large") << bomb.extension();

@@ -22,7 +22,7 @@ const std::string kNrrd =
     "space directions: (1,0,0) (0,1,0) (0,0,1)\nkinds: domain domain domain\nendian: little\nencoding: raw\n"
     "space origin: (0,0,0)\n\n";
 
-std::string voxels() {
+std::string random_voxels() {
   std::mt19937 random(3);
   std::vector<std::int16_t> values;
   for (int i = 0; i < 512; ++i) values.push_back(static_cast<std::int16_t>(random() % 2000) - 1000);
@@ -36,7 +36,7 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 std::string packed_meta() {
-  const std::string packed = zlib_stream(voxels());
+  const std::string packed = zlib_stream(random_voxels());
   return with(kMeta, "CompressedData = False",
               "CompressedData = True\nCompressedDataSize = " + std::to_string(packed.size())) +
          packed;
@@ -48,12 +48,12 @@ glm::dmat4 straight() {
 
 TEST_F(FileRefused, EveryFormatCutAnywhere) {
   const std::pair<const char*, std::string> files[] = {
-      {"a.mha", kMeta + voxels()},
+      {"a.mha", kMeta + random_voxels()},
       {"b.mha", packed_meta()},
-      {"c.nrrd", kNrrd + voxels()},
-      {"d.nrrd", with(kNrrd, "raw", "gzip") + gzip(voxels())},
-      {"e.nii", Nifti({8, 8, 8}, straight()).bytes(voxels())},
-      {"f.nii.gz", gzip(Nifti({8, 8, 8}, straight()).bytes(voxels()))},
+      {"c.nrrd", kNrrd + random_voxels()},
+      {"d.nrrd", with(kNrrd, "raw", "gzip") + gzip(random_voxels())},
+      {"e.nii", Nifti({8, 8, 8}, straight()).bytes(random_voxels())},
+      {"f.nii.gz", gzip(Nifti({8, 8, 8}, straight()).bytes(random_voxels()))},
   };
   for (const auto& [name, whole] : files) {
     ASSERT_EQ(refusal(write(name, whole)), "") << name;
@@ -69,12 +69,25 @@ TEST_F(FileRefused, EveryFormatCutAnywhere) {
 }
 
 TEST_F(FileRefused, APackedByteThatChanged) {
-  std::string nifti = gzip(Nifti({8, 8, 8}, straight()).bytes(voxels()));
+  std::string nifti = gzip(Nifti({8, 8, 8}, straight()).bytes(random_voxels()));
   nifti[nifti.size() - 6] = static_cast<char>(nifti[nifti.size() - 6] + 1);  // of the check sum
   EXPECT_EQ(refusal(write("a.nii.gz", nifti)), "damaged");
   std::string meta = packed_meta();
   meta[meta.size() - 1] = static_cast<char>(meta[meta.size() - 1] + 1);
   EXPECT_EQ(refusal(write("a.mha", meta)), "damaged");
+}
+
+// It was read as if all behind the header were its voxels.
+TEST_F(FileRefused, APackedMetaImageWithoutItsSize) {
+  const std::string packed = zlib_stream(random_voxels());
+  const auto with_size = [&](const std::string& line) {
+    return refusal(write("a.mha", with(kMeta, "CompressedData = False", "CompressedData = True" + line) + packed));
+  };
+  EXPECT_EQ(with_size("\nCompressedDataSize = " + std::to_string(packed.size())), "");
+  for (const char* line : {"", "\nCompressedDataSize =", "\nCompressedDataSize = 0", "\nCompressedDataSize = -5",
+                           "\nCompressedDataSize = many", "\nCompressedDataSize = 1 2"})
+    EXPECT_EQ(with_size(line), "damaged") << line;
+  EXPECT_EQ(with_size("\nCompressedDataSize = " + std::to_string(packed.size() - 1)), "truncated");
 }
 
 TEST_F(FileRefused, MorePackedBytesThanPromised) {
@@ -97,9 +110,10 @@ TEST_F(FileRefused, RandomBytesUnderEveryName) {
 
 TEST_F(FileRefused, RandomHeadersAreReadOrRefused) {
   std::mt19937 random(13);
-  const std::pair<const char*, std::string> files[] = {{"a.mha", kMeta + voxels()},
-                                                       {"c.nrrd", kNrrd + voxels()},
-                                                       {"e.nii", Nifti({8, 8, 8}, straight()).bytes(voxels())}};
+  const std::pair<const char*, std::string> files[] = {
+      {"a.mha", kMeta + random_voxels()},
+      {"c.nrrd", kNrrd + random_voxels()},
+      {"e.nii", Nifti({8, 8, 8}, straight()).bytes(random_voxels())}};
   for (const auto& [name, whole] : files) {
     SCOPED_TRACE(name);
     fixtures::Outcomes outcomes;
@@ -116,7 +130,7 @@ TEST_F(FileRefused, RandomHeadersAreReadOrRefused) {
 }
 
 TEST_F(FileRefused, WhatIsNoScalarVolume) {
-  const std::string v = voxels();
+  const std::string v = random_voxels();
   EXPECT_EQ(
       refusal(write("a.mha", with(kMeta, "ElementType", "ElementNumberOfChannels = 3\nElementType") + v + v + v)),
       "not_scalar");
@@ -162,7 +176,7 @@ TEST_F(FileRefused, NumbersThatAreNone) {
 }
 
 TEST_F(FileRefused, MetaImageFieldsThatWouldChangeTheNumbers) {
-  const std::string v = voxels();
+  const std::string v = random_voxels();
   const auto added = [&](const std::string& line) {
     return refusal(write("a.mha", with(kMeta, "ElementDataFile", line + "\nElementDataFile") + v));
   };
@@ -174,7 +188,7 @@ TEST_F(FileRefused, MetaImageFieldsThatWouldChangeTheNumbers) {
 }
 
 TEST_F(FileRefused, SizesOutOfRange) {
-  const std::string v = voxels();
+  const std::string v = random_voxels();
   for (const char* size : {"0 8 8", "8 -8 8", "8 8 5000", "4096 4096 4096", "8 8 1e18", "99999999999999999999 8 8"})
     EXPECT_EQ(refusal(write("a.mha", with(kMeta, "8 8 8", size) + v)), "bad_size") << size;
   EXPECT_EQ(refusal(write("a.nrrd", with(kNrrd, "8 8 8", "8 0 8") + v)), "bad_size");
@@ -185,7 +199,7 @@ TEST_F(FileRefused, SizesOutOfRange) {
 }
 
 TEST_F(FileRefused, GeometryThatIsUnsound) {
-  const std::string v = voxels();
+  const std::string v = random_voxels();
   for (const char* spacing : {"0 1 1", "1 -1 1", "1 nan 1", "1 1 1e9", "1 1", "1 x 1"})
     EXPECT_EQ(refusal(write("a.mha",
                             with(kMeta, "ElementSpacing = 1 1 1", std::string("ElementSpacing = ") + spacing) + v)),
@@ -217,9 +231,9 @@ TEST_F(FileRefused, GeometryThatIsUnsound) {
 }
 
 TEST_F(FileRefused, VoxelFilesThatAreNotBeside) {
-  write("v.raw", voxels());
-  write("short.raw", voxels().substr(1));
-  write("PLANTED_elsewhere/v.raw", voxels());
+  write("v.raw", random_voxels());
+  write("short.raw", random_voxels().substr(1));
+  write("PLANTED_elsewhere/v.raw", random_voxels());
   std::filesystem::create_symlink("v.raw", folder_ / "link.raw");
   const auto meta = [&](const std::string& name) {
     return refusal(write("PLANTED.mhd", with(kMeta, "LOCAL", name)));
@@ -243,7 +257,7 @@ TEST_F(FileRefused, VoxelFilesThatAreNotBeside) {
 }
 
 TEST_F(FileRefused, AChoiceOfSeriesNeedsSeries) {
-  const auto file = write("a.mha", kMeta + voxels());
+  const auto file = write("a.mha", kMeta + random_voxels());
   EXPECT_EQ(refusal(file, "2"), "no_series");
   EXPECT_EQ(refusal(file, "1"), "");
 }

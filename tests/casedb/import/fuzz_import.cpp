@@ -62,9 +62,11 @@ Seeds seeds_of(FuzzedReader reader) {
           "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
           "CompressedData = False\nTransformMatrix = 1 0 0 0 1 0 0 0 1\nOffset = 0 0 0\n"
           "ElementSpacing = 1 1 1\nDimSize = 4 4 4\nElementType = MET_SHORT\nElementDataFile = LOCAL\n";
+      const std::string stream = zlib_stream(voxels);
       std::string packed = head;
-      packed.replace(packed.find("CompressedData = False"), 22, "CompressedData = True");
-      return {{".mha", head + voxels}, {".mha", packed + zlib_stream(voxels)}};
+      packed.replace(packed.find("CompressedData = False"), 22,
+                     "CompressedData = True\nCompressedDataSize = " + std::to_string(stream.size()));
+      return {{".mha", head + voxels}, {".mha", packed + stream}};
     }
     case FuzzedReader::nrrd: {
       const std::string head =

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "sim/volume/classes.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 

@@ -8,15 +8,10 @@
 
 #include "assessment/grading/reason_words.h"
 #include "assessment/registry.h"
+#include "tests/reports/words/card_line.h"
 
 namespace seldinger::reports {
 namespace {
-
-std::string line_of(const Card& card, std::string_view name) {
-  const auto found =
-      std::find_if(card.lines.begin(), card.lines.end(), [&](const CardLine& line) { return line.name == name; });
-  return found == card.lines.end() ? "" : found->text;
-}
 
 TEST(MetricCardTest, EveryMetricTellsAllThereIsToAsk) {
   for (const assessment::MetricInfo& info : assessment::registry()) {

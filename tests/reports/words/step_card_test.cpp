@@ -7,18 +7,15 @@
 #include <regex>
 #include <set>
 
+#include "reports/words/metric_words.h"
+#include "tests/reports/words/card_line.h"
+
 namespace seldinger::reports {
 namespace {
 
 using assessment::StepHow;
 using assessment::StepResult;
 using assessment::StepState;
-
-std::string line_of(const Card& card, std::string_view name) {
-  const auto found =
-      std::find_if(card.lines.begin(), card.lines.end(), [&](const CardLine& line) { return line.name == name; });
-  return found == card.lines.end() ? "" : found->text;
-}
 
 StepResult result(StepState state, std::optional<double> t_s = {}, std::optional<StepHow> how = {}) {
   return {"sign_out", assessment::kStepsVersion, state, t_s, "", how};
@@ -55,6 +52,21 @@ TEST(StepCardTest, OfAnUnknownStepSaysThatItIsUnknown) {
   EXPECT_EQ(card.label, "of tomorrow");
   EXPECT_TRUE(card.lines.empty());
   EXPECT_NE(card.definition.find("does not know"), std::string::npos);
+}
+
+TEST(StepCardTest, WhatWentWrongSaysWhatItWas) {
+  const auto of = [](const char* id, StepState state, std::optional<double> t_s) {
+    StepResult step = result(state, t_s);
+    step.id = id;
+    return step_fault_text(step);
+  };
+  EXPECT_EQ(of("aim_along_beam", StepState::violated, 41.3), "a pulse met the hand");
+  EXPECT_EQ(of("nick", StepState::skipped, 9.0).find("done only now: in time until the skin was first"), 0U);
+  EXPECT_EQ(of("nick", StepState::skipped, {}), "") << "never done: there is no moment";
+  EXPECT_EQ(of("aim_along_beam", StepState::done, 3.0), "");
+  EXPECT_EQ(of("of_tomorrow", StepState::violated, 3.0), "");
+  EXPECT_EQ(clock_text(41.3), "0:41");
+  EXPECT_EQ(clock_text(125.0), "2:05");
 }
 
 // Before, what came too late had the mark of what was left out, and no mark had a legend.

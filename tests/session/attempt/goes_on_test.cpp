@@ -16,6 +16,7 @@
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/fixtures/ball_case.h"
 
 namespace seldinger::session {

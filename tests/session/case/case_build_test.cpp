@@ -84,6 +84,20 @@ TEST_F(CaseBuild, OnlyWhatIsNeededIsBuilt) {
   EXPECT_TRUE(felt.echogenicity.empty());
 }
 
+// What a lesion is sought in before anything is stored is what will be practised.
+TEST_F(CaseBuild, ACaseThatIsNotStoredIsBuiltAsTheStoredOne) {
+  const casedb::NewCase made = fixtures::new_ball();
+  for (const Needs needs : {Needs::metrics, Needs::touch, Needs::ultrasound}) {
+    const cases::Case before = build_case(made, {}, needs), stored = build({}, needs);
+    EXPECT_EQ(before.volume.hu, stored.volume.hu);
+    EXPECT_EQ(before.classes, stored.classes);
+    EXPECT_EQ(before.echogenicity, stored.echogenicity);
+    EXPECT_EQ(before.skin.triangles, stored.skin.triangles);
+    EXPECT_EQ(before.planned_entry_lps_mm, stored.planned_entry_lps_mm);
+    EXPECT_EQ(before.fluoroscope.start, stored.fluoroscope.start);
+  }
+}
+
 TEST_F(CaseBuild, AClassIsAllItsVoxels) {
   casedb::StructureRow air;
   air.case_id = case_id_;

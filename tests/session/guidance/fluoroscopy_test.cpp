@@ -16,6 +16,7 @@
 #include "sim/engine/step.h"
 #include "sim/tissue/breathing.h"
 #include "tests/fixtures/ball_case.h"
+#include "tests/session/guidance/stored_picture.h"
 
 namespace seldinger::session {
 namespace {
@@ -257,10 +258,6 @@ TEST(XrayAttempt, ItsMetricsAreWhatTheMachineAddedUp) {
     EXPECT_NEAR(value("collimated_share"), machine.collimated_share(), 1e-9);
     EXPECT_EQ(value("views"), machine.views.count);
   }
-}
-
-std::vector<std::byte> stored_picture(const cases::Case& scene, const cases::Recording& recording) {
-  return app::this_program().file_of(picture_at_endpoint(scene, recording));
 }
 
 TEST(XrayAttempt, HasThePictureOfItsLastPulse) {

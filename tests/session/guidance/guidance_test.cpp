@@ -11,6 +11,7 @@
 #include "sim/engine/step.h"
 #include "sim/engine/tick.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/fixtures/ball_case.h"
 
 namespace seldinger::session {
@@ -27,7 +28,7 @@ cases::Case make_ball() {
   return scene;
 }
 
-cases::Case ball(cases::Modality modality) {
+cases::Case ball_for(cases::Modality modality) {
   static const cases::Case kBall = make_ball();
   cases::Case scene = kBall;
   if (modality == cases::Modality::ultrasound) scene.picture = ultrasound_picture(50.0);
@@ -69,7 +70,7 @@ TEST(Guidance, GoesOnFromItsStateAsIfItHadNotStopped) {
   constexpr int kMiddle = 401, kEnd = 900;  // a pulse has just been made, and its report is not yet taken in
   for (const cases::Modality modality : kAll) {
     SCOPED_TRACE(static_cast<int>(modality));
-    const cases::Case scene = ball(modality);
+    const cases::Case scene = ball_for(modality);
     const auto guidance = guidance_of(scene);
     Course course;
     run(scene, *guidance, 0, kMiddle, course);
@@ -97,7 +98,7 @@ TEST(Guidance, GoesOnFromItsStateAsIfItHadNotStopped) {
 }
 
 TEST(Guidance, APulsedMachinesLastImageStaysAndIsToldOnce) {
-  const cases::Case scene = ball(cases::Modality::xray);
+  const cases::Case scene = ball_for(cases::Modality::xray);
   const auto guidance = guidance_of(scene);
   ASSERT_TRUE(guidance->pulsed());
   Course course;
@@ -118,7 +119,7 @@ TEST(Guidance, APulsedMachinesLastImageStaysAndIsToldOnce) {
 TEST(Guidance, UnderAProbeFrozenPicturesGoOn) {
   for (const cases::Modality modality : {cases::Modality::mpr, cases::Modality::ultrasound}) {
     SCOPED_TRACE(static_cast<int>(modality));
-    const cases::Case scene = ball(modality);
+    const cases::Case scene = ball_for(modality);
     const auto guidance = guidance_of(scene);
     ASSERT_FALSE(guidance->pulsed());
     Course course;
@@ -141,7 +142,7 @@ TEST(Guidance, OfEachModalityTellsWhatItNeeds) {
     const GuidanceKind& kind = guidance_kind(modality);
     EXPECT_GT(kind.loading_share, 0.0);
     EXPECT_LT(kind.loading_share, 1.0);
-    const cases::Case scene = ball(modality);
+    const cases::Case scene = ball_for(modality);
     EXPECT_EQ(guidance_of(scene)->pulsed(), !kind.probe_guides) << "no pulse without a hand free of the probe";
     EXPECT_EQ(kind.looks_from != nullptr, modality == cases::Modality::ultrasound);
   }

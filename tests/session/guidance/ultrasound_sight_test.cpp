@@ -16,7 +16,9 @@
 #include "session/guidance/picture_clock.h"
 #include "session/monitor/guidance_screen.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/volume/tissue/find_tissue.h"
 #include "tests/fixtures/ball_case.h"
+#include "tests/session/guidance/stored_picture.h"
 
 namespace seldinger::session {
 namespace {
@@ -37,7 +39,7 @@ cases::Case make_ball(double bone_half_mm) {
   return scene;
 }
 
-const cases::Case& ball() {
+const cases::Case& still_ball() {
   static const cases::Case kBall = make_ball(0.0);
   return kBall;
 }
@@ -81,8 +83,8 @@ imaging::UltrasoundView view_at(const cases::ToolPose& probe, const imaging::Pro
 TEST(ElementDepths, AreThoseBelowASphere) {
   for (const imaging::Probe& probe : {imaging::kC52v, imaging::kL115v}) {
     const auto view = view_at({{0, -kBallMm + 8.0, 0}, {0, 1, 0}, {1, 0, 0}}, probe);
-    const auto exact = element_depths(ball().skin_index, view),
-               few = element_depths(ball().skin_index, view, kContactStride);
+    const auto exact = element_depths(still_ball().skin_index, view),
+               few = element_depths(still_ball().skin_index, view, kContactStride);
     ASSERT_EQ(exact.size(), static_cast<std::size_t>(probe.elements));
     ASSERT_EQ(few.size(), exact.size());
     for (int element = 0; element < probe.elements; ++element) {
@@ -146,7 +148,7 @@ TEST(UltrasoundPlan, LooksPastAPlateOfBone) {
   above.entry_lps_mm = above.target_lps_mm - above.depth_mm * above.direction;
   above.probe = {{0, -kBallMm, 0}, {0, 1, 0}, {1, 0, 0}};
   EXPECT_FALSE(UltrasoundSight(screened).looks_from(above, screened.lesions[0]).has_value());
-  EXPECT_TRUE(UltrasoundSight(ball()).looks_from(above, ball().lesions[0]).has_value());
+  EXPECT_TRUE(UltrasoundSight(still_ball()).looks_from(above, still_ball().lesions[0]).has_value());
   const auto plan = plan_of(screened);
   ASSERT_TRUE(plan.has_value()) << "from the side it is";
   EXPECT_LT(glm::dot(plan->probe.axis, glm::dvec3(0, 1, 0)), 0.95);
@@ -172,7 +174,7 @@ double mean_difference(const imaging::PolarPicture& a, const imaging::PolarPictu
 }
 
 TEST(UltrasoundSightBackends, GlDrawsWhatTheCpuDrawsByEitherMethodAndMayBeLeftAgain) {
-  cases::Case scene = ball();
+  cases::Case scene = still_ball();
   scene.picture = ultrasound_picture(55.0);
   scene.yields = true;
   const cases::ToolPose probe{{0.0, 12.0 - kBallMm, 0.0}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}};  // all of it touches
@@ -291,10 +293,6 @@ TEST(UltrasoundConsole, IsThatOfTheCaseUntilItIsTurned) {
   EXPECT_NEAR(picture_rate_hz(picture, {200.0, 0.0, 0.0}), 1540e3 / (2.0 * 200.0 * 128), 1e-9);
   EXPECT_EQ(picture_rate_hz(picture, {40.0, 0.0, 0.0}), 60.0) << "the screen's";
   EXPECT_EQ(picture_rate_hz(picture, {9e9, 0.0, 0.0}), picture_rate_hz(picture, {300.0, 0.0, 0.0}));
-}
-
-std::vector<std::byte> stored_picture(const cases::Case& scene, const cases::Recording& recording) {
-  return app::this_program().file_of(picture_at_endpoint(scene, recording));
 }
 
 TEST(UltrasoundConsole, TheStoredPictureIsAsItStoodWhenTheTriggerFell) {

@@ -15,7 +15,7 @@ namespace {
 using cases::EventKind;
 
 // A body of soft tissue, 200 mm across, with a plate of bone from y = -60 to -50 mm.
-cases::Case body() {
+cases::Case body_with_a_plate() {
   cases::Case scene;
   scene.skin = fixtures::sphere_mesh({0, 0, 0}, 100.0, 5);
   scene.skin_index = cases::MeshIndex(scene.skin);
@@ -67,7 +67,7 @@ class Trial {
 using Kinds = std::vector<EventKind>;
 
 TEST(Patient, SkinThatIsNotNumbHurtsAtEachPuncture) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   Trial trial(scene);
   trial.move(-120, -90);
   trial.move(-90, -120);
@@ -76,7 +76,7 @@ TEST(Patient, SkinThatIsNotNumbHurtsAtEachPuncture) {
 }
 
 TEST(Patient, APhantomFeelsNothing) {
-  cases::Case scene = body();
+  cases::Case scene = body_with_a_plate();
   scene.subject = cases::Subject::phantom;
   Trial trial(scene);
   trial.move(-120, -57);
@@ -85,7 +85,7 @@ TEST(Patient, APhantomFeelsNothing) {
 }
 
 TEST(Patient, NumbSkinDoesNotHurtFifteenMillimetresAround) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   for (const double beside_mm : {0.0, 10.0, 14.0, 17.0, 40.0}) {
     Trial trial(scene);
     trial.tick(-120, EventKind::anaesthetic);  // where the needle points
@@ -96,7 +96,7 @@ TEST(Patient, NumbSkinDoesNotHurtFifteenMillimetresAround) {
 }
 
 TEST(Patient, BoneHurtsOnceUntilItIsLeftForAWhile) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   Trial trial(scene);
   trial.tick(-120, EventKind::anaesthetic);
   trial.move(-120, -57);
@@ -115,7 +115,7 @@ TEST(Patient, BoneHurtsOnceUntilItIsLeftForAWhile) {
 }
 
 TEST(Patient, WithoutClassesNothingIsBone) {
-  cases::Case scene = body();
+  cases::Case scene = body_with_a_plate();
   scene.classes.clear();
   Trial trial(scene);
   trial.tick(-120, EventKind::anaesthetic);
@@ -124,7 +124,7 @@ TEST(Patient, WithoutClassesNothingIsBone) {
 }
 
 TEST(Patient, ABreathIsHeldAfterADelayAndNotForEver) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   Trial trial(scene);
   trial.tick(-120, EventKind::breath_hold_request);
   trial.wait(30.0, -120);
@@ -141,7 +141,7 @@ TEST(Patient, ABreathIsHeldAfterADelayAndNotForEver) {
 }
 
 TEST(Patient, ACoughEndsIt) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   Trial trial(scene);
   trial.tick(-120, EventKind::breath_hold_request);
   trial.wait(3.0, -120);
@@ -151,7 +151,7 @@ TEST(Patient, ACoughEndsIt) {
 }
 
 TEST(Patient, WhatHappensAtOnceIsToldOneAfterTheOther) {
-  cases::Case scene = body();
+  cases::Case scene = body_with_a_plate();
   std::fill(scene.classes.begin(), scene.classes.end(), volume::TissueClass::bone);
   Trial trial(scene);
   trial.move(-120, -90);
@@ -160,7 +160,7 @@ TEST(Patient, WhatHappensAtOnceIsToldOneAfterTheOther) {
 }
 
 TEST(Patient, MakesNoAllocation) {
-  const cases::Case scene = body();
+  const cases::Case scene = body_with_a_plate();
   const Patient patient(scene);
   PatientState memory;
   cases::State state;

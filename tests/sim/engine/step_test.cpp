@@ -69,8 +69,8 @@ TEST(Step, TheConsoleStandsAsItWasTurnedLast) {
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, inputs.console);
   const cases::ConsoleSetting before = inputs.console;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  inputs.console = {kNan, std::numeric_limits<double>::infinity(), 3.0, kNan};
+  constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+  inputs.console = {kNotANumber, std::numeric_limits<double>::infinity(), 3.0, kNotANumber};
   step(scene, inputs, 0.001, state);
   EXPECT_EQ(state.probe.console, (cases::ConsoleSetting{before.depth_mm, before.focus_mm, 3.0, before.slice_mm}));
   // Nothing of it under a fluoroscope.

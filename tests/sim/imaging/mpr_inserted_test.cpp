@@ -13,14 +13,6 @@
 namespace seldinger::imaging {
 namespace {
 
-using Backend = HuImage (*)(const volume::Volume&, const MprView&, const Inserted&);
-
-struct NamedBackend {
-  const char* name;
-  Backend render;
-};
-constexpr NamedBackend kBackends[] = {{"reference", mpr_reference}, {"cpu", mpr_cpu}};
-
 constexpr float kTissueHu = 40.0F, kMetalHu = 3000.0F, kLumenHu = -1000.0F;
 
 volume::Volume tissue() {

@@ -31,4 +31,13 @@ PixelMask near_voxel_faces(const volume::Volume& volume, const MprView& view, do
 
 PixelMask either(const PixelMask& a, const PixelMask& b);
 
+// The two ways on the CPU.
+using Backend = HuImage (*)(const volume::Volume&, const MprView&, const Inserted&);
+
+struct NamedBackend {
+  const char* name;
+  Backend render;
+};
+inline constexpr NamedBackend kBackends[] = {{"reference", mpr_reference}, {"cpu", mpr_cpu}};
+
 }  // namespace seldinger::imaging

@@ -11,14 +11,6 @@
 namespace seldinger::imaging {
 namespace {
 
-using Backend = HuImage (*)(const volume::Volume&, const MprView&, const Inserted&);
-
-struct NamedBackend {
-  const char* name;
-  Backend render;
-};
-constexpr NamedBackend kBackends[] = {{"reference", mpr_reference}, {"cpu", mpr_cpu}};
-
 glm::dmat3 left_handed(const glm::dmat3& turn) {
   return {turn[0], turn[1], -turn[2]};
 }

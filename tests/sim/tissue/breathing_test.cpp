@@ -10,6 +10,7 @@
 
 #include "sim/tissue/displacement.h"
 #include "sim/volume/phantom.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::tissue {
 namespace {

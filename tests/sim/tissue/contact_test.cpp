@@ -12,6 +12,7 @@
 #include "sim/base/rng.h"
 #include "sim/haptics/contact/soft_contact.h"
 #include "sim/tissue/displacement.h"
+#include "tests/sim/tissue/moved_by.h"
 
 namespace seldinger::tissue {
 namespace {
@@ -21,8 +22,6 @@ using measure::BallContact;
 using measure::contact_peers;
 using measure::contact_radius_mm;
 using measure::hertz_reference;
-
-constexpr double kPi = std::numbers::pi;
 
 Displacement pressed(const SkinPress& press) {
   return displacement_of({.presses = {&press, 1}});
@@ -34,10 +33,6 @@ SkinPress straight_down(double depth_mm, double bone_mm = 0.0, double radius_mm 
           .radius_mm = radius_mm,
           .depth_mm = depth_mm,
           .per_bone_mm = bone_mm > 0.0 ? 1.0 / bone_mm : 0.0};
-}
-
-glm::dvec3 u_of(const Displacement& displacement, const glm::dvec3& rest_mm) {
-  return displaced(displacement, rest_mm) - rest_mm;
 }
 
 // Johnson 1985, eq. 3.42: inside δ − r²/2R, outside by the arc sine; and on the axis, from the same potential's
@@ -53,7 +48,7 @@ TEST(HertzReference, IsJohnsonsOnTheSkin) {
   }
   for (const double r : {1.001, 1.1, 1.5, 3.0, 8.0}) {
     const double expected_mm =
-        8.0 / kPi * ((2.0 - r * r) * std::asin(1.0 / r) + r * std::sqrt(1.0 - 1.0 / (r * r)));
+        8.0 / std::numbers::pi * ((2.0 - r * r) * std::asin(1.0 / r) + r * std::sqrt(1.0 - 1.0 / (r * r)));
     EXPECT_NEAR(hertz_reference(contact, r * a, 0.0).inwards_mm, expected_mm, 1e-5) << r;
   }
 }
@@ -66,7 +61,7 @@ TEST(HertzReference, IsTheOneIntegralOnTheAxis) {
     double sum = 0.0, all = 0.0;
     constexpr int kSteps = 200000;
     for (int i = 0; i < kSteps; ++i) {
-      const double angle = 0.5 * kPi * (i + 0.5) / kSteps, r = std::sin(angle);
+      const double angle = 0.5 * std::numbers::pi * (i + 0.5) / kSteps, r = std::sin(angle);
       const double area = r * std::cos(angle) * std::cos(angle);  // r √(1 − r²) dr
       const double distance = std::sqrt(r * r + z * z);
       sum += area * (1.0 / distance + z * z / (distance * distance * distance));
@@ -296,7 +291,7 @@ TEST(Contact, StoresTheWorkOfPressing) {
 TEST(Contact, PressureIsHertzOnTheSkin) {
   const SkinPress press = straight_down(8.0);
   const PressedDisk disk = pressed_disk(press);
-  const double p0 = 1.5 * force_n(disk, 0.0033) / (kPi * disk.radius_mm * disk.radius_mm);
+  const double p0 = 1.5 * force_n(disk, 0.0033) / (std::numbers::pi * disk.radius_mm * disk.radius_mm);
   for (const double r : {0.0, 0.5, 0.9})
     EXPECT_NEAR(pressure_n_mm2(press, {r * disk.radius_mm, 0.0, 0.0}, 0.0033), p0 * std::sqrt(1.0 - r * r),
                 1e-3 * p0);

@@ -15,15 +15,10 @@
 #include "sim/base/rng.h"
 #include "sim/haptics/needle/needle_law.h"
 #include "tests/fixtures/allocations.h"
+#include "tests/sim/tissue/moved_by.h"
 
 namespace seldinger::tissue {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-glm::dvec3 u_of(const Displacement& displacement, const glm::dvec3& rest_mm) {
-  return displaced(displacement, rest_mm) - rest_mm;
-}
 
 glm::dvec3 random_direction(base::Rng& rng) {
   return glm::normalize(glm::dvec3(rng.normal(), rng.normal(), rng.normal()));
@@ -55,7 +50,7 @@ TEST(SharedFunctions, AreTheLibrarysToTheDigitsStated) {
 // The ball: at its surface it goes as it is pushed, and far away it is Kelvin's point force of 6 π G b U.
 TEST(Tip, IsABallNearAndAPointForceFar) {
   constexpr double kBallMm = 2.0, kMm = 1.0, kShear = 0.0045;
-  const double force_n = 6.0 * kPi * kShear * kBallMm * kMm;
+  const double force_n = 6.0 * std::numbers::pi * kShear * kBallMm * kMm;
   const Displacement displacement = displacement_of({.needle = along_z(50.0, force_n, kMm, 0.0)});
   ASSERT_EQ(count_sources(displacement), 1);
   base::Rng rng(1);
@@ -64,7 +59,7 @@ TEST(Tip, IsABallNearAndAPointForceFar) {
     EXPECT_LT(glm::length(u_of(displacement, tip_mm + 0.999 * kBallMm * away) - glm::dvec3(0, 0, kMm)), 1e-6);
     const double far_mm = 400.0 * kBallMm;
     const glm::dvec3 kelvin_mm =
-        force_n / (8.0 * kPi * kShear * far_mm) * (glm::dvec3(0.0, 0.0, 1.0) + away.z * away);
+        force_n / (8.0 * std::numbers::pi * kShear * far_mm) * (glm::dvec3(0.0, 0.0, 1.0) + away.z * away);
     EXPECT_LT(glm::length(u_of(displacement, tip_mm + far_mm * away) - kelvin_mm),
               1e-4 * glm::length(kelvin_mm) + 1e-9);
   }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "sim/volume/classes.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::volume {
 namespace {

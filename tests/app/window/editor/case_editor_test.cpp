@@ -241,6 +241,21 @@ TEST_F(CaseEditorTest, PlanesLookThroughOneCursor) {
     EXPECT_LT(glm::distance(view.pixel(plane, px, {20.0, 20.0, 20.0}), 0.5 * px), 1e-9);
 }
 
+// Before: at the origin of the scanner's coordinates, wherever the patient lay.
+TEST_F(CaseEditorTest, ANewDraftsRoomLooksAtThePatient) {
+  const glm::dvec3 up{0.0, -1.0, 0.0};
+  const auto looks_at = [&] { return first_look(editor_->scene()->scene, editor_->lesions(), up); };
+  EXPECT_LT(glm::distance(looks_at(), glm::dvec3(0.0, -kBallMm, 0.0)), 2.0) << "nothing is drawn: on top of it";
+  editor_->tool = EditorTool::lesion;
+  editor_->new_lesion.radii_mm = glm::dvec3(6.0);
+  editor_->click({30.0, 0.0, 0.0});
+  ASSERT_TRUE(checked());
+  EXPECT_LT(glm::distance(looks_at(), glm::dvec3(kBallMm, 0.0, 0.0)), 2.0) << "where the lesion is nearest";
+  ASSERT_TRUE(editor_->set_entry(glm::dvec3(0.0, 60.0, 0.0)));
+  ASSERT_TRUE(checked());
+  EXPECT_LT(glm::distance(looks_at(), glm::dvec3(0.0, kBallMm, 0.0)), 2.0) << "at the planned entry";
+}
+
 TEST_F(CaseEditorTest, AClickInTheRoomFindsTheSkinThatIsSeen) {
   const cases::Case& scene = editor_->scene()->scene;
   imaging::RoomCamera camera;

@@ -197,6 +197,9 @@ TEST(ConsolePicture, PlacesAreMillimetresWhateverTheDepthAndSide) {
     }
   EXPECT_EQ(depth_marks_mm(shown_at(60.0)).size(), 7U);
   EXPECT_EQ(depth_marks_mm(shown_at(145.0)).back(), 140.0);
+  EXPECT_EQ(numbered_every(40.0), 1);
+  EXPECT_EQ(numbered_every(17.0), 2);
+  EXPECT_EQ(numbered_every(8.0), 5);
 }
 
 int lit_right_of(const Canvas& canvas, int column, const std::function<bool(int, int, int)>& is) {

@@ -39,7 +39,11 @@ class InterruptedTrainerTest : public TrainerTest {
     for (std::size_t i = 0; i < kTicks; ++i) {
       left_.needle = {{0.005 * static_cast<double>(i), -62.0, 0.0}, {0, 1, 0}, {1, 0, 0}};
       left_.probe = {{-30.0, -42.0, 0.0}, {0.6, 0.8, 0.0}, {0.8, -0.6, 0.0}};
+      left_.event = i == 100   ? cases::EventKind::proceed
+                    : i == 200 ? cases::EventKind::anaesthetic
+                               : cases::EventKind::none;
       const cases::RecordedTick made = tick.advance_hands(left_, {}, now);
+      cases::add_events(now.state.t_s, made, *recording.events);
       recording.inputs.push_back(made.inputs);
       recording.hashes.push_back(made.hash);
       if (made.pose) recording.poses.push_back(*made.pose);
@@ -82,6 +86,8 @@ TEST_F(InterruptedTrainerTest, IsOfferedToWhoMadeItAndGoesOnWhereItWas) {
       << "the tool is where it was left";
   EXPECT_LT(glm::distance(seen->moment.state.probe.origin_lps_mm, left_.probe.position_lps_mm), 0.1);
   EXPECT_EQ(seen->moment.event, cases::EventKind::resumed) << "and no sign-in is said again";
+  EXPECT_EQ(attempt.said_before(),
+            (std::vector{cases::EventKind::proceed, cases::EventKind::anaesthetic}));  // the room shows it as done
   attempt.end();
   ASSERT_TRUE(looks_until(trainer, TrainerScreen::debrief)) << trainer.refusal();
   EXPECT_EQ(trainer.debrief()->attempt.attempt_id, attempt_id_);

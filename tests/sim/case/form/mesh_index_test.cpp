@@ -12,7 +12,7 @@
 namespace seldinger::cases {
 namespace {
 
-glm::dvec3 random_point(base::Rng& rng, double half_mm) {
+glm::dvec3 point_within(base::Rng& rng, double half_mm) {
   return (glm::dvec3(rng.uniform(), rng.uniform(), rng.uniform()) - 0.5) * (2.0 * half_mm);
 }
 
@@ -42,7 +42,7 @@ TEST(MeshIndex, ClosestEqualsBruteForceOnAConcaveSurface) {
   base::Rng rng(1);
   std::uint32_t hint = 0;
   for (int i = 0; i < 2000; ++i) {
-    const glm::dvec3 p = random_point(rng, 60.0);
+    const glm::dvec3 p = point_within(rng, 60.0);
     const Closest closest = index.closest(p, hint);
     EXPECT_NEAR(std::abs(closest.distance_mm), brute_distance(mesh, p), 1e-9);
     EXPECT_NEAR(glm::length(p - closest.point_lps_mm), std::abs(closest.distance_mm), 1e-9);
@@ -56,7 +56,7 @@ TEST(MeshIndex, AHintNeverChangesTheAnswer) {
   base::Rng rng(2);
   for (int i = 0; i < 1000; ++i) {
     // Lattice points make ties between triangles common.
-    const glm::dvec3 p = glm::floor(random_point(rng, 50.0) / 10.0) * 10.0;
+    const glm::dvec3 p = glm::floor(point_within(rng, 50.0) / 10.0) * 10.0;
     const Closest plain = index.closest(p);
     const Closest hinted = index.closest(p, static_cast<std::uint32_t>(rng.bits() % mesh.triangles.size()));
     EXPECT_EQ(plain.distance_mm, hinted.distance_mm);
@@ -70,7 +70,7 @@ TEST(MeshIndex, SignIsThatOfTheWindingNumber) {
   const MeshIndex index(mesh);
   base::Rng rng(3);
   for (int i = 0; i < 1000; ++i) {
-    const glm::dvec3 p = random_point(rng, 50.0);
+    const glm::dvec3 p = point_within(rng, 50.0);
     double solid_angle = 0.0;  // Van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30, 1983
     for (const glm::uvec3& t : mesh.triangles) {
       const glm::dvec3 a = glm::dvec3(mesh.vertices_lps_mm[t.x]) - p, b = glm::dvec3(mesh.vertices_lps_mm[t.y]) - p,
@@ -104,8 +104,8 @@ TEST(MeshIndex, RaysHitASphereWhereTheyShould) {
   const MeshIndex index(fixtures::sphere_mesh({0, 0, 0}, 50.0, 6));
   base::Rng rng(4);
   for (int i = 0; i < 500; ++i) {
-    const glm::dvec3 p = random_point(rng, 25.0);
-    const glm::dvec3 d = glm::normalize(random_point(rng, 1.0));
+    const glm::dvec3 p = point_within(rng, 25.0);
+    const glm::dvec3 d = glm::normalize(point_within(rng, 1.0));
     const double b = glm::dot(p, d), c = glm::dot(p, p) - 2500.0;
     const auto hit = index.first_hit(p, d, 200.0);
     ASSERT_TRUE(hit.has_value());
@@ -135,7 +135,7 @@ TEST(MeshIndex, TheAnswerIsEquivariantUnderARigidMotion) {
   const MeshIndex after(mesh);
   base::Rng rng(5);
   for (int i = 0; i < 500; ++i) {
-    const glm::dvec3 p = random_point(rng, 60.0);
+    const glm::dvec3 p = point_within(rng, 60.0);
     EXPECT_NEAR(before.closest(p).distance_mm, after.closest(moved(p)).distance_mm, 1e-4);  // float vertices moved
   }
 }
@@ -159,8 +159,8 @@ TEST(MeshIndex, RaysHitWhatEveryTriangleTriedHits) {
   base::Rng rng(11);
   int hits = 0;
   for (int i = 0; i < 600; ++i) {
-    glm::dvec3 p = glm::dvec3(700, -900, 1200) + random_point(rng, 60.0);
-    glm::dvec3 d = random_point(rng, 1.0);
+    glm::dvec3 p = glm::dvec3(700, -900, 1200) + point_within(rng, 60.0);
+    glm::dvec3 d = point_within(rng, 1.0);
     if (i % 3 == 0) {
       d = glm::dvec3(0.0);
       d[i % 9 / 3] = i % 2 == 0 ? 1.0 : -1.0;
@@ -195,8 +195,8 @@ TEST(MeshIndex, AMovingBallStopsWhereItsDistanceIsItsRadius) {
   int touches = 0;
   for (const double radius : {0.01, 1.0, 7.0})
     for (int i = 0; i < 300; ++i) {
-      const glm::dvec3 p = glm::dvec3(300, 0, -200) + random_point(rng, 70.0);
-      const glm::dvec3 d = glm::normalize(random_point(rng, 1.0));
+      const glm::dvec3 p = glm::dvec3(300, 0, -200) + point_within(rng, 70.0);
+      const glm::dvec3 d = glm::normalize(point_within(rng, 1.0));
       const double slack = 0.1 * radius;
       if (std::abs(index.closest(p).distance_mm) < radius) continue;
       const auto touch = index.first_touch(p, d, 60.0, radius, slack, static_cast<std::uint32_t>(i));

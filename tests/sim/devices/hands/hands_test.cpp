@@ -280,12 +280,31 @@ TEST(Hands, ALeftHandsGuideIsTheMirrorImageOfARights) {
     ASSERT_TRUE(each.in_guide());
     run(each, advancing(0.05), 3000);
     ASSERT_TRUE(each.needle_inserted());
+    // Its line, as a picture draws it: beside the face, and towards the middle.
+    const auto guide = each.guide_on_probe();
+    ASSERT_TRUE(guide.has_value());
+    const double side_mm = each.needle().position_lps_mm.x, depth_mm = -each.needle().position_lps_mm.z;
+    EXPECT_NEAR(guide->offset_mm - std::copysign(std::tan(guide->angle_deg * kDegree) * depth_mm, guide->offset_mm),
+                side_mm, 1e-9);
   }
   const cases::ToolPose &a = hands[0].needle(), &b = hands[1].needle();
   EXPECT_NEAR(a.position_lps_mm.x, -b.position_lps_mm.x, 1e-9);
   EXPECT_NEAR(a.position_lps_mm.z, b.position_lps_mm.z, 1e-9);
   EXPECT_NEAR(a.axis.x, std::sin(40.0 * kDegree), 1e-9) << "under the probe, from its left";
   EXPECT_NEAR(b.axis.x, -a.axis.x, 1e-9);
+}
+
+TEST(Hands, WithoutAGuideTheNeedleStaysAndThatItWasAskedForIsKnown) {
+  HandsSettings settings;
+  settings.has_guide = false;
+  Hands hands(flat_skin(), above_flat(), settings);
+  const glm::dvec3 before = hands.needle().position_lps_mm;
+  hands.advance(guide(), {}, 0.001);
+  run(hands, {}, 1000);
+  EXPECT_FALSE(hands.guided());
+  EXPECT_FALSE(hands.guide_on_probe().has_value());
+  EXPECT_EQ(hands.needle().position_lps_mm, before);
+  EXPECT_EQ(hands.guides_asked(), 1U);
 }
 
 TEST(Hands, AGuideInSpaceLeadsToWhatIsAimedAt) {

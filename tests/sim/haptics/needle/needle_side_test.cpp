@@ -14,10 +14,10 @@
 namespace seldinger::haptics {
 namespace {
 
-const cases::Gauge kGauge = *cases::gauge(22);
+const cases::Gauge kNeedle = *cases::gauge(22);
 
 TEST(NeedleSide, BendingIsThatOfATube) {
-  EXPECT_NEAR(bending_stiffness_n_mm2(kGauge), 2.2e3, 0.15e3);            // E · π/4 · (R⁴ − r⁴)
+  EXPECT_NEAR(bending_stiffness_n_mm2(kNeedle), 2.2e3, 0.15e3);           // E · π/4 · (R⁴ − r⁴)
   EXPECT_NEAR(bending_stiffness_n_mm2(*cases::gauge(18)), 2.1e4, 0.1e4);  // so too
 }
 
@@ -50,7 +50,7 @@ double by_differences_n_mm(double length_mm, double bending, double foundation) 
 }
 
 TEST(NeedleSide, StiffnessIsTheBeams) {
-  const double bending = bending_stiffness_n_mm2(kGauge);
+  const double bending = bending_stiffness_n_mm2(kNeedle);
   for (const double length_mm : {5.0, 20.0, 50.0, 80.0, 150.0})
     EXPECT_NEAR(side_stiffness_n_mm(length_mm, bending, 0.01) / by_differences_n_mm(length_mm, bending, 0.01), 1.0,
                 0.01)
@@ -78,14 +78,14 @@ TEST(NeedleSide, GrowsSteadilyFromNothing) {
 }
 
 TEST(NeedleSide, HoldsTheNeedleWhereItWentIn) {
-  const NeedleSideLaw law({}, kGauge);
+  const NeedleSideLaw law({}, kNeedle);
   NeedleSideTrack track;
   glm::dvec3 force(0.0);
   for (int i = 0; i <= 5000; ++i) force = law.advance({0, 0, 0}, 0.01 * i, track);
   EXPECT_EQ(force, glm::dvec3(0.0)) << "straight in";
   for (int i = 0; i <= 1000; ++i) force = law.advance({0.002 * i, -0.001 * i, 0}, 50.0, track);
   for (int i = 0; i <= 200; ++i) force = law.advance({2.0, -1.0, 0}, 50.0, track);
-  const double stiffness = side_stiffness_n_mm(50.0, bending_stiffness_n_mm2(kGauge), kFoundationNMm2);
+  const double stiffness = side_stiffness_n_mm(50.0, bending_stiffness_n_mm2(kNeedle), kFoundationNMm2);
   EXPECT_NEAR(force.x, -2.0 * stiffness, 1e-9);
   EXPECT_NEAR(force.y, 1.0 * stiffness, 1e-9);
   // Pulled out while shifted, all of it goes; in again at the new place, nothing pulls back.
@@ -97,7 +97,7 @@ TEST(NeedleSide, HoldsTheNeedleWhereItWentIn) {
 
 TEST(NeedleSide, GivesNoEnergyAndNoSteps) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const NeedleSideLaw law({}, kGauge);
+    const NeedleSideLaw law({}, kNeedle);
     NeedleSideTrack track;
     base::Rng rng(seed);
     glm::dvec3 shift(0.0), speed(0.0), force(0.0);
@@ -125,7 +125,7 @@ struct Swing {
 
 // S13: 1 N sideways, held, then let go of. Settled: within a tenth of the way it was pushed.
 Swing released(const ArmModel& device, const Hand& hand, double inserted_mm) {
-  const NeedleSideLaw law(needle_settings(device), kGauge);
+  const NeedleSideLaw law(needle_settings(device), kNeedle);
   NeedleSideTrack track;
   HandRig bench(device, hand, 0.0, 0.0);
   law.advance({0, 0, 0}, inserted_mm, track);

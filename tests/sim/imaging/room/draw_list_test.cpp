@@ -43,6 +43,22 @@ TEST(DrawList, ShowsNothingThatTheRoomDoesNotShowUnlessAsked) {
   EXPECT_FALSE(list.cut);
 }
 
+TEST(DrawList, AWhealLiesOnTheSkinWhereItIsNumb) {
+  const cases::Case scene = ball_case();
+  const glm::dvec3 place = scene.skin_index.closest_skin(*scene.planned_entry_lps_mm).point_lps_mm;
+  EXPECT_EQ(find(list_of(scene, ball_state()), RoomPart::wheal), nullptr);
+  RoomOptions options;
+  options.numb_lps_mm = {&place, 1};
+  const DrawList list = list_of(scene, ball_state(), options);
+  const RoomItem* wheal = find(list, RoomPart::wheal);
+  ASSERT_NE(wheal, nullptr);
+  EXPECT_LT(glm::distance(placed(*wheal, {0.0, 0.0, 0.0}), place), 1e-9);
+  const double high_mm = glm::distance(placed(*wheal, {0.0, 0.0, 1.0}), place),
+               wide_mm = glm::distance(placed(*wheal, {1.0, 0.0, 0.0}), place);
+  EXPECT_GT(wide_mm, 2.0 * high_mm) << "flat";
+  EXPECT_FALSE(wheal->over_all) << "a thing in the room, not a mark over it";
+}
+
 TEST(DrawList, HelpGrowsByLevels) {
   const std::vector<std::vector<RoomPart>> more = {{},
                                                    {RoomPart::scan_plane},

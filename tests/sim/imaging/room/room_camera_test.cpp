@@ -131,6 +131,44 @@ TEST(RoomCamera, PresetsLookPastTheProbeAtTheNeedle) {
   }
 }
 
+TEST(RoomCamera, AlongThePlaneTheNeedleIsSeenBesideItAsFarAsItIs) {
+  const cases::Case scene = ball_case();
+  const RoomModel room = make_room_model(scene);
+  cases::State state = ball_state();
+  const glm::dvec3 normal = glm::cross(state.probe.axial, state.probe.lateral);
+  for (const double side : {-1.0, 1.0}) {
+    state.needle.direction = glm::normalize(state.probe.axial - side * state.probe.lateral);
+    state.needle.tip_lps_mm = state.probe.origin_lps_mm + 10.0 * side * state.probe.lateral;
+    const RoomCamera camera = room_camera(room, scene, state, RoomView::along_plane);
+    EXPECT_NEAR(glm::dot(camera.eye_lps_mm - state.probe.origin_lps_mm, normal), 0.0, 1e-6) << "edge-on";
+    EXPECT_GT(side * glm::dot(camera.eye_lps_mm - state.probe.origin_lps_mm, state.probe.lateral), 0.0)
+        << "from the needle's side";
+    const RoomProjection p = projection_of(camera, 0, 1.0);
+    const double middle_px = pixel_of(p, state.probe.origin_lps_mm, 1000, 1000)->x;
+    EXPECT_NEAR(pixel_of(p, state.probe.origin_lps_mm + 40.0 * state.probe.axial, 1000, 1000)->x, middle_px, 1e-6);
+    EXPECT_GT(std::abs(pixel_of(p, state.needle.tip_lps_mm + 10.0 * normal, 1000, 1000)->x - middle_px), 10.0);
+  }
+}
+
+TEST(RoomCamera, StaysOffTheToolsSoThatNoneIsCutByTheNearPlane) {
+  const cases::Case scene = ball_case();
+  const RoomModel room = make_room_model(scene);
+  const cases::State state = ball_state();
+  const glm::dmat3 lps_from_probe(state.probe.lateral, glm::cross(state.probe.axial, state.probe.lateral),
+                                  state.probe.axial);
+  RoomCamera camera = room_camera(room, scene, state, RoomView::near_probe);
+  zoom(camera, 0.05);
+  stay_off_tools(camera, room, state);
+  const RoomProjection p = projection_of(camera, 0, 1.0);
+  for (const gpu::Vertex& vertex : room.meshes[room.probe].vertices) {
+    const glm::dvec3 place = state.probe.origin_lps_mm + lps_from_probe * glm::dvec3(vertex.place_mm);
+    ASSERT_GE(glm::distance(place, camera.eye_lps_mm), 59.0);
+    const glm::dvec4 clip = p.clip_from_eye * (p.eye_from_lps * glm::dvec4(place, 1.0));
+    if (std::abs(clip.x) > clip.w || std::abs(clip.y) > clip.w) continue;  // not in the picture
+    ASSERT_GT(clip.z, -clip.w) << "before the near plane";
+  }
+}
+
 TEST(RoomCamera, StaysOutOfTheSkinAndAboveTheFloor) {
   const cases::Case scene = ball_case();
   const RoomModel room = make_room_model(scene);

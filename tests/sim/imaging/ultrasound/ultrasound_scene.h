@@ -86,4 +86,16 @@ inline measure::Setting practised(const Probe& probe) {
 // Those that are learnt on; `seldinger goals` measures the thesis' two as well.
 constexpr Probe kRealProbes[] = {kC52v, kL115v};
 
+// Fat and muscle over liver, a cyst and a piece of bone in it.
+inline Scene layers() {
+  return scene(
+      [](const glm::dvec3& p) {
+        if (p.y < 8.0) return TissueClass::fat;
+        if (p.y < 15.0 + 0.2 * p.x) return TissueClass::muscle;
+        if (glm::length(p - glm::dvec3(6.0, 32.0, 1.0)) < 7.0) return TissueClass::fluid;
+        return glm::length(p - glm::dvec3(-9.0, 36.0, 1.0)) < 5.0 ? TissueClass::bone : TissueClass::liver;
+      },
+      {110, 130, 40}, 1.5);
+}
+
 }  // namespace seldinger::imaging

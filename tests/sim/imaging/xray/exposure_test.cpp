@@ -6,17 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/sim/imaging/xray/flat_field.h"
+
 namespace seldinger::imaging {
 namespace {
-
-PathLengths flat(int size_px, double water_mm, double mineral_mm = 0.0) {
-  const auto pixels = static_cast<std::size_t>(size_px * size_px);
-  return {size_px,
-          size_px,
-          std::vector<float>(pixels, static_cast<float>(water_mm)),
-          std::vector<float>(pixels, static_cast<float>(mineral_mm)),
-          {}};
-}
 
 // Left half thin, right half thick.
 PathLengths split(int size_px, double left_mm, double right_mm) {

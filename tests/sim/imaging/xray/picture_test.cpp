@@ -9,19 +9,12 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/sim/imaging/xray/flat_field.h"
+
 namespace seldinger::imaging {
 namespace {
 
 constexpr double kFieldMm = 300.0;
-
-PathLengths flat(int size_px, double water_mm) {
-  const auto pixels = static_cast<std::size_t>(size_px * size_px);
-  return {size_px,
-          size_px,
-          std::vector<float>(pixels, static_cast<float>(water_mm)),
-          std::vector<float>(pixels, 0.0F),
-          {}};
-}
 
 // An abdomen of sorts, with ribs and a needle.
 PathLengths patient(int size_px) {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "sim/volume/axial_slices.h"
-#include "sim/volume/class_steps.h"
 #include "sim/volume/components.h"
+#include "sim/volume/tissue/class_steps.h"
 
 namespace seldinger::volume {
 namespace {
@@ -21,25 +21,6 @@ constexpr double kNoisySdHu = 15.0;  // from here on the average goes over 5 x 5
 constexpr int kLeastFatHu = -160;    // two of its sd below the fattest
 constexpr int kRimSteps = 4;
 constexpr double kWideMm = 2.5;  // but never farther than this
-
-// Of soft tissue, from differences three voxels apart along x, where noise is nearly independent: their median is
-// 0.954 sd.
-double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes) {
-  std::array<std::size_t, 512> count{};
-  std::size_t pairs = 0;
-  const auto width = static_cast<std::size_t>(volume.size_voxels.x);
-  for (std::size_t at = 0; at + 3 < classes.size(); ++at) {
-    if (at % width + 3 >= width || classes[at] != TissueClass::soft_tissue) continue;
-    const int a = volume.hu[at], b = volume.hu[at + 3];
-    if (std::min(a, b) < kLowestSoftHu || std::max(a, b) > kHighestSoftHu) continue;
-    ++count[static_cast<std::size_t>(std::abs(a - b))];
-    ++pairs;
-  }
-  std::size_t below = 0;
-  for (std::size_t step = 0; step < count.size(); ++step)
-    if ((below += count[step]) * 2 >= pairs) return static_cast<double>(step) / 0.954;
-  return 0.0;
-}
 
 // Sums of a box of 2 radius + 1 voxels, beyond the slice nothing.
 class BoxSum {
@@ -130,6 +111,24 @@ void clear_false_rims(const Volume& volume, std::vector<TissueClass>& classes) {
 }
 
 }  // namespace
+
+double noise_sd_hu(const Volume& volume, const std::vector<TissueClass>& classes, int apart) {
+  const auto step = static_cast<std::size_t>(apart);
+  std::array<std::size_t, 512> count{};
+  std::size_t pairs = 0;
+  const auto width = static_cast<std::size_t>(volume.size_voxels.x);
+  for (std::size_t at = 0; at + step < classes.size(); ++at) {
+    if (at % width + step >= width || classes[at] != TissueClass::soft_tissue) continue;
+    const int a = volume.hu[at], b = volume.hu[at + step];
+    if (std::min(a, b) < kLowestSoftHu || std::max(a, b) > kHighestSoftHu) continue;
+    ++count[static_cast<std::size_t>(std::abs(a - b))];
+    ++pairs;
+  }
+  std::size_t below = 0;
+  for (std::size_t hu = 0; hu < count.size(); ++hu)
+    if ((below += count[hu]) * 2 >= pairs) return static_cast<double>(hu) / 0.954;
+  return 0.0;
+}
 
 void mark_soft_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
   const glm::ivec3 n = volume.size_voxels;

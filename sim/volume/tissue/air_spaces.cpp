@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/volume/class_steps.h"
 #include "sim/volume/components.h"
+#include "sim/volume/tissue/class_steps.h"
 
 namespace seldinger::volume {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/common.hpp>
 
 #include "sim/volume/axial_slices.h"
-#include "sim/volume/class_steps.h"
 #include "sim/volume/components.h"
+#include "sim/volume/tissue/class_steps.h"
 
 namespace seldinger::volume {
 namespace {
@@ -297,20 +297,23 @@ void join_held_plateaus(const Volume& volume, const std::vector<std::uint8_t>& m
   });
 }
 
-// Holes in bone: marrow that bone surrounds in most directions, and pores that it surrounds in all.
-void fill_marrow(const Volume& volume, std::vector<std::uint8_t>& marks, std::vector<TissueClass>& classes) {
+}  // namespace
+
+void fill_marrow(const Volume& volume, std::vector<TissueClass>& classes) {
   const std::size_t slice_voxels =
       static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y);
+  std::vector<std::uint8_t> marks(slice_voxels);
   std::vector<std::int16_t> smooth;
   for (int k = 0; k < volume.size_voxels.z; ++k) {
     TissueClass* const here = classes.data() + static_cast<std::size_t>(k) * slice_voxels;
     if (std::find(here, here + slice_voxels, TissueClass::bone) == here + slice_voxels) continue;
+    std::transform(here, here + slice_voxels, marks.begin(), [](TissueClass tissue) {
+      return static_cast<std::uint8_t>(tissue == TissueClass::bone ? 1 : 0);
+    });
     smooth_slice(volume, k, smooth);
-    Slice(volume, marks.data() + static_cast<std::size_t>(k) * slice_voxels).fill_holes(smooth, here);
+    Slice(volume, marks.data()).fill_holes(smooth, here);
   }
 }
-
-}  // namespace
 
 void smooth_slice(const Volume& volume, int k, std::vector<std::int16_t>& smooth) {
   const int width = volume.size_voxels.x, height = volume.size_voxels.y;
@@ -358,7 +361,7 @@ void mark_hard_tissue(const Volume& volume, std::vector<TissueClass>& classes) {
 
   flood_bone(volume, marks, classes);
   join_held_plateaus(volume, marks, classes);
-  fill_marrow(volume, marks, classes);
+  fill_marrow(volume, classes);
   for (std::size_t at = 0; at < classes.size(); ++at) {
     if ((marks[at] & kMetal) != 0)
       classes[at] = TissueClass::metal;

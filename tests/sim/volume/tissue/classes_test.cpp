@@ -1,5 +1,6 @@
 // Tissue classes against shapes whose truth is known: blurred and noisy as a CT makes them.
 #include "sim/volume/classes.h"
+#include "sim/volume/tissue/find_tissue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,83 @@
+#include "app/window/hands/act_words.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sim/base/check.h"
+#include "sim/tissue/breathing.h"
+
+namespace seldinger::app {
+namespace {
+
+std::string whole_mm(double mm) {
+  return std::to_string(std::lround(mm)) + " mm";
+}
+
+}  // namespace
+
+std::string fire_words(const cases::Instrument& instrument) {
+  if (instrument.kind != cases::InstrumentKind::core) return "“I am there” said";
+  return "fired, " + whole_mm(instrument.throw_mm);
+}
+
+std::string fired_answer(const cases::Instrument& instrument) {
+  if (instrument.kind != cases::InstrumentKind::core) return "Said: “I am there”. Where the tip is now counts.";
+  return "Fired: the tip was thrown " + whole_mm(instrument.throw_mm) + " on.";
+}
+
+std::string said_words(const Said& said) {
+  using cases::EventKind;
+  switch (said.kind) {
+    case EventKind::proceed:
+      return "Decided: the puncture is done now.";
+    case EventKind::defer:
+      return "Decided: the puncture is not done now.";
+    case EventKind::probe_checked:
+      return std::string("Probe checked: its marker’s side is the picture’s ") +
+             (said.flipped ? "right." : "left.");
+    case EventKind::note_plan:
+      return said.planned_mm > 0.0
+                 ? "Entry noted, and the needle is planned to go in by " + whole_mm(said.planned_mm) + "."
+                 : "Entry noted; how deep the needle is to go is not set.";
+    case EventKind::aspirate:
+      return "Aspirated: no blood comes.";
+    case EventKind::anaesthetic:
+      return "Local anaesthetic is given …";
+    case EventKind::nick:
+      return "The skin is nicked where the needle points at it.";
+    case EventKind::breath_hold_request:
+      return "Asked to hold the breath.";
+    case EventKind::breathe_again:
+      return "The patient may breathe again.";
+    default:
+      return {};
+  }
+}
+
+std::string numb_words(const engine::Moment& moment) {
+  CHECK(moment.numbed > 0);
+  const cases::SkinPassage& skin = moment.state.needle.skin;
+  const glm::dvec3& place_lps_mm = moment.numb_lps_mm[(moment.numbed - 1) % moment.numb_lps_mm.size()];
+  const std::string where =
+      skin.in_body
+          ? "where the needle went in"
+          : "where the needle points (" + whole_mm(glm::distance(place_lps_mm, skin.tip_lps_mm)) + " from its tip)";
+  return "Numb: skin and way, " + whole_mm(engine::kNumbMm) + " about " + where + ".";
+}
+
+std::string guide_words(const Seen& seen, cases::Modality modality) {
+  if (modality == cases::Modality::xray) return "No needle guide here: it is mounted on an ultrasound probe.";
+  if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle, and leads it freely.";
+  if (seen.in_guide) return "The needle is in its guide: its way lies between the dotted lines in the picture.";
+  if (seen.guided) return "Needle guide on: the needle is brought to it; G puts it aside.";
+  if (seen.inserted) return "The needle is free. It is in tissue: draw it out before G brings it to its guide.";
+  return "Needle guide off: the needle is free.";
+}
+
+std::string breath_words(const cases::PatientBreath& breath) {
+  if (!breath.hold_asked) return {};
+  if (breath.state.failed) return "the breath could be held no longer";
+  return tissue::holds(breath.state) ? "the breath is held" : "the breath is not held yet";
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,35 @@
+// What the window answers to each act, in words: what was done, where and how far.
+#pragma once
+
+#include <string>
+
+#include "app/window/hands/person_attempt.h"
+#include "sim/case/case.h"
+#include "sim/case/event.h"
+#include "sim/engine/tick.h"
+
+namespace seldinger::app {
+
+// How long after it a fire flashes at the picture, by the attempt's time (design).
+inline constexpr double kFlashS = 0.7;
+
+// "fired, 22 mm": how far the tip was thrown; of a needle that throws nothing, what was said with the trigger.
+std::string fire_words(const cases::Instrument& instrument);
+// The same as an answer to the trigger.
+std::string fired_answer(const cases::Instrument& instrument);
+
+// What an answer to what was said depends on.
+struct Said {
+  cases::EventKind kind = cases::EventKind::none;
+  double planned_mm = 0.0;  // of note_plan; 0: without
+  bool flipped = false;     // the picture: its marker is on the right
+};
+std::string said_words(const Said& said);
+// Of the newest place that is numb; CHECKs that there is one.
+std::string numb_words(const engine::Moment& moment);
+// Of what has become of the needle guide since it was asked for: taken up, put aside, or why not.
+std::string guide_words(const Seen& seen, cases::Modality modality);
+// Of a patient who was asked to hold the breath; empty: none was, or it is over.
+std::string breath_words(const cases::PatientBreath& breath);
+
+}  // namespace seldinger::app

@@ -1,0 +1,71 @@
+// What the window answers to acts, in words.
+#include "app/window/hands/act_words.h"
+
+#include <gtest/gtest.h>
+
+namespace seldinger::app {
+namespace {
+
+using cases::EventKind;
+
+TEST(ActWords, OfAFireTellHowFarTheTipWasThrown) {
+  cases::Instrument core;
+  core.kind = cases::InstrumentKind::core;
+  core.throw_mm = 21.6;
+  EXPECT_EQ(fire_words(core), "fired, 22 mm");
+  EXPECT_EQ(fired_answer(core), "Fired: the tip was thrown 22 mm on.");
+  EXPECT_EQ(fire_words(cases::Instrument{.kind = cases::InstrumentKind::access}), "“I am there” said");
+}
+
+TEST(ActWords, OfWhatIsSaidAreForEverythingThatATraineeSaysInTheRoom) {
+  for (const cases::EventInfo& event : cases::event_kinds()) {
+    if (event.source != cases::EventSource::trainee || event.kind == EventKind::sign_in ||
+        event.kind == EventKind::sign_out || event.kind == EventKind::depth_measured)
+      continue;
+    EXPECT_FALSE(said_words({event.kind}).empty()) << event.name;
+  }
+  EXPECT_EQ(said_words({EventKind::note_plan, 61.4}), "Entry noted, and the needle is planned to go in by 61 mm.");
+  EXPECT_NE(said_words({EventKind::note_plan}), said_words({EventKind::note_plan, 61.4}));
+  EXPECT_NE(said_words({EventKind::probe_checked, 0.0, true}), said_words({EventKind::probe_checked, 0.0, false}));
+}
+
+TEST(ActWords, OfAnAnaestheticTellTheNewestPlace) {
+  engine::Moment moment;
+  moment.state.needle.skin.tip_lps_mm = {0.0, 0.0, 0.0};
+  moment.numbed = 5;  // the fifth lies where the first did
+  moment.numb_lps_mm = {glm::dvec3{0.0, 12.0, 0.0}, {0.0, 80.0, 0.0}, {0.0, 81.0, 0.0}, {0.0, 82.0, 0.0}};
+  EXPECT_EQ(numb_words(moment), "Numb: skin and way, 15 mm about where the needle points (12 mm from its tip).");
+  moment.state.needle.skin.in_body = true;
+  EXPECT_EQ(numb_words(moment), "Numb: skin and way, 15 mm about where the needle went in.");
+}
+
+TEST(ActWords, OfAGuideSayWhyThereIsNone) {
+  using cases::Modality;
+  Seen seen;
+  EXPECT_NE(guide_words(seen, Modality::xray).find("ultrasound probe"), std::string::npos);
+  const std::string off = guide_words(seen, Modality::ultrasound);
+  seen.inserted = true;
+  EXPECT_NE(guide_words(seen, Modality::ultrasound).find("draw it out"), std::string::npos);
+  seen.guided = true;
+  const std::string on = guide_words(seen, Modality::ultrasound);
+  seen.in_guide = true;
+  const std::string in = guide_words(seen, Modality::ultrasound);
+  EXPECT_NE(in.find("dotted lines"), std::string::npos);
+  EXPECT_TRUE(on != off && on != in && in != off);
+  seen.needle_by_mouse = false;
+  EXPECT_NE(guide_words(seen, Modality::ultrasound).find("an arm"), std::string::npos);
+}
+
+TEST(ActWords, OfTheBreathFollowThePatient) {
+  cases::PatientBreath breath;
+  EXPECT_EQ(breath_words(breath), "");
+  breath.hold_asked = true;
+  EXPECT_EQ(breath_words(breath), "the breath is not held yet");
+  breath.state.held = 1.0;
+  EXPECT_EQ(breath_words(breath), "the breath is held");
+  breath.state.failed = true;
+  EXPECT_EQ(breath_words(breath), "the breath could be held no longer");
+}
+
+}  // namespace
+}  // namespace seldinger::app
