@@ -159,9 +159,9 @@ void fuzz_import(const std::filesystem::path& folder, FuzzedReader reader, std::
   std::printf("[ fuzz       ] %d files, %d read, %d readers died, slowest %.3f s, %.1f MB at most, refused as:%s\n",
               round, read, died, slowest, static_cast<double>(most_bytes) / 1048576.0, said.c_str());
   EXPECT_EQ(died, 0) << "contained, and yet a fault of ours or of a library";
-  // A driver whose files are all refused at the door proves nothing.
+  // A driver whose files are all refused at the door proves nothing. A hundred rounds meet fewer of the reasons.
   EXPECT_GT(read, round / 50);
-  EXPECT_GT(codes.size(), 4U);
+  EXPECT_GE(codes.size(), rounds < 500 ? 3U : 5U);
 }
 
 }  // namespace seldinger::casedb
