@@ -60,6 +60,7 @@ int run_train(const Arguments& arguments) {
   settings.width = static_cast<int>(arguments.whole("--width", 1280, kLeastWidth, 16384));
   settings.height = static_cast<int>(arguments.whole("--height", 800, kLeastHeight, 16384));
   settings.whole_screen = arguments.has("--whole-screen");
+  settings.letters = arguments.number("--letters", 1.0, 0.75, 2.0);
   const std::string backend = arguments.text("--backend", "auto");
   if (backend != "gpu" && backend != "cpu" && backend != "auto") throw UsageError("--backend is gpu, cpu or auto");
   Window window(settings);
@@ -93,9 +94,11 @@ constexpr Option kTrainOptions[] = {
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--backend", "gpu|cpu|auto",
      "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
-    {"--width", "PIXELS", "of the window, at least 960; 1280 unless given"},
-    {"--height", "PIXELS", "of the window, at least 640; 800 unless given"},
-    {"--whole-screen", nullptr, "without a frame"},
+    {"--width", "PIXELS", "of the window, at least 800; 1280 unless given"},
+    {"--height", "PIXELS", "of the window, at least 600; 800 unless given"},
+    {"--whole-screen", nullptr, "without a frame; Alt+Enter changes it"},
+    {"--letters", "SIZE",
+     "of letters and buttons, 0.75 to 2; 1 unless given. They grow with the window and the screen's dots too"},
     {"--mute", nullptr, "without sound, until M is pressed"},
     {"--volume", "PERCENT", "of the sound; 70 unless given"},
     {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},

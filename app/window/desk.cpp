@@ -215,6 +215,7 @@ void Desk::frame() {
   finish(began_s);
   std::vector<unsigned char> pixels;
   const bool keeps = window_.keys().pressed(kF12);
+  if (window_.keys().pressed(kEnter) && window_.keys().alt) window_.set_whole_screen(!window_.whole_screen());
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
   if (screen == "attempt") attempt_.shown(trainer_, window_.width_px(), window_.height_px());

@@ -1,10 +1,13 @@
 // Makes docs/gallery: pictures of the workstation as a trainee sees it, by somebody at its mouse and keys. Run by
-// hand (`gallery` is a target of the build, no test): gallery PROGRAM FOLDER.
+// hand (`gallery` is a target of the build, no test): gallery PROGRAM FOLDER [OPTION …], these for the window, as
+// --width 800 --height 600.
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/trainee.h"
@@ -16,6 +19,7 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 std::string program, folder;
+std::vector<std::string> options;  // of the window
 constexpr const char* kPassword = "a password";
 
 class Gallery : public testing::Test {
@@ -35,6 +39,10 @@ class Gallery : public testing::Test {
               0);
     return made;
   }
+  std::vector<std::string> with(std::vector<std::string> own) const {
+    own.insert(own.end(), options.begin(), options.end());
+    return own;
+  }
   static void keep(fixtures::Trainee& trainee, const std::string& name) {
     fs::copy_file(trainee.keep_picture(), fs::path(folder) / (name + ".png"), fs::copy_options::overwrite_existing);
   }
@@ -43,7 +51,7 @@ class Gallery : public testing::Test {
 
 TEST_F(Gallery, Ultrasound) {
   const std::string made = library("ultrasound");
-  fixtures::Trainee trainee(program, made, scratch_, {"--mute"});
+  fixtures::Trainee trainee(program, made, scratch_, with({"--mute"}));
   keep(trainee, "log-in");
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
@@ -53,6 +61,9 @@ TEST_F(Gallery, Ultrasound) {
   ASSERT_NO_FATAL_FAILURE(trainee.press_probe_on());
   ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(45.0));
   keep(trainee, "ultrasound");
+  trainee.screen().press("Return");
+  keep(trainee, "room");
+  trainee.screen().press("Return");
   trainee.screen().press("F11");
   keep(trainee, "stereo");
   trainee.screen().press("F11");
@@ -63,7 +74,7 @@ TEST_F(Gallery, Ultrasound) {
 
 TEST_F(Gallery, Devices) {
   const std::string made = library("mpr");
-  fixtures::Trainee trainee(program, made, scratch_, {"--device", "virtual"});
+  fixtures::Trainee trainee(program, made, scratch_, with({"--device", "virtual"}));
   trainee.screen().press("F10");
   ASSERT_TRUE(trainee.reaches("devices", 10.0));
   trainee.screen().press("t");
@@ -79,7 +90,7 @@ TEST_F(Gallery, Devices) {
 
 TEST_F(Gallery, Fluoroscopy) {
   const std::string made = library("xray");
-  fixtures::Trainee trainee(program, made, scratch_);
+  fixtures::Trainee trainee(program, made, scratch_, with({}));
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
@@ -103,7 +114,7 @@ TEST_F(Gallery, CaseEditor) {
       " --name vein --rule critical --tissue vessel --tube -70,-10,-30 --tube -80,0,0 --tube -75,10,30 --radius-mm "
       "4");
   ask("case setting " + draft + " --title 'Liver, intercostal' --entry-mm -160,10,-15 --pass 'hit >= 1'");
-  fixtures::Trainee trainee(program, made, scratch_);
+  fixtures::Trainee trainee(program, made, scratch_, with({}));
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   trainee.click("Open draft#2");  // the first is the demo's own, which attempts have frozen
   ASSERT_TRUE(trainee.reaches("editor", 20.0));
@@ -123,12 +134,13 @@ TEST_F(Gallery, CaseEditor) {
 
 int main(int count, char** words) {
   testing::InitGoogleTest(&count, words);
-  if (count != 3) {
-    std::fputs("usage: gallery PROGRAM FOLDER\n", stderr);
+  if (count < 3) {
+    std::fputs("usage: gallery PROGRAM FOLDER [OPTION …]\n", stderr);
     return 2;
   }
   seldinger::program = words[1];
   seldinger::folder = words[2];
+  seldinger::options.assign(words + 3, words + count);
   std::filesystem::create_directories(seldinger::folder);
   return RUN_ALL_TESTS();
 }

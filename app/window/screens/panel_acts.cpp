@@ -194,11 +194,14 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
   if (used + ImGui::CalcTextSize(end).x + 24.0F < room) ImGui::SameLine();
   if (noted_button(end)) finish(attempt, seen, flipped);
   if (!patient || !trainer.may(casedb::Action::cause_event)) return;
+  used = 0.0F;
   for (const cases::EventInfo& event : cases::event_kinds()) {
     if (event.source != cases::EventSource::mentor) continue;
+    const float wide = ImGui::CalcTextSize(event.words).x + 24.0F;
+    if (used > 0.0F && used + wide < room) ImGui::SameLine();
+    used = used + wide < room ? used + wide : wide;
     if (ImGui::Button(event.words)) say(attempt, seen, flipped, event.kind);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("a mentor lets it happen: %s", event.about);
-    ImGui::SameLine();
   }
 }
 

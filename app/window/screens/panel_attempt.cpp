@@ -27,6 +27,10 @@ constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
 constexpr double kLeastBetweenS = 1.0 / 60.0;
 constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
 constexpr double kLookAgainS = 0.0005;
+constexpr float kLettersPx = 16.0F;  // of letters of size 1
+constexpr float kLeastActsPx = 90.0F;
+constexpr float kMostConsoleShare =
+    0.12F;                        // of the window's height: one that is higher is folded until it is asked for
 constexpr double kLagOver = 0.9;  // of a lag that is shown, what was before counts so much
 
 void meter(const char* label, double force_n, double most_n) {
@@ -89,6 +93,8 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
     if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
   if (keys.pressed(kF1 + 9)) arms_live_ = !arms_live_;
   if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
+  if (keys.pressed(kEnter) && !keys.alt) picture_first_ = !picture_first_;
+  if (keys.pressed(kHomeKey)) console_asked_ = !console_shown_;
 }
 
 void AttemptPanel::draw_top(Trainer& trainer) {
@@ -101,6 +107,18 @@ void AttemptPanel::draw_top(Trainer& trainer) {
                 static_cast<int>(state.t_s) % 60, trainer.account().login_name.c_str());
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(words).x);
   ImGui::TextUnformatted(words);
+}
+
+// Where the window's parts can be changed: by a button and its key.
+void AttemptPanel::draw_choices() {
+  const char* swap = picture_first_ ? "Room larger (Enter)" : "Picture larger (Enter)";
+  const char* console = console_shown_ ? "Fold console (Home)" : "Console (Home)";
+  if (noted_button(swap)) picture_first_ = !picture_first_;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float both = ImGui::CalcTextSize(swap).x + ImGui::CalcTextSize(console).x + 4.0F * style.FramePadding.x +
+                     style.ItemSpacing.x;
+  if (both <= ImGui::GetContentRegionAvail().x) ImGui::SameLine();
+  if (noted_button(console)) console_asked_ = !console_shown_;
 }
 
 // What the patient does, over the room, as long as one would hear it.
@@ -204,7 +222,7 @@ void AttemptPanel::draw_arms() {
 void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
   if (const auto newest = attempt.arms_seen()) arms_ = *newest;
   if (!arms_live_ || !seen_.arms.used) return;
-  // Over the lower part of the room, where the table is.
+  // In the lower left corner, where a sector has nothing.
   constexpr float kWidth = 560.0F, kHeight = 200.0F, kStepsPx = 168.0F;
   ImGui::SetNextWindowPos({14.0F, ImGui::GetMainViewport()->WorkSize.y - kStepsPx - kHeight}, ImGuiCond_Appearing);
   ImGui::SetNextWindowSize({kWidth, kHeight}, ImGuiCond_Appearing);
@@ -250,6 +268,7 @@ void AttemptPanel::draw_hands(const session::Task& task) {
             ? "drag: move · right drag: turn · wheel: push · Shift: fine · Space: fire · F: freeze · Alt: camera"
             : "drag: move · right drag: turn · wheel: push · Shift: fine · Space: I am there · F: freeze · Alt: "
               "camera");
+  draw_choices();
 }
 
 void AttemptPanel::see(PersonAttempt& attempt) {
@@ -335,6 +354,18 @@ void AttemptPanel::draw_pause(Trainer& trainer) {
   if (again) trainer.again();
 }
 
+// What is said keeps its height as long as it is as wide.
+AttemptLayout AttemptPanel::lay_out() {
+  const ImVec2 all = ImGui::GetContentRegionAvail();
+  const float letters = ImGui::GetFontSize() / kLettersPx;
+  const AttemptLayout bare = attempt_layout(all.x, all.y, letters, 0.0F, 0.0F);
+  if (bare.acts.width != acts_for_px_) acts_px_ = kLeastActsPx * letters;
+  acts_for_px_ = bare.acts.width;
+  const float console_px = monitor_.console_height(bare.main.width, &told_);
+  console_shown_ = console_asked_.value_or(console_px < kMostConsoleShare * all.y);
+  return attempt_layout(all.x, all.y, letters, console_shown_ ? console_px : 0.0F, acts_px_);
+}
+
 void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& pointer, const OtherHands& other) {
   PersonAttempt& attempt = *trainer.attempt();
   const std::shared_ptr<const session::Task> kept = attempt.task();
@@ -351,13 +382,11 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
 
   begin_screen("attempt");
   draw_top(trainer);
-  const ImVec2 all = ImGui::GetContentRegionAvail();
   const ImVec2 corner = ImGui::GetCursorPos();
-  const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), left = all.x - right - 8.0F,
-              below = right < 480.0F ? 172.0F : 150.0F;  // what the hands hold takes two lines there
-  if (all.x != steps_for_px_) steps_px_ = below;
-  steps_for_px_ = all.x;
-  begin_picture("room", left, all.y - steps_px_ - 8.0F);
+  const AttemptLayout parts = lay_out();
+  const Part& of_room = picture_first_ ? parts.inset : parts.main;
+  const Part& of_picture = picture_first_ ? parts.main : parts.inset;
+  begin_part("room", of_room, corner.x, corner.y);
   room_.place(task.scene, seen_, keys, elapsed_s);
   read_hands(attempt, keys, pointer, ImGui::GetIO().MouseWheel, other);
   if (running && !attempt.paused()) see_told(attempt);
@@ -368,25 +397,25 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   draw_rates();
   room_.draw_views();
   ImGui::EndChild();
-  ImGui::SetCursorPos({corner.x + left + 8.0F, corner.y});
-  begin_picture("guidance", 0.0F, all.y - below - 8.0F);
+  begin_part("guidance", of_picture, corner.x, corner.y);
   monitor_.draw(attempt.monitor(), seen_, trainer.help() > 0, keys, &told_);
   if (const auto depth_mm = monitor_.take_depth_mm(); depth_mm && running)
     acts_.note_measured(attempt, seen_, *depth_mm);
   ImGui::EndChild();
-  constexpr ImGuiWindowFlags kChild = ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav;
-  ImGui::SetCursorPos({corner.x, corner.y + all.y - steps_px_});
-  ImGui::BeginChild("steps", {left, steps_px_}, false, kChild);
+  if (parts.console.height > 0.0F) {
+    begin_part("console", parts.console, corner.x, corner.y);
+    monitor_.draw_console(attempt.monitor(), seen_, &told_);
+    ImGui::EndChild();
+  }
+  begin_words("acts", parts.acts, corner.x, corner.y);
   if (running)
     acts_.draw(trainer, seen_, flipped());
   else
     ImGui::TextUnformatted("The attempt is being stored and graded …");
-  // The room gives way until every button is there; not back again, for it would leap with each answer.
-  steps_px_ = std::clamp(ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y, steps_px_,
-                         std::max(steps_px_, 0.5F * all.y));
+  // The rest gives way until every button is there; not back again, for it would leap with each answer.
+  acts_px_ = std::max(acts_px_, ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y);
   ImGui::EndChild();
-  ImGui::SetCursorPos({corner.x + left + 8.0F, corner.y + all.y - below});
-  ImGui::BeginChild("hands", {0.0F, 0.0F}, false, kChild);
+  begin_words("hands", parts.hands, corner.x, corner.y);
   draw_hands(task);
   ImGui::EndChild();
   end_screen();

@@ -1,6 +1,7 @@
 // The attempt: room, guidance, what is said, and how hard it pushes.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/window/hands/condition_watch.h"
@@ -8,6 +9,7 @@
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/sound/speaker.h"
+#include "app/window/surface/attempt_layout.h"
 #include "app/window/surface/trace.h"
 #include "app/window/trainer/trainer.h"
 
@@ -57,6 +59,8 @@ class AttemptPanel {
  private:
   void set_up(Trainer& trainer);
   void draw_top(Trainer& trainer);
+  AttemptLayout lay_out();
+  void draw_choices();
   void draw_reaction();
   void draw_hands(const session::Task& task);
   void draw_depth(const cases::Instrument& instrument);
@@ -78,7 +82,10 @@ class AttemptPanel {
   RoomPanel room_;
   MonitorPanel monitor_;
   ActsPanel acts_;
-  float steps_px_ = 0.0F, steps_for_px_ = 0.0F;  // how high what is said stands, in a window so wide
+  float acts_px_ = 0.0F, acts_for_px_ = 0.0F;  // how high what is said stands, in a part so wide
+  bool picture_first_ = true;                  // the guidance's picture is the larger part, else the room
+  std::optional<bool> console_asked_;          // to be open or folded; nothing: as there is room
+  bool console_shown_ = true;
   gpu::ScreenPicture at_fire_;
   Seen seen_;
   ArmsSeen arms_;

@@ -53,17 +53,22 @@ void tip(const char* words) {
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", words);
 }
 
+// Whether a console so wide has its knobs in half as many rows.
+bool in_two_rows(float width) {
+  return width >= 52.0F * ImGui::GetFontSize();
+}
+
 }  // namespace
 
-float MonitorPanel::console_height(const cases::FluoroscopeInputs& asked) const {
-  const float row = ImGui::GetFrameHeightWithSpacing(), line = ImGui::GetTextLineHeightWithSpacing();
+float MonitorPanel::console_height(float width, const HandsTold* told) const {
+  const float row = ImGui::GetFrameHeightWithSpacing();
   switch (kind_.modality) {
     case cases::Modality::ultrasound:
-      return 4.0F * row + 4.0F;
+      return (in_two_rows(width) ? 2.0F : 4.0F) * row;
     case cases::Modality::mpr:
-      return row + 4.0F;
+      return row;
     case cases::Modality::xray:
-      return (asked.automatic_exposure ? 2.0F : 3.0F) * row + 2.0F * line + 4.0F;
+      return ((in_two_rows(width) ? 1.0F : 2.0F) + (asked_of(told).automatic_exposure ? 0.0F : 1.0F)) * row;
   }
   return 0.0F;
 }
@@ -191,14 +196,18 @@ bool MonitorPanel::draw_screen_knobs(float wide) {
 }
 
 void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool turns) {
-  const float wide = ImGui::GetContentRegionAvail().x;
+  const float all = ImGui::GetContentRegionAvail().x;
+  const bool two_rows = in_two_rows(all);
+  const float wide = two_rows ? 0.47F * all : all;  // of half a row
   ImGui::BeginDisabled(frozen || !turns);
   bool turned = draw_beam_knobs(wide);
   ImGui::EndDisabled();
 
+  if (two_rows) ImGui::SameLine();
   turned = draw_screen_knobs(wide) || turned;
   if (turned) tell(monitor);
 
+  if (two_rows) ImGui::SameLine();
   // Cine, as long as the picture is frozen.
   ImGui::BeginDisabled(!frozen || shown_.cine_pictures < 2);
   int back = -shown_.cine_back;
@@ -210,7 +219,7 @@ void MonitorPanel::draw_ultrasound(session::Monitor& monitor, bool frozen, bool 
   ImGui::SameLine();
   draw_calipers_and_keep(true);
   ImGui::SameLine();
-  quiet(kind_.probe.c_str());
+  ImGui::TextDisabled("%s", kind_.probe.c_str());
 }
 
 void MonitorPanel::draw_slices(session::Monitor& monitor, bool frozen, bool turns) {
@@ -241,12 +250,12 @@ void MonitorPanel::draw_slices(session::Monitor& monitor, bool frozen, bool turn
   draw_calipers_and_keep(true);
 }
 
-void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked) {
-  const cases::FluoroscopyState& machine = state.fluoroscopy;
+void MonitorPanel::read_fluoroscope(const Keys& keys, cases::FluoroscopeInputs& asked) const {
   // Held keys drive the C-arm, with shift the table.
   const auto axis = [&](int more, int less) {
     return (keys.held(more) ? 1.0 : 0.0) - (keys.held(less) ? 1.0 : 0.0);
   };
+  asked.pedal = keys.held('P');
   asked.lao_speed = keys.shift ? 0.0 : axis(kRight, kLeft);
   asked.cranial_speed = keys.shift ? 0.0 : axis(kUp, kDown);
   asked.table_speed = keys.shift ? glm::dvec3(axis(kRight, kLeft), 0.0, axis(kUp, kDown)) : glm::dvec3(0.0);
@@ -260,27 +269,40 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
     *open = std::clamp(*open + blades, cases::kCollimatorMin, 1.0);
   asked.magnification = std::clamp(asked.magnification + pressed('0', '9'), 0, 2);
   asked.pulse_rate = std::clamp(asked.pulse_rate + pressed('.', ','), 0, 2);
-  bool automatic = asked.automatic_exposure != keys.pressed('X');
   if (keys.pressed('H')) asked.hand_away = !asked.hand_away;
+  if (keys.pressed('X')) expose_automatically(!asked.automatic_exposure, asked);
+  if (asked.automatic_exposure) return;
+  asked.kv = std::clamp(asked.kv + kKvStep * pressed('\'', ';'), machine_.kv_min, machine_.kv_max);
+  asked.ma = std::clamp(asked.ma * std::pow(kMaStep, pressed('C', 'Z')), machine_.ma_min, machine_.ma_max);
+}
 
+// By hand: from where the machine had it.
+void MonitorPanel::expose_automatically(bool automatic, cases::FluoroscopeInputs& asked) const {
+  if (!automatic && asked.automatic_exposure) {
+    asked.kv = machine_state_.technique.kv;
+    asked.ma = machine_state_.technique.ma;
+  }
+  asked.automatic_exposure = automatic;
+}
+
+void MonitorPanel::draw_fluoroscope(cases::FluoroscopeInputs& asked) {
+  const float all = ImGui::GetContentRegionAvail().x;
+  const bool one_row = in_two_rows(all);
+  const float wide = one_row ? 0.48F * all : all;
   // Pedal, hand and automatic exposure.
   ImGui::Button("Pedal (P)");
-  asked.pedal = ImGui::IsItemActive() || keys.held('P');
+  asked.pedal = asked.pedal || ImGui::IsItemActive();
   tip("held, it makes pulses; let go, the last image stays");
   ImGui::SameLine();
   ImGui::Checkbox("hand away (H)", &asked.hand_away);
   tip("lets go of the needle and takes the hand out of the beam");
   ImGui::SameLine();
-  ImGui::Checkbox("automatic", &automatic);
+  bool automatic = asked.automatic_exposure;
+  if (ImGui::Checkbox("automatic", &automatic)) expose_automatically(automatic, asked);
   tip("automatic exposure (X); without it kV and mA are yours");
   ImGui::SameLine();
   draw_calipers_and_keep(false);
-  if (!automatic && asked.automatic_exposure) {  // from where the machine had it
-    asked.kv = machine.technique.kv;
-    asked.ma = machine.technique.ma;
-  }
-  asked.automatic_exposure = automatic;
-  const float wide = ImGui::GetContentRegionAvail().x;
+  if (one_row) ImGui::SameLine();
   // Pulse rate, field and collimator.
   static constexpr const char* kRates[] = {"3 /s", "7.5 /s", "15 /s"};
   ImGui::SetNextItemWidth(0.20F * wide);
@@ -299,17 +321,13 @@ void MonitorPanel::draw_fluoroscope(const cases::State& state, const Keys& keys,
   tip("collimator ([ ] both): what is shut off gets no dose, and blurs nothing");
   ImGui::SameLine();
   knob("##along", asked.collimator.open_v, cases::kCollimatorMin, 1.0, "along %.2f", 0.25F * wide);
+  if (asked.automatic_exposure) return;
   // Technique, by hand.
-  if (!asked.automatic_exposure) {
-    asked.kv = std::clamp(asked.kv + kKvStep * pressed('\'', ';'), machine_.kv_min, machine_.kv_max);
-    asked.ma = std::clamp(asked.ma * std::pow(kMaStep, pressed('C', 'Z')), machine_.ma_min, machine_.ma_max);
-    knob("##kv", asked.kv, machine_.kv_min, machine_.kv_max, "%.0f kV", 0.48F * wide);
-    tip("tube's voltage (; ')");
-    ImGui::SameLine();
-    knob("##ma", asked.ma, machine_.ma_min, machine_.ma_max, "%.0f mA", 0.48F * wide);
-    tip("tube's current (Z C)");
-  }
-  draw_exposure(machine);
+  knob("##kv", asked.kv, machine_.kv_min, machine_.kv_max, "%.0f kV", 0.48F * wide);
+  tip("tube's voltage (; ')");
+  ImGui::SameLine();
+  knob("##ma", asked.ma, machine_.ma_min, machine_.ma_max, "%.0f mA", 0.48F * wide);
+  tip("tube's current (Z C)");
 }
 
 void MonitorPanel::draw_exposure(const cases::FluoroscopyState& machine) {

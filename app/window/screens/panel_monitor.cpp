@@ -288,30 +288,40 @@ void MonitorPanel::draw(session::Monitor& monitor, const Seen& seen, bool lamps,
   if (frozen_ && !frozen) calipers_.clear();  // what was measured moves on
   frozen_ = frozen;
   if (told == nullptr) knobs_.stand(state.probe.console);
-  cases::FluoroscopeInputs asked;
-  if (told != nullptr) {
-    asked = told->fluoroscope;
-  } else {
-    asked.collimator = machine_state_.collimator;
-    asked.magnification = machine_state_.magnification;
-    asked.pulse_rate = machine_state_.pulse_rate;
-    asked.hand_away = machine_state_.hand_away;
-  }
+  const bool xray = kind_.modality == cases::Modality::xray;
   read_keys(monitor, frozen, told == nullptr, keys);
+  if (xray && told != nullptr) read_fluoroscope(keys, told->fluoroscope);
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  draw_picture(seen, room.x,
-               room.y - console_height(asked) - (lamps ? 2.0F : 1.0F) * ImGui::GetTextLineHeightWithSpacing());
+  const float lines = 1.0F + (lamps ? 1.0F : 0.0F) + (xray ? 2.0F : 0.0F);
+  draw_picture(seen, room.x, room.y - lines * ImGui::GetTextLineHeightWithSpacing());
   draw_status(monitor, state);
   if (lamps) draw_lamps(seen.frame);
+  if (xray) draw_exposure(machine_state_);
   if (notches_ != 0) roll(monitor, notches_, frozen, told == nullptr);
-  if (kind_.modality == cases::Modality::ultrasound) draw_ultrasound(monitor, frozen, told != nullptr);
-  if (kind_.modality == cases::Modality::mpr) draw_slices(monitor, frozen, told != nullptr);
+  if (told != nullptr) told->console = knobs_.asked();
+}
+
+cases::FluoroscopeInputs MonitorPanel::asked_of(const HandsTold* told) const {
+  if (told != nullptr) return told->fluoroscope;
+  cases::FluoroscopeInputs asked;
+  asked.collimator = machine_state_.collimator;
+  asked.magnification = machine_state_.magnification;
+  asked.pulse_rate = machine_state_.pulse_rate;
+  asked.hand_away = machine_state_.hand_away;
+  return asked;
+}
+
+void MonitorPanel::draw_console(session::Monitor& monitor, const Seen& seen, HandsTold* told) {
+  const bool turns = told != nullptr;
+  if (kind_.modality == cases::Modality::ultrasound) draw_ultrasound(monitor, seen.frozen, turns);
+  if (kind_.modality == cases::Modality::mpr) draw_slices(monitor, seen.frozen, turns);
+  cases::FluoroscopeInputs asked = asked_of(told);
   if (kind_.modality == cases::Modality::xray) {
-    ImGui::BeginDisabled(told == nullptr);
-    draw_fluoroscope(state, keys, asked);
+    ImGui::BeginDisabled(!turns);
+    draw_fluoroscope(asked);
     ImGui::EndDisabled();
   }
-  if (told == nullptr) return;
+  if (!turns) return;
   told->console = knobs_.asked();
   told->fluoroscope = asked;
 }

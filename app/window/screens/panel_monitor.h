@@ -23,10 +23,13 @@ class MonitorPanel {
   // A new attempt, with a console of its own: knobs stand where that begins, calipers and picture are gone.
   void begin(const cases::Case& scene);
 
-  // In what room there is. What the console asks of the attempt goes into `told`; null: an attempt that is watched,
-  // whose knobs stand as they did and turn nothing but the screen.
-  // `lamps`: below the picture, whether tip and target are in it.
+  // The picture with what is told below it, in what room there is; and the console's keys, also of one that is
+  // folded. What they ask of the attempt goes into `told`; null: an attempt that is watched, whose knobs stand as
+  // they did and turn nothing but the screen. `lamps`: whether tip and target are in the picture.
   void draw(session::Monitor& monitor, const Seen& seen, bool lamps, const Keys& keys, HandsTold* told);
+  // The console's knobs, after the picture, and how high they are in a part so wide.
+  void draw_console(session::Monitor& monitor, const Seen& seen, HandsTold* told);
+  float console_height(float width, const HandsTold* told) const;
 
   // Between saying and showing a frame: a picture that has come since is in it, too.
   void take_late(session::Monitor& monitor);
@@ -55,13 +58,15 @@ class MonitorPanel {
   bool draw_beam_knobs(float wide);    // preset, depth, focus, frequency; true: another preset
   bool draw_screen_knobs(float wide);  // gain, range, grey map, flip, time gain; true: turned
   void draw_slices(session::Monitor& monitor, bool frozen, bool turns);
-  void draw_fluoroscope(const cases::State& state, const Keys& keys, cases::FluoroscopeInputs& asked);
+  void read_fluoroscope(const Keys& keys, cases::FluoroscopeInputs& asked) const;
+  void expose_automatically(bool automatic, cases::FluoroscopeInputs& asked) const;
+  void draw_fluoroscope(cases::FluoroscopeInputs& asked);
+  cases::FluoroscopeInputs asked_of(const HandsTold* told) const;
   void draw_exposure(const cases::FluoroscopyState& machine);
   void draw_calipers_and_keep(bool calipers);
   void roll(session::Monitor& monitor, int notches, bool frozen, bool watched);  // the wheel over the picture
   void tell(session::Monitor& monitor) const;                                    // what acts on the screen
   void keep();
-  float console_height(const cases::FluoroscopeInputs& asked) const;
 
   gpu::ScreenPicture picture_;
   session::ShownPicture shown_;

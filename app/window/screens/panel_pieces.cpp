@@ -30,6 +30,17 @@ void begin_picture(const char* name, float width, float height) {
           ImGuiWindowFlags_NoNav);  // Tab changes the tool; it would take a slider's number for a field
 }
 
+void begin_part(const char* name, const Part& part, float left, float top) {
+  ImGui::SetCursorPos({left + part.left, top + part.top});
+  begin_picture(name, part.width, part.height);
+}
+
+void begin_words(const char* name, const Part& part, float left, float top) {
+  ImGui::SetCursorPos({left + part.left, top + part.top});
+  ImGui::BeginChild(name, {part.width, part.height}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
+}
+
 void heading(const char* text) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.86F, 0.97F, 1.0F));
   ImGui::TextUnformatted(text);

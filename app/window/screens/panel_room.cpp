@@ -248,12 +248,17 @@ void RoomPanel::draw_views() {
   char nearer[16];
   std::snprintf(nearer, sizeof nearer, ", %.1f×", 1.0 / zoom_);
   if (zoom_ != 1.0) words += nearer;
-  const float wide = ImGui::CalcTextSize(words.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  const auto wide_of = [&] {
+    return ImGui::CalcTextSize(words.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+  };
+  if (wide_of() > size_px_[0] - 16.0F)  // of a small room its key says it
+    words = own_ ? "Your own view" : "View (" + std::to_string(static_cast<int>(named_) + 1) + ")";
+  const float wide = wide_of();
   ImGui::SetCursorScreenPos({corner_px_[0] + size_px_[0] - wide - 8.0F, corner_px_[1] + 8.0F});
   if (ImGui::Button((words + "##views").c_str())) ImGui::OpenPopup("views");
   note_item(words.c_str());
   ImGui::SetNextWindowPos({corner_px_[0] + size_px_[0] - 8.0F, ImGui::GetItemRectMax().y + 2.0F}, ImGuiCond_Always,
-                          {1.0F, 0.0F});  // over the room, not over the guidance's picture
+                          {1.0F, 0.0F});
   if (!ImGui::BeginPopup("views")) return;
   for (std::size_t i = 0; i < imaging::kRoomViewNames.size(); ++i) {
     const auto view = static_cast<imaging::RoomView>(i);

@@ -17,6 +17,8 @@ namespace {
 constexpr int kHelp = 3;  // who watches sees where it goes
 constexpr std::array<double, 3> kSpeeds = {1.0, 2.0, 4.0};
 constexpr double kLeapS = 5.0;
+constexpr float kPictureShare = 0.5F;  // of the width; the room, which shows why, has the rest
+constexpr float kBelowLetters = 9.5F;  // the course, in heights of a letter
 
 // What was said or happened last, for a few seconds.
 std::string said_at(const cases::Recording& recording, double t_s) {
@@ -102,19 +104,25 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
                 .c_str());
     ImGui::SameLine();
     ImGui::TextDisabled("%s", kTrainingOnly);
-    const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float right = std::clamp(0.42F * all.x, 420.0F, 900.0F), below = 150.0F;
-    begin_picture("room", all.x - right - 8.0F, all.y - below - 8.0F);
+    const ImVec2 all = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorPos();
+    const float below = kBelowLetters * ImGui::GetFontSize(), high = all.y - below - kBetweenPartsPx;
+    const float right = kPictureShare * all.x, left = all.x - right - kBetweenPartsPx;
+    const float console = monitor_.console_height(right, nullptr);
+    begin_part("room", {0.0F, 0.0F, left, high}, corner.x, corner.y);
     const double now_s = session::clock_s();
     room_.place(watched.scene(), seen_, keys, std::min(0.1, now_s - drawn_s_));
     room_.draw(watched.scene(), seen_, kHelp);
     room_.draw_views();
     drawn_s_ = now_s;
     ImGui::EndChild();
-    ImGui::SameLine();
-    begin_picture("guidance", 0.0F, all.y - below - 8.0F);
+    begin_part("guidance", {left + kBetweenPartsPx, 0.0F, right, high - console - kBetweenPartsPx}, corner.x,
+               corner.y);
     monitor_.draw(watched.monitor(), seen_, true, keys, nullptr);
     ImGui::EndChild();
+    begin_part("console", {left + kBetweenPartsPx, high - console, right, console}, corner.x, corner.y);
+    monitor_.draw_console(watched.monitor(), seen_, nullptr);
+    ImGui::EndChild();
+    ImGui::SetCursorPos({corner.x, corner.y + high + kBetweenPartsPx});
     draw_course(trainer, keys);
   }
   if (ImGui::Button("Back (Esc)") || keys.pressed(kEscape)) trainer.stop_watching();

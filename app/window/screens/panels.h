@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/replay/body_planes.h"
+#include "app/window/surface/attempt_layout.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 #include "sim/base/training_only.h"
@@ -96,6 +97,9 @@ void begin_screen(const char* name);  // the whole window; end_screen ends it
 void end_screen();
 // A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
 void begin_picture(const char* name, float width, float height);
+// A part of the window's layout from that corner: of a picture, and of words. ImGui::EndChild ends both.
+void begin_part(const char* name, const Part& part, float left, float top);
+void begin_words(const char* name, const Part& part, float left, float top);
 void heading(const char* text);
 void quiet(const char* text);                              // smaller in weight: what explains
 inline constexpr unsigned int kTargetColour = 0xFF78E65A;  // as IM_COL32(90, 230, 120, 255)

@@ -1,6 +1,8 @@
 #include "app/window/surface/window.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -21,7 +23,7 @@ namespace {
 static_assert(kSpace == GLFW_KEY_SPACE && kEscape == GLFW_KEY_ESCAPE && kEnter == GLFW_KEY_ENTER);
 static_assert(kTab == GLFW_KEY_TAB && kBackspace == GLFW_KEY_BACKSPACE && kF1 == GLFW_KEY_F1);
 static_assert(kRight == GLFW_KEY_RIGHT && kLeft == GLFW_KEY_LEFT && kDown == GLFW_KEY_DOWN && kUp == GLFW_KEY_UP);
-static_assert(kPageUp == GLFW_KEY_PAGE_UP && kPageDown == GLFW_KEY_PAGE_DOWN);
+static_assert(kPageUp == GLFW_KEY_PAGE_UP && kPageDown == GLFW_KEY_PAGE_DOWN && kHomeKey == GLFW_KEY_HOME);
 static_assert(kF5 == GLFW_KEY_F5 && kF9 == GLFW_KEY_F9 && kF12 == GLFW_KEY_F12);
 
 static_assert(devices::GamepadReading::kAxes == GLFW_GAMEPAD_AXIS_LAST + 1);
@@ -31,9 +33,16 @@ static_assert(devices::GamepadReading::kButtons == GLFW_GAMEPAD_BUTTON_LAST + 1)
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontPx = 16.0F;
 
+// Letters grow with the window, by eighths, so that they are not made anew with each pixel of it.
+float letters_of(int width_px, int height_px) {
+  const float share = std::min(static_cast<float>(width_px) / 1280.0F, static_cast<float>(height_px) / 800.0F);
+  return std::clamp(0.125F * std::floor(8.0F * (0.5F + 0.5F * share) + 0.01F), 0.875F, 1.5F);
+}
+
 void set_style(float scale) {
-  ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
+  ImGui::StyleColorsDark();
   style.WindowRounding = 0.0F;
   style.FrameRounding = 4.0F;
   style.GrabRounding = 4.0F;
@@ -56,6 +65,7 @@ void set_style(float scale) {
   ImGuiIO& io = ImGui::GetIO();
   static const ImWchar kLetters[] = {0x20,   0x24F,  0x370,  0x3FF,  0x2010, 0x2044, 0x2070, 0x209F,
                                      0x2190, 0x21FF, 0x2212, 0x2265, 0x2713, 0x2717, 0};
+  io.Fonts->Clear();
   if (std::filesystem::exists(kFont)) io.Fonts->AddFontFromFileTTF(kFont, kFontPx * scale, nullptr, kLetters);
 }
 
@@ -76,7 +86,9 @@ struct Window::Parts {
   std::vector<int> down;
   std::vector<int> pressed;  // since the frame began
   std::optional<gpu::Context> context;
-  float scale = 1.0F;
+  float screen = 1.0F, letters = 1.0F;  // of the screen's dots; what is asked for
+  float scale = 1.0F;                   // of letters and distances, with what the window's size makes of it
+  std::array<int, 4> framed{};          // where it was, and how large, before it took the whole screen
   TypedQueue typed;
   std::optional<int> given;  // the queue's key, down for this frame
 
@@ -96,6 +108,23 @@ struct Window::Parts {
     for (const unsigned int letter : now.letters) io.AddInputCharacter(letter);
     given = now.key;
     if (given) io.KeysDown[*given] = true;
+  }
+
+  float scale_now() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window, &width, &height);
+    return width < 1 ? scale
+                     : screen * letters *
+                           letters_of(static_cast<int>(static_cast<float>(width) / screen),
+                                      static_cast<int>(static_cast<float>(height) / screen));
+  }
+  void fit_letters() {
+    const float now = scale_now();
+    if (now == scale) return;
+    scale = now;
+    set_style(scale);
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
   }
 
   void read(Keys& into) const {
@@ -158,7 +187,9 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
   glfwSetWindowFocusCallback(parts_->window, ImGui_ImplGlfw_WindowFocusCallback);
   glfwSetCursorEnterCallback(parts_->window, ImGui_ImplGlfw_CursorEnterCallback);
   float scale_y = 1.0F;
-  glfwGetWindowContentScale(parts_->window, &parts_->scale, &scale_y);
+  glfwGetWindowContentScale(parts_->window, &parts_->screen, &scale_y);
+  parts_->letters = static_cast<float>(settings.letters);
+  parts_->scale = parts_->scale_now();
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // nothing of a person stays at the workstation
@@ -191,6 +222,26 @@ bool Window::hidden() const noexcept {
 double Window::scale() const noexcept {
   return parts_->scale;
 }
+bool Window::whole_screen() const noexcept {
+  return glfwGetWindowMonitor(parts_->window) != nullptr;
+}
+
+void Window::set_whole_screen(bool whole) {
+  auto& [left, top, width, height] = parts_->framed;
+  if (whole == whole_screen()) return;
+  if (!whole) {  // of a window that was opened on the whole screen nothing is known
+    if (width < kLeastWidth) width = 1280, height = 800;
+    glfwSetWindowMonitor(parts_->window, nullptr, left, top, width, height, GLFW_DONT_CARE);
+    glfwSetWindowSizeLimits(parts_->window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  if (mode == nullptr) return;
+  glfwGetWindowPos(parts_->window, &left, &top);
+  glfwGetWindowSize(parts_->window, &width, &height);
+  glfwSetWindowMonitor(parts_->window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
 
 void Window::begin_frame() {
   // Dear ImGui 1.86 sees what is down when a frame begins; a short press is down for the whole of its frame.
@@ -203,6 +254,7 @@ void Window::begin_frame() {
   parts_->give_typed();
   parts_->read(parts_->keys);
   parts_->pressed.clear();
+  parts_->fit_letters();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

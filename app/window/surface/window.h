@@ -26,6 +26,7 @@ enum Key : int {
   kUp = 265,
   kPageUp = 266,
   kPageDown = 267,
+  kHomeKey = 268,
   kF1 = 290,
   kF5 = 294,
   kF9 = 298,
@@ -53,7 +54,7 @@ class Keys {
 };
 
 // In less the screens' columns do not fit beside each other.
-inline constexpr int kLeastWidth = 960, kLeastHeight = 640;
+inline constexpr int kLeastWidth = 800, kLeastHeight = 600;
 
 class Window {
  public:
@@ -61,6 +62,7 @@ class Window {
     std::string title;
     int width = 1280, height = 800;  // kLeastWidth and kLeastHeight at least
     bool whole_screen = false;
+    double letters = 1.0;  // their size, times what screen and window make of it
   };
   // Throws base::Failure("display") where there is none, or ("gl") where it has no GL 4.3.
   explicit Window(const Settings& settings);
@@ -72,7 +74,10 @@ class Window {
   bool open() const noexcept;  // until it is closed, by its user or by close
   void close() noexcept;
   bool hidden() const noexcept;   // nobody sees it: it is an icon
-  double scale() const noexcept;  // of fonts and distances: 1 on a screen of 96 dots an inch
+  double scale() const noexcept;  // of letters and distances: 1 on a screen of 96 dots an inch, at 1280 × 800
+  // Without a frame, or as it was before.
+  bool whole_screen() const noexcept;
+  void set_whole_screen(bool whole);
 
   // Between these two what is in the window is said to Dear ImGui.
   void begin_frame();
