@@ -9,6 +9,7 @@ constexpr Reason kReasons[] = {
     {"no_data", "there is no value"},
     {"too_few", "there are too few values for this procedure"},
     {"one_group", "there is one group only"},
+    {"not_two_groups", "there are more than the two groups that this procedure compares"},
     {"group_too_small", "a group has too few values for this procedure"},
     {"too_many", "there are more values than this procedure is made for"},
     {"no_variation", "the values do not vary"},
