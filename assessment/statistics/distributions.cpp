@@ -5,6 +5,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/gamma.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -113,6 +114,10 @@ double chi_squared_upper(double x, double df) {
 }
 double chi_squared_quantile_of(double p, double df) {
   return where(ChiSquared(df), p);
+}
+
+double noncentral_chi_squared_cdf(double x, double df, double lambda) {
+  return or_nan([&] { return math::cdf(math::non_central_chi_squared_distribution<double, Policy>(df, lambda), x); });
 }
 
 double beta_cdf(double x, double a, double b) {

@@ -26,6 +26,7 @@ double noncentral_f_cdf(double f, double df1, double df2, double lambda);
 double chi_squared_cdf(double x, double df);
 double chi_squared_upper(double x, double df);
 double chi_squared_quantile_of(double p, double df);
+double noncentral_chi_squared_cdf(double x, double df, double lambda);
 
 double beta_cdf(double x, double a, double b);
 double beta_quantile(double p, double a, double b);
