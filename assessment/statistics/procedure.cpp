@@ -20,6 +20,16 @@ std::optional<double> ProcedureOptions::number(const std::string& name, double f
   return value;
 }
 
+std::optional<std::size_t> ProcedureOptions::whole(const std::string& name, std::size_t fallback, std::size_t least,
+                                                   std::size_t most) const {
+  if (!has(name)) return fallback;
+  const std::optional<double> value = number(name, 0.0);
+  if (!value || *value < static_cast<double>(least) || *value > static_cast<double>(most) ||
+      std::floor(*value) != *value)
+    return std::nullopt;
+  return static_cast<std::size_t>(*value);
+}
+
 std::vector<std::string> ProcedureOptions::list(const std::string& name) const {
   std::vector<std::string> items;
   const auto found = values_.find(name);

@@ -29,6 +29,9 @@ class ProcedureOptions {
   std::string text(const std::string& name, const std::string& fallback = {}) const;
   // Nothing: it was given and is no finite number.
   std::optional<double> number(const std::string& name, double fallback) const;
+  // Nothing: it was given and is no whole number from `least` to `most` (both below 2^53).
+  std::optional<std::size_t> whole(const std::string& name, std::size_t fallback, std::size_t least,
+                                   std::size_t most) const;
   // "a:b:c", in that order.
   std::vector<std::string> list(const std::string& name) const;
   const std::map<std::string, std::string>& all() const noexcept { return values_; }
