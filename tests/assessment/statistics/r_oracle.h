@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -31,6 +32,12 @@ inline bool has_r() {
 inline std::size_t r_sets() {
   const char* asked = std::getenv("SELDINGER_R_SETS");
   return asked != nullptr ? static_cast<std::size_t>(std::strtoul(asked, nullptr, 10)) : 20;
+}
+
+// What random data sets are made from: the same in every run, unless SELDINGER_R_SEED says otherwise.
+inline std::uint64_t r_seed() {
+  const char* asked = std::getenv("SELDINGER_R_SEED");
+  return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 20261124;
 }
 
 // c(…) with every digit; NA where a value is NaN.
