@@ -1,10 +1,15 @@
 #include "assessment/statistics/reliability/reliability_procedures.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "assessment/statistics/reliability/alpha.h"
+#include "assessment/statistics/reliability/bland_altman.h"
+#include "assessment/statistics/reliability/g_theory.h"
+#include "assessment/statistics/reliability/grim.h"
 #include "assessment/statistics/reliability/icc.h"
 #include "assessment/statistics/reliability/kappa.h"
 #include "assessment/statistics/reliability/omega.h"
@@ -17,6 +22,9 @@ constexpr std::size_t kMostDraws = 100000;
 constexpr std::size_t kMostSeed = 4294967295;
 
 constexpr Needs kScores{.least_values = 1, .most_values = kMostColumns};
+constexpr Needs kTwoColumns{.least_values = 1, .most_values = 2};
+constexpr Needs kPersonsByCases{.subject = true, .rater = true};
+constexpr Needs kNothing{.least_values = 0, .most_values = 0};
 constexpr Needs kItems{.least_values = 2, .most_values = kMostColumns};
 
 constexpr ProcedureOption kIccOptions[] = {
@@ -38,6 +46,24 @@ constexpr ProcedureOption kOmegaOptions[] = {
      "draws of persons for the interval; 1000 unless given, 0 for none"},
     {"seed", "a whole number", "what the draws are made from; 1 unless given"},
 };
+
+constexpr ProcedureOption kBlandAltmanOptions[] = {
+    {"widths", "a number above 0", "how many standard deviations the limits lie from the bias; 1.96 unless given"},
+};
+constexpr ProcedureOption kGTheoryOptions[] = {
+    {"phi", "a number between 0 and 1", "what the number of cases is asked to reach; 0.8 unless given"},
+};
+constexpr ProcedureOption kGrimmerOptions[] = {
+    {"n", "a whole number", "how many persons the paper reports"},
+    {"mean", "a number, as it is printed", "the mean; its decimals count"},
+    {"decimals", "a whole number up to 8", "of the mean, where its last ones are not typed"},
+    {"items", "a whole number up to 100", "answers that a person's score is the mean of; 1 unless given"},
+    {"low", "a whole number", "the lower end of the scale"},
+    {"high", "a whole number", "the upper end of the scale"},
+    {"sd", "a number, as it is printed", "the standard deviation; its decimals count"},
+    {"sd_decimals", "a whole number up to 8", "of the standard deviation, where its last ones are not typed"},
+};
+constexpr std::span<const ProcedureOption> kGrimOptions = std::span(kGrimmerOptions).first(6);
 
 Answer bad_option(const char* test, const char* name, const DataTable& table) {
   Answer answer = not_estimable(test, "bad_value", table.rows);
@@ -97,6 +123,73 @@ Answer run_omega(const DataTable& table, const ProcedureOptions& options) {
   return omega(items_of(table), scale, *draws, *seed);
 }
 
+Answer run_bland_altman(const DataTable& table, const ProcedureOptions& options) {
+  const std::optional<double> widths = options.number("widths", 1.96);
+  if (!widths || !(*widths > 0.0) || *widths > 100.0) return bad_option("bland_altman", "widths", table);
+  return bland_altman(complete_table(table), *widths);
+}
+
+Answer run_g_theory(const DataTable& table, const ProcedureOptions& options) {
+  const std::optional<double> target = options.number("phi", 0.8);
+  if (!target || !(*target > 0.0) || !(*target < 1.0)) return bad_option("g_theory", "phi", table);
+  return g_theory(table, *target);
+}
+
+std::size_t decimals_of(const std::string& number) {
+  const std::size_t point = number.find('.');
+  if (point == std::string::npos) return 0;
+  return number.find_first_not_of("0123456789", point + 1) == std::string::npos ? number.size() - point - 1 : 9;
+}
+
+// A number as printed, within what sums of squares hold, with its decimals; nothing: it is not one.
+std::optional<double> printed(const ProcedureOptions& options, const char* name, const char* decimals_name,
+                              std::size_t& decimals) {
+  const std::optional<double> value = options.number(name, 0.0);
+  const auto digits = options.whole(decimals_name, decimals_of(options.text(name)), 0, 8);
+  if (!options.has(name) || !value || std::abs(*value) > 1e4 || !digits || *digits > 8) return std::nullopt;
+  decimals = *digits;
+  return value;
+}
+
+// `bad`: the option that is not what it takes.
+ReportedScale reported_in(const ProcedureOptions& options, bool with_sd, const char*& bad) {
+  ReportedScale reported;
+  const auto n = options.whole("n", 0, 1, 100000), items = options.whole("items", 1, 1, 100);
+  const std::optional<double> mean = printed(options, "mean", "decimals", reported.mean_decimals);
+  const std::optional<double> sd = with_sd ? printed(options, "sd", "sd_decimals", reported.sd_decimals) : 0.0;
+  if (!n || *n == 0) bad = "n";
+  if (!items) bad = "items";
+  if (!mean) bad = "mean";
+  if (!sd || *sd < 0.0) bad = "sd";
+  for (const char* name : {"low", "high"}) {
+    if (!options.has(name)) continue;
+    const std::optional<double> end = options.number(name, 0.0);
+    if (!end || std::floor(*end) != *end || std::abs(*end) > 1e4) bad = name;
+    (std::string(name) == "low" ? reported.low : reported.high) = end;
+  }
+  if (bad == nullptr && reported.low && reported.high && *reported.low >= *reported.high) bad = "high";
+  if (bad != nullptr) return reported;
+  reported.n = *n;
+  reported.items = *items;
+  reported.mean = *mean;
+  if (with_sd) reported.sd = sd;
+  return reported;
+}
+
+Answer run_grim(const DataTable& table, const ProcedureOptions& options) {
+  const char* bad = nullptr;
+  const ReportedScale reported = reported_in(options, false, bad);
+  return bad != nullptr ? bad_option("grim", bad, table) : grim(reported);
+}
+
+Answer run_grimmer(const DataTable& table, const ProcedureOptions& options) {
+  const char* bad = nullptr;
+  const ReportedScale reported = reported_in(options, true, bad);
+  if (bad != nullptr) return bad_option("grimmer", bad, table);
+  if (reported.n < 2) return not_estimable("grimmer", "too_few", reported.n);
+  return grimmer(reported);
+}
+
 constexpr const char* kScoreColumns =
     "value by subject and rater, one score for each pair; or a column of values for each rater, a row a subject";
 constexpr const char* kItemColumns = "a column of values for each item, a row a person";
@@ -118,6 +211,20 @@ constexpr Procedure kReliability[] = {
     {"omega", "The share of a questionnaire's variance that one thing behind its items explains.", kItemColumns,
      kItems, kOmegaOptions, run_omega, "McDonald, Test theory, 1999; Joreskog, Psychometrika 1967;32:443",
      "factanal and psych::fa, 1e-6"},
+    {"bland_altman", "How far two methods or two raters differ on the same subjects, in their own unit.",
+     "two columns of values, a row a subject; or value by subject and rater, two raters", kTwoColumns,
+     kBlandAltmanOptions, run_bland_altman, "Bland, Altman, Lancet 1986;1:307",
+     "the paper's peak flows, R's t.test and lm, 1e-9"},
+    {"g_theory", "Where the variance of scores comes from, and how many cases a decision about a person needs.",
+     "value by subject (the person) and rater (the case), and by x (the occasion) where there are several; "
+     "balanced",
+     kPersonsByCases, kGTheoryOptions, run_g_theory, "Brennan, Generalizability Theory, 2001",
+     "Shrout and Fleiss's table and R's aov, 1e-9"},
+    {"grim", "Whether a reported mean can come from so many whole numbers.", "no data: the options say it all",
+     kNothing, kGrimOptions, run_grim, "Brown, Heathers, Soc Psychol Pers Sci 2017;8:363", "enumeration, equal"},
+    {"grimmer", "Whether a reported mean and standard deviation can come from so many whole numbers.",
+     "no data: the options say it all", kNothing, kGrimmerOptions, run_grimmer,
+     "Anaya, PeerJ Preprints 2016;4:e2400v1", "enumeration, equal"},
 };
 
 }  // namespace
