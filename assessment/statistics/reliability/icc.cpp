@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "assessment/statistics/distributions.h"
 #include "sim/base/check.h"
@@ -61,6 +62,9 @@ std::array<Icc, 6> iccs(const TwoWay& s) {
   found[3].ci95 = {of_all(within.low), of_all(within.high)};
   found[4].ci95 = {of_mean(found[1].ci95.low, s.k), of_mean(found[1].ci95.high, s.k)};
   found[5].ci95 = {of_all(error.low), of_all(error.high)};
+  // Within rounding of 1 the ends may change places.
+  for (Icc& one : found)
+    if (one.ci95.low > one.ci95.high) std::swap(one.ci95.low, one.ci95.high);
   return found;
 }
 
