@@ -125,7 +125,7 @@ Interval newcombe_area_interval(double area, std::size_t positive, std::size_t n
   };
   // Below the area the distance falls from its whole to minus the half-width, above it rises again.
   return {area <= 0.0 ? 0.0 : root_between(0.0, std::nextafter(area, 0.5), distance),
-          area >= 1.0 ? 1.0 : root_between(std::nextafter(area, 0.5), 1.0, distance)};
+          area >= 1.0 ? 1.0 : root_between(std::max(area, 1e-200), 1.0, distance)};
 }
 
 Interval roc_interval(const RocArea& roc) {
