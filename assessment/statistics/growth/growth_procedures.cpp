@@ -90,6 +90,19 @@ Answer run_mixed_model(const DataTable& table, const ProcedureOptions& options) 
   return mixed_model(table, how);
 }
 
+Answer run_logistic_mixed(const DataTable& table, const ProcedureOptions& options) {
+  LogisticMixedOptions how;
+  const std::string interaction = options.text("interaction", "no");
+  how.interaction = interaction == "yes";
+  const double nodes = options.number("nodes", static_cast<double>(how.nodes)).value_or(kNoNumber);
+  if (!(nodes >= 15.0 && nodes <= 101.0 && nodes == std::floor(nodes)) ||
+      (interaction != "yes" && interaction != "no"))
+    return bad_option("logistic_mixed", table,
+                      "options nodes and interaction: nodes 15 to 101, interaction yes or no");
+  how.nodes = static_cast<std::size_t>(nodes);
+  return logistic_mixed(table, how);
+}
+
 constexpr ProcedureOption kLcCusumOptions[] = {
     {"adequate", "a share, 0.10 unless given", "rate of failure of who is competent"},
     {"inadequate", "a share, 0.30 unless given", "rate of failure of who is not"},
@@ -115,6 +128,11 @@ constexpr ProcedureOption kLearningCurveOptions[] = {
 constexpr ProcedureOption kMixedModelOptions[] = {
     {"random", "auto, intercept or slope",
      "what differs between persons; auto: also the slope, from four occasions"},
+    {"interaction", "yes or no", "a slope of x for each group; no unless given"},
+};
+
+constexpr ProcedureOption kLogisticMixedOptions[] = {
+    {"nodes", "15 to 101, 25 unless given", "of the quadrature"},
     {"interaction", "yes or no", "a slope of x for each group; no unless given"},
 };
 
@@ -149,6 +167,11 @@ constexpr Procedure kProcedures[] = {
      "value; subject: two persons at least with several values; x; group", kRepeated, kMixedModelOptions,
      &run_mixed_model, "REML as in Bates et al. 2015; df of Satterthwaite after Giesbrecht and Burns 1985",
      "R lme4 and lmerTest: criterion 1e-6, fixed effects 1e-5, variance components 1e-3"},
+    {"logistic_mixed", "How the odds of passing change with x and differ between groups, for repeated persons.",
+     "value: 1 passed, 0 not; subject: two persons at least with several values; x; group", kRepeated,
+     kLogisticMixedOptions, &run_logistic_mixed,
+     "random intercept, adaptive Gauss–Hermite quadrature (Pinheiro and Bates 1995)",
+     "R lme4 (glmer, nAGQ): fixed effects 1e-4, SD 1e-3"},
 };
 
 }  // namespace

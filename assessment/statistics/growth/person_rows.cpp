@@ -1,5 +1,8 @@
 #include "assessment/statistics/growth/person_rows.h"
 
+#define EIGEN_MPL2_ONLY
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -108,6 +111,17 @@ FixedEffects fixed_effects(const PersonRows& rows, bool interaction) {
   if (interaction && has_x)
     for (std::size_t g = 0; g < others; ++g) line(first_group + g, first_slope + g);
   return effects;
+}
+
+bool told_apart(const FixedEffects& effects) {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto columns = static_cast<Eigen::Index>(effects.columns);
+  const auto rows = static_cast<Eigen::Index>(effects.matrix.size()) / columns;
+  if (rows < columns) return false;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-6);
+  qr.compute(Eigen::Map<const Matrix>(effects.matrix.data(), rows, columns));
+  return qr.rank() == columns;
 }
 
 }  // namespace seldinger::assessment::statistics

@@ -36,5 +36,7 @@ struct FixedEffects {
 };
 // CHECKs that x varies where there is one.
 FixedEffects fixed_effects(const PersonRows& rows, bool interaction);
+// Whether no column follows from the others.
+bool told_apart(const FixedEffects& effects);
 
 }  // namespace seldinger::assessment::statistics
