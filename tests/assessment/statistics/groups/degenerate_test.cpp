@@ -57,7 +57,7 @@ double bad_value(base::Rng& rng, std::size_t kind) {
 DataTable bad_table(base::Rng& rng, const Needs& needs) {
   DataTable table;
   table.rows = one_of(rng, 9) * (one_of(rng, 4) == 0 ? 4 : 1);
-  const std::size_t groups = 1 + one_of(rng, 4), persons = 1 + one_of(rng, 9);
+  const std::size_t groups = one_of(rng, 2) == 0 ? 2 : 1 + one_of(rng, 4), persons = 1 + one_of(rng, 9);
   const std::size_t columns = needs.most_values > 1 ? needs.least_values + one_of(rng, 3) : needs.least_values;
   for (std::size_t c = 0; c < columns; ++c) {
     table.values.push_back({"v" + std::to_string(c), {}});
