@@ -12,6 +12,8 @@
 namespace seldinger::assessment::statistics {
 namespace {
 
+// What a step would still add to the likelihood, twice.
+constexpr double kNearSummit = 1e-12;
 constexpr int kMostSteps = 200, kMostHalvings = 60;
 // 1/σ, in units of the values' range, above which σ is none.
 constexpr double kSteepest = 1e7;
@@ -88,7 +90,13 @@ std::optional<Summit> summit_of(const Censored& data, Olsen at) {
       for (std::size_t j = 0; j < 3; ++j) move[i] += inverse->at(i, j) * gradient[j];
       rise += move[i] * gradient[i];
     }
-    if (rise < 1e-22) return Summit{at, *inverse};
+    if (rise < kNearSummit) {  // one step more doubles the digits; the likelihood no longer tells its worth
+      for (std::size_t i = 0; i < 3; ++i) at[i] += move[i];
+      data.slope(at, curvature);
+      const std::optional<SquareMatrix> covariance = inverse_of(curvature);
+      if (!covariance) return std::nullopt;
+      return Summit{at, *covariance};
+    }
     double share = 1.0;
     int halvings = 0;
     for (; halvings < kMostHalvings; ++halvings, share *= 0.5) {
@@ -100,10 +108,7 @@ std::optional<Summit> summit_of(const Censored& data, Olsen at) {
       now = there;
       break;
     }
-    if (halvings == kMostHalvings) {
-      if (rise < 1e-12) return Summit{at, *inverse};  // no higher in doubles
-      return std::nullopt;
-    }
+    if (halvings == kMostHalvings) return std::nullopt;
   }
   return std::nullopt;
 }
