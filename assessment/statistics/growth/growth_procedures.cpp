@@ -6,6 +6,7 @@
 #include "assessment/statistics/growth/cusum_chart.h"
 #include "assessment/statistics/growth/learning_curve.h"
 #include "assessment/statistics/growth/mixed_model.h"
+#include "assessment/statistics/growth/rasch.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -103,6 +104,10 @@ Answer run_logistic_mixed(const DataTable& table, const ProcedureOptions& option
   return logistic_mixed(table, how);
 }
 
+Answer run_rasch(const DataTable& table, const ProcedureOptions&) {
+  return rasch(table);
+}
+
 constexpr ProcedureOption kLcCusumOptions[] = {
     {"adequate", "a share, 0.10 unless given", "rate of failure of who is competent"},
     {"inadequate", "a share, 0.30 unless given", "rate of failure of who is not"},
@@ -137,6 +142,7 @@ constexpr ProcedureOption kLogisticMixedOptions[] = {
 };
 
 constexpr Needs kRepeated{.subject = true};
+constexpr Needs kScores{.most_values = 200};
 
 constexpr Procedure kProcedures[] = {
     {"lc_cusum",
@@ -172,6 +178,15 @@ constexpr Procedure kProcedures[] = {
      kLogisticMixedOptions, &run_logistic_mixed,
      "random intercept, adaptive Gauss–Hermite quadrature (Pinheiro and Bates 1995)",
      "R lme4 (glmer, nAGQ): fixed effects 1e-4, SD 1e-3"},
+    {"rasch",
+     "Difficulty of items, severity of raters and ability of persons on one scale, for a Wright map.",
+     "value: a column for each item (or one, with group: the item), scores from 0; subject; rater",
+     kScores,
+     {},
+     &run_rasch,
+     "Rasch, rating scale and many-facet models by conditional likelihood (Andersen 1970, Fischer and Ponocny "
+     "1994)",
+     "R eRm (RM, RSM, LLTM, LPCM): places 1e-4, infit and outfit 1e-3"},
 };
 
 }  // namespace
