@@ -19,16 +19,23 @@ void sort_by_time(std::vector<Followed>& persons) {
   std::sort(persons.begin(), persons.end(), [](const Followed& a, const Followed& b) { return a.time < b.time; });
 }
 
-// The first time where `curve` of a step is at most one half; half-way to the next event where it is one half.
+// The first time where `curve` of a step is at most one half; the middle of the times where it is just that.
 template <typename Curve>
-std::optional<double> time_at_half(std::span<const SurvivalStep> steps, const Curve& curve) {
+std::optional<double> time_at_half(std::span<const SurvivalStep> steps, double last_followed, const Curve& curve) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (curve(steps[i]) > 0.5 + kHalf) continue;
-    if (curve(steps[i]) >= 0.5 - kHalf && i + 1 < steps.size())
-      return 0.5 * steps[i].time + 0.5 * steps[i + 1].time;
-    return steps[i].time;
+    if (curve(steps[i]) < 0.5 - kHalf) return steps[i].time;
+    std::size_t next = i + 1;
+    while (next < steps.size() && curve(steps[next]) >= 0.5 - kHalf) ++next;
+    return 0.5 * steps[i].time + 0.5 * (next < steps.size() ? steps[next].time : last_followed);
   }
   return std::nullopt;
+}
+
+double last_of(std::span<const Followed> persons) {
+  double last = 0.0;
+  for (const Followed& person : persons) last = std::max(last, person.time);
+  return last;
 }
 
 // Groups of persons, and why nothing can be made of them.
@@ -75,8 +82,8 @@ void add_median(Answer& answer, const std::string& name, const MedianTime& media
   if (median.high) answer.more.push_back({"median_high " + name, *median.high});
   if (!median.time)
     answer.notes.push_back("Less than half of " + name + " had the event: there is no median time.");
-  else if (!median.high)
-    answer.notes.push_back("The median time of " + name + " has no upper bound in these data.");
+  else if (!median.low || !median.high)
+    answer.notes.push_back("The median time of " + name + " has no bound on one side in these data.");
 }
 
 // Hazard ratio of the first group, by one step from equality.
@@ -111,13 +118,11 @@ void solve(LogRank& found, const SquareMatrix& variance) {
 
 // Whether the group's curve is known up to tau.
 bool reaches(std::span<const Followed> group, double tau) {
-  double last = 0.0;
-  bool ends = true;  // everybody who was followed longest had the event: the curve is 0 from there
-  for (const Followed& person : group)
-    if (person.time > last) last = person.time;
-  for (const Followed& person : group)
-    if (person.time == last && !person.event) ends = false;
-  return ends || tau <= last;
+  const double last = last_of(group);
+  // Where everybody who was followed longest had the event, the curve is 0 from there.
+  return tau <= last || std::none_of(group.begin(), group.end(), [last](const Followed& person) {
+           return person.time == last && !person.event;
+         });
 }
 
 }  // namespace
@@ -153,10 +158,15 @@ std::vector<SurvivalStep> kaplan_meier_of(std::vector<Followed> persons) {
   return steps;
 }
 
-MedianTime median_time(std::span<const SurvivalStep> steps) {
-  return {time_at_half(steps, [](const SurvivalStep& step) { return step.survival; }),
-          time_at_half(steps, [](const SurvivalStep& step) { return step.ci95.low; }),
-          time_at_half(steps, [](const SurvivalStep& step) { return step.survival > 0.0 ? step.ci95.high : 1.0; })};
+MedianTime median_time(std::span<const SurvivalStep> steps, double last_followed) {
+  // Where nobody is left there is no interval of the survival, and none of the median from it.
+  const auto at_half = [&](const auto& limit) {
+    return time_at_half(steps, last_followed,
+                        [&](const SurvivalStep& step) { return step.survival > 0.0 ? limit(step) : 1.0; });
+  };
+  return {time_at_half(steps, last_followed, [](const SurvivalStep& step) { return step.survival; }),
+          at_half([](const SurvivalStep& step) { return step.ci95.low; }),
+          at_half([](const SurvivalStep& step) { return step.ci95.high; })};
 }
 
 RestrictedMean restricted_mean(std::span<const SurvivalStep> steps, double tau) {
@@ -229,7 +239,7 @@ Answer kaplan_meier(const DataTable& table, const ProcedureOptions& options) {
                               {"se", step.standard_error},
                               {"low", step.ci95.low},
                               {"high", step.ci95.high}}});
-    const MedianTime median = median_time(steps);
+    const MedianTime median = median_time(steps, last_of(followed.groups[g]));
     if (followed.groups.size() > 1) {
       add_median(answer, answer.groups[g].name, median);
       continue;
@@ -239,7 +249,8 @@ Answer kaplan_meier(const DataTable& table, const ProcedureOptions& options) {
     if (median.low && median.high) answer.ci95 = Interval{*median.low, *median.high};
     if (median.low && !median.high) answer.more.push_back({"median_low", *median.low});
     if (!median.time) answer.notes.emplace_back("Less than half had the event: there is no median time.");
-    if (median.time && !median.high) answer.notes.emplace_back("The median time has no upper bound in these data.");
+    if (median.time && !answer.ci95)
+      answer.notes.emplace_back("The median time has no bound on one side in these data.");
   }
   return settled(std::move(answer));
 }
@@ -271,10 +282,7 @@ Answer rmst(const DataTable& table, const ProcedureOptions& options) {
   if (followed.reason != nullptr) return refused("rmst", followed.reason, followed.rows, followed.note);
   if (followed.groups.size() > 2) return refused("rmst", "not_two_groups", followed.rows);
   double tau = INFINITY;
-  for (const std::vector<Followed>& group : followed.groups)
-    tau = std::min(tau, std::max_element(group.begin(), group.end(), [](const Followed& a, const Followed& b) {
-                          return a.time < b.time;
-                        })->time);
+  for (const std::vector<Followed>& group : followed.groups) tau = std::min(tau, last_of(group));
   const std::optional<double> asked = options.number("tau", tau);
   if (!asked || !(*asked > 0.0)) return refused("rmst", "bad_value", followed.rows, "tau is a time above 0.");
   tau = *asked;

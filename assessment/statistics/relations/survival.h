@@ -33,7 +33,7 @@ std::vector<SurvivalStep> kaplan_meier_of(std::vector<Followed> persons);
 struct MedianTime {
   std::optional<double> time, low, high;
 };
-MedianTime median_time(std::span<const SurvivalStep> steps);
+MedianTime median_time(std::span<const SurvivalStep> steps, double last_followed);
 
 // The area under the curve up to tau.
 struct RestrictedMean {
