@@ -158,12 +158,12 @@ TEST(ReliabilityLong, OmegaCovers) {
     bool warned = true;
     for (std::size_t run = 0; run < kBootstrapRuns; ++run) {
       const Answer answer =
-          omega(fixtures::scores(fixtures::random_scores(run, n, 5, 1.0, 0.0, 1.0, false)), {}, 200, run);
+          omega(fixtures::scores(fixtures::random_scores(run, n, 5, 1.0, 0.0, 1.0, false)), {}, 100, run);
       if (!answer.estimable()) continue;
       coverage.add(answer.ci95, 5.0 / 6.0);
       warned = warned && (!answer.ci95 || warns(answer, "interval"));
     }
-    coverage.expect_near_or_warned(with_n("omega (percentile bootstrap)", n), warned);
+    coverage.expect_near_or_warned(with_n("omega", n), warned);
   }
 }
 
