@@ -25,7 +25,7 @@ Bootstrapped percentile_bootstrap(std::span<const std::size_t> group_sizes, std:
   found.draws = draws;
   Draw draw;
   for (const std::size_t size : group_sizes) draw.emplace_back(size);
-  std::vector<double> values;
+  std::vector<double>& values = found.values;
   for (std::size_t i = 0; i < draws; ++i) {
     for (auto& group : draw)
       for (std::size_t& index : group)

@@ -19,6 +19,7 @@ using Draw = std::vector<std::vector<std::size_t>>;
 struct Bootstrapped {
   std::optional<Interval> ci95;        // nothing where less than nineteen in twenty draws gave a number
   std::size_t draws = 0, without = 0;  // draws that gave none
+  std::vector<double> values;          // what the others gave, rising
 };
 // `statistic` of each draw, NaN where it has none; each group is drawn from by itself. The same seed gives the same
 // draws.

@@ -32,18 +32,19 @@ std::vector<double> chances_of_draws(std::span<const int> scores, std::size_t m)
   const std::size_t fewer = std::min(m, scores.size() - m);
   std::vector<int> descending(scores.begin(), scores.end());
   std::sort(descending.begin(), descending.end(), std::greater<>());
-  const auto width = static_cast<std::size_t>(
-      1 + std::accumulate(descending.begin(), descending.begin() + static_cast<std::ptrdiff_t>(fewer), 0));
-  // counts[j * width + s]: ways to draw j of the scores seen so far that add up to s.
+  std::vector<std::size_t> largest = {0};  // sum of j scores
+  for (std::size_t j = 0; j < fewer; ++j) largest.push_back(largest[j] + static_cast<std::size_t>(descending[j]));
+  const std::size_t width = largest[fewer] + 1;
+  // counts[j * width + s]: ways to draw j of the scores seen so far that add up to s. The largest are seen first:
+  // with one more, j of them add up to largest[j] at most.
   std::vector<double> counts((fewer + 1) * width, 0.0);
   counts[0] = 1.0;
   for (std::size_t seen = 0; seen < scores.size(); ++seen) {
-    const auto score = static_cast<std::size_t>(scores[seen]);
-    if (score >= width) continue;  // only where none is drawn
+    const auto score = static_cast<std::size_t>(descending[seen]);
     for (std::size_t j = std::min(seen + 1, fewer); j >= 1; --j) {
       const double* from = &counts[(j - 1) * width];
       double* to = &counts[j * width] + score;
-      for (std::size_t s = 0; s < width - score; ++s) to[s] += from[s];
+      for (std::size_t s = 0; s <= largest[j - 1]; ++s) to[s] += from[s];
     }
   }
   std::vector<double> chances(counts.end() - static_cast<std::ptrdiff_t>(width), counts.end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,20 @@ const char* why_no_variance(std::span<const Spread> spreads) {
     varies = varies || spread.varies;
   }
   return varies ? nullptr : "no_variation_within";
+}
+
+// Of the groups together: one whose values differ by rounding only adds nothing.
+const char* why_no_pooled_variance(std::span<const Spread> spreads, double within) {
+  bool varies = false;
+  double largest = 0.0;
+  for (const Spread& spread : spreads) {
+    varies = varies || spread.varies;
+    largest = std::max(largest, std::abs(spread.mean));
+  }
+  if (!varies) return "no_variation_within";
+  const double sd = std::sqrt(within), rounding = 10.0 * std::numeric_limits<double>::epsilon() * largest;
+  return std::isfinite(sd) && within >= std::numeric_limits<double>::min() && sd > rounding ? nullptr
+                                                                                            : "no_finite_answer";
 }
 
 void tell_f(Answer& answer, const FTest& test) {
@@ -57,8 +72,6 @@ double FTest::p_value() const {
 FTest one_way(std::span<const Group> groups) {
   const std::vector<Spread> spreads = spreads_of(groups);
   FTest test;
-  test.reason = why_no_variance(spreads);
-  if (test.reason != nullptr) return test;
   double n = 0.0, sum = 0.0, within = 0.0, between = 0.0;
   for (const Spread& spread : spreads) {
     const double count = static_cast<double>(spread.n);
@@ -66,6 +79,8 @@ FTest one_way(std::span<const Group> groups) {
     sum += count * spread.mean;
     within += (count - 1.0) * spread.variance;
   }
+  test.reason = why_no_pooled_variance(spreads, within / (n - static_cast<double>(groups.size())));
+  if (test.reason != nullptr) return test;
   for (const Spread& spread : spreads)
     between += static_cast<double>(spread.n) * (spread.mean - sum / n) * (spread.mean - sum / n);
   test.df1 = static_cast<double>(groups.size()) - 1.0;

@@ -5,6 +5,8 @@
 
 #include "assessment/statistics/growth/cusum_chart.h"
 #include "assessment/statistics/growth/learning_curve.h"
+#include "assessment/statistics/growth/mixed_model.h"
+#include "assessment/statistics/growth/rasch.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -76,6 +78,36 @@ Answer run_learning_curve(const DataTable& table, const ProcedureOptions& option
   return learning_curve(table, how);
 }
 
+Answer run_mixed_model(const DataTable& table, const ProcedureOptions& options) {
+  const std::string random = options.text("random", "auto"), interaction = options.text("interaction", "no");
+  MixedModelOptions how;
+  how.interaction = interaction == "yes";
+  if (random == "intercept") how.random = RandomEffects::intercept;
+  if (random == "slope") how.random = RandomEffects::slope;
+  const bool known = random == "auto" || random == "intercept" || random == "slope";
+  if (!known || (interaction != "yes" && interaction != "no"))
+    return bad_option("mixed_model", table,
+                      "options random and interaction: random auto, intercept or slope, interaction yes or no");
+  return mixed_model(table, how);
+}
+
+Answer run_logistic_mixed(const DataTable& table, const ProcedureOptions& options) {
+  LogisticMixedOptions how;
+  const std::string interaction = options.text("interaction", "no");
+  how.interaction = interaction == "yes";
+  const double nodes = options.number("nodes", static_cast<double>(how.nodes)).value_or(kNoNumber);
+  if (!(nodes >= 15.0 && nodes <= 101.0 && nodes == std::floor(nodes)) ||
+      (interaction != "yes" && interaction != "no"))
+    return bad_option("logistic_mixed", table,
+                      "options nodes and interaction: nodes 15 to 101, interaction yes or no");
+  how.nodes = static_cast<std::size_t>(nodes);
+  return logistic_mixed(table, how);
+}
+
+Answer run_rasch(const DataTable& table, const ProcedureOptions&) {
+  return rasch(table);
+}
+
 constexpr ProcedureOption kLcCusumOptions[] = {
     {"adequate", "a share, 0.10 unless given", "rate of failure of who is competent"},
     {"inadequate", "a share, 0.30 unless given", "rate of failure of who is not"},
@@ -97,6 +129,20 @@ constexpr ProcedureOption kLearningCurveOptions[] = {
     {"better", "lower or higher", "whether practice makes values fall or rise; lower unless given"},
     {"closed", "a share, 0.9 unless given", "of the way to the plateau that counts as having arrived"},
 };
+
+constexpr ProcedureOption kMixedModelOptions[] = {
+    {"random", "auto, intercept or slope",
+     "what differs between persons; auto: also the slope, from four occasions"},
+    {"interaction", "yes or no", "a slope of x for each group; no unless given"},
+};
+
+constexpr ProcedureOption kLogisticMixedOptions[] = {
+    {"nodes", "15 to 101, 25 unless given", "of the quadrature"},
+    {"interaction", "yes or no", "a slope of x for each group; no unless given"},
+};
+
+constexpr Needs kRepeated{.subject = true};
+constexpr Needs kScores{.most_values = 200};
 
 constexpr Procedure kProcedures[] = {
     {"lc_cusum",
@@ -123,6 +169,24 @@ constexpr Procedure kProcedures[] = {
      &run_learning_curve,
      "power law of practice (Newell and Rosenbloom 1981), exponential (Heathcote et al. 2000), AICc",
      "R nls 1e-6"},
+    {"mixed_model", "How values of repeated persons change with x and differ between groups.",
+     "value; subject: two persons at least with several values; x; group", kRepeated, kMixedModelOptions,
+     &run_mixed_model, "REML as in Bates et al. 2015; df of Satterthwaite after Giesbrecht and Burns 1985",
+     "R lme4 and lmerTest: criterion 1e-6, fixed effects 1e-5, variance components 1e-3"},
+    {"logistic_mixed", "How the odds of passing change with x and differ between groups, for repeated persons.",
+     "value: 1 passed, 0 not; subject: two persons at least with several values; x; group", kRepeated,
+     kLogisticMixedOptions, &run_logistic_mixed,
+     "random intercept, adaptive Gauss–Hermite quadrature (Pinheiro and Bates 1995)",
+     "R lme4 (glmer, nAGQ): fixed effects 1e-4, SD 1e-3"},
+    {"rasch",
+     "Difficulty of items, severity of raters and ability of persons on one scale, for a Wright map.",
+     "value: a column for each item (or one, with group: the item), scores from 0; subject; rater",
+     kScores,
+     {},
+     &run_rasch,
+     "Rasch, rating scale and many-facet models by conditional likelihood (Andersen 1970, Fischer and Ponocny "
+     "1994)",
+     "R eRm (RM, RSM, LLTM, LPCM): places 1e-4, infit and outfit 1e-3"},
 };
 
 }  // namespace

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "assessment/statistics/complete_table.h"
 #include "assessment/statistics/reliability/icc.h"
+#include "assessment/statistics/reliability/pivotal_interval.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -73,8 +75,7 @@ CubeSquares mean_squares_of(const Cube& cube) {
   return sums;
 }
 
-VarianceComponents components_of(const Cube& cube) {
-  const CubeSquares ms = mean_squares_of(cube);
+VarianceComponents components_of(const CubeSquares& ms, const Cube& cube) {
   const double np = static_cast<double>(cube.persons), nc = static_cast<double>(cube.cases),
                no = static_cast<double>(cube.occasions);
   return {.person = (ms.p - ms.pc - ms.po + ms.rest) / (nc * no),
@@ -92,21 +93,41 @@ VarianceComponents components_of(const TwoWay& scores) {
           .rest = scores.ms_error};
 }
 
-// What is below 0 becomes 0, and is said.
-void hold_at_zero(VarianceComponents& components, std::vector<std::string>& notes) {
-  const std::pair<double*, const char*> all[] = {
-      {&components.person, "persons"},
-      {&components.cases, "cases"},
-      {&components.occasion, "occasions"},
-      {&components.person_case, "persons by cases"},
-      {&components.person_occasion, "persons by occasions"},
-      {&components.case_occasion, "cases by occasions"},
+VarianceComponents at_least_zero(VarianceComponents components) {
+  for (double* one : {&components.person, &components.cases, &components.occasion, &components.person_case,
+                      &components.person_occasion, &components.case_occasion})
+    *one = std::max(0.0, *one);
+  return components;
+}
+
+Interval phi_interval(const CubeSquares& ms, const Cube& cube) {
+  const double np = static_cast<double>(cube.persons), nc = static_cast<double>(cube.cases),
+               no = static_cast<double>(cube.occasions);
+  const std::array<MeanSquare, 7> squares = {{{ms.p, np - 1.0},
+                                              {ms.c, nc - 1.0},
+                                              {ms.o, no - 1.0},
+                                              {ms.pc, (np - 1.0) * (nc - 1.0)},
+                                              {ms.po, (np - 1.0) * (no - 1.0)},
+                                              {ms.co, (nc - 1.0) * (no - 1.0)},
+                                              {ms.rest, (np - 1.0) * (nc - 1.0) * (no - 1.0)}}};
+  return pivotal_interval(squares, kPivotalDraws, 1, [&](std::span<const double> e) {
+    return phi(at_least_zero(components_of({e[0], e[1], e[2], e[3], e[4], e[5], e[6]}, cube)), nc, no);
+  });
+}
+
+// What comes out negative, by name.
+void note_negative(const VarianceComponents& raw, std::vector<std::string>& notes) {
+  const std::pair<double, const char*> all[] = {
+      {raw.person, "persons"},
+      {raw.cases, "cases"},
+      {raw.occasion, "occasions"},
+      {raw.person_case, "persons by cases"},
+      {raw.person_occasion, "persons by occasions"},
+      {raw.case_occasion, "cases by occasions"},
   };
-  for (const auto& [value, name] : all) {
-    if (*value >= 0.0) continue;
-    *value = 0.0;
-    notes.push_back(std::string("The variance of ") + name + " came out negative and is set to 0.");
-  }
+  for (const auto& [value, name] : all)
+    if (value < 0.0)
+      notes.push_back(std::string("The variance of ") + name + " came out negative and is set to 0.");
 }
 
 // One column for each case on each occasion; what it is stands in `which`.
@@ -173,11 +194,12 @@ void add_decision_rows(Answer& answer, const VarianceComponents& of, double case
 Answer answer_of(const VarianceComponents& raw, double cases, double occasions, double target, bool has_occasions) {
   Answer answer;
   answer.test = "g_theory";
-  VarianceComponents of = raw;
-  hold_at_zero(of, answer.notes);
-  answer.method = has_occasions
-                      ? "Generalizability of persons by cases by occasions, all random, by analysis of variance"
-                      : "Generalizability of persons by cases, both random, by analysis of variance";
+  const VarianceComponents of = at_least_zero(raw);
+  note_negative(raw, answer.notes);
+  answer.method = has_occasions ? "Generalizability of persons by cases by occasions, all random, by analysis of "
+                                  "variance; interval of Phi by pivotal quantities"
+                                : "Generalizability of persons by cases, both random, by analysis of variance; "
+                                  "interval of Phi by pivotal quantities";
   answer.estimate_name = "Phi of the mean over the cases given";
   answer.estimate = phi(of, cases, occasions);
   answer.more = {{"cases", cases}, {"var_person", of.person}, {"var_case", of.cases}};
@@ -210,11 +232,12 @@ Answer three_way(const DataTable& table, double target) {
   if (design.table.columns.size() != design.cases * design.occasions)
     return refused_table("g_theory", "unbalanced", design.table, "Every case has to be there on every occasion.");
   const Cube cube = cube_of(design);
-  Answer answer = answer_of(components_of(cube), static_cast<double>(cube.cases),
+  const CubeSquares squares = mean_squares_of(cube);
+  Answer answer = answer_of(components_of(squares, cube), static_cast<double>(cube.cases),
                             static_cast<double>(cube.occasions), target, true);
   answer.n = design.table.rows;
   answer.missing = design.table.missing;
-  answer.notes.emplace_back("There is no interval for this design.");
+  answer.ci95 = phi_interval(squares, cube);
   return answer;
 }
 
@@ -226,9 +249,7 @@ Answer two_way_design(const DataTable& table, double target) {
   Answer answer = answer_of(components_of(scores), scores.k, 1.0, target, false);
   answer.n = full.rows;
   answer.missing = full.missing;
-  answer.method += "; interval of Phi as of ICC(2,k), McGraw and Wong's";
-  const Interval interval = iccs(scores)[4].ci95;
-  answer.ci95 = Interval{std::clamp(interval.low, 0.0, 1.0), std::clamp(interval.high, 0.0, 1.0)};
+  answer.ci95 = pivotal_agreement_interval(scores, true);
   return answer;
 }
 

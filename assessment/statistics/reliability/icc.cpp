@@ -1,9 +1,14 @@
 #include "assessment/statistics/reliability/icc.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "assessment/statistics/distributions.h"
+#include "assessment/statistics/reliability/pivotal_interval.h"
 #include "sim/base/check.h"
 
 namespace seldinger::assessment::statistics {
@@ -29,6 +34,7 @@ Interval agreement_interval(const TwoWay& s, double value) {
 
 // Reliability of a mean of k from that of one (Spearman and Brown).
 double of_mean(double one, double k) {
+  if (one * (k - 1.0) <= -1.0) return -std::numeric_limits<double>::infinity();
   return one * k / (1.0 + one * (k - 1.0));
 }
 
@@ -61,7 +67,19 @@ std::array<Icc, 6> iccs(const TwoWay& s) {
   found[3].ci95 = {of_all(within.low), of_all(within.high)};
   found[4].ci95 = {of_mean(found[1].ci95.low, s.k), of_mean(found[1].ci95.high, s.k)};
   found[5].ci95 = {of_all(error.low), of_all(error.high)};
+  // Within rounding of each other the ends may change places.
+  for (Icc& one : found)
+    if (one.ci95.low > one.ci95.high && one.ci95.low - one.ci95.high < 1e-9) std::swap(one.ci95.low, one.ci95.high);
   return found;
+}
+
+Interval pivotal_agreement_interval(const TwoWay& s, bool of_mean) {
+  const std::array<MeanSquare, 3> squares = {
+      {{s.ms_subjects, s.n - 1.0}, {s.ms_raters, s.k - 1.0}, {s.ms_error, (s.n - 1.0) * (s.k - 1.0)}}};
+  return pivotal_interval(squares, kPivotalDraws, 1, [&](std::span<const double> ms) {
+    const double subjects = std::max(0.0, ms[0] - ms[2]) / s.k, raters = std::max(0.0, ms[1] - ms[2]) / s.n;
+    return subjects / (subjects + (raters + ms[2]) / (of_mean ? s.k : 1.0));
+  });
 }
 
 MeasurementError measurement_error(double sd, double reliability) {
@@ -102,6 +120,15 @@ Answer icc(const CompleteTable& table, std::size_t form) {
     answer.rows.push_back(
         {kIccForms[i].name,
          {{"icc", all[i].value}, {"ci95_low", all[i].ci95.low}, {"ci95_high", all[i].ci95.high}}});
+  if ((form == 1 || form == 4) && scores.k < kEnoughRaters && scores.ms_error > 0.0) {
+    const Interval wider = pivotal_agreement_interval(scores, mean);
+    answer.more.push_back({"pivotal_ci95_low", wider.low});
+    answer.more.push_back({"pivotal_ci95_high", wider.high});
+    answer.notes.emplace_back(
+        "With fewer than twenty raters the F interval of agreement is too narrow where raters differ: the pivotal "
+        "one "
+        "covers.");
+  }
   if (asked.value < 0.0)
     answer.notes.emplace_back("A subject's scores differ more than subjects do: a negative ICC is shown as it is.");
   if (scores.ms_error == 0.0)

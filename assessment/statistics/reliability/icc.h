@@ -30,8 +30,16 @@ struct Icc {
   Interval ci95;
   double f = 0.0, df1 = 0.0, df2 = 0.0, p_value = 0.0;  // of no correlation, one-sided
 };
+// Under so many raters the F interval of agreement is too narrow where raters differ: it covers .90 with 100
+// subjects and three raters, .72 at worst with two (tests/assessment/statistics/reliability).
+inline constexpr double kEnoughRaters = 20.0;
+
 // In the order of kIccForms. What is not defined, as where nobody differs from anybody, is NaN.
 std::array<Icc, 6> iccs(const TwoWay& scores);
+
+// Of agreement, of one score or of the mean of all raters', by pivotal quantities: covers where the F interval does
+// not.
+Interval pivotal_agreement_interval(const TwoWay& scores, bool of_mean);
 
 // What a score is wrong by (standard error of measurement), and the least change of a person that is more than that
 // in 95 of 100 (Weir, J. Strength Cond. Res. 19, 2005).

@@ -9,6 +9,7 @@ namespace seldinger::assessment::statistics {
 namespace {
 
 constexpr std::size_t kMostCategories = 100;
+constexpr std::size_t kLargeSample = 100;  // with 30 the interval covers .92: reliability_long_test.cpp
 constexpr double kTwoSided95 = 1.959963984540054;
 
 double weight(double a, double b, double range, KappaWeights weights) {
@@ -61,6 +62,8 @@ void say_of_two_raters(Answer& answer, const Kappa& found) {
   answer.more = {{"observed_agreement", found.observed}, {"expected_agreement", found.expected}, {"se", found.se}};
   answer.statistic = found.value / found.se_of_none;
   answer.p_value = 2.0 * normal_upper(std::abs(*answer.statistic));
+  if (found.se > 0.0 && answer.n < kLargeSample)
+    answer.notes.emplace_back("Under 100 subjects the large-sample interval may be too narrow.");
   if (found.se > 0.0)
     answer.ci95 = Interval{std::max(-1.0, found.value - kTwoSided95 * found.se),
                            std::min(1.0, found.value + kTwoSided95 * found.se)};

@@ -8,9 +8,12 @@
 #include "assessment/statistics/distributions.h"
 #include "assessment/statistics/percentile_bootstrap.h"
 #include "assessment/statistics/reliability/one_factor.h"
+#include "assessment/statistics/spread.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
+
+constexpr std::size_t kLargeEnough = 100;  // with 30 the interval covers less than .93: reliability_long_test.cpp
 
 using Columns = std::vector<std::vector<double>>;
 
@@ -41,6 +44,21 @@ std::optional<Omega> omega_of(const Columns& columns) {
   return found;
 }
 
+double logit(double share) {
+  return std::log(share / (1.0 - share));
+}
+
+// Normal on the logit scale: of 2000 samples it covers what the percentiles of the draws do not
+// (tests/assessment/statistics/reliability).
+std::optional<Interval> logit_interval(double value, const std::vector<double>& drawn) {
+  std::vector<double> logits;
+  for (const double one : drawn) logits.push_back(logit(one));
+  const Spread spread = spread_of(logits);
+  if (!spread.computable || !(spread.variance > 0.0)) return std::nullopt;
+  const double off = 1.959963984540054 * std::sqrt(spread.variance);
+  return Interval{1.0 / (1.0 + std::exp(off - logit(value))), 1.0 / (1.0 + std::exp(-off - logit(value)))};
+}
+
 void bootstrap_persons(Answer& answer, const Columns& columns, std::size_t resamples, std::uint64_t seed) {
   if (resamples == 0) return;
   const std::size_t persons = columns.front().size();
@@ -49,12 +67,16 @@ void bootstrap_persons(Answer& answer, const Columns& columns, std::size_t resam
     for (std::size_t j = 0; j < columns.size(); ++j)
       for (const std::size_t person : draw.front()) drawn_columns[j].push_back(columns[j][person]);
     const std::optional<Omega> one = omega_of(drawn_columns);
-    return one ? one->standardized : std::nan("");
+    const bool inside = one && one->standardized > 0.0 && one->standardized < 1.0;
+    return inside ? one->standardized : std::nan("");
   });
-  answer.ci95 = drawn.ci95;
+  if (drawn.values.size() * 4 >= drawn.draws * 3) answer.ci95 = logit_interval(*answer.estimate, drawn.values);
   if (drawn.without > 0)
     answer.notes.push_back("In " + std::to_string(drawn.without) + " of " + std::to_string(drawn.draws) +
-                           " draws of persons no factor could be fitted.");
+                           " draws of persons no factor could be fitted" +
+                           (answer.ci95 ? "." : ": there is no interval."));
+  if (answer.ci95 && persons < kLargeEnough)
+    answer.notes.emplace_back("Under 100 persons the interval may be too narrow.");
 }
 
 void say_fit(Answer& answer, const OneFactor& factor) {
@@ -94,7 +116,7 @@ Answer omega(CompleteTable items, const ItemScale& scale, std::size_t resamples,
   Answer answer;
   answer.test = "omega";
   answer.method = "McDonald's omega total of standardised items, one factor by maximum likelihood";
-  if (resamples > 0) answer.method += "; percentile bootstrap over persons";
+  if (resamples > 0) answer.method += "; interval on the logit scale by a bootstrap over persons";
   answer.n = items.rows;
   answer.missing = items.missing;
   answer.estimate = found->standardized;

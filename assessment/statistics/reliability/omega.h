@@ -10,8 +10,8 @@
 
 namespace seldinger::assessment::statistics {
 
-// Total, of standardised items and of items as scored, by one factor. The interval is a percentile bootstrap over
-// persons, `resamples` times, from `seed`; none for 0.
+// Total, of standardised items and of items as scored, by one factor. The interval is normal on the logit scale,
+// with the spread that `resamples` draws of persons have, from `seed`; none for 0.
 Answer omega(CompleteTable items, const ItemScale& scale, std::size_t resamples, std::uint64_t seed);
 
 }  // namespace seldinger::assessment::statistics

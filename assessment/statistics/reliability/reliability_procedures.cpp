@@ -141,26 +141,31 @@ std::size_t decimals_of(const std::string& number) {
   return number.find_first_not_of("0123456789", point + 1) == std::string::npos ? number.size() - point - 1 : 9;
 }
 
-// A number as printed, within what sums of squares hold, with its decimals; nothing: it is not one.
-std::optional<double> printed(const ProcedureOptions& options, const char* name, const char* decimals_name,
-                              std::size_t& decimals) {
+// A number as printed, within what sums of squares hold, with its decimals. `bad`: the option that is not what it
+// takes.
+double printed(const ProcedureOptions& options, const char* name, const char* decimals_name, std::size_t& decimals,
+               const char*& bad) {
   const std::optional<double> value = options.number(name, 0.0);
-  const auto digits = options.whole(decimals_name, decimals_of(options.text(name)), 0, 8);
-  if (!options.has(name) || !value || std::abs(*value) > 1e4 || !digits || *digits > 8) return std::nullopt;
-  decimals = *digits;
-  return value;
+  const std::size_t typed = decimals_of(options.text(name));
+  const auto digits = options.whole(decimals_name, typed, 0, 8);
+  if (!options.has(name) || !value || std::abs(*value) > 1e4 || typed > 8)
+    bad = name;
+  else if (!digits)
+    bad = decimals_name;
+  else
+    decimals = *digits;
+  return value.value_or(0.0);
 }
 
 // `bad`: the option that is not what it takes.
 ReportedScale reported_in(const ProcedureOptions& options, bool with_sd, const char*& bad) {
   ReportedScale reported;
   const auto n = options.whole("n", 0, 1, 100000), items = options.whole("items", 1, 1, 100);
-  const std::optional<double> mean = printed(options, "mean", "decimals", reported.mean_decimals);
-  const std::optional<double> sd = with_sd ? printed(options, "sd", "sd_decimals", reported.sd_decimals) : 0.0;
+  reported.mean = printed(options, "mean", "decimals", reported.mean_decimals, bad);
+  if (with_sd) reported.sd = printed(options, "sd", "sd_decimals", reported.sd_decimals, bad);
   if (!n || *n == 0) bad = "n";
   if (!items) bad = "items";
-  if (!mean) bad = "mean";
-  if (!sd || *sd < 0.0) bad = "sd";
+  if (reported.sd && *reported.sd < 0.0) bad = "sd";
   for (const char* name : {"low", "high"}) {
     if (!options.has(name)) continue;
     const std::optional<double> end = options.number(name, 0.0);
@@ -171,8 +176,6 @@ ReportedScale reported_in(const ProcedureOptions& options, bool with_sd, const c
   if (bad != nullptr) return reported;
   reported.n = *n;
   reported.items = *items;
-  reported.mean = *mean;
-  if (with_sd) reported.sd = sd;
   return reported;
 }
 

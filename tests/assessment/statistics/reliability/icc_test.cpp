@@ -124,6 +124,11 @@ TEST(Icc, IsThatOfPsych) {
       const std::string number = std::to_string(i + 1);
       // Of an ICC near 0 it is the absolute difference that tells.
       EXPECT_LE(std::abs(number_of(answers[set].rows[i], "icc") - want.at(name + "icc" + number)), 1e-9);
+      if (want.at(name + "low" + number) > want.at(name + "high" + number)) {
+        // psych's ends change places where the lower one has no bound.
+        EXPECT_TRUE(std::isnan(number_of(answers[set].rows[i], "ci95_low")));
+        continue;
+      }
       EXPECT_LE(std::abs(number_of(answers[set].rows[i], "ci95_low") - want.at(name + "low" + number)),
                 1e-9 * std::max(1.0, std::abs(want.at(name + "low" + number))));
       EXPECT_LE(std::abs(number_of(answers[set].rows[i], "ci95_high") - want.at(name + "high" + number)), 1e-9);
