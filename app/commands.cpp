@@ -78,6 +78,14 @@ namespace seldinger::app {
   ROW(study_new)                \
   ROW(study_list)               \
   ROW(study_researcher)         \
+  ROW(study_template)           \
+  ROW(study_plan)               \
+  ROW(study_show)               \
+  ROW(study_freeze)             \
+  ROW(study_enrol)              \
+  ROW(study_look)               \
+  ROW(study_deviate)            \
+  ROW(report)                   \
   ROW(consent_text)             \
   ROW(consent_list)             \
   ROW(consent_give)             \
@@ -115,7 +123,8 @@ const std::vector<Group>& groups() {
       {"To begin", {"demo", "train", "serve", "doctor", "help"}},
       {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
       {"Attempts", {"simulate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
-      {"People", {"user", "login", "logout", "audit", "cohort", "study", "consent"}},
+      {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
+      {"Studies", {"study", "report"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},
       {"Hands", {"haptics", "device"}},

@@ -425,12 +425,61 @@ CREATE TABLE study (
   created_us INTEGER NOT NULL
 ) STRICT;
 
+CREATE TABLE study_deviation (
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  number INTEGER NOT NULL CHECK (number > 0),
+  at_us INTEGER NOT NULL,
+  actor TEXT NOT NULL CHECK (actor IN ('nobody', 'operator', 'person')),
+  person_id TEXT REFERENCES person (person_id),
+  body TEXT NOT NULL CHECK (body <> ''),
+  PRIMARY KEY (study_id, number)
+) STRICT;
+
+CREATE TABLE study_enrolment (
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  enrolled_us INTEGER NOT NULL,
+  group_name TEXT NOT NULL CHECK (group_name <> ''),
+  stratum TEXT NOT NULL,
+  position INTEGER NOT NULL CHECK (position >= 0), -- in the stratum's sequence
+  PRIMARY KEY (study_id, person_id)
+) STRICT;
+
+CREATE TABLE study_look (
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  number INTEGER NOT NULL CHECK (number > 0),
+  at_us INTEGER NOT NULL,
+  actor TEXT NOT NULL CHECK (actor IN ('nobody', 'operator', 'person')),
+  person_id TEXT REFERENCES person (person_id),
+  query TEXT NOT NULL CHECK (query <> ''),
+  people INTEGER NOT NULL CHECK (people >= 0), -- with a value or a failure at a primary outcome by then
+  PRIMARY KEY (study_id, number)
+) STRICT;
+
+CREATE TABLE study_plan (
+  study_id TEXT NOT NULL PRIMARY KEY REFERENCES study (study_id),
+  body TEXT NOT NULL CHECK (body <> ''), -- canonical JSON (assessment/study/plan.h)
+  body_hash TEXT NOT NULL CHECK (length(body_hash) = 64), -- SHA-256 of body
+  stored_us INTEGER NOT NULL,
+  frozen_us INTEGER, -- null: a draft
+  frozen_by TEXT REFERENCES person (person_id), -- null: the operator
+  seed TEXT CHECK (length(seed) = 64), -- of the allocation, drawn when the plan is frozen; never shown while it runs
+  seed_hash TEXT CHECK (length(seed_hash) = 64) -- SHA-256 of seed: shown, so that nobody can choose another later
+) STRICT;
+
 CREATE TABLE study_researcher (
   study_id TEXT NOT NULL REFERENCES study (study_id),
   person_id TEXT NOT NULL REFERENCES person (person_id),
   from_us INTEGER NOT NULL,
   to_us INTEGER CHECK (to_us >= from_us),
   PRIMARY KEY (study_id, person_id, from_us)
+) STRICT;
+
+CREATE TABLE study_stratum (
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  stratum TEXT NOT NULL, -- "handedness=right"; empty: there is one
+  taken INTEGER NOT NULL CHECK (taken > 0),
+  PRIMARY KEY (study_id, stratum)
 ) STRICT;
 
 CREATE TABLE training_case (
@@ -509,6 +558,10 @@ CREATE INDEX replay_watched_by_attempt ON replay_watched (attempt_id);
 CREATE INDEX standard_attempt_by_attempt ON standard_attempt (attempt_id);
 
 CREATE INDEX standard_by_case ON standard (case_id);
+
+CREATE INDEX study_enrolment_by_person ON study_enrolment (person_id);
+
+CREATE UNIQUE INDEX study_enrolment_place ON study_enrolment (study_id, stratum, position);
 
 CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
 
@@ -709,6 +762,16 @@ BEGIN
   SELECT RAISE(ABORT, 'an erasure cannot be taken back');
 END;
 
+CREATE TRIGGER frozen_plan_is_immutable BEFORE UPDATE ON study_plan WHEN OLD.frozen_us IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'a frozen plan cannot be changed');
+END;
+
+CREATE TRIGGER frozen_plan_stays BEFORE DELETE ON study_plan WHEN OLD.frozen_us IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'a frozen plan cannot be removed');
+END;
+
 CREATE TRIGGER lesion_comes_to_a_draft BEFORE INSERT ON lesion
 WHEN (SELECT state FROM training_case WHERE training_case.case_id = NEW.case_id) <> 'draft'
 BEGIN
@@ -819,6 +882,31 @@ WHEN OLD.case_id NOT IN (SELECT id FROM erasing) AND (
   OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id))
 BEGIN
   SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER study_deviation_is_immutable BEFORE UPDATE ON study_deviation
+BEGIN
+  SELECT RAISE(ABORT, 'a deviation cannot be changed');
+END;
+
+CREATE TRIGGER study_deviation_stays BEFORE DELETE ON study_deviation
+BEGIN
+  SELECT RAISE(ABORT, 'a deviation cannot be removed');
+END;
+
+CREATE TRIGGER study_enrolment_is_immutable BEFORE UPDATE ON study_enrolment
+BEGIN
+  SELECT RAISE(ABORT, 'an allocation cannot be changed');
+END;
+
+CREATE TRIGGER study_look_is_immutable BEFORE UPDATE ON study_look
+BEGIN
+  SELECT RAISE(ABORT, 'a look cannot be changed');
+END;
+
+CREATE TRIGGER study_look_stays BEFORE DELETE ON study_look
+BEGIN
+  SELECT RAISE(ABORT, 'a look cannot be removed');
 END;
 
 CREATE TRIGGER training_case_goes_forward BEFORE UPDATE OF state ON training_case

@@ -10,6 +10,8 @@
 #include "app/cli/words.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/people/consent.h"
+#include "casedb/studies/looks.h"
+#include "casedb/studies/plans.h"
 #include "reports/export/raw_export.h"
 
 namespace seldinger::app {
@@ -54,6 +56,10 @@ int run_export(const Arguments& arguments) {
     if (const auto by = acting(*library, arguments, casedb::Action::export_study, relation); !by)
       return refuse(by.error());
   }
+  const bool draft = choice.study_id && casedb::has_draft(*library, *choice.study_id);
+  const auto& whose = library->actor().person_id;
+  if (draft && whose && casedb::is_researcher_of(*library, *choice.study_id, *whose))
+    return refuse({"blinded", "until the plan is frozen nobody who works on the study gets outcomes by person"});
   const std::string key_file = arguments.text("--key");
   choice.exact = choice.study_id.has_value() && !key_file.empty();
   const bool key_is_new = !key_file.empty() && !std::filesystem::exists(key_file);
@@ -68,6 +74,8 @@ int run_export(const Arguments& arguments) {
   try {
     casedb::audit_alone(*library, casedb::Act::export_attempts,
                         choice.study_id ? casedb::Object{"study", *choice.study_id} : casedb::Object{});
+    if (choice.study_id && casedb::has_plan(*library, *choice.study_id))
+      casedb::note_look(*library, *choice.study_id, draft ? "export before the freeze" : "export", done->people);
   } catch (...) {
     std::filesystem::remove_all(out);  // nothing leaves unnoted
     throw;

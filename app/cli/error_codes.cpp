@@ -186,7 +186,7 @@ constexpr ErrorCode kPeopleCodes[] = {
      "`seldinger cohort show` tells who does."},
     {"title_taken", kRefuses, "A cohort or study has this title already.", "Choose another."},
     {"no_study", kRefuses, "There is no such study.", "`seldinger study list` lists them."},
-    {"bad_text", kRefuses, "A consent text is empty, too long, or not UTF-8 text.",
+    {"bad_text", kRefuses, "A consent text or a deviation is empty, too long, or not UTF-8 text.",
      "Give 1 to 20,000 bytes of plain text."},
     {"no_text", kRefuses, "There is no such consent text, or a newer version is asked for now.",
      "`seldinger consent list` lists them."},
@@ -206,6 +206,26 @@ constexpr ErrorCode kPeopleCodes[] = {
     {"no_rule", kRefuses, "A case without a pass rule cannot be an item: nobody could pass it.",
      "`seldinger case setting --pass` on its next version."},
     {"no_attempts_left", kRefuses, "As many attempts as the case or curriculum allows have been made.", ""}};
+
+constexpr ErrorCode kStudyCodes[] = {
+    {"no_plan", kRefuses, "The study has no plan yet.",
+     "`seldinger study template` writes one to begin with, `seldinger study plan` stores it."},
+    {"bad_study_plan", kRefuses,
+     "A plan is not as docs/studies.md says, or names what the library or the registry does not have.",
+     "Mend every place that is named."},
+    {"plan_frozen", kRefuses, "The plan is frozen, and stays as it is.",
+     "`seldinger study deviate` notes what is done otherwise."},
+    {"plan_not_frozen", kRefuses, "The plan is still a draft.", "`seldinger study freeze` freezes it."},
+    {"no_consent", kRefuses, "The person's consent to the study does not stand.",
+     "They give it on the dashboard, or `seldinger consent give` notes it."},
+    {"already_enrolled", kRefuses, "The person takes part in the study already.", ""},
+    {"fact_missing", kRefuses, "The plan asks for a fact that the person has not stated.",
+     "They state it on the dashboard, or `seldinger user fact` notes it."},
+    {"no_group", kRefuses, "The person's facts fit no group of the plan, or more than one.", ""},
+    {"blinded", kRefuses,
+     "The plan is still a draft, and nobody who works on the study gets outcomes by group or person before it is "
+     "frozen.",
+     "Freeze the plan; `seldinger study look` tells counts of all together."}};
 
 constexpr ErrorCode kAttemptCodes[] = {
     {"attempt_runs", kRefuses, "Somebody is at this attempt right now.", "Wait until it has ended."},
@@ -445,6 +465,7 @@ constexpr ErrorCodeSection kSections[] = {{"Calls", kCallCodes},
                                           {"Libraries", kLibraryCodes},
                                           {"Cases", kCaseCodes},
                                           {"People and curricula", kPeopleCodes},
+                                          {"Studies", kStudyCodes},
                                           {"Attempts and simulated operators", kAttemptCodes},
                                           {"Scenes and sheets", kSceneCodes},
                                           {"Haptics and devices", kDeviceCodes},

@@ -50,13 +50,6 @@ std::string json_of_cohort(const casedb::Cohort& cohort, const std::vector<cased
   return document(json);
 }
 
-std::string json_of_studies(const std::vector<casedb::Study>& studies) {
-  Json list = Json::array();
-  for (const casedb::Study& one : studies)
-    list.push_back({{"study_id", one.study_id}, {"title", one.title}, {"consenting", one.consenting}});
-  return document({{"studies", list}});
-}
-
 std::string json_of_consents(const std::vector<casedb::Consent>& consents) {
   Json list = Json::array();
   for (const casedb::Consent& one : consents)

@@ -17,7 +17,6 @@ std::string json_of_cohorts(const std::vector<casedb::Cohort>& cohorts);
 // `names` by person id; who has none is called by the pseudonym.
 std::string json_of_cohort(const casedb::Cohort& cohort, const std::vector<casedb::Enrolment>& enrolments,
                            const std::map<std::string, std::string>& names);
-std::string json_of_studies(const std::vector<casedb::Study>& studies);
 std::string json_of_consents(const std::vector<casedb::Consent>& consents);
 std::string json_of_given_facts(const std::vector<casedb::FactGiven>& facts);
 // On stderr, when old bytes are left somewhere.

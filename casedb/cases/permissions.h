@@ -56,6 +56,8 @@ enum class Action {
   appoint_director,  // of a programme
   manage_studies,    // what they ask, who works on them
   export_study,      // attempts of those who consent, without names
+  plan_study,        // its plan, the freeze, deviations, looks and reports
+  enrol_in_study,    // people who consent to it
   answer_consent,    // give and withdraw, and state facts of oneself
   let_in_again,      // somebody whose log-in is delayed
   erase_attempts,
@@ -287,6 +289,14 @@ inline constexpr Permission kPermissions[] = {
      "export_study",
      "a researcher exports the attempts of those who consent to an own study",
      {{{Role::researcher}, {}, Whose::own_studies}}},
+    {Action::plan_study,
+     "plan_study",
+     "a researcher plans an own study, freezes the plan, notes deviations and looks at the outcomes",
+     {{{Role::researcher}, {}, Whose::own_studies}}},
+    {Action::enrol_in_study,
+     "enrol_in_study",
+     "a researcher enrols those who consent in an own study, an admin or a director in any",
+     {{{Role::researcher}, {}, Whose::own_studies}, {{Role::admin, Role::director}}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
     {Action::let_in_again,
      "let_in_again",

@@ -95,7 +95,7 @@ bool has_digest(std::string_view table) noexcept {
 
 bool told_by_two(std::string_view table) noexcept {
   return table == "enrolment" || table == "programme_director" || table == "replay_watched" ||
-         table == "standard_attempt" || table == "study_researcher";
+         table == "standard_attempt" || table == "study_researcher" || table == "study_enrolment";
 }
 
 // What the transaction under way changed: for whom, and by how much the digests of table and id differ.

@@ -11,6 +11,9 @@ WITH led AS (
 ), studied AS (
   SELECT consenting.person_id FROM study_researcher JOIN consenting USING (study_id)
   WHERE study_researcher.person_id = :reader AND to_us IS NULL
+    -- Who works on a study whose plan is still a draft sees nothing of its people.
+    AND NOT EXISTS (SELECT 1 FROM study_plan
+      WHERE study_plan.study_id = study_researcher.study_id AND frozen_us IS NULL)
 )
 SELECT person_id,
   person_id = :reader AS own,

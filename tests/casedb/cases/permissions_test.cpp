@@ -58,6 +58,8 @@ constexpr Row kMatrix[] = {
     {"appoint_director",          "",          "",                    "",                 "",          "all"},
     {"manage_studies",            "",          "",                    "",                 "all",       "all"},
     {"export_study",              "",          "",                    "study",            "",          ""},
+    {"plan_study",                "",          "",                    "study",            "",          ""},
+    {"enrol_in_study",            "",          "",                    "study",            "all",       "all"},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
     {"let_in_again",              "",          "",                    "",                 "",          "all"},
     {"erase_attempts",            "own",       "own",                 "own",              "own",       "all"},

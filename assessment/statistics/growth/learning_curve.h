@@ -1,0 +1,37 @@
+// How a value changes with practice: the power law y = a·t^−b + c and the exponential y = a·exp(−b·t) + c.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "assessment/statistics/answer.h"
+#include "assessment/statistics/data_table.h"
+
+namespace seldinger::assessment::statistics {
+
+enum class CurveKind { power, exponential };
+
+struct LearningCurve {
+  CurveKind kind = CurveKind::power;
+  double a = 0.0, b = 0.0, c = 0.0;  // c: the plateau, a: what there is to lose on the way to it at t = 1 or 0
+  double rss = 0.0;
+  std::optional<double> aicc;  // from 6 attempts
+  // Standard errors by the curve's tangent; NaN where the three cannot be told apart.
+  double se_a = 0.0, se_b = 0.0, se_c = 0.0;
+  bool at_bound = false;  // b is as large or as small as it may be: there is no such curve in these values
+};
+
+// The curve of least squares, b within kLeastRate and kMostRate; of an exponential, b·(greatest t). Nothing: fewer
+// than five values, less than four different t, or values that do not vary; for the power law also t below 1e-9.
+std::optional<LearningCurve> fit_curve(CurveKind kind, std::span<const double> t, std::span<const double> y);
+
+inline constexpr std::size_t kLeastAttempts = 5;
+
+struct LearningCurveOptions {
+  bool higher_is_better = false;
+  double closed = 0.9;  // of the way from the first attempt to the plateau that counts as having arrived
+};
+// One person: both curves. Several: the better curve of each, and the median of their rates.
+Answer learning_curve(const DataTable& table, const LearningCurveOptions& options);
+
+}  // namespace seldinger::assessment::statistics

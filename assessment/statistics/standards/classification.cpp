@@ -1,0 +1,104 @@
+#include "assessment/statistics/standards/classification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "assessment/statistics/distributions.h"
+#include "assessment/statistics/percentile_bootstrap.h"
+#include "assessment/statistics/spread.h"
+#include "assessment/statistics/standards/cut_notes.h"
+
+namespace seldinger::assessment::statistics {
+namespace {
+
+constexpr std::size_t kLeastScores = 5;
+constexpr int kSteps = 1024;  // of Simpson's rule; the integrand is smooth
+
+double skewness_of(const std::vector<double>& scores, const Spread& spread) {
+  double cubes = 0.0;
+  for (const double score : scores) cubes += std::pow((score - spread.mean) / std::sqrt(spread.variance), 3.0);
+  return cubes / static_cast<double>(scores.size());
+}
+
+Answer refused_cut(const CutScores& of, const char* reason, const char* note) {
+  Answer answer = not_estimable("classification", reason, of.scores.size());
+  answer.missing = of.missing;
+  if (note != nullptr) answer.notes.emplace_back(note);
+  return answer;
+}
+
+}  // namespace
+
+// By its derivative in the correlation (Plackett, Biometrika 41, 1954), with the correlation as a sine.
+double bivariate_normal_cdf(double h, double k, double rho) {
+  const double end = std::asin(rho), step = end / kSteps;
+  const auto density = [&](double angle) {
+    const double sine = std::sin(angle), square = std::cos(angle) * std::cos(angle);
+    return std::exp(-(h * h - 2.0 * h * k * sine + k * k) / (2.0 * square));
+  };
+  double sum = density(0.0) + density(end);
+  for (int i = 1; i < kSteps; ++i) sum += (i % 2 == 1 ? 4.0 : 2.0) * density(step * i);
+  return normal_cdf(h) * normal_cdf(k) + sum * step / 3.0 / (2.0 * std::numbers::pi);
+}
+
+Classification classification_of(double mean, double sd, double reliability, double cut) {
+  const double observed = (cut - mean) / sd, truly = observed / std::sqrt(reliability);
+  const double fail = normal_cdf(observed), truly_fail = normal_cdf(truly);
+  const double both_fail = bivariate_normal_cdf(observed, observed, reliability);
+  const double rightly_fail = bivariate_normal_cdf(observed, truly, std::sqrt(reliability));
+  Classification found;
+  found.pass = 1.0 - fail;
+  found.consistency = 1.0 - 2.0 * (fail - both_fail);
+  const double by_chance = fail * fail + found.pass * found.pass;
+  found.kappa = (found.consistency - by_chance) / (1.0 - by_chance);
+  found.false_pass = std::max(0.0, truly_fail - rightly_fail);
+  found.false_fail = std::max(0.0, fail - rightly_fail);
+  found.accuracy = 1.0 - found.false_pass - found.false_fail;
+  return found;
+}
+
+Answer classification(const CutScores& of, std::size_t draws, std::uint64_t seed) {
+  if (of.scores.size() < kLeastScores)
+    return refused_cut(of, "too_few", "A cut is judged by five persons or more.");
+  const Spread spread = spread_of(of.scores);
+  if (!spread.computable) return refused_cut(of, "no_finite_answer", nullptr);
+  if (!spread.varies) return refused_cut(of, "no_variation", nullptr);
+  if (!(of.reliability > 0.0 && of.reliability < 1.0))
+    return refused_cut(of, "bad_value", "A reliability lies between 0 and 1.");
+  const double side = of.higher_is_better ? 1.0 : -1.0;
+  const auto at = [&](double mean, double variance) {
+    return classification_of(side * mean, std::sqrt(variance), of.reliability, side * of.cut);
+  };
+  const Classification found = at(spread.mean, spread.variance);
+  const auto passing =
+      std::count_if(of.scores.begin(), of.scores.end(), [&](double one) { return side * one >= side * of.cut; });
+  Answer answer;
+  answer.test = "classification";
+  answer.method = "Peng and Subkoviak: two equivalent tests with normal scores and the reliability given";
+  answer.n = spread.n;
+  answer.missing = of.missing;
+  answer.estimate = found.consistency;
+  answer.estimate_name = "classification consistency";
+  answer.more = {{"kappa", found.kappa},
+                 {"accuracy", found.accuracy},
+                 {"false_pass", found.false_pass},
+                 {"false_fail", found.false_fail},
+                 {"pass_share", found.pass},
+                 {"pass_share_observed", static_cast<double>(passing) / static_cast<double>(spread.n)},
+                 {"reliability", of.reliability},
+                 {"cut", of.cut}};
+  say_of_draws(answer, percentile_bootstrap({&spread.n, 1}, draws, seed, [&](const Draw& draw) {
+                 std::vector<double> scores;
+                 for (const std::size_t person : draw.front()) scores.push_back(of.scores[person]);
+                 const Spread drawn = spread_of(scores);
+                 return drawn.variance > 0.0 ? at(drawn.mean, drawn.variance).consistency : std::nan("");
+               }));
+  if (draws > 0) answer.notes.emplace_back("The interval takes the reliability as known.");
+  if (std::abs(skewness_of(of.scores, spread)) > 1.0)
+    answer.notes.emplace_back("The scores are skewed: shares by the normal distribution are doubtful.");
+  return settled(std::move(answer));
+}
+
+}  // namespace seldinger::assessment::statistics

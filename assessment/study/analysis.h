@@ -1,0 +1,92 @@
+// The planned comparisons, done: persons' attempts become one value a person by the metric's estimand, who failed
+// ranks last, and the test is the one that the plan names. What is not of the plan is not here.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assessment/estimand.h"
+#include "assessment/statistics/answer.h"
+#include "assessment/study/plan.h"
+
+namespace seldinger::assessment::study {
+
+struct StudyAttempt {
+  std::string case_id;
+  double day = 0.0;                  // since the person was enrolled
+  bool synthetic = false;            // by a simulated operator
+  std::string cut_off;               // how it ended through no decision of who made it; empty: it did not
+  std::string hand;                  // what led the needle; empty: not known
+  std::vector<MetricValue> metrics;  // every version that is stored
+};
+struct StudyPerson {
+  std::string name;   // a pseudonym
+  std::string group;  // empty: none of the plan's
+  std::vector<StudyAttempt> attempts;
+};
+
+// Why an attempt is no part of an outcome.
+struct LeftOut {
+  std::string why;
+  std::size_t attempts = 0;
+};
+
+enum class Standing { value, failure, censored, absent };  // absent: no attempt counts
+struct PersonValue {
+  std::string name, group;
+  Standing standing = Standing::absent;
+  double value = 0.0;  // of Standing::value
+  std::size_t attempts = 0;
+};
+
+struct GroupSum {
+  std::string name;
+  std::size_t persons = 0, with_value = 0, failures = 0, censored = 0, absent = 0, attempts = 0;
+  std::optional<double> median, low_quartile, high_quartile;  // of those who have a value
+};
+
+// The same comparison under another rule for what is missing.
+struct Sensitivity {
+  std::string rule;
+  statistics::Answer answer;
+};
+
+struct Compared {
+  Outcome outcome;
+  std::string hand;                 // of a comparison within one kind of hand; empty: of all
+  std::string refused;              // why it is not analysed, in words; empty: it is
+  std::vector<PersonValue> people;  // of both groups
+  GroupSum first, second;
+  std::vector<LeftOut> left_out;
+  std::vector<std::string> hands;  // of the attempts that count
+  statistics::Answer answer;
+  std::optional<double> p_adjusted;  // by Holm, of a primary outcome
+  std::vector<Sensitivity> sensitivity;
+};
+
+struct StudyResult {
+  std::vector<Compared> primary, secondary;
+  bool stopped = false;  // every primary outcome has the planned number of persons in each group
+};
+
+// Each person in the group that they were enrolled in, whatever they did.
+StudyResult analyse(const Plan& plan, const std::vector<StudyPerson>& people);
+
+// What each person has on an outcome, without regard to groups.
+struct Collected {
+  std::vector<PersonValue> people;
+  std::vector<LeftOut> left_out;
+  std::vector<std::string> hands;
+  std::size_t other_versions = 0;  // attempts with the metric in another version only
+};
+// `hand` empty: all.
+Collected collect(const Plan& plan, const Outcome& outcome, const std::vector<StudyPerson>& people,
+                  const std::string& hand);
+
+// Holm's step-down (Scand. J. Statist. 6, 1979); what has no p is no member of the family's tests, but counts in
+// its size.
+std::vector<std::optional<double>> holm_adjusted(const std::vector<std::optional<double>>& p);
+
+}  // namespace seldinger::assessment::study

@@ -1,0 +1,31 @@
+#include "reports/studies/validity_report.h"
+
+#include "casedb/cases/cases.h"
+#include "casedb/database/uuid.h"
+
+namespace seldinger::reports {
+
+ValidityReport validity_report_of(casedb::Library& library, const casedb::Study& study,
+                                  const casedb::StoredPlan& plan, const std::string& query,
+                                  const std::string& program_version) {
+  ValidityReport report;
+  report.study = study;
+  report.plan = plan;
+  report.program_version = program_version;
+  for (const casedb::CaseRow& row : casedb::list_case_heads(library)) report.case_titles[row.case_id] = row.title;
+  report.blinded = casedb::blinded_counts(library, plan);
+  if (plan.frozen()) {
+    casedb::StudyData data = casedb::study_data(library, plan);
+    report.result = assessment::study::analyse(report.plan.plan, data.people);
+    casedb::add_analysed(report.result, data.flow);
+    report.flow = std::move(data.flow);
+    report.data_hash = casedb::data_hash(report.result);
+    casedb::note_look(library, plan.study_id, query, casedb::people_with_outcome(report.result));
+  }
+  report.looks = casedb::list_looks(library, plan.study_id);
+  report.deviations = casedb::list_deviations(library, plan.study_id);
+  report.made_us = casedb::now_us();
+  return report;
+}
+
+}  // namespace seldinger::reports
