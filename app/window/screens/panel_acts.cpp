@@ -127,7 +127,7 @@ void ActsPanel::read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped
 
 void ActsPanel::draw_planned_depth(const cases::Case& scene) {
   auto planned_mm = static_cast<float>(planned_mm_);
-  ImGui::SetNextItemWidth(kPlannedPx);
+  ImGui::SetNextItemWidth(scaled(kPlannedPx));
   if (ImGui::SliderFloat("##planned", &planned_mm, 0.0F, static_cast<float>(scene.instrument.length_mm),
                          planned_mm_ > 0.0 ? "needle in by %.0f mm" : "needle in by: not set",
                          ImGuiSliderFlags_AlwaysClamp))
@@ -175,8 +175,8 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
     const bool plan = saying.kind == EventKind::note_plan && scene.picture.modality != cases::Modality::xray;
     const auto done = done_.find(saying.kind);
     const std::string label = done_label(saying, done == done_.end() ? 0 : done->second);
-    const float own = ImGui::CalcTextSize(label.c_str()).x + 24.0F;
-    float wide = own + (plan ? kPlannedPx + 8.0F : 0.0F);
+    const float own = ImGui::CalcTextSize(label.c_str()).x + scaled(24.0F);
+    float wide = own + (plan ? scaled(kPlannedPx + 8.0F) : 0.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     if (used + wide >= room) used = 0.0F;
     used += wide;
@@ -191,13 +191,13 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
   }
   const bool patient = scene.subject == cases::Subject::patient;
   const char* end = patient ? "F9  Sign out and finish" : "F9  Finish";
-  if (used + ImGui::CalcTextSize(end).x + 24.0F < room) ImGui::SameLine();
+  if (used + ImGui::CalcTextSize(end).x + scaled(24.0F) < room) ImGui::SameLine();
   if (noted_button(end)) finish(attempt, seen, flipped);
   if (!patient || !trainer.may(casedb::Action::cause_event)) return;
   used = 0.0F;
   for (const cases::EventInfo& event : cases::event_kinds()) {
     if (event.source != cases::EventSource::mentor) continue;
-    const float wide = ImGui::CalcTextSize(event.words).x + 24.0F;
+    const float wide = ImGui::CalcTextSize(event.words).x + scaled(24.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     used = used + wide < room ? used + wide : wide;
     if (ImGui::Button(event.words)) say(attempt, seen, flipped, event.kind);

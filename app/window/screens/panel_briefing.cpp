@@ -48,7 +48,8 @@ void draw_hands(const casedb::CaseRow& row) {
       {"Shift", "makes everything ten times finer"},
       {"G", "puts the needle into the probe's guide"},
       {"Space", "fires; an access needle is declared to be there"},
-      {"1 – 7", "views of the room; with Alt the mouse turns the view"},
+      {"1 – 8", "views of the room; with Alt the mouse turns the view"},
+      {"Enter, Home", "the room in the picture's place; the console folded"},
       {"Esc, F5", "pause; begin again"},
   };
   constexpr Line kBeam = {"P", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"};
@@ -173,7 +174,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
   const bool left = trainer.interrupted() && !trainer.resuming();
   const float high =
-      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
+      ImGui::GetContentRegionAvail().y - scaled(60.0F) - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_task(trainer);
   ImGui::EndChild();
@@ -215,7 +216,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndDisabled();
   if (!ready) {
     ImGui::SameLine();
-    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {220.0F, 0.0F}, "preparing the case …");
+    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");
   }
   end_screen();
   return begin;
@@ -291,7 +292,7 @@ void PlanningPictures::draw(const std::shared_ptr<const session::Task>& task) {
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float words_px = 2.0F * ImGui::GetTextLineHeightWithSpacing();
-  const float high = std::max(kLeastPx, std::min((room.x - kGapPx) / 1.5F, room.y - words_px));
+  const float high = std::max(scaled(kLeastPx), std::min((room.x - kGapPx) / 1.5F, room.y - words_px));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {kGapPx, kGapPx});
   draw_plane(0, task->scene, high);
   ImGui::SameLine();

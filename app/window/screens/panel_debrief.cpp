@@ -58,7 +58,8 @@ void draw_band(const assessment::MetricBand& band, double value, const assessmen
   const double low = std::min({band.low, value, asked}), high = std::max({band.high, value, asked});
   if (!(high > low)) return;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float wide = ImGui::GetContentRegionAvail().x - 6.0F, high_px = 14.0F, y = corner.y + 0.5F * high_px;
+  const float wide = ImGui::GetContentRegionAvail().x - 6.0F, high_px = scaled(14.0F),
+              y = corner.y + 0.5F * high_px;
   const auto x = [&](double at) {
     return corner.x + 6.0F + (wide - 12.0F) * static_cast<float>((at - low) / (high - low));
   };
@@ -94,7 +95,7 @@ bool was_asked(const assessment::StepResult& step) {
 void draw_legend(const std::vector<assessment::StepResult>& steps) {
   for (const reports::StepMark* mark : reports::step_legend(steps)) {
     ImGui::TextColored(kQuiet, "%s", mark->sign);
-    ImGui::SameLine(kSignPx);
+    ImGui::SameLine(scaled(kSignPx));
     const std::string words = mark->told ? "(" + std::string(mark->words) + ")" : mark->words;
     wrapped(kQuiet, words + ": " + mark->meaning);
   }
@@ -105,7 +106,7 @@ void draw_legend(const std::vector<assessment::StepResult>& steps) {
 void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
   if (picture == nullptr || picture->width_px() <= 0) return;
   ImGui::Spacing();
-  const float across = std::min(ImGui::GetContentRegionAvail().x, 420.0F);
+  const float across = std::min(ImGui::GetContentRegionAvail().x, scaled(420.0F));
   quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
                                                          : "The last picture:");
   ImGui::Image(
@@ -278,12 +279,12 @@ void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
   for (const assessment::StepResult& step : debrief.steps) {
     if (!was_asked(step)) continue;
     ImGui::TextColored(colour_of(step.state), "%s", reports::step_mark(step).sign);
-    ImGui::SameLine(kSignPx);
+    ImGui::SameLine(scaled(kSignPx));
     ImGui::TextWrapped("%s", reports::step_text(step).c_str());
     hear(reports::step_label(step.id).c_str(), first++, false);
     if (const std::string why = reports::step_fault_text(step); !why.empty()) {
-      ImGui::Dummy({kSignPx - ImGui::GetStyle().ItemSpacing.x, 0.0F});
-      ImGui::SameLine(kSignPx);
+      ImGui::Dummy({scaled(kSignPx) - ImGui::GetStyle().ItemSpacing.x, 0.0F});
+      ImGui::SameLine(scaled(kSignPx));
       fault(reports::step_label(step.id), why, *step.t_s);
     }
   }

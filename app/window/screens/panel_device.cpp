@@ -109,8 +109,9 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
   }
   begin_screen("devices");
   heading("The hands at this desk");
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - 150.0F);
-  const bool leave = ImGui::Button("Back (Esc)", {140.0F, 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(150.0F));
+  const bool leave =
+      ImGui::Button("Back (Esc)", {scaled(140.0F), 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
   quiet(kTrainingOnly);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   ImGui::BeginChild("there", {0.36F * all.x, all.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);

@@ -81,7 +81,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
   session::WatchedAttempt& watched = *trainer.watched();
   if (watched.phase() == session::WatchedAttempt::Phase::preparing) {
     heading("The attempt is being prepared …");
-    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {220.0F, 0.0F}, "");
+    ImGui::ProgressBar(static_cast<float>(std::fmod(ImGui::GetTime(), 1.0)), {scaled(220.0F), 0.0F}, "");
   } else {
     const casedb::AttemptRow& attempt = watched.attempt();
     if (shown_ != attempt.attempt_id) {

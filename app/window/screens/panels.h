@@ -97,6 +97,8 @@ void begin_screen(const char* name);  // the whole window; end_screen ends it
 void end_screen();
 // A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
 void begin_picture(const char* name, float width, float height);
+// Pixels where a line's letters are 16 pixels high, as many as the letters of now make of them.
+float scaled(float px);
 // A part of the window's layout from that corner: of a picture, and of words. ImGui::EndChild ends both.
 void begin_part(const char* name, const Part& part, float left, float top);
 void begin_words(const char* name, const Part& part, float left, float top);
