@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/window/hands/act_words.h"
+#include "app/window/hands/coach.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 
@@ -48,7 +49,7 @@ std::string done_label(const Saying& saying, int times) {
 
 }  // namespace
 
-void ActsPanel::begin(const PersonAttempt& attempt) {
+void ActsPanel::begin(const PersonAttempt& attempt, const std::optional<assessment::PlannedPath>& plan) {
   done_.clear();
   for (const EventKind kind : attempt.said_before()) ++done_[kind];
   decided_ = attempt.task()->scene.subject == cases::Subject::phantom  // nobody is asked
@@ -57,7 +58,7 @@ void ActsPanel::begin(const PersonAttempt& attempt) {
   in_guide_ = fired_ = false;
   answered_.clear();
   answer_.clear();
-  planned_mm_ = 0.0;
+  planned_mm_ = plan ? std::round(plan->depth_mm()) : 0.0;
 }
 
 void ActsPanel::answer(const Seen& seen, const std::string& words) {
@@ -163,9 +164,19 @@ void ActsPanel::draw_answer(const Seen& seen) {
   if (!words.empty()) note_item(words.c_str());
 }
 
+void ActsPanel::draw_hint(const Trainer& trainer, const cases::Case& scene, const Seen& seen) {
+  const std::string words = hint_words(scene, seen, trainer.help());
+  if (words.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.98F, 0.84F, 0.50F, 1.0F));
+  ImGui::TextWrapped("Hint: %s", words.c_str());
+  ImGui::PopStyleColor();
+  note_item(("Hint: " + words).c_str());
+}
+
 void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
   PersonAttempt& attempt = *trainer.attempt();
   const cases::Case& scene = attempt.task()->scene;
+  draw_hint(trainer, scene, seen);
   draw_answer(seen);
   if (!decided_) return draw_decision(attempt, seen, flipped);
   const float room = ImGui::GetContentRegionAvail().x;

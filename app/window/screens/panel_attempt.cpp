@@ -10,7 +10,7 @@
 
 #include "app/window/hands/act_words.h"
 #include "app/window/hands/frame_plan.h"
-#include "app/window/screens/panel_device_traces.h"
+#include "app/window/screens/panel_device.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "reports/words/attempt_words.h"
@@ -72,7 +72,7 @@ void AttemptPanel::set_up(Trainer& trainer) {
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
   watch_.begin(scene.picture.modality);
-  acts_.begin(*trainer.attempt());
+  acts_.begin(*trainer.attempt(), trainer.plan());
   fired_ = leaving_ = false;
 }
 
@@ -92,7 +92,7 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
     if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
   if (keys.pressed(kF1 + 9)) arms_live_ = !arms_live_;
   if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
-  if (keys.pressed(kEnter) && !keys.alt) picture_first_ = !picture_first_;
+  if (keys.pressed(kEnter)) picture_first_ = !picture_first_;
   if (keys.pressed(kHomeKey)) console_asked_ = !console_shown_;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "app/window/screens/panel_debrief_buttons.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/fault_moments.h"
@@ -258,6 +257,8 @@ void DebriefPanel::draw_measured(const Debrief& debrief, const gpu::ScreenPictur
     draw_values(debrief);
   else
     draw_criteria(debrief);
+  draw_plan_and_done(debrief);
+  draw_own_attempts(debrief);
   draw_picture(debrief, picture);
 }
 
@@ -291,7 +292,7 @@ void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
   ImGui::PopStyleVar();
 }
 
-void DebriefPanel::draw_definition() {
+void DebriefPanel::draw_definition(const Debrief& debrief) {
   const Line& about = lines_[static_cast<std::size_t>(asked_)];
   if (about_ != about) {
     card_ = about.of == Of::step ? reports::step_card(about.id, about.version)
@@ -304,6 +305,7 @@ void DebriefPanel::draw_definition() {
   ImGui::TextWrapped("%s", about_.words.c_str());
   ImGui::Spacing();
   ImGui::TextWrapped("%s", card_.definition.c_str());
+  if (about_.of == Of::metric) draw_own_values(debrief, about_.id, about_.version);
   for (const reports::CardLine& one : card_.lines) {
     ImGui::Spacing();
     wrapped(kQuiet, one.name);
@@ -368,7 +370,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   if (asked_ < 0)
     draw_steps(debrief, first_step);
   else
-    draw_definition();
+    draw_definition(debrief);
   ImGui::EndChild();
   const float from_px = ImGui::GetCursorPosY();
   const Wish wish = draw_debrief_buttons(trainer, keys, escapes);

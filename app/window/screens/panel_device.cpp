@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/hands/device_words.h"
-#include "app/window/screens/panel_device_traces.h"
 #include "app/window/screens/panels.h"
 
 namespace seldinger::app {

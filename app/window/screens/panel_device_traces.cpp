@@ -1,4 +1,4 @@
-#include "app/window/screens/panel_device_traces.h"
+#include "app/window/screens/panel_device.h"
 
 #include <imgui.h>
 

@@ -20,7 +20,7 @@ constexpr ImU32 kCaliper = IM_COL32(255, 220, 90, 255), kMonitorWords = IM_COL32
                 kLit = IM_COL32(80, 220, 110, 255), kFired = IM_COL32(255, 220, 90, 255),
                 kGuideLine = IM_COL32(90, 220, 255, 200);
 constexpr float kCaliperReachPx = 9.0F;  // of a caliper's end, for a hand
-constexpr float kRulerPx = 42.0F;        // beside the picture: focus, marks and numbers
+constexpr float kRulerPx = 48.0F;        // beside the picture: focus, marks and numbers
 constexpr double kNoteS = 4.0;
 
 // In a line of words, before them.
