@@ -6,11 +6,11 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <span>
 #include <string_view>
 #include <system_error>
 
+#include "app/cli/state_folder.h"
 #include "casedb/database/credentials.h"
 #include "sim/base/failure.h"
 
@@ -27,13 +27,6 @@ struct Descriptor {
     if (number >= 0) ::close(number);
   }
 };
-
-fs::path state_folder() {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  if (state != nullptr && *state == '/') return fs::path(state) / "seldinger";
-  const char* home = std::getenv("HOME");
-  return fs::path(home != nullptr && *home != '\0' ? home : "/") / ".local/state/seldinger";
-}
 
 }  // namespace
 

@@ -47,11 +47,19 @@ std::vector<BodyPlane> body_planes(const cases::Case& scene, const assessment::S
 
 std::vector<BodyPlane> body_planes(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm) {
   CHECK(!scene.lesions.empty() || !points_lps_mm.empty());
+  const glm::dvec3 through = scene.lesions.empty() ? points_lps_mm.back() : scene.lesions.front().center_lps_mm;
+  return body_planes_through(scene, points_lps_mm, through, kLeastSideMm);
+}
+
+std::vector<BodyPlane> body_planes_through(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm,
+                                           const glm::dvec3& place_lps_mm, double least_side_mm) {
+  CHECK(!scene.lesions.empty() || !points_lps_mm.empty());
+  CHECK(least_side_mm <= kMostSideMm);
   const Box box = box_of(scene, points_lps_mm);
   const glm::dvec3 size_mm = box.high - box.low, middle = 0.5 * (box.low + box.high);
-  const glm::dvec3 through = scene.lesions.empty() ? points_lps_mm.back() : scene.lesions.front().center_lps_mm;
+  const glm::dvec3& through = place_lps_mm;
   const double side_mm =
-      std::clamp(std::max({size_mm.x, size_mm.y, size_mm.z}) + 2.0 * kMarginMm, kLeastSideMm, kMostSideMm);
+      std::clamp(std::max({size_mm.x, size_mm.y, size_mm.z}) + 2.0 * kMarginMm, least_side_mm, kMostSideMm);
   std::vector<BodyPlane> planes;
   for (const PlaneKind& kind : plane_kinds()) {
     BodyPlane plane;

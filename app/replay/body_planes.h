@@ -31,6 +31,9 @@ struct BodyPlane : PlaneFrame {           // square
 // Three through the target, all of one side: target, planned entry and these points. Without a target through the
 // last point; there is one of the two.
 std::vector<BodyPlane> body_planes(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm);
+// The same through any place, of at least that side.
+std::vector<BodyPlane> body_planes_through(const cases::Case& scene, std::span<const glm::dvec3> points_lps_mm,
+                                           const glm::dvec3& place_lps_mm, double least_side_mm);
 // The points: the way inside, and 15 mm before it.
 std::vector<BodyPlane> body_planes(const cases::Case& scene, const assessment::Signals& signals);
 

@@ -1,5 +1,6 @@
 // train: the trainer's window.
 #include <csignal>
+#include <filesystem>
 
 #include "app/acting/acting.h"
 #include "app/cli/command.h"
@@ -57,9 +58,12 @@ int run_train(const Arguments& arguments) {
     if (const auto refused = trainer.open_at_log_in(arguments.text("--case"))) return refuse(*refused);
   Window::Settings settings;
   settings.title = "Seldinger";
-  settings.width = static_cast<int>(arguments.whole("--width", 1280, kLeastWidth, 16384));
-  settings.height = static_cast<int>(arguments.whole("--height", 800, kLeastHeight, 16384));
-  settings.whole_screen = arguments.has("--whole-screen");
+  const bool as_asked = arguments.has("--width") || arguments.has("--height") || arguments.has("--whole-screen");
+  const std::filesystem::path size_file = as_asked ? std::filesystem::path() : window_size_file();
+  const WindowSize before = read_window_size(size_file).value_or(WindowSize{1280, 800, false});
+  settings.width = static_cast<int>(arguments.whole("--width", before.width, kLeastWidth, 16384));
+  settings.height = static_cast<int>(arguments.whole("--height", before.height, kLeastHeight, 16384));
+  settings.whole_screen = arguments.has("--whole-screen") || before.whole_screen;
   settings.letters = arguments.number("--letters", 1.0, 0.75, 2.0);
   const std::string backend = arguments.text("--backend", "auto");
   if (backend != "gpu" && backend != "cpu" && backend != "auto") throw UsageError("--backend is gpu, cpu or auto");
@@ -76,6 +80,7 @@ int run_train(const Arguments& arguments) {
   std::signal(SIGINT, on_signal);
   while (window.open() && told_to_end == 0) desk.frame();
   trainer.log_out();
+  if (!as_asked) keep_window_size(size_file, window.size());
   return kDone;
 }
 
@@ -94,11 +99,12 @@ constexpr Option kTrainOptions[] = {
     {"--left-handed", nullptr, "the needle in the left hand: probe, marker and mouse buttons change sides"},
     {"--backend", "gpu|cpu|auto",
      "what makes ultrasound's pictures; auto, which it is unless given: the GPU where GL has hardware"},
-    {"--width", "PIXELS", "of the window, at least 800; 1280 unless given"},
-    {"--height", "PIXELS", "of the window, at least 600; 800 unless given"},
+    {"--width", "PIXELS", "of the window, at least 800; as it was when it was closed, at first 1280"},
+    {"--height", "PIXELS", "of the window, at least 600; as it was when it was closed, at first 800"},
     {"--whole-screen", nullptr, "without a frame; Alt+Enter changes it"},
     {"--letters", "SIZE",
-     "of letters and buttons, 0.75 to 2; 1 unless given. They grow with the window and the screen's dots too"},
+     "of letters and buttons, 0.75 to 2; 1 unless given. They grow with the window and the screen's dots too, and "
+     "as far as there is room"},
     {"--mute", nullptr, "without sound, until M is pressed"},
     {"--volume", "PERCENT", "of the sound; 70 unless given"},
     {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},

@@ -51,6 +51,29 @@ std::string name_of(Trainer& trainer) {
   return "";
 }
 
+// For the window's title.
+std::string words_of(const Trainer& trainer) {
+  switch (trainer.screen()) {
+    case TrainerScreen::log_in:
+      return "Log in";
+    case TrainerScreen::choose:
+      return "Cases";
+    case TrainerScreen::briefing:
+      return trainer.chosen().title + " – briefing";
+    case TrainerScreen::attempt:
+      return trainer.chosen().title;
+    case TrainerScreen::debrief:
+      return trainer.chosen().title + " – debrief";
+    case TrainerScreen::watch:
+      return trainer.chosen().title + " – replay";
+    case TrainerScreen::editor:
+      return "Case editor";
+    case TrainerScreen::devices:
+      return "Hands at this desk";
+  }
+  return "";
+}
+
 }  // namespace
 
 Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace)
@@ -124,7 +147,7 @@ void Desk::draw_screen() {
 void Desk::tell(const std::string& screen) {
   const double now_s = session::clock_s(), passed_s = now_s - told_s_;
   ++frames_;
-  if (passed_s < kTellEveryS && screen == title_ && !(screen == "attempt" && attempt_.first_picture())) return;
+  if (passed_s < kTellEveryS && screen == told_ && !(screen == "attempt" && attempt_.first_picture())) return;
   TraceLine line;
   line.t_s = now_s - opened_s_;
   line.screen = screen;
@@ -215,7 +238,7 @@ void Desk::frame() {
   finish(began_s);
   std::vector<unsigned char> pixels;
   const bool keeps = window_.keys().pressed(kF12);
-  if (window_.keys().pressed(kEnter) && window_.keys().alt) window_.set_whole_screen(!window_.whole_screen());
+  if (window_.keys().alt_enter()) window_.set_whole_screen(!window_.whole_screen());
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
   if (screen == "attempt") attempt_.shown(trainer_, window_.width_px(), window_.height_px());
@@ -223,9 +246,9 @@ void Desk::frame() {
   keep_guidance(attempt_.guidance());
   keep_guidance(watch_.guidance());
   tell(screen);
-  if (screen != title_) window_.set_title("Seldinger – " + screen);
-  if (screen != title_ && screen == "devices") look_for_space_mouse();  // its daemon may have been started since
-  title_ = screen;
+  if (screen != told_) window_.set_title(words_of(trainer_) + " – Seldinger");
+  if (screen != told_ && screen == "devices") look_for_space_mouse();  // its daemon may have been started since
+  told_ = screen;
 }
 
 }  // namespace seldinger::app

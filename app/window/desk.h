@@ -52,7 +52,7 @@ class Desk {
   Trace& trace_;
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;
   int frames_ = 0;
-  std::string title_, notice_;
+  std::string told_, notice_;  // told: the screen that was up
   double notice_until_s_ = 0.0;
   Speaker::State sound_ = Speaker::State::unasked;
 };

@@ -85,6 +85,7 @@ constexpr const char* kHands =
     "feedback) or simulated; changes are events";
 constexpr const char* kArm = "no arm led it, or not recorded";
 constexpr const char* kOfWindow = "a simulated operator's attempt, or not recorded";
+constexpr const char* kNoPlan = "no way was planned before the room, or not recorded";
 constexpr const char* kNotByPictures = "a simulated operator's attempt, no live picture was shown, or not recorded";
 
 constexpr ConditionRow kRows[] = {
@@ -103,11 +104,11 @@ constexpr ConditionRow kRows[] = {
                                  {"1: the needle guide was taken up, however briefly"}),
     row<&Conditions::guide_share>("guide_share", "Time with the guide", "share",
                                   {"of the recorded time, with the needle guide taken up"}),
-    row<&Conditions::help_level>(
-        "help_level", "Help in the room", "",
-        {"2: the needle's line, the picture's plane and whether tip and target are in the picture are shown; 1: "
-         "without the needle's line; 0: none",
-         kOfWindow}),
+    row<&Conditions::help_level>("help_level", "Help in the room", "",
+                                 {"2: the needle's line, the picture's plane and whether tip and target are in the "
+                                  "picture are shown, in drills "
+                                  "with hints; 1: without the needle's line, hints without numbers; 0: none",
+                                  kOfWindow}),
     row<&Conditions::pauses>("pauses", "Pauses", "count", {"how often the attempt was paused"}),
     row<&Conditions::paused_s>(
         "paused_s", "Paused for", "s",
@@ -120,6 +121,21 @@ constexpr ConditionRow kRows[] = {
         {"how often the person had watched somebody else's attempt at any version of the case before", kOfWindow}),
     row<&Conditions::own_replays>("own_replays", "Own replays watched before", "count",
                                   {"the same of the person's own attempts", kOfWindow}),
+    row<&Conditions::planned_entry, &LpsPlace::x_mm>(
+        "planned_entry_x_mm", "Planned entry, x", "mm",
+        {"of the place on the skin where the trainee planned to go in, in the patient's LPS", kNoPlan}),
+    row<&Conditions::planned_entry, &LpsPlace::y_mm>("planned_entry_y_mm", "Planned entry, y", "mm",
+                                                     {"the same, y", kNoPlan}),
+    row<&Conditions::planned_entry, &LpsPlace::z_mm>("planned_entry_z_mm", "Planned entry, z", "mm",
+                                                     {"the same, z", kNoPlan}),
+    row<&Conditions::planned_tip, &LpsPlace::x_mm>(
+        "planned_tip_x_mm", "Planned tip, x", "mm",
+        {"of where the trainee planned the tip to be when the needle is fired or said to be there, in LPS",
+         kNoPlan}),
+    row<&Conditions::planned_tip, &LpsPlace::y_mm>("planned_tip_y_mm", "Planned tip, y", "mm",
+                                                   {"the same, y", kNoPlan}),
+    row<&Conditions::planned_tip, &LpsPlace::z_mm>("planned_tip_z_mm", "Planned tip, z", "mm",
+                                                   {"the same, z", kNoPlan}),
     row<&Conditions::picture_method>(
         "picture_method", "Pictures by", "",
         {"how the guidance's pictures were made, at last: \"scatterers, GPU\"", kOfWindow}),

@@ -51,6 +51,22 @@ void add_recorded(const cases::Recording& recording, Conditions& conditions) {
   if (length_s > 0.0) conditions.guide_share = guided_s / length_s;
 }
 
+std::optional<assessment::PlannedPath> planned_path(const Conditions& conditions) {
+  const auto place = [](const LpsPlace& from) -> std::optional<glm::dvec3> {
+    if (!from.x_mm || !from.y_mm || !from.z_mm) return std::nullopt;
+    return glm::dvec3(*from.x_mm, *from.y_mm, *from.z_mm);
+  };
+  const auto entry = place(conditions.planned_entry), tip = place(conditions.planned_tip);
+  if (!entry || !tip || !(glm::distance(*entry, *tip) > 0.0)) return std::nullopt;
+  return assessment::PlannedPath{*entry, *tip};
+}
+
+void put_planned_path(const std::optional<assessment::PlannedPath>& path, Conditions& conditions) {
+  const auto place = [](const glm::dvec3& at) { return LpsPlace{at.x, at.y, at.z}; };
+  conditions.planned_entry = path ? place(path->entry_lps_mm) : LpsPlace{};
+  conditions.planned_tip = path ? place(path->tip_lps_mm) : LpsPlace{};
+}
+
 Conditions simulated_conditions() {
   Conditions known;
   known.needle_hand = known.probe_hand = cases::HandKind::simulated;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "assessment/plan_comparison.h"
 #include "sim/base/names.h"
 #include "sim/case/hand_kind.h"
 #include "sim/case/record/recording.h"
@@ -20,6 +21,11 @@ struct LagQuantiles {
   std::optional<double> p50_ms, p95_ms, most_ms;
 };
 
+// In the patient's LPS; all of it, or nothing.
+struct LpsPlace {
+  std::optional<double> x_mm, y_mm, z_mm;
+};
+
 // What each means, and in which unit, is told by its row in condition_table.h.
 struct Conditions {
   std::optional<cases::HandKind> needle_hand, probe_hand;
@@ -33,6 +39,7 @@ struct Conditions {
   std::optional<double> paused_s;
   std::optional<bool> begun_again;
   std::optional<int> expert_replays, own_replays;
+  LpsPlace planned_entry, planned_tip;
   std::optional<std::string> picture_method;
   std::optional<bool> speckle_fallback;
   std::optional<double> picture_rate_hz, window_rate_hz;
@@ -40,6 +47,10 @@ struct Conditions {
   std::optional<bool> sound, stereo;
   std::optional<int> window_width_px, window_height_px;
 };
+
+// The way that the trainee planned before the room. Nothing: none was, or it is not known.
+std::optional<assessment::PlannedPath> planned_path(const Conditions& conditions);
+void put_planned_path(const std::optional<assessment::PlannedPath>& path, Conditions& conditions);
 
 // What of them follows from the recording itself is put in: of one whose recorder noted what led the tools
 // (cases::EventInfo::noted). Of others nothing is.

@@ -246,8 +246,13 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
     if (const auto closed = casedb::close_attempt(library_, store.attempt_id(), outcome); !closed)
       return closed.error();
   }
-  return StoredAttempt{store.attempt_id(), std::move(outcome.metrics),    std::move(outcome.steps),
-                       *outcome.end,       std::move(outcome.conditions), assessment::fault_moments(*signals)};
+  return StoredAttempt{store.attempt_id(),
+                       std::move(outcome.metrics),
+                       std::move(outcome.steps),
+                       *outcome.end,
+                       std::move(outcome.conditions),
+                       assessment::fault_moments(*signals),
+                       assessment::done_path(*signals)};
 }
 
 }  // namespace seldinger::session

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assessment/fault_moments.h"
+#include "assessment/plan_comparison.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "session/attempt/interrupted_attempt.h"
@@ -26,7 +27,8 @@ struct StoredAttempt {
   std::vector<assessment::StepResult> steps{};
   casedb::AttemptEnd end = casedb::AttemptEnd::stopped;
   casedb::Conditions conditions{};
-  std::vector<assessment::FaultMoment> faults{};  // told with the debrief, and not kept
+  std::vector<assessment::FaultMoment> faults{};  // told with the debrief, and not kept; as the next
+  std::optional<assessment::DonePath> path{};     // how the needle went in; nothing: it never did
 };
 
 class LiveAttempt {

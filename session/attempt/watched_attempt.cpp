@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "assessment/score.h"
 #include "session/case/case_build.h"
 #include "sim/base/check.h"
 #include "sim/base/failure.h"
@@ -49,6 +50,21 @@ const cases::Recording& WatchedAttempt::recording() const {
 Monitor& WatchedAttempt::monitor() {
   CHECK(phase() == Phase::playing || phase() == Phase::over);
   return *monitor_;
+}
+
+const std::vector<assessment::ReplayMark>& WatchedAttempt::marks() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return marks_;
+}
+
+std::optional<double> WatchedAttempt::punctured_s() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return punctured_s_;
+}
+
+std::optional<double> WatchedAttempt::fired_s() const {
+  CHECK(phase() == Phase::playing || phase() == Phase::over);
+  return fired_s_;
 }
 
 double WatchedAttempt::duration_s() const {
@@ -116,6 +132,12 @@ void WatchedAttempt::run() {
     attempt_ = std::move(*attempt);
     recording_ = std::move(*recording);
     scene_ = std::make_shared<const cases::Case>(std::move(*scene));
+    // A recording that nothing can be measured of can still be watched.
+    if (const auto signals = assessment::signals_of(*scene_, recording_)) {
+      marks_ = assessment::replay_marks(*signals);
+      punctured_s_ = assessment::first_puncture_s(*signals);
+      if (signals->endpoint) fired_s_ = signals->endpoint->t_s;
+    }
     monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed, by_);
   } catch (const base::Failure& failure) {
     return refuse({failure.code(), failure.what()});

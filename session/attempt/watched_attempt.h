@@ -8,7 +8,9 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "assessment/replay_marks.h"
 #include "casedb/attempts/attempts.h"
 #include "session/monitor/monitor.h"
 #include "sim/base/result.h"
@@ -32,6 +34,10 @@ class WatchedAttempt {
   std::shared_ptr<const cases::Case> kept_scene() const { return scene_; }  // for who works on it beside
   const cases::Recording& recording() const;
   Monitor& monitor();
+  const std::vector<assessment::ReplayMark>& marks() const;  // what happened when
+  // When the needle first went through the skin, and when it was fired; nothing: that never was.
+  std::optional<double> punctured_s() const;
+  std::optional<double> fired_s() const;
 
   std::optional<engine::Moment> moment() noexcept { return moments_.take(); }  // the newest since the last call
   double duration_s() const;
@@ -52,6 +58,8 @@ class WatchedAttempt {
   std::optional<casedb::AttemptRow> attempt_;
   std::shared_ptr<const cases::Case> scene_;
   cases::Recording recording_;
+  std::vector<assessment::ReplayMark> marks_;
+  std::optional<double> punctured_s_, fired_s_;
   std::unique_ptr<Monitor> monitor_;
   base::Snapshot<engine::Moment> moments_;
   static constexpr double kNowhere = -1.0;

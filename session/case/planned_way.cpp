@@ -69,9 +69,14 @@ bool PlannedWay::free() const noexcept {
 
 std::optional<PlannedWay> planned_way(const cases::Case& scene) {
   if (!scene.planned_entry_lps_mm || scene.lesions.empty()) return std::nullopt;
+  return way_between(scene, *scene.planned_entry_lps_mm, scene.lesions.front().center_lps_mm);
+}
+
+std::optional<PlannedWay> way_between(const cases::Case& scene, const glm::dvec3& entry_lps_mm,
+                                      const glm::dvec3& target_lps_mm) {
   PlannedWay way;
-  way.entry_lps_mm = *scene.planned_entry_lps_mm;
-  way.target_lps_mm = scene.lesions.front().center_lps_mm;
+  way.entry_lps_mm = entry_lps_mm;
+  way.target_lps_mm = target_lps_mm;
   way.length_mm = glm::distance(way.entry_lps_mm, way.target_lps_mm);
   if (!(way.length_mm > kStepMm)) return std::nullopt;
   const glm::dvec3 direction = (way.target_lps_mm - way.entry_lps_mm) / way.length_mm;

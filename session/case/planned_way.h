@@ -1,5 +1,5 @@
-// The straight way from a case's planned entry to its target: how long, how steep, and what it meets. What a mentor
-// sees while he places either; whether a case is worth an attempt is for session/case/case_check to say.
+// A straight way from an entry to a target: how long, how steep, and what it meets. What a mentor sees who places
+// either, and a trainee who plans; whether a case is worth an attempt is for session/case/case_check to say.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -34,5 +34,8 @@ struct PlannedWay {
 
 // By the limits of assessment::path_limits. Nothing without a planned entry or a target, or where both are one.
 std::optional<PlannedWay> planned_way(const cases::Case& scene);
+// The same of any entry and any target; nothing where both are one.
+std::optional<PlannedWay> way_between(const cases::Case& scene, const glm::dvec3& entry_lps_mm,
+                                      const glm::dvec3& target_lps_mm);
 
 }  // namespace seldinger::session

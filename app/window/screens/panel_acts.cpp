@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/window/hands/act_words.h"
+#include "app/window/hands/coach.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 
@@ -48,7 +49,7 @@ std::string done_label(const Saying& saying, int times) {
 
 }  // namespace
 
-void ActsPanel::begin(const PersonAttempt& attempt) {
+void ActsPanel::begin(const PersonAttempt& attempt, const std::optional<assessment::PlannedPath>& plan) {
   done_.clear();
   for (const EventKind kind : attempt.said_before()) ++done_[kind];
   decided_ = attempt.task()->scene.subject == cases::Subject::phantom  // nobody is asked
@@ -57,7 +58,7 @@ void ActsPanel::begin(const PersonAttempt& attempt) {
   in_guide_ = fired_ = false;
   answered_.clear();
   answer_.clear();
-  planned_mm_ = 0.0;
+  planned_mm_ = plan ? std::round(plan->depth_mm()) : 0.0;
 }
 
 void ActsPanel::answer(const Seen& seen, const std::string& words) {
@@ -127,7 +128,7 @@ void ActsPanel::read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped
 
 void ActsPanel::draw_planned_depth(const cases::Case& scene) {
   auto planned_mm = static_cast<float>(planned_mm_);
-  ImGui::SetNextItemWidth(kPlannedPx);
+  ImGui::SetNextItemWidth(scaled(kPlannedPx));
   if (ImGui::SliderFloat("##planned", &planned_mm, 0.0F, static_cast<float>(scene.instrument.length_mm),
                          planned_mm_ > 0.0 ? "needle in by %.0f mm" : "needle in by: not set",
                          ImGuiSliderFlags_AlwaysClamp))
@@ -163,9 +164,19 @@ void ActsPanel::draw_answer(const Seen& seen) {
   if (!words.empty()) note_item(words.c_str());
 }
 
+void ActsPanel::draw_hint(const Trainer& trainer, const cases::Case& scene, const Seen& seen) {
+  const std::string words = hint_words(scene, seen, trainer.help());
+  if (words.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.98F, 0.84F, 0.50F, 1.0F));
+  ImGui::TextWrapped("Hint: %s", words.c_str());
+  ImGui::PopStyleColor();
+  note_item(("Hint: " + words).c_str());
+}
+
 void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
   PersonAttempt& attempt = *trainer.attempt();
   const cases::Case& scene = attempt.task()->scene;
+  draw_hint(trainer, scene, seen);
   draw_answer(seen);
   if (!decided_) return draw_decision(attempt, seen, flipped);
   const float room = ImGui::GetContentRegionAvail().x;
@@ -175,8 +186,8 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
     const bool plan = saying.kind == EventKind::note_plan && scene.picture.modality != cases::Modality::xray;
     const auto done = done_.find(saying.kind);
     const std::string label = done_label(saying, done == done_.end() ? 0 : done->second);
-    const float own = ImGui::CalcTextSize(label.c_str()).x + 24.0F;
-    float wide = own + (plan ? kPlannedPx + 8.0F : 0.0F);
+    const float own = ImGui::CalcTextSize(label.c_str()).x + scaled(24.0F);
+    float wide = own + (plan ? scaled(kPlannedPx + 8.0F) : 0.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     if (used + wide >= room) used = 0.0F;
     used += wide;
@@ -191,13 +202,13 @@ void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
   }
   const bool patient = scene.subject == cases::Subject::patient;
   const char* end = patient ? "F9  Sign out and finish" : "F9  Finish";
-  if (used + ImGui::CalcTextSize(end).x + 24.0F < room) ImGui::SameLine();
+  if (used + ImGui::CalcTextSize(end).x + scaled(24.0F) < room) ImGui::SameLine();
   if (noted_button(end)) finish(attempt, seen, flipped);
   if (!patient || !trainer.may(casedb::Action::cause_event)) return;
   used = 0.0F;
   for (const cases::EventInfo& event : cases::event_kinds()) {
     if (event.source != cases::EventSource::mentor) continue;
-    const float wide = ImGui::CalcTextSize(event.words).x + 24.0F;
+    const float wide = ImGui::CalcTextSize(event.words).x + scaled(24.0F);
     if (used > 0.0F && used + wide < room) ImGui::SameLine();
     used = used + wide < room ? used + wide : wide;
     if (ImGui::Button(event.words)) say(attempt, seen, flipped, event.kind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "app/window/surface/window.h"
@@ -12,7 +13,8 @@ namespace seldinger::app {
 class ActsPanel {
  public:
   // An attempt that begins, or goes on: what was said before is done.
-  void begin(const PersonAttempt& attempt);
+  // Of a trainee who has planned the way in, the needle is to go in as far as that.
+  void begin(const PersonAttempt& attempt, const std::optional<assessment::PlannedPath>& plan);
 
   // Once a frame, of an attempt that runs. `flipped`: the picture's marker is on the right.
   void read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped, const Keys& keys);
@@ -30,6 +32,7 @@ class ActsPanel {
   void finish(PersonAttempt& attempt, const Seen& seen, bool flipped);
   void draw_decision(PersonAttempt& attempt, const Seen& seen, bool flipped);
   void draw_answer(const Seen& seen);
+  void draw_hint(const Trainer& trainer, const cases::Case& scene, const Seen& seen);
   void draw_planned_depth(const cases::Case& scene);
 
   bool decided_ = false;

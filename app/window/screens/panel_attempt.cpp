@@ -10,7 +10,7 @@
 
 #include "app/window/hands/act_words.h"
 #include "app/window/hands/frame_plan.h"
-#include "app/window/screens/panel_device_traces.h"
+#include "app/window/screens/panel_device.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "reports/words/attempt_words.h"
@@ -27,7 +27,6 @@ constexpr double kMostNeedleN = 6.0, kMostProbeN = 15.0;
 constexpr double kLeastBetweenS = 1.0 / 60.0;
 constexpr double kMostTicksS = 0.003;  // a tick and a half, and what a servo may be late
 constexpr double kLookAgainS = 0.0005;
-constexpr float kLettersPx = 16.0F;  // of letters of size 1
 constexpr float kLeastActsPx = 90.0F;
 constexpr float kMostConsoleShare =
     0.12F;                        // of the window's height: one that is higher is folded until it is asked for
@@ -73,7 +72,7 @@ void AttemptPanel::set_up(Trainer& trainer) {
   frames_s_ = room_told_s_ = 0.0;
   pictures_ = pictures_told_ = 0;
   watch_.begin(scene.picture.modality);
-  acts_.begin(*trainer.attempt());
+  acts_.begin(*trainer.attempt(), trainer.plan());
   fired_ = leaving_ = false;
 }
 
@@ -93,7 +92,7 @@ void AttemptPanel::read_keys(Trainer& trainer, const Keys& keys) {
     if (keys.pressed('1' + view)) room_.set_view(static_cast<imaging::RoomView>(view));
   if (keys.pressed(kF1 + 9)) arms_live_ = !arms_live_;
   if (keys.pressed(kF1 + 10)) room_.set_stereo(!room_.stereo());
-  if (keys.pressed(kEnter) && !keys.alt) picture_first_ = !picture_first_;
+  if (keys.pressed(kEnter)) picture_first_ = !picture_first_;
   if (keys.pressed(kHomeKey)) console_asked_ = !console_shown_;
 }
 
@@ -223,9 +222,9 @@ void AttemptPanel::draw_arms_live(PersonAttempt& attempt) {
   if (const auto newest = attempt.arms_seen()) arms_ = *newest;
   if (!arms_live_ || !seen_.arms.used) return;
   // In the lower left corner, where a sector has nothing.
-  constexpr float kWidth = 560.0F, kHeight = 200.0F, kStepsPx = 168.0F;
-  ImGui::SetNextWindowPos({14.0F, ImGui::GetMainViewport()->WorkSize.y - kStepsPx - kHeight}, ImGuiCond_Appearing);
-  ImGui::SetNextWindowSize({kWidth, kHeight}, ImGuiCond_Appearing);
+  const float width = scaled(560.0F), height = scaled(200.0F), hands = scaled(168.0F);
+  ImGui::SetNextWindowPos({14.0F, ImGui::GetMainViewport()->WorkSize.y - hands - height}, ImGuiCond_Appearing);
+  ImGui::SetNextWindowSize({width, height}, ImGuiCond_Appearing);
   if (ImGui::Begin("The arms, live (F10)", &arms_live_,
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoCollapse |
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
@@ -264,11 +263,11 @@ void AttemptPanel::draw_hands(const session::Task& task) {
     meter("needle", moment.force->needle_axial_n, kMostNeedleN);
     if (task.scene.picture.modality != cases::Modality::xray) meter("probe", moment.force->probe_n, kMostProbeN);
   }
+  draw_choices();
   quiet(task.scene.instrument.kind == cases::InstrumentKind::core
             ? "drag: move · right drag: turn · wheel: push · Shift: fine · Space: fire · F: freeze · Alt: camera"
             : "drag: move · right drag: turn · wheel: push · Shift: fine · Space: I am there · F: freeze · Alt: "
               "camera");
-  draw_choices();
 }
 
 void AttemptPanel::see(PersonAttempt& attempt) {
@@ -325,9 +324,11 @@ void AttemptPanel::draw_rates() {
   char words[96];
   std::snprintf(words, sizeof words, "%.0f /s   behind the hand: room %.0f ms, picture %.0f ms", frames_s_,
                 1e3 * room_lag_s_, 1e3 * picture_lag_s_);
-  if (ImGui::CalcTextSize(words).x > ImGui::GetWindowSize().x - 16.0F)
+  const auto fits = [&] { return ImGui::CalcTextSize(words).x <= ImGui::GetWindowSize().x - 16.0F; };
+  if (!fits())
     std::snprintf(words, sizeof words, "%.0f /s   room %.0f, picture %.0f ms behind", frames_s_, 1e3 * room_lag_s_,
                   1e3 * picture_lag_s_);
+  if (!fits()) std::snprintf(words, sizeof words, "%.0f /s   %.0f ms behind", frames_s_, 1e3 * picture_lag_s_);
   const ImVec2 window = ImGui::GetWindowPos(), size = ImGui::CalcTextSize(words);
   const ImVec2 corner{window.x + 8.0F, window.y + ImGui::GetWindowSize().y - size.y - 6.0F};
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -357,7 +358,7 @@ void AttemptPanel::draw_pause(Trainer& trainer) {
 // What is said keeps its height as long as it is as wide.
 AttemptLayout AttemptPanel::lay_out() {
   const ImVec2 all = ImGui::GetContentRegionAvail();
-  const float letters = ImGui::GetFontSize() / kLettersPx;
+  const float letters = scaled(1.0F);
   const AttemptLayout bare = attempt_layout(all.x, all.y, letters, 0.0F, 0.0F);
   if (bare.acts.width != acts_for_px_) acts_px_ = kLeastActsPx * letters;
   acts_for_px_ = bare.acts.width;

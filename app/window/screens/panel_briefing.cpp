@@ -7,6 +7,7 @@
 
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
+#include "app/window/trainer/plan_words.h"
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
 #include "reports/words/attempt_words.h"
@@ -48,7 +49,8 @@ void draw_hands(const casedb::CaseRow& row) {
       {"Shift", "makes everything ten times finer"},
       {"G", "puts the needle into the probe's guide"},
       {"Space", "fires; an access needle is declared to be there"},
-      {"1 – 7", "views of the room; with Alt the mouse turns the view"},
+      {"1 – 8", "views of the room; with Alt the mouse turns the view"},
+      {"Enter, Home", "the room in the picture's place; the console folded"},
       {"Esc, F5", "pause; begin again"},
   };
   constexpr Line kBeam = {"P", "the pedal; arrows turn the C-arm, H takes the hand out of the beam"};
@@ -93,14 +95,7 @@ void draw_plan(const session::Task& task) {
                      reports::number_text(depth_mm, 0) + " mm below the nearest skin");
   const auto way = session::planned_way(task.scene);
   if (!way) return;
-  const double off_deg = std::round(way->skin_angle_deg);
-  std::string words = reports::number_text(way->length_mm, 0) + " mm from the skin to its middle, " +
-                      (off_deg == 0.0 ? "straight in" : reports::number_text(off_deg, 0) + "° off straight in");
-  const double head_deg = std::round(way->head_deg);
-  if (head_deg != 0.0)
-    words +=
-        ", " + reports::number_text(std::abs(head_deg), 0) + "° towards the " + (head_deg > 0.0 ? "head" : "feet");
-  fact("Planned way", words);
+  fact("Proposed way", way_words(*way));
 }
 
 }  // namespace
@@ -156,7 +151,13 @@ void BriefingPanel::draw_task(Trainer& trainer) {
     quiet("Provisional: no standard of consultants has been set for this case.");
   ImGui::Spacing();
   heading(phantom ? "The block, cut through the target" : "The planning CT");
-  pictures_.draw(prepared);
+  if (prepared) {
+    if (noted_button(trainer.plan() ? "Your plan (P)" : "Look closer and plan (P)")) planning_.set_open(true);
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    quiet("in three planes and in 3-D; what you plan is compared with what you do");
+  }
+  planning_.draw_small(trainer, prepared);
 }
 
 bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
@@ -164,16 +165,24 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   if (case_id_ != row.case_id) {
     case_id_ = row.case_id;
     checked_.fill(false);
-    pictures_.end();
+    planning_.end();
   }
   begin_screen("briefing");
   heading(row.title.c_str());
   quiet(kTrainingOnly);
   ImGui::Spacing();
+  const bool prepared = trainer.attempt() != nullptr && trainer.attempt()->phase() == PersonAttempt::Phase::ready;
+  if (prepared && !trainer.resuming() && (keys.pressed('P') || (planning_.open() && keys.pressed(kEscape))))
+    planning_.set_open(!planning_.open());
+  if (planning_.open() && prepared && !trainer.resuming()) {
+    planning_.draw_large(trainer, keys, trainer.attempt()->task());
+    end_screen();
+    return false;
+  }
   const float half = 0.5F * ImGui::GetContentRegionAvail().x - 8.0F;
   const bool left = trainer.interrupted() && !trainer.resuming();
   const float high =
-      ImGui::GetContentRegionAvail().y - 60.0F - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
+      ImGui::GetContentRegionAvail().y - scaled(60.0F) - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
   ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_task(trainer);
   ImGui::EndChild();
@@ -215,95 +224,10 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndDisabled();
   if (!ready) {
     ImGui::SameLine();
-    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {220.0F, 0.0F}, "preparing the case …");
+    ImGui::ProgressBar(static_cast<float>(trainer.prepared()), {scaled(220.0F), 0.0F}, "preparing the case …");
   }
   end_screen();
   return begin;
-}
-
-void PlanningPictures::end() {
-  painting_ = {};
-  of_.reset();
-  planes_.clear();
-  pictures_.clear();
-}
-
-void PlanningPictures::take(const std::shared_ptr<const session::Task>& task) {
-  if (of_.lock() != task) {
-    end();
-    of_ = task;
-    painting_ =
-        std::async(std::launch::async, [task] { return body_planes(task->scene, std::span<const glm::dvec3>{}); });
-  }
-  if (!painting_.valid() || painting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  planes_ = painting_.get();
-  for (const BodyPlane& plane : planes_)
-    pictures_.emplace_back(std::make_unique<gpu::ScreenPicture>(context_, gpu::ScreenPicture::Pixels::grey))
-        ->show(plane.ct.width_px, plane.ct.height_px, plane.ct.grey);
-}
-
-void PlanningPictures::draw_plane(std::size_t number, const cases::Case& scene, float side_px) const {
-  const BodyPlane& plane = planes_[number];
-  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(pictures_[number]->name())),
-               {side_px, side_px});
-  note_item(plane.name.c_str());
-  const ImVec2 corner = ImGui::GetItemRectMin();
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float scale = side_px / static_cast<float>(plane.side_mm);
-  const auto at = [&](const glm::dvec2& mm) {
-    return ImVec2{corner.x + scale * static_cast<float>(mm.x), corner.y + scale * static_cast<float>(mm.y)};
-  };
-  const auto lines = [&](const std::vector<PlaneSegment>& segments, ImU32 colour) {
-    for (const PlaneSegment& one : segments) draw->AddLine(at(one.from_mm), at(one.to_mm), colour);
-  };
-  draw->PushClipRect(corner, ImGui::GetItemRectMax(), true);
-  lines(plane.skin, IM_COL32(235, 190, 150, 170));
-  for (const PlaneOutline& one : plane.structures) lines(one.segments, colour_of_rule(one.rule));
-  const cases::Lesion& target = scene.lesions.front();
-  const ImVec2 middle = at(plane.at(target.center_lps_mm));
-  draw->AddCircle(middle, scale * static_cast<float>(target.radius_mm), kTargetColour, 48, 1.5F);
-  if (scene.planned_entry_lps_mm) {
-    const ImVec2 entry = at(plane.at(*scene.planned_entry_lps_mm));
-    draw->AddLine(entry, middle, kTargetColour, 1.5F);
-    draw->AddCircleFilled(entry, 3.5F, kTargetColour);
-  }
-  const auto say = [&](float x, float y, const std::string& words) {
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    const ImVec2 from{corner.x + 4.0F + x * (side_px - size.x - 8.0F),
-                      corner.y + 2.0F + y * (side_px - size.y - 4.0F)};
-    draw->AddText({from.x + 1.0F, from.y + 1.0F}, IM_COL32(0, 0, 0, 255), words.c_str());  // liver is as light
-    draw->AddText(from, IM_COL32(205, 222, 232, 255), words.c_str());
-  };
-  say(0.0F, 0.0F, plane.name);
-  say(0.0F, 0.5F, plane.left);
-  say(1.0F, 0.5F, plane.right);
-  say(0.5F, 1.0F, plane.lower);
-  draw->PopClipRect();
-}
-
-// The axial one large, the others beside it, one below the other.
-void PlanningPictures::draw(const std::shared_ptr<const session::Task>& task) {
-  constexpr float kLeastPx = 200.0F, kGapPx = 6.0F;
-  if (task != nullptr) take(task);
-  if (task == nullptr || planes_.empty()) {
-    quiet("It is being prepared …");
-    return;
-  }
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float words_px = 2.0F * ImGui::GetTextLineHeightWithSpacing();
-  const float high = std::max(kLeastPx, std::min((room.x - kGapPx) / 1.5F, room.y - words_px));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {kGapPx, kGapPx});
-  draw_plane(0, task->scene, high);
-  ImGui::SameLine();
-  ImGui::BeginGroup();
-  for (std::size_t plane = 1; plane < planes_.size(); ++plane)
-    draw_plane(plane, task->scene, 0.5F * (high - kGapPx));
-  ImGui::EndGroup();
-  ImGui::PopStyleVar();
-  std::string legend =
-      task->scene.planned_entry_lps_mm ? "Green: the target and the planned way." : "Green: the target.";
-  if (!task->scene.structures.empty()) legend += " Red: critical structures; orange: major ones.";
-  quiet(legend.c_str());
 }
 
 }  // namespace seldinger::app

@@ -116,7 +116,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed) {
   const Keys& keys = question_.open() ? none : pressed;  // a question is answered first
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
-  ImGui::SameLine(ImGui::GetContentRegionAvail().x - 200.0F);
+  ImGui::SameLine(ImGui::GetContentRegionAvail().x - scaled(200.0F));
   const bool devices = noted_button("Hands (F10)");
   ImGui::SameLine();
   const bool out = noted_button("Log out");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "app/window/screens/panel_debrief_buttons.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/fault_moments.h"
@@ -58,7 +57,8 @@ void draw_band(const assessment::MetricBand& band, double value, const assessmen
   const double low = std::min({band.low, value, asked}), high = std::max({band.high, value, asked});
   if (!(high > low)) return;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float wide = ImGui::GetContentRegionAvail().x - 6.0F, high_px = 14.0F, y = corner.y + 0.5F * high_px;
+  const float wide = ImGui::GetContentRegionAvail().x - 6.0F, high_px = scaled(14.0F),
+              y = corner.y + 0.5F * high_px;
   const auto x = [&](double at) {
     return corner.x + 6.0F + (wide - 12.0F) * static_cast<float>((at - low) / (high - low));
   };
@@ -94,7 +94,7 @@ bool was_asked(const assessment::StepResult& step) {
 void draw_legend(const std::vector<assessment::StepResult>& steps) {
   for (const reports::StepMark* mark : reports::step_legend(steps)) {
     ImGui::TextColored(kQuiet, "%s", mark->sign);
-    ImGui::SameLine(kSignPx);
+    ImGui::SameLine(scaled(kSignPx));
     const std::string words = mark->told ? "(" + std::string(mark->words) + ")" : mark->words;
     wrapped(kQuiet, words + ": " + mark->meaning);
   }
@@ -105,7 +105,7 @@ void draw_legend(const std::vector<assessment::StepResult>& steps) {
 void draw_picture(const Debrief& debrief, const gpu::ScreenPicture* picture) {
   if (picture == nullptr || picture->width_px() <= 0) return;
   ImGui::Spacing();
-  const float across = std::min(ImGui::GetContentRegionAvail().x, 420.0F);
+  const float across = std::min(ImGui::GetContentRegionAvail().x, scaled(420.0F));
   quiet(debrief.attempt.end == casedb::AttemptEnd::fired ? "The picture when the trigger fell:"
                                                          : "The last picture:");
   ImGui::Image(
@@ -257,6 +257,8 @@ void DebriefPanel::draw_measured(const Debrief& debrief, const gpu::ScreenPictur
     draw_values(debrief);
   else
     draw_criteria(debrief);
+  draw_plan_and_done(debrief);
+  draw_own_attempts(debrief);
   draw_picture(debrief, picture);
 }
 
@@ -278,19 +280,19 @@ void DebriefPanel::draw_steps(const Debrief& debrief, int first) {
   for (const assessment::StepResult& step : debrief.steps) {
     if (!was_asked(step)) continue;
     ImGui::TextColored(colour_of(step.state), "%s", reports::step_mark(step).sign);
-    ImGui::SameLine(kSignPx);
+    ImGui::SameLine(scaled(kSignPx));
     ImGui::TextWrapped("%s", reports::step_text(step).c_str());
     hear(reports::step_label(step.id).c_str(), first++, false);
     if (const std::string why = reports::step_fault_text(step); !why.empty()) {
-      ImGui::Dummy({kSignPx - ImGui::GetStyle().ItemSpacing.x, 0.0F});
-      ImGui::SameLine(kSignPx);
+      ImGui::Dummy({scaled(kSignPx) - ImGui::GetStyle().ItemSpacing.x, 0.0F});
+      ImGui::SameLine(scaled(kSignPx));
       fault(reports::step_label(step.id), why, *step.t_s);
     }
   }
   ImGui::PopStyleVar();
 }
 
-void DebriefPanel::draw_definition() {
+void DebriefPanel::draw_definition(const Debrief& debrief) {
   const Line& about = lines_[static_cast<std::size_t>(asked_)];
   if (about_ != about) {
     card_ = about.of == Of::step ? reports::step_card(about.id, about.version)
@@ -303,6 +305,7 @@ void DebriefPanel::draw_definition() {
   ImGui::TextWrapped("%s", about_.words.c_str());
   ImGui::Spacing();
   ImGui::TextWrapped("%s", card_.definition.c_str());
+  if (about_.of == Of::metric) draw_own_values(debrief, about_.id, about_.version);
   for (const reports::CardLine& one : card_.lines) {
     ImGui::Spacing();
     wrapped(kQuiet, one.name);
@@ -367,7 +370,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   if (asked_ < 0)
     draw_steps(debrief, first_step);
   else
-    draw_definition();
+    draw_definition(debrief);
   ImGui::EndChild();
   const float from_px = ImGui::GetCursorPosY();
   const Wish wish = draw_debrief_buttons(trainer, keys, escapes);

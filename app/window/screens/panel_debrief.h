@@ -13,6 +13,24 @@
 
 namespace seldinger::app {
 
+// What can be done from the debrief: what comes next, once more, a replay, the list. Done after the screen is
+// drawn: what it shows goes with the debrief.
+enum class Wish { none, next, again, watch, expert, both, cases, log_out };
+
+// What is still missing for proficient, in words; nothing where no pass counts towards it.
+void draw_missing(const Trainer& trainer);
+
+// How one's own attempts at the case follow on each other: how many of the criteria each met, in the colour of its
+// verdict; and one metric's values with what is asked of it. Nothing of a single one.
+void draw_own_attempts(const Debrief& debrief);
+void draw_own_values(const Debrief& debrief, const std::string& metric_id, int version);
+// What was planned before the room, and what was done; nothing without a plan.
+void draw_plan_and_done(const Debrief& debrief);
+
+// `escapes`: whether the key Escape is theirs.
+Wish draw_debrief_buttons(Trainer& trainer, const Keys& keys, bool escapes);
+void do_wish(Trainer& trainer, Wish wish);
+
 class DebriefPanel {
  public:
   // `picture`: when the trigger fell; may be null.
@@ -40,7 +58,7 @@ class DebriefPanel {
   void draw_criteria(const Debrief& debrief);
   void draw_values(const Debrief& debrief);
   void draw_measured(const Debrief& debrief, const gpu::ScreenPicture* picture);
-  void draw_definition();
+  void draw_definition(const Debrief& debrief);
 
   std::string attempt_id_;   // of the attempt that the rest is about
   std::vector<Line> lines_;  // of the frame

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/hands/device_words.h"
-#include "app/window/screens/panel_device_traces.h"
 #include "app/window/screens/panels.h"
 
 namespace seldinger::app {
@@ -109,8 +108,9 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
   }
   begin_screen("devices");
   heading("The hands at this desk");
-  ImGui::SameLine(ImGui::GetContentRegionMax().x - 150.0F);
-  const bool leave = ImGui::Button("Back (Esc)", {140.0F, 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - scaled(150.0F));
+  const bool leave =
+      ImGui::Button("Back (Esc)", {scaled(140.0F), 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
   quiet(kTrainingOnly);
   const ImVec2 all = ImGui::GetContentRegionAvail();
   ImGui::BeginChild("there", {0.36F * all.x, all.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);

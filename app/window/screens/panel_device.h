@@ -4,12 +4,17 @@
 #include <array>
 #include <optional>
 
+#include "app/hands/arms_seen.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/surface/trace.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 
 namespace seldinger::app {
+
+// Two arms, live: where each is and what force it was asked for, over the last seconds. In the width there is, both
+// hands beside each other; of so many pixels in height.
+void draw_arm_traces(const ArmsSeen& arms, float height_px);
 
 class DevicePanel {
  public:

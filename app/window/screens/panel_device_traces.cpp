@@ -1,9 +1,11 @@
-#include "app/window/screens/panel_device_traces.h"
+#include "app/window/screens/panel_device.h"
 
 #include <imgui.h>
 
 #include <algorithm>
 #include <cstdio>
+
+#include "app/window/screens/panels.h"
 
 namespace seldinger::app {
 namespace {
@@ -80,17 +82,19 @@ void draw_arm(const char* name, const ArmSeen& arm, float width, float height) {
   ImVec2 corner = frame(width, above, words);
   float at_px = corner.x + width;
   constexpr float kNumbersPx = 340.0F;  // in less there is no room for them
-  for (std::size_t axis = 3; arm.reading.healthy && width > kNumbersPx && axis-- > 0;) {
+  for (std::size_t axis = 3; arm.reading.healthy && width > scaled(kNumbersPx) && axis-- > 0;) {
     char number[24];
     std::snprintf(number, sizeof number, "%c %.1f", "xyz"[axis], arm.reading.position_mm[static_cast<int>(axis)]);
-    at_px -= 74.0F;
+    at_px -= scaled(74.0F);
     ImGui::GetWindowDrawList()->AddText({at_px, corner.y + 3.0F}, kAxisColours[axis], number);
   }
   for (std::size_t axis = 0; axis < 3; ++axis)
-    draw(arm.at_mm[axis], place, {corner.x, corner.y + 24.0F}, {width, above - 28.0F}, kAxisColours[axis]);
+    draw(arm.at_mm[axis], place, {corner.x, corner.y + scaled(24.0F)}, {width, above - scaled(28.0F)},
+         kAxisColours[axis]);
   std::snprintf(words, sizeof words, "force asked of it, N: %.2f", static_cast<double>(arm.force_n.bin(1).most));
   corner = frame(width, height - above, words);
-  draw(arm.force_n, force, {corner.x, corner.y + 24.0F}, {width, height - above - 28.0F}, kForceColour);
+  draw(arm.force_n, force, {corner.x, corner.y + scaled(24.0F)}, {width, height - above - scaled(28.0F)},
+       kForceColour);
   ImGui::EndGroup();
 }
 

@@ -50,9 +50,9 @@ void DevicePanel::draw_calibration(Trainer& trainer, const Keys& keys, DevicePag
     const ImVec4& colour = asked == i ? kNotDone : taken ? kDoneWell : kOpen;
     ImGui::TextColored(colour, "%s  %s", taken ? "✓" : asked == i ? "→" : "·", point_words(i).c_str());
     if (!taken) continue;
-    ImGui::SameLine(290.0F);
+    ImGui::SameLine(scaled(290.0F));
     ImGui::TextDisabled("%.1f  %.1f  %.1f", taken->x, taken->y, taken->z);
-    ImGui::SameLine(450.0F);
+    ImGui::SameLine(scaled(450.0F));
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::SmallButton("take it again")) page.take_again(i);
     ImGui::PopID();
@@ -104,7 +104,7 @@ void DevicePanel::draw_work(Trainer& trainer, const Keys& keys, DevicePage& page
 }
 
 void DevicePanel::lead_styli(const Keys& keys, LedArms& led, DevicePage& page) {
-  constexpr float kPadPx = 110.0F;
+  const float pad_px = scaled(110.0F);
   constexpr double kMmPerPixel = 0.7, kWheelMm = 6.0, kKeyMmS = 120.0;
   const double now_s = session::clock_s(), elapsed_s = std::clamp(now_s - led_s_, 0.0, 0.5);
   led_s_ = now_s;
@@ -112,9 +112,9 @@ void DevicePanel::lead_styli(const Keys& keys, LedArms& led, DevicePage& page) {
   heading("Its stylus is led from here");
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::InvisibleButton("stylus", {width, kPadPx});
+  ImGui::InvisibleButton("stylus", {width, pad_px});
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(corner, {corner.x + width, corner.y + kPadPx}, IM_COL32(30, 42, 52, 255), 6.0F);
+  draw->AddRectFilled(corner, {corner.x + width, corner.y + pad_px}, IM_COL32(30, 42, 52, 255), 6.0F);
   draw->AddText(
       {corner.x + 8.0F, corner.y + 6.0F}, IM_COL32(200, 208, 216, 255),
       "drag: across the board · wheel: up and down\narrows, Page Up, Page Down: the same\nB: its button · "

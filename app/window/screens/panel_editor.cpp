@@ -92,7 +92,7 @@ void EditorPanel::draw_top(Trainer& trainer) {
   const session::HuWindow& stands = editor.view.window;
   char window[64];
   std::snprintf(window, sizeof window, "%s %.0f / %.0f", stands.name, stands.center_hu, stands.width_hu);
-  ImGui::SetNextItemWidth(180.0F);
+  ImGui::SetNextItemWidth(scaled(180.0F));
   if (ImGui::BeginCombo("##window", window)) {
     for (const session::HuWindow& one : session::kHuWindows)
       if (ImGui::Selectable(one.name, one.center_hu == stands.center_hu)) editor.view.window = one;
@@ -234,8 +234,8 @@ void EditorPanel::draw_history(const CaseEditor& editor) {
 
 void EditorPanel::draw_help() {
   if (!help_) return;
-  ImGui::SetNextWindowPos({60.0F, 120.0F}, ImGuiCond_Always);
-  ImGui::SetNextWindowSize({760.0F, 0.0F});
+  ImGui::SetNextWindowPos({scaled(60.0F), scaled(120.0F)}, ImGuiCond_Always);
+  ImGui::SetNextWindowSize({scaled(760.0F), 0.0F});
   ImGui::Begin("The case editor", &help_, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextWrapped("%s", kHelp);
   ImGui::End();
@@ -273,7 +273,8 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   begin_screen("editor");
   draw_top(trainer);
   const ImVec2 all = ImGui::GetContentRegionAvail();
-  const float wide = std::floor(0.5F * (all.x - kRightPx - 12.0F)), high = std::floor(0.5F * (all.y - 6.0F));
+  const float wide = std::floor(0.5F * (all.x - scaled(kRightPx) - 12.0F)),
+              high = std::floor(0.5F * (all.y - 6.0F));
   ImGui::BeginChild("planes", {2.0F * wide + 4.0F, all.y}, false,
                     ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4.0F, 4.0F});
@@ -287,11 +288,11 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginGroup();
-  constexpr float kActionsPx = 150.0F;
-  ImGui::BeginChild("tool", {0.0F, 0.5F * (all.y - kActionsPx)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  const float actions_px = scaled(150.0F);
+  ImGui::BeginChild("tool", {0.0F, 0.5F * (all.y - actions_px)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_tool(editor);
   ImGui::EndChild();
-  ImGui::BeginChild("checks", {0.0F, 0.5F * (all.y - kActionsPx) - 12.0F}, false,
+  ImGui::BeginChild("checks", {0.0F, 0.5F * (all.y - actions_px) - 12.0F}, false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding);
   draw_checks(editor);
   ImGui::EndChild();

@@ -213,9 +213,9 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
                 glm::dot(normal, editor.view.cursor_lps_mm()));
   pen.words({corner.x + 6.0F, corner.y + 4.0F}, kWords, text);
   pen.words({corner.x + 6.0F, corner.y + 0.5F * high}, kWords, kind.left);
-  pen.words({corner.x + wide - 18.0F, corner.y + 0.5F * high}, kWords, kind.right);
+  pen.words({corner.x + wide - scaled(18.0F), corner.y + 0.5F * high}, kWords, kind.right);
   pen.words({corner.x + 0.5F * wide, corner.y + 4.0F}, kWords, kind.upper);
-  pen.words({corner.x + 0.5F * wide, corner.y + high - 40.0F}, kWords, kind.lower);
+  pen.words({corner.x + 0.5F * wide, corner.y + high - scaled(40.0F)}, kWords, kind.lower);
   // A centimetre.
   const auto cm_px = static_cast<float>(10.0 / editor.view.mm_per_pixel());
   pen.draw->AddLine({corner.x + wide - 10.0F - cm_px, corner.y + 14.0F},
@@ -229,7 +229,7 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
                 *spot->hu, volume::about(spot->tissue).name, spot->depth_mm);
   std::string said = text;
   for (const std::string& one : spot->in) said += "   " + one;
-  pen.words({corner.x + 6.0F, corner.y + high - 20.0F}, kWords, said);
+  pen.words({corner.x + 6.0F, corner.y + high - scaled(20.0F)}, kWords, said);
 }
 
 void EditorPlanes::take_mouse(std::size_t plane, CaseEditor& editor, const Keys& keys, const ImVec2& corner) {

@@ -18,7 +18,7 @@ constexpr float kFieldPx = 170.0F;
 
 // A number in a field. True once it is entered, not while it is typed.
 bool number(const char* label, double& value, double step, const char* format, bool& in_hand) {
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   ImGui::InputDouble(label, &value, step, 10.0 * step, format);
   in_hand = in_hand || ImGui::IsItemActive();
   return ImGui::IsItemDeactivatedAfterEdit();
@@ -34,7 +34,7 @@ bool optional_number(const char* label, std::optional<double>& value, double usu
   ImGui::SameLine();
   double shown = value.value_or(usual);
   ImGui::BeginDisabled(!told);
-  ImGui::SetNextItemWidth(kFieldPx - 36.0F);
+  ImGui::SetNextItemWidth(scaled(kFieldPx - 36.0F));
   ImGui::InputDouble(label, &shown, 0.0, 0.0, format);
   in_hand = in_hand || ImGui::IsItemActive();
   if (told && value) value = shown;
@@ -47,7 +47,7 @@ bool optional_number(const char* label, std::optional<double>& value, double usu
 template <std::size_t n, typename Value, typename Name>
 bool choice(const char* label, Value& value, const std::array<Value, n>& all, const Name& name) {
   bool changed = false;
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   if (!ImGui::BeginCombo(label, std::string(name(value)).c_str())) return false;
   for (const Value one : all)
     if (ImGui::Selectable(std::string(name(one)).c_str(), one == value)) {
@@ -65,7 +65,7 @@ constexpr std::array<cases::StructureRule, 6> kRules = {
     cases::StructureRule::must_cross, cases::StructureRule::organ, cases::StructureRule::target};
 
 bool draw_gauge(const char* label, cases::Instrument& needle) {
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   int gauge = 0;
   for (const cases::Gauge& one : cases::kGauges)
     if (std::abs(one.outer_mm - 2.0 * needle.radius_mm) < 0.05) gauge = one.number;
@@ -160,7 +160,7 @@ void EditorPanel::draw_lesion(CaseEditor& editor) {
 }
 
 void EditorPanel::choose_structure(CaseEditor& editor) {
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   const bool there = editor.structure < editor.structures().size();
   if (ImGui::BeginCombo("structure", there ? editor.structures()[editor.structure].name.c_str() : "a new one")) {
     for (std::size_t i = 0; i < editor.structures().size(); ++i)
@@ -226,14 +226,14 @@ void EditorPanel::draw_structure(CaseEditor& editor) {
 
 bool EditorPanel::draw_structure_meaning() {
   fill(name_, name_of_, structure_.name);
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   ImGui::InputText("name", name_.data(), name_.size());
   bool changed = ImGui::IsItemDeactivatedAfterEdit();
   if (changed) structure_.name = name_of_ = name_.data();
   changed =
       choice("rule", structure_.rule, kRules, [](cases::StructureRule rule) { return cases::name_of(rule); }) ||
       changed;
-  ImGui::SetNextItemWidth(kFieldPx);
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
   if (ImGui::BeginCombo("tissue", volume::about(structure_.tissue).name)) {
     for (std::size_t i = 0; i < volume::kTissueClasses; ++i) {
       const auto tissue = static_cast<volume::TissueClass>(i);
@@ -265,7 +265,7 @@ bool EditorPanel::draw_drawn_structure() {
   }
   if (structure_.hu) {
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(90.0F);
+    ImGui::SetNextItemWidth(scaled(90.0F));
     ImGui::InputDouble("##hu", &*structure_.hu, 0.0, 0.0, "%.0f");
     structure_in_hand_ = structure_in_hand_ || ImGui::IsItemActive();
     changed = changed || ImGui::IsItemDeactivatedAfterEdit();
@@ -330,7 +330,7 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
              [&](const TextField& one) {
                TextInHand& text = texts_[row.column];
                fill(text.typed, text.filled_from, one.get(setting_));
-               ImGui::SetNextItemWidth(-60.0F);
+               ImGui::SetNextItemWidth(-scaled(60.0F));
                ImGui::InputText(label, text.typed.data(), text.typed.size());
                if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
                one.set(setting_, text.filled_from = text.typed.data());
@@ -340,7 +340,7 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
                const auto words = row.editor.names.empty() ? one.names : row.editor.names;
                const auto now = static_cast<std::size_t>(
                    std::find(one.names.begin(), one.names.end(), one.get(setting_)) - one.names.begin());
-               ImGui::SetNextItemWidth(kFieldPx);
+               ImGui::SetNextItemWidth(scaled(kFieldPx));
                if (!ImGui::BeginCombo(label, std::string(words[now]).c_str())) return false;
                bool changed = false;
                for (std::size_t i = 0; i < words.size(); ++i)
@@ -382,7 +382,7 @@ bool EditorPanel::draw_rule(const CaseEditor& editor) {
     const assessment::MetricInfo* info = assessment::find_metric(one.metric);
     ImGui::TextUnformatted(metric_words(one.metric).c_str());
     if (info != nullptr && ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", info->id, info->definition);
-    ImGui::SetNextItemWidth(58.0F);
+    ImGui::SetNextItemWidth(scaled(58.0F));
     if (ImGui::BeginCombo("##sign", std::string(assessment::sign_of(one.comparison)).c_str())) {
       for (const auto sign :
            {assessment::Comparison::at_least, assessment::Comparison::at_most, assessment::Comparison::equal})
@@ -393,7 +393,7 @@ bool EditorPanel::draw_rule(const CaseEditor& editor) {
       ImGui::EndCombo();
     }
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(86.0F);
+    ImGui::SetNextItemWidth(scaled(86.0F));
     ImGui::InputDouble("##value", &one.value, 0.0, 0.0, "%.6g");
     setting_in_hand_ = setting_in_hand_ || ImGui::IsItemActive();
     changed = changed || ImGui::IsItemDeactivatedAfterEdit();
@@ -434,7 +434,7 @@ bool EditorPanel::draw_setting(CaseEditor& editor) {
   bool changed = false;
   heading("The case");
   fill(title_, title_of_, editor.row().title);
-  ImGui::SetNextItemWidth(-60.0F);
+  ImGui::SetNextItemWidth(-scaled(60.0F));
   ImGui::InputText("title", title_.data(), title_.size());
   const bool titled = ImGui::IsItemDeactivatedAfterEdit();
   static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);

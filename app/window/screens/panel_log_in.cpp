@@ -10,7 +10,7 @@ namespace seldinger::app {
 void LogInPanel::draw(Trainer& trainer) {
   begin_screen("log in");
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  const float width = std::clamp(0.33F * room.x, std::min(360.0F, room.x), 620.0F);
+  const float width = std::clamp(0.33F * room.x, std::min(scaled(360.0F), room.x), scaled(620.0F));
   ImGui::SetCursorPos({0.5F * (room.x - width), 0.28F * room.y});
   ImGui::BeginChild("account", {width, 20.0F * ImGui::GetFontSize()}, false,
                     ImGuiWindowFlags_AlwaysUseWindowPadding);

@@ -20,7 +20,7 @@ constexpr ImU32 kCaliper = IM_COL32(255, 220, 90, 255), kMonitorWords = IM_COL32
                 kLit = IM_COL32(80, 220, 110, 255), kFired = IM_COL32(255, 220, 90, 255),
                 kGuideLine = IM_COL32(90, 220, 255, 200);
 constexpr float kCaliperReachPx = 9.0F;  // of a caliper's end, for a hand
-constexpr float kRulerPx = 42.0F;        // beside the picture: focus, marks and numbers
+constexpr float kRulerPx = 48.0F;        // beside the picture: focus, marks and numbers
 constexpr double kNoteS = 4.0;
 
 // In a line of words, before them.
@@ -111,7 +111,7 @@ void MonitorPanel::draw_marks(float left, float top, float zoom) {
     if (!is_long) continue;
     const std::string number = cm == 0 ? "cm" : std::to_string(cm);
     draw->AddText({ruler + kLongPx + 2.0F, y - half}, kMonitorWords, number.c_str());
-    note_part(("depth " + number).c_str(), ruler, y - half, kRulerPx - kFocusPx, 2.0F * half);
+    note_part(("depth " + number).c_str(), ruler, y - half, scaled(kRulerPx) - kFocusPx, 2.0F * half);
   }
   if (kind_.modality != cases::Modality::ultrasound) return;
   if (shown_.console.focus_mm > 0.0) {
@@ -191,9 +191,11 @@ void MonitorPanel::draw_status(const session::Monitor& monitor, const cases::Sta
 
 // What is recorded of the newest picture, for who is still helped.
 void MonitorPanel::draw_lamps(const std::optional<cases::FrameTruth>& frame) {
-  const auto tell = [](bool lit, const char* words) {
+  constexpr float kLampsLetters = 25.0F;  // wide: both with their whole words
+  const bool whole = ImGui::GetContentRegionAvail().x > kLampsLetters * ImGui::GetFontSize();
+  const auto tell = [&](bool lit, const char* what, const char* words) {
     lamp(lit ? kLit : kMonitorWords, lit);
-    ImGui::TextUnformatted(words);
+    ImGui::TextUnformatted(whole ? words : what);
     note_item(words);
   };
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 8.0F);
@@ -203,9 +205,9 @@ void MonitorPanel::draw_lamps(const std::optional<cases::FrameTruth>& frame) {
     note_item(words);
     return;
   }
-  tell(frame->needle_tip, frame->needle_tip ? "tip in the picture" : "tip not in the picture");
+  tell(frame->needle_tip, "tip", frame->needle_tip ? "tip in the picture" : "tip not in the picture");
   ImGui::SameLine(0.0F, 20.0F);
-  tell(frame->target, frame->target ? "target in the picture" : "target not in the picture");
+  tell(frame->target, "target", frame->target ? "target in the picture" : "target not in the picture");
 }
 
 // The guide's line, as a machine draws it of a guide that it knows: by the probe alone, whatever the needle does.
@@ -242,7 +244,7 @@ void MonitorPanel::draw_picture(const Seen& seen, float width, float height) {
     return;
   }
   const float across = static_cast<float>(picture_.width_px()), down = static_cast<float>(picture_.height_px());
-  const float ruler = shown_.pixel_mm > 0.0 ? kRulerPx : 0.0F;
+  const float ruler = shown_.pixel_mm > 0.0 ? scaled(kRulerPx) : 0.0F;
   const float zoom = std::min((width - ruler) / across, height / down);
   const ImVec2 low{corner.x + 0.5F * (width - ruler - zoom * across), corner.y + 0.5F * (height - zoom * down)};
   const ImVec2 high{low.x + zoom * across, low.y + zoom * down};

@@ -30,6 +30,10 @@ void begin_picture(const char* name, float width, float height) {
           ImGuiWindowFlags_NoNav);  // Tab changes the tool; it would take a slider's number for a field
 }
 
+float scaled(float px) {
+  return px * ImGui::GetFontSize() / 16.0F;
+}
+
 void begin_part(const char* name, const Part& part, float left, float top) {
   ImGui::SetCursorPos({left + part.left, top + part.top});
   begin_picture(name, part.width, part.height);
@@ -65,7 +69,7 @@ bool Question::draw(const Keys& keys) {
   if (!ImGui::IsPopupOpen(kName)) ImGui::OpenPopup(kName);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSize({std::min(560.0F, viewport->WorkSize.x - 40.0F), 0.0F});
+  ImGui::SetNextWindowSize({std::min(scaled(560.0F), viewport->WorkSize.x - 40.0F), 0.0F});
   if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return false;
   ImGui::TextWrapped("%s", words_.c_str());
   ImGui::Spacing();
@@ -85,7 +89,8 @@ void draw_notice(const std::string& words, bool in_room) {
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   const ImVec2 size = ImGui::CalcTextSize(words.c_str());
   const float free = viewport->WorkSize.x - size.x;
-  const ImVec2 at{viewport->WorkPos.x + (in_room ? free - kClockPx : 0.5F * free), viewport->WorkPos.y + 8.0F};
+  const ImVec2 at{viewport->WorkPos.x + (in_room ? free - scaled(kClockPx) : 0.5F * free),
+                  viewport->WorkPos.y + 8.0F};
   ImDrawList* draw = ImGui::GetForegroundDrawList();
   draw->AddRectFilled({at.x - 14.0F, at.y - 4.0F}, {at.x + size.x + 14.0F, at.y + size.y + 4.0F},
                       IM_COL32(30, 50, 62, 235), 6.0F);

@@ -3,18 +3,15 @@
 #pragma once
 
 #include <array>
-#include <future>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "app/replay/body_planes.h"
+#include "app/window/screens/panel_planning.h"
 #include "app/window/surface/attempt_layout.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 #include "sim/base/training_only.h"
-#include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
 
@@ -54,28 +51,9 @@ class ChoosePanel {
   std::string to_delete_;  // the draft that is asked about
 };
 
-// The planning CT in three planes through the target, once the case is there: target, planned way, structures,
-// skin.
-class PlanningPictures {
- public:
-  explicit PlanningPictures(gpu::Context& context) : context_(context) {}
-  void draw(const std::shared_ptr<const session::Task>& task);  // null: it is being prepared
-  void end();
-
- private:
-  void take(const std::shared_ptr<const session::Task>& task);
-  void draw_plane(std::size_t plane, const cases::Case& scene, float side_px) const;
-
-  gpu::Context& context_;
-  std::weak_ptr<const session::Task> of_;         // a case is large: it is not kept
-  std::future<std::vector<BodyPlane>> painting_;  // the window does not wait for it
-  std::vector<BodyPlane> planes_;
-  std::vector<std::unique_ptr<gpu::ScreenPicture>> pictures_;
-};
-
 class BriefingPanel {
  public:
-  explicit BriefingPanel(gpu::Context& context) : pictures_(context) {}
+  explicit BriefingPanel(gpu::Context& context) : planning_(context) {}
   // True: the trainee has signed in and wants to begin.
   bool draw(Trainer& trainer, const Keys& keys);
   // Once after a drawing in which the trainee wanted to go on with an interrupted attempt.
@@ -86,7 +64,7 @@ class BriefingPanel {
 
   void draw_task(Trainer& trainer);
 
-  PlanningPictures pictures_;
+  PlanningPanel planning_;
   std::string case_id_;
   std::array<bool, 5> checked_{};
   bool resume_ = false;
@@ -97,6 +75,8 @@ void begin_screen(const char* name);  // the whole window; end_screen ends it
 void end_screen();
 // A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
 void begin_picture(const char* name, float width, float height);
+// Pixels where a line's letters are 16 pixels high, as many as the letters of now make of them.
+float scaled(float px);
 // A part of the window's layout from that corner: of a picture, and of words. ImGui::EndChild ends both.
 void begin_part(const char* name, const Part& part, float left, float top);
 void begin_words(const char* name, const Part& part, float left, float top);

@@ -33,10 +33,14 @@ static_assert(devices::GamepadReading::kButtons == GLFW_GAMEPAD_BUTTON_LAST + 1)
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kFontPx = 16.0F;
 
-// Letters grow with the window, by eighths, so that they are not made anew with each pixel of it.
-float letters_of(int width_px, int height_px) {
-  const float share = std::min(static_cast<float>(width_px) / 1280.0F, static_cast<float>(height_px) / 800.0F);
-  return std::clamp(0.125F * std::floor(8.0F * (0.5F + 0.5F * share) + 0.01F), 0.875F, 1.5F);
+// Letters grow with the window, by eighths, so that they are not made anew with each pixel of it. Larger ones are
+// asked for in vain where the screens' parts would no longer find room.
+float letters_of(int width_px, int height_px, float asked) {
+  constexpr float kLeastAcross = 640.0F, kLeastDown = 480.0F;  // of the window, where letters are 16 pixels high
+  const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+  const float share = std::min(width / 1280.0F, height / 800.0F);
+  const float own = std::clamp(0.125F * std::floor(8.0F * (0.5F + 0.5F * share) + 0.01F), 0.875F, 1.5F);
+  return std::min(asked * own, std::min(width / kLeastAcross, height / kLeastDown));
 }
 
 void set_style(float scale) {
@@ -72,7 +76,12 @@ void set_style(float scale) {
 }  // namespace
 
 bool Keys::pressed(int key) const noexcept {
-  return (!typing_ || key >= kF1) && std::find(pressed_.begin(), pressed_.end(), key) != pressed_.end();
+  return (!typing_ || key >= kF1) && (key != kEnter || !alt) &&
+         std::find(pressed_.begin(), pressed_.end(), key) != pressed_.end();
+}
+
+bool Keys::alt_enter() const noexcept {
+  return alt && std::find(pressed_.begin(), pressed_.end(), kEnter) != pressed_.end();
 }
 
 bool Keys::held(int key) const noexcept {
@@ -113,10 +122,9 @@ struct Window::Parts {
   float scale_now() const {
     int width = 0, height = 0;
     glfwGetFramebufferSize(window, &width, &height);
-    return width < 1 ? scale
-                     : screen * letters *
-                           letters_of(static_cast<int>(static_cast<float>(width) / screen),
-                                      static_cast<int>(static_cast<float>(height) / screen));
+    if (width < 1) return scale;
+    return screen * letters_of(static_cast<int>(static_cast<float>(width) / screen),
+                               static_cast<int>(static_cast<float>(height) / screen), letters);
   }
   void fit_letters() {
     const float now = scale_now();
@@ -189,6 +197,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
   float scale_y = 1.0F;
   glfwGetWindowContentScale(parts_->window, &parts_->screen, &scale_y);
   parts_->letters = static_cast<float>(settings.letters);
+  parts_->framed = {0, 0, settings.width, settings.height};
   parts_->scale = parts_->scale_now();
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
@@ -226,11 +235,17 @@ bool Window::whole_screen() const noexcept {
   return glfwGetWindowMonitor(parts_->window) != nullptr;
 }
 
+WindowSize Window::size() const noexcept {
+  const auto& [left, top, width, height] = parts_->framed;
+  WindowSize size{width, height, whole_screen()};
+  if (!size.whole_screen) glfwGetWindowSize(parts_->window, &size.width, &size.height);
+  return size;
+}
+
 void Window::set_whole_screen(bool whole) {
   auto& [left, top, width, height] = parts_->framed;
   if (whole == whole_screen()) return;
-  if (!whole) {  // of a window that was opened on the whole screen nothing is known
-    if (width < kLeastWidth) width = 1280, height = 800;
+  if (!whole) {
     glfwSetWindowMonitor(parts_->window, nullptr, left, top, width, height, GLFW_DONT_CARE);
     glfwSetWindowSizeLimits(parts_->window, kLeastWidth, kLeastHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
     return;

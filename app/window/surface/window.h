@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/window/surface/window_size.h"
 #include "sim/devices/hands/gamepad_hands.h"
 #include "sim/gpu/context.h"
 
@@ -45,6 +46,7 @@ class Keys {
  public:
   bool pressed(int key) const noexcept;  // went down; while a text is typed, F keys only
   bool held(int key) const noexcept;     // is down, or was
+  bool alt_enter() const noexcept;       // Enter with Alt, which is the window's and no screen's
   bool shift = false, control = false, alt = false;
 
  private:
@@ -78,6 +80,7 @@ class Window {
   // Without a frame, or as it was before.
   bool whole_screen() const noexcept;
   void set_whole_screen(bool whole);
+  WindowSize size() const noexcept;
 
   // Between these two what is in the window is said to Dear ImGui.
   void begin_frame();

@@ -141,11 +141,13 @@ void Trainer::exchange_arms() {
 void Trainer::log_out() {
   device_page_.reset();
   watched_.reset();
+  beside_.reset();
   attempt_.reset();
   debrief_.reset();
   editor_.reset();
   interrupted_.reset();
   trying_ = resuming_ = false;
+  plan_.reset();
   choices_ = {};
   // First: whoever leaves is out, whatever becomes of the library.
   const std::string person_id = std::exchange(account_, {}).person_id;
@@ -216,6 +218,7 @@ void Trainer::try_draft() {
   expert_.clear();
   restarting_ = false;
   provisional_ = trying_ = true;
+  plan_.reset();
   prepare(nullptr);
 }
 
@@ -243,6 +246,7 @@ void Trainer::choose(const std::string& case_id) {
   expert_ = casedb::expert_replay_of(library_, case_id, account_.person_id, account_.role).value_or("");
   provisional_ = !casedb::has_standard(library_, chosen_);
   restarting_ = trying_ = false;
+  plan_.reset();
   prepare(nullptr);
 }
 
@@ -321,24 +325,8 @@ void Trainer::tell_conditions() {
     conditions.help_level = help_;
     conditions.expert_replays = watched.others;
     conditions.own_replays = watched.own;
+    casedb::put_planned_path(plan_, conditions);
   });
-}
-
-void Trainer::watch(const std::string& attempt_id, double from_s) {
-  if (resuming_) return;
-  if (screen_ != TrainerScreen::briefing && screen_ != TrainerScreen::debrief) return;
-  const auto attempt = casedb::find_attempt(library_, attempt_id);
-  if (!attempt || (attempt_id != expert_ && attempt->person_id != account_.person_id)) return;
-  refusal_.clear();
-  watched_from_ = screen_;
-  watched_id_ = attempt_id;
-  watched_ = std::make_unique<session::WatchedAttempt>(library_.folder(), attempt_id, by_);
-  if (from_s > 0.0) watched_->go_to(from_s);
-  screen_ = TrainerScreen::watch;
-}
-
-void Trainer::stop_watching() {
-  if (screen_ == TrainerScreen::watch) screen_ = watched_from_;
 }
 
 // Graded as a stored one would be.
@@ -353,20 +341,11 @@ Debrief Trainer::debrief_of_try() {
   row.end = made.end;
   row.metrics = made.metrics;
   row.conditions = made.conditions;
-  return {row, casedb::Grader(library_).look_at(row), made.steps, made.faults};
+  return {row, casedb::Grader(library_).look_at(row), made.steps, made.faults, made.path};
 }
 
 void Trainer::look() {
-  if (watched_ && screen_ != TrainerScreen::watch) watched_.reset();
-  if (watched_ && watched_->phase() == session::WatchedAttempt::Phase::refused) {
-    refusal_ = watched_->error().text;
-    stop_watching();
-  }
-  if (watched_ && !watched_id_.empty() && watched_->phase() != session::WatchedAttempt::Phase::preparing) {
-    // Whoever is not in the library any more watches as nobody.
-    static_cast<void>(casedb::note_replay_watched(library_, account_.person_id, watched_id_));
-    watched_id_.clear();
-  }
+  look_at_watched();
   if (editor_ && screen_ == TrainerScreen::editor) editor_->look();
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();
@@ -396,8 +375,12 @@ void Trainer::look() {
       refusal_ = row.error().text;
       return;
     }
-    debrief_ = Debrief{*row, casedb::Grader(library_).look_at(*row), casedb::list_steps(library_, id),
-                       attempt_->stored().faults};
+    debrief_ = Debrief{*row,
+                       casedb::Grader(library_).look_at(*row),
+                       casedb::list_steps(library_, id),
+                       attempt_->stored().faults,
+                       attempt_->stored().path,
+                       own_attempts()};
     list_choices();  // what it opened
     screen_ = TrainerScreen::debrief;
   }

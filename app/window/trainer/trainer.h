@@ -28,12 +28,21 @@ enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, ed
 using casedb::Choice;
 using casedb::Draft;
 
+// One of the person's own attempts at a case, as it is graded now.
+struct OwnAttempt {
+  std::string attempt_id;
+  double duration_s = 0.0;
+  assessment::Grade grade;
+};
+
 // What an attempt came to.
 struct Debrief {
   casedb::AttemptRow attempt;  // without an id: it was tried and is not kept
   casedb::AttemptGrade grade;
   std::vector<assessment::StepResult> steps;
   std::vector<assessment::FaultMoment> faults{};  // of what it was graded by
+  std::optional<assessment::DonePath> path{};     // how the needle went in
+  std::vector<OwnAttempt> own{};                  // the latest at this case, oldest first, with this one
 };
 
 class Trainer {
@@ -89,6 +98,15 @@ class Trainer {
   void try_draft();
   bool trying() const noexcept { return trying_; }
 
+  // --- the trainee's own plan: the way in, set in the briefing, kept with each attempt from there on ---
+  const std::optional<assessment::PlannedPath>& plan() const noexcept { return plan_; }
+  // The skin nearest to this place; and where the tip is to be. Nothing happens before the case is prepared, and
+  // where entry and tip would be one.
+  void plan_entry(const glm::dvec3& place_lps_mm);
+  void plan_tip(const glm::dvec3& place_lps_mm);
+  void plan_as_proposed();  // the case's planned way, up to where its needle is fired
+  void drop_plan() noexcept { plan_.reset(); }
+
   // From briefing to attempt, once it is prepared; a patient's sign-in is said with it. False: not yet. An attempt
   // at the case that was interrupted is closed: it will not be gone on with.
   bool begin(bool left_handed);
@@ -110,8 +128,10 @@ class Trainer {
 
   // A stored attempt is watched, from briefing or debrief, and back to there. The trainee's own, or an expert's.
   void watch(const std::string& attempt_id, double from_s = 0.0);
+  void watch_beside_expert();  // the trainee's own of the debrief, and an expert's beside it
   void stop_watching();
   session::WatchedAttempt* watched() noexcept { return watched_.get(); }
+  session::WatchedAttempt* beside() noexcept { return beside_.get(); }  // null: one alone is watched
 
   // The hands at this desk, from any screen but an attempt, a replay and one that is to begin again; and back
   // there.
@@ -134,8 +154,13 @@ class Trainer {
   void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const session::Task> task);
+  const session::Task* planned_task() const;  // what may be planned now; null: nothing
+  void put_plan(const assessment::PlannedPath& path);
   void tell_conditions();
+  bool may_watch(const std::string& attempt_id);
+  void look_at_watched();
   Debrief debrief_of_try();
+  std::vector<OwnAttempt> own_attempts();
 
   casedb::Library library_;
   casedb::LoginDelays delays_;
@@ -149,8 +174,8 @@ class Trainer {
   std::string expert_;
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
-  std::unique_ptr<session::WatchedAttempt> watched_;
-  std::string watched_id_;  // until it is noted that it is watched
+  std::unique_ptr<session::WatchedAttempt> watched_, beside_;
+  std::vector<std::string> watched_ids_;  // until it is noted that they are watched
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
   std::unique_ptr<CaseEditor> editor_;
   std::unique_ptr<DevicePage> device_page_;
@@ -158,6 +183,7 @@ class Trainer {
   std::optional<casedb::OpenAttempt> interrupted_;
   bool provisional_ = true, restarting_ = false, trying_ = false, resuming_ = false;
   int help_ = 0;
+  std::optional<assessment::PlannedPath> plan_;
 };
 
 }  // namespace seldinger::app

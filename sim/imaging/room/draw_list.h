@@ -73,7 +73,8 @@ struct RoomOptions {
   // 0: as in reality. 1: the scan plane's outline. 2: also the planned entry, and the line on which the needle
   // would go on. 3: also the target through the skin, and the planned path.
   int help = 0;
-  // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, never for a trainee.
+  // Half the skin is cut away; target, structures and bone show. For a mentor who looks back, and who plans on the
+  // CT; never in an attempt.
   bool mentor = false;
   bool glass = false;                         // with `mentor`: nothing is cut away, the skin can be looked through
   bool needle = true, probe = true;           // what hands hold

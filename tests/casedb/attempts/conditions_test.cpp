@@ -100,6 +100,20 @@ TEST(Conditions, TheNewerReplaceTheOlderWhereTheyAreKnown) {
   EXPECT_EQ(known(both), 3U);
 }
 
+TEST(Conditions, APlannedWayIsWholeOrNone) {
+  Conditions conditions;
+  EXPECT_FALSE(planned_path(conditions));
+  const assessment::PlannedPath path{{1.5, -2.0, 3.25}, {10.0, 20.0, -30.0}};
+  put_planned_path(path, conditions);
+  EXPECT_EQ(planned_path(conditions), path);
+  conditions.planned_tip.y_mm.reset();
+  EXPECT_FALSE(planned_path(conditions)) << "a place of two numbers is none";
+  put_planned_path(assessment::PlannedPath{{1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}}, conditions);
+  EXPECT_FALSE(planned_path(conditions)) << "a way without a length";
+  put_planned_path(std::nullopt, conditions);
+  EXPECT_EQ(known(conditions), 0U);
+}
+
 // Ten seconds; what led the tools, the guide and two pauses were noted.
 cases::Recording noted_recording() {
   cases::Recording recording = sample_recording(10000, 3);
