@@ -82,6 +82,7 @@ namespace seldinger::app {
   ROW(consent_list)             \
   ROW(consent_give)             \
   ROW(consent_withdraw)         \
+  ROW(stats)                    \
   ROW(haptics_insert)           \
   ROW(haptics_fit)              \
   ROW(haptics_calibrate)        \
@@ -116,6 +117,7 @@ const std::vector<Group>& groups() {
       {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
       {"Attempts", {"simulate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "study", "consent"}},
+      {"Numbers", {"stats"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},
       {"Hands", {"haptics", "device"}},
