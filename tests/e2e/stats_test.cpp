@@ -200,7 +200,7 @@ std::vector<Oracle> oracles() {
         {"/rows/4/value", -.65991902834}}},
       {"auc --value value --group group --options positive=A",
        likert,
-       {{"/estimate", .9}, {"/ci95/0", .569555504}, {"/ci95/1", .983927007}}},
+       {{"/estimate", .9}, {"/ci95/0", .569555504, 2e-5}, {"/ci95/1", .983927007, 2e-5}}},
       {"icc --value j1,j2,j3,j4",
        four_judges(),
        {{"/estimate", .289763779528},
