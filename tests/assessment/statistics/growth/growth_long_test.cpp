@@ -6,7 +6,6 @@
 #include <string>
 
 #include "assessment/statistics/growth/binary_cusum.h"
-
 #include "assessment/statistics/growth/mixed_model.h"
 #include "assessment/statistics/growth/normal_cusum.h"
 #include "assessment/statistics/growth/rasch.h"
