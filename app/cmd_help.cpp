@@ -6,6 +6,7 @@
 #include "app/cli/error_codes.h"
 #include "app/cli/words.h"
 #include "app/commands.h"
+#include "app/statistics/procedures.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
@@ -31,6 +32,10 @@ int run_help(const Arguments& arguments) {
   }
   if (arguments.has("--operators")) {
     std::fputs(assessment::operators_markdown().c_str(), stdout);
+    return kDone;
+  }
+  if (arguments.has("--statistics")) {
+    std::fputs(procedures_markdown().c_str(), stdout);
     return kDone;
   }
   if (arguments.has("--commands")) {
@@ -74,6 +79,7 @@ constexpr Option kHelpOptions[] = {
     {"--differences", nullptr, "print the smallest worthwhile differences (docs/differences.md)"},
     {"--steps", nullptr, "print the table of a puncture's steps (docs/steps.md)"},
     {"--operators", nullptr, "print what simulated operators are and can (docs/operators.md)"},
+    {"--statistics", nullptr, "print the statistical tests, their columns and options (docs/statistics.md)"},
     {"--commands", nullptr, "print the table of commands (docs/commands.md)"},
     {"--routes", nullptr, "print the table of web routes (docs/routes.md)"},
     {"--attributes", nullptr, "print what of a source enters a case (docs/attributes.md)"},

@@ -90,6 +90,7 @@ namespace seldinger::app {
   ROW(consent_list)             \
   ROW(consent_give)             \
   ROW(consent_withdraw)         \
+  ROW(stats)                    \
   ROW(haptics_insert)           \
   ROW(haptics_fit)              \
   ROW(haptics_calibrate)        \
@@ -125,6 +126,7 @@ const std::vector<Group>& groups() {
       {"Attempts", {"simulate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
       {"Studies", {"study", "report"}},
+      {"Numbers", {"stats"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},
       {"Hands", {"haptics", "device"}},

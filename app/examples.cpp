@@ -103,6 +103,8 @@ constexpr std::string_view kLines[] = {
     "backup copy",
     "restore copy --library restored",
     "check",
+    "stats welch --csv scores.csv --value score --group experience",
+    "stats paired --csv scores.csv --value before,after --json",
     "haptics insert --tissue kidney --speed-mm-s 5 --depth-mm 30 --out kidney.csv",
     "haptics fit kidney.csv --tissue kidney",
     "haptics calibrate points.csv --device left --station station.json",

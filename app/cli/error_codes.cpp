@@ -14,7 +14,7 @@ constexpr ErrorCode kFilesCodes[] = {
      "Give a name that is free, or an empty folder."},
     {"bad_key", kRefuses, "A key file does not hold 64 hexadecimal digits.",
      "Use a key file that this program made."},
-    {"bad_csv", kRefuses, "A CSV file lacks a column, or a row is not as its header says.",
+    {"bad_csv", kRefuses, "A CSV file is none, lacks a column, or a row is not as its header says.",
      "Mend the rows that are named."},
     {"truncated", kRefuses, "A file, or its pixels, end too early.", "Copy or export it again."},
     {"reader_died", kRefuses,

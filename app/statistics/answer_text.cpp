@@ -45,9 +45,10 @@ std::string line(const std::string& name, const std::string& what) {
 
 std::string counts_of(const Answer& answer) {
   std::string text = std::to_string(answer.n);
-  for (std::size_t i = 0; i < answer.groups.size(); ++i)
+  const bool told = answer.groups.size() > 1 || (answer.groups.size() == 1 && answer.groups.front().name != "all");
+  for (std::size_t i = 0; told && i < answer.groups.size(); ++i)
     text += (i == 0 ? " (" : ", ") + answer.groups[i].name + " " + std::to_string(answer.groups[i].n);
-  if (!answer.groups.empty()) text += ")";
+  if (told) text += ")";
   if (answer.missing > 0) text += "; left out, as something is missing: " + std::to_string(answer.missing);
   return text;
 }
@@ -107,7 +108,7 @@ std::string text_of_answer(const Answer& answer) {
     text += line("95 % CI", rounded(answer.ci95->low) + " to " + rounded(answer.ci95->high));
   }
   if (const std::string test = test_of(answer); !test.empty()) text += line("test", test);
-  std::size_t widest = 0;
+  std::size_t widest = 10;
   for (const auto& one : answer.more) widest = std::max(widest, letters_of(one.name));
   for (const auto& one : answer.more)
     text += "  " + one.name + std::string(widest - letters_of(one.name) + 2, ' ') + rounded(one.value) + "\n";

@@ -47,6 +47,11 @@ ProcedureOptions options_for(const Procedure& procedure, const std::string& type
   return ProcedureOptions(std::move(values));
 }
 
+// Tests of several conditions of the same persons take these side by side, too.
+bool takes_side_by_side(const Procedure& procedure) {
+  return procedure.needs.group && procedure.needs.subject && procedure.needs.most_values == 1;
+}
+
 TableColumns columns_for(const Procedure& procedure, const Arguments& arguments) {
   const auto& needs = procedure.needs;
   TableColumns columns{
@@ -61,6 +66,7 @@ TableColumns columns_for(const Procedure& procedure, const Arguments& arguments)
     if (needed && !given) throw UsageError(std::string(procedure.name) + " needs " + option + takes);
   };
   need(needs.least_values > 0, "--value", !columns.values.empty());
+  if (takes_side_by_side(procedure) && columns.values.size() > 1 && columns.group.empty()) return columns;
   need(needs.group, "--group", !columns.group.empty());
   need(needs.subject, "--subject", !columns.subject.empty());
   need(needs.rater, "--rater", !columns.rater.empty());
@@ -88,6 +94,7 @@ int run_stats(const Arguments& arguments) {
     auto table = table_in_csv(*text, columns);
     if (!table) return refuse(error_of("--csv", file, table.error()));
     read = std::move(*table);
+    if (takes_side_by_side(procedure) && columns.values.size() > 1) read.table = stacked(read.table);
   }
   auto answer = assessment::statistics::settled(procedure.run(read.table, options));
   answer.notes.insert(answer.notes.begin(), read.notes.begin(), read.notes.end());

@@ -155,6 +155,19 @@ base::Result<ReadTable> table_in_csv(const std::string& text, const TableColumns
   return reader.finish();
 }
 
+DataTable stacked(const DataTable& table) {
+  DataTable made;
+  made.rows = table.rows * table.values.size();
+  made.values.push_back({"value", {}});
+  for (const assessment::statistics::Column& column : table.values)
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      made.values.front().values.push_back(column.values[row]);
+      made.group.push_back(column.name);
+      made.subject.push_back(table.subject.empty() ? std::to_string(row + 1) : table.subject[row]);
+    }
+  return made;
+}
+
 std::vector<std::string> column_names(const std::string& typed) {
   CsvRecords records(typed, ',');
   std::vector<std::string> names, more;

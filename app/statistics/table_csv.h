@@ -31,6 +31,10 @@ struct ReadTable {
 // the header, and column). Errors never hold what a cell holds: it may identify somebody.
 base::Result<ReadTable> table_in_csv(const std::string& text, const TableColumns& columns);
 
+// Columns side by side, a condition each and a person a row, as one value by subject and group: the columns' names
+// are the groups. Rows without a label of `subject`, where there is one, stay without.
+assessment::statistics::DataTable stacked(const assessment::statistics::DataTable& table);
+
 // "a,b" as a header would have them: a name that holds a comma stands in quotes. Empty: it is no such list.
 std::vector<std::string> column_names(const std::string& typed);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assessment/statistics/distributions.h"
 #include "sim/base/rng.h"
 
 namespace seldinger::assessment::statistics {
@@ -14,6 +15,17 @@ double share_below(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+// What lies below the interval's lower end, for the smallest of the groups that are drawn from.
+double tail_of(std::span<const std::size_t> group_sizes) {
+  double tail = 0.025;
+  for (const std::size_t size : group_sizes) {
+    if (size < 2) continue;
+    const double n = static_cast<double>(size);
+    tail = std::min(tail, normal_cdf(-std::sqrt(n / (n - 1.0)) * student_t_quantile(0.975, n - 1.0)));
+  }
+  return tail;
 }
 
 }  // namespace
@@ -39,7 +51,8 @@ Bootstrapped percentile_bootstrap(std::span<const std::size_t> group_sizes, std:
   }
   if (values.empty() || values.size() * 20 < draws * 19) return found;
   std::sort(values.begin(), values.end());
-  found.ci95 = Interval{share_below(values, 0.025), share_below(values, 0.975)};
+  const double tail = tail_of(group_sizes);
+  found.ci95 = Interval{share_below(values, tail), share_below(values, 1.0 - tail)};
   return found;
 }
 

@@ -1,5 +1,6 @@
 // Persons drawn again with replacement, and where 95 of 100 of what they then give lie: the interval of a number
-// that has no formula for one (Efron, Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13).
+// that has no formula for one. Its percentiles are further out the fewer persons there are, as t is against z: the
+// plain ones are too narrow (Hesterberg, Am. Stat. 69, 2015, "expanded percentile interval").
 #pragma once
 
 #include <cstddef>

@@ -10,6 +10,7 @@
 
 #include "app/cli/error_codes.h"
 #include "app/commands.h"
+#include "app/statistics/procedures.h"
 #include "assessment/grading/worthwhile.h"
 #include "assessment/operators/profile.h"
 #include "assessment/procedure/steps.h"
@@ -43,6 +44,10 @@ TEST(Docs, StepsAreTheTables) {
 
 TEST(Docs, OperatorsAreTheTable) {
   EXPECT_EQ(file("docs/operators.md"), seldinger::assessment::operators_markdown());
+}
+
+TEST(Docs, StatisticsAreTheTables) {
+  EXPECT_EQ(file("docs/statistics.md"), seldinger::app::procedures_markdown());
 }
 
 TEST(Docs, RoutesAreTheRegistry) {

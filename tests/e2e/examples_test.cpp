@@ -47,6 +47,8 @@ class Examples : public testing::Test {
            "0 0\n"
            "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
         << std::string(8, '\1');
+    std::ofstream(at_ / "scores.csv") << "score,experience,before,after\n61,novice,50,61\n55,novice,48,55\n"
+                                         "80,expert,79,80\n91,expert,83,91\n";
     // As the template of a device's calibration has them (docs/devices.md), 50 mm off along one axis.
     std::ofstream(at_ / "points.csv") << "point,x_mm,y_mm,z_mm\na,5,-64,-50\nb,5,64,-50\nc,-59,0,-50\nd,69,0,-50\n"
                                          "e,5,0,-50\nf,-12,11,93\n";

@@ -10,6 +10,7 @@
 #include "assessment/statistics/distributions.h"
 #include "assessment/statistics/groups/power.h"
 #include "assessment/statistics/groups/samples.h"
+#include "assessment/statistics/roots.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -81,12 +82,13 @@ double extremeness(const Superiority& superiority) {
   return off > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
-// On the logit scale, so that it stays within 0 and 1.
-Interval logit_interval(const Superiority& superiority) {
-  const double p = superiority.estimate, logit = std::log(p / (1.0 - p));
-  const double wide = student_t_quantile(0.975, superiority.df) * superiority.error / (p * (1.0 - p));
-  const auto back = [](double x) { return 1.0 / (1.0 + std::exp(-x)); };
-  return {back(logit - wide), back(logit + wide)};
+// Newcombe's limit for a probability that was observed as 1: where 1 − θ is 1.96 standard errors of θ.
+double least_probability(double n1, double n2) {
+  const double z = normal_quantile_of(0.975), n = 0.5 * (n1 + n2) - 1.0;
+  return root_between(0.0, 1.0, [&](double theta) {
+    const double within = 1.0 + n * ((1.0 - theta) / (2.0 - theta) + theta / (1.0 + theta));
+    return (1.0 - theta) - z * z * theta * within / (n1 * n2);
+  });
 }
 
 std::string method_of(const PermutationTest& test, std::size_t draws, double seed) {
@@ -99,6 +101,16 @@ std::string method_of(const PermutationTest& test, std::size_t draws, double see
 
 Superiority superiority(std::span<const double> a, std::span<const double> b) {
   return superiority_of(pooled(a, b), [&](std::size_t person) { return person < a.size(); });
+}
+
+Interval superiority_interval(const Superiority& superiority, double n1, double n2) {
+  const double p = superiority.estimate;
+  if (p == 1.0) return {least_probability(n1, n2), 1.0};
+  if (p == 0.0) return {0.0, 1.0 - least_probability(n1, n2)};
+  const double logit = std::log(p / (1.0 - p));
+  const double wide = student_t_quantile(0.975, superiority.df) * superiority.error / (p * (1.0 - p));
+  const auto back = [](double x) { return 1.0 / (1.0 + std::exp(-x)); };
+  return {back(logit - wide), back(logit + wide)};
 }
 
 PermutationTest studentised_permutation(std::span<const double> a, std::span<const double> b, std::size_t draws,
@@ -146,10 +158,10 @@ Answer brunner_munzel(const DataTable& table, const ProcedureOptions& options) {
   answer.estimate = found.estimate;
   answer.estimate_name = "P(" + a.name + " > " + b.name + ") + ½ P(equal)";
   answer.more = {{"cliff_delta", 2.0 * found.estimate - 1.0}};
+  const double n1 = static_cast<double>(a.values.size()), n2 = static_cast<double>(b.values.size());
   if (overlap) {
     answer.statistic = found.statistic();
     answer.df = {found.df};
-    answer.ci95 = logit_interval(found);
     answer.more.push_back({"standard_error", found.error});
   } else {
     answer.notes.emplace_back(
@@ -160,7 +172,7 @@ Answer brunner_munzel(const DataTable& table, const ProcedureOptions& options) {
     answer.notes.push_back("Permutation p-values come in steps; here none is below " + in_words(test.smallest) +
                            ".");
   }
-  const double n1 = static_cast<double>(a.values.size()), n2 = static_cast<double>(b.values.size());
+  answer.ci95 = superiority_interval(found, n1, n2);
   say_detectable(answer, "detectable_probability", "a probability that one group's value is the larger",
                  detectable_probability(std::sqrt((n1 + n2) / (12.0 * n1 * n2)), kPlannedPower, kAlpha), 1.0);
   return settled(std::move(answer));

@@ -23,6 +23,9 @@ struct Superiority {
 // Two values or more in each, not all the same.
 Superiority superiority(std::span<const double> a, std::span<const double> b);
 
+// By t on the logit scale; where the groups do not overlap Newcombe's (Stat. Med. 25, 2006, method 5).
+Interval superiority_interval(const Superiority& superiority, double n1, double n2);
+
 struct PermutationTest {
   double p_value = 1.0;
   bool all = false;       // all deals were gone through

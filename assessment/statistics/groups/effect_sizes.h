@@ -25,9 +25,11 @@ Effect glass_delta(std::span<const double> a, std::span<const double> b);
 Effect unpooled_d(std::span<const double> a, std::span<const double> b);
 // d of a published Student's t.
 Effect d_of_t(double t, double n1, double n2);
-// P(first > second) − P(first < second): the rank-biserial correlation. The interval is Fisher's z; where no pair
-// is out of order Newcombe's (Stat. Med. 25, 2006, method 5), which such a sample has as well.
+// P(first > second) − P(first < second): the rank-biserial correlation. The interval is Fisher's z, which is too
+// narrow where δ is large; where no pair is out of order Newcombe's, as superiority_interval() has it.
 Effect cliff_delta(std::span<const double> a, std::span<const double> b);
+// The same with the interval of Brunner and Munzel's probability.
+Effect cliff_delta_by_superiority(std::span<const double> a, std::span<const double> b);
 
 Answer effect_size(const DataTable& table, const ProcedureOptions& options);
 

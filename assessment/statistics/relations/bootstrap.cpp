@@ -17,6 +17,8 @@ constexpr std::size_t kLeastDraws = 200, kUsualDraws = 5000, kMostDraws = 100000
 constexpr std::size_t kMostSeed = 4294967295;
 // Persons above which leaving out each in turn takes too long.
 constexpr std::size_t kMostDrawn = 5000;
+// Fewer persons than these make intervals too narrow, those of means where values are skewed.
+constexpr std::size_t kFewMean = 50, kFewDifference = 150, kFewMedian = 20;
 // A draw counts as equal to the estimate up to this share of the largest value.
 constexpr double kEqualDraw = 1e-12;
 
@@ -169,6 +171,7 @@ Answer bootstrap(const DataTable& table, const ProcedureOptions& options) {
     answer.more = {{"bias_z0", bca->bias}, {"acceleration", bca->acceleration}};
     if (bca->at_the_ends)
       answer.notes.emplace_back("A limit is the most extreme of all draws: take more, or another interval.");
+    warn_of_interval(answer, centre == Centre::kMedian ? kFewMedian : two ? kFewDifference : kFewMean);
     return settled(std::move(answer));
   }
   answer.estimate = centre_of_copy(groups[0], centre) - (two ? centre_of_copy(groups[1], centre) : 0.0);

@@ -17,6 +17,8 @@ namespace {
 
 // Closer to ±1 than this, rounding decides.
 constexpr double kPerfect = 1e-13;
+// Fewer persons than this make Kendall's interval too narrow at a strong relation.
+constexpr std::size_t kFewKendall = 20;
 // Persons up to which Kendall's exact distribution is taken, and above which pairs are too many to count.
 constexpr std::size_t kMostExactKendall = 50, kMostKendall = 20000;
 
@@ -186,6 +188,7 @@ Answer kendall(const DataTable& table, const ProcedureOptions& options) {
     answer.p_value = 2.0 * normal_upper(std::abs(*answer.statistic));
     answer.method += "asymptotic, variance corrected for ties, no continuity correction";
   }
+  warn_of_interval(answer, kFewKendall);
   add_corrected(answer, relation);
   return settled(std::move(answer));
 }

@@ -228,6 +228,8 @@ Answer negative_binomial(const DataTable& table, const ProcedureOptions& options
   } else {
     answer.notes.emplace_back("Persons differ no more than by chance: θ is without bound, the fit is Poisson's.");
   }
+  warn_of_interval(answer, 50);
+  warn_of_test(answer, 100);
   return settled(std::move(answer));
 }
 

@@ -186,6 +186,7 @@ Answer delong(const DataTable& table, const ProcedureOptions& options) {
   } else {
     answer.notes.emplace_back("Both values place every pair of persons alike: there is nothing to test.");
   }
+  warn_of_interval(answer, 20);
   return settled(std::move(answer));
 }
 

@@ -80,6 +80,12 @@ class Reader {
   Observations rows_;
 };
 
+std::size_t persons_as_if_equal(const Answer& answer) {
+  std::size_t least = answer.n;
+  for (const GroupCount& group : answer.groups) least = std::min(least, group.n);
+  return least * answer.groups.size();
+}
+
 }  // namespace
 
 std::vector<GroupCount> Observations::counts() const {
@@ -125,6 +131,18 @@ bool all_zero_or_one(const std::vector<double>& values) {
 bool all_counts(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),
                      [](double one) { return one >= 0.0 && one <= kMostCounted && one == std::floor(one); });
+}
+
+void warn_of_interval(Answer& answer, std::size_t enough) {
+  if (!answer.ci95 || persons_as_if_equal(answer) >= enough) return;
+  answer.notes.push_back("Simulated, intervals like this of fewer than " + std::to_string(enough) +
+                         " persons held the truth in less than 93 of 100 samples.");
+}
+
+void warn_of_test(Answer& answer, std::size_t enough) {
+  if (!answer.p_value || persons_as_if_equal(answer) >= enough) return;
+  answer.notes.push_back("Simulated, this test of fewer than " + std::to_string(enough) +
+                         " persons rejected more than 6 of 100 true equalities at 5 %.");
 }
 
 Answer begun(const char* test, const Observations& rows) {

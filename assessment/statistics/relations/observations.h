@@ -41,6 +41,12 @@ const char* not_two_groups(const Observations& rows, std::size_t least);
 bool all_zero_or_one(const std::vector<double>& values);
 bool all_counts(const std::vector<double>& values);
 
+// Says, where groups (the smallest counts for all) make up less than `enough` persons, what simulation found: that
+// intervals hold the truth in less than 93 of 100 samples; that the test rejects more than 6 of 100 true
+// equalities. tests/assessment/statistics/relations/*_long_test.cpp measure both.
+void warn_of_interval(Answer& answer, std::size_t enough);
+void warn_of_test(Answer& answer, std::size_t enough);
+
 // What every answer begins with, and one that ends there.
 Answer begun(const char* test, const Observations& rows);
 Answer refused(const char* test, const char* reason, const Observations& rows, const char* note = nullptr);

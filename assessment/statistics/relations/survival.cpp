@@ -274,6 +274,7 @@ Answer log_rank(const DataTable& table, const ProcedureOptions& options) {
     answer.rows.push_back(
         {answer.groups[g].name, {{"observed", found.observed[g]}, {"expected", found.expected[g]}}});
   if (followed.groups.size() == 2) add_hazard_ratio(answer, found);
+  warn_of_test(answer, 24);
   return settled(std::move(answer));
 }
 
@@ -312,6 +313,8 @@ Answer rmst(const DataTable& table, const ProcedureOptions& options) {
     answer.statistic = *answer.estimate / error;
     answer.p_value = 2.0 * normal_upper(std::abs(*answer.statistic));
   }
+  warn_of_interval(answer, 50);
+  warn_of_test(answer, 24);
   return settled(std::move(answer));
 }
 

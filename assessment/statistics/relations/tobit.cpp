@@ -188,7 +188,10 @@ Answer tobit(const DataTable& table, const ProcedureOptions& options) {
                  {"standard_error", fit->standard_error},
                  {"censored", censored}};
   answer.notes.emplace_back(
-      "It rests on values that are normal with one spread in both groups; log_rank does not.");
+      "It rests on normal values with one spread: simulated with one group's three times the other's, it rejected "
+      "more than 6 of 100 true equalities, up to 20. log_rank rests on neither.");
+  warn_of_interval(answer, 30);
+  warn_of_test(answer, 60);
   return settled(std::move(answer));
 }
 

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "assessment/statistics/distributions.h"
-#include "assessment/statistics/percentile_bootstrap.h"
+#include "assessment/statistics/roots.h"
 #include "assessment/statistics/spread.h"
-#include "assessment/statistics/standards/cut_notes.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -20,6 +19,26 @@ double skewness_of(const std::vector<double>& scores, const Spread& spread) {
   double cubes = 0.0;
   for (const double score : scores) cubes += std::pow((score - spread.mean) / std::sqrt(spread.variance), 3.0);
   return cubes / static_cast<double>(scores.size());
+}
+
+// Of the cut's distance from the mean in standard deviations: the non-centralities between which t is as likely to
+// be so small, or so large, as one in forty.
+Interval standing_interval(double standing, double n) {
+  const double t = std::sqrt(n) * standing, far = 10.0 * std::sqrt(1.0 + t * t / (2.0 * n));
+  const auto where = [&](double share) {
+    return root_between(t - far, t + far,
+                        [&](double delta) { return noncentral_t_cdf(t, n - 1.0, delta) - share; }) /
+           std::sqrt(n);
+  };
+  return {where(0.975), where(0.025)};
+}
+
+// Decisions are the less consistent the nearer the cut is to the mean.
+Interval consistency_interval(const Interval& standing, double reliability) {
+  const auto at = [&](double z) { return classification_of(0.0, 1.0, reliability, z).consistency; };
+  const double one = std::abs(standing.low), other = std::abs(standing.high);
+  const bool around_mean = standing.low < 0.0 && standing.high > 0.0;
+  return {at(around_mean ? 0.0 : std::min(one, other)), at(std::max(one, other))};
 }
 
 Answer refused_cut(const CutScores& of, const char* reason, const char* note) {
@@ -59,7 +78,7 @@ Classification classification_of(double mean, double sd, double reliability, dou
   return found;
 }
 
-Answer classification(const CutScores& of, std::size_t draws, std::uint64_t seed) {
+Answer classification(const CutScores& of) {
   if (of.scores.size() < kLeastScores)
     return refused_cut(of, "too_few", "A cut is judged by five persons or more.");
   const Spread spread = spread_of(of.scores);
@@ -68,15 +87,15 @@ Answer classification(const CutScores& of, std::size_t draws, std::uint64_t seed
   if (!(of.reliability > 0.0 && of.reliability < 1.0))
     return refused_cut(of, "bad_value", "A reliability lies between 0 and 1.");
   const double side = of.higher_is_better ? 1.0 : -1.0;
-  const auto at = [&](double mean, double variance) {
-    return classification_of(side * mean, std::sqrt(variance), of.reliability, side * of.cut);
-  };
-  const Classification found = at(spread.mean, spread.variance);
+  const double sd = std::sqrt(spread.variance), n = static_cast<double>(spread.n);
+  const Classification found = classification_of(side * spread.mean, sd, of.reliability, side * of.cut);
   const auto passing =
       std::count_if(of.scores.begin(), of.scores.end(), [&](double one) { return side * one >= side * of.cut; });
   Answer answer;
   answer.test = "classification";
-  answer.method = "Peng and Subkoviak: two equivalent tests with normal scores and the reliability given";
+  answer.method =
+      "Peng and Subkoviak: two equivalent tests with normal scores and the reliability given; interval by the "
+      "non-central t of the cut's distance from the mean";
   answer.n = spread.n;
   answer.missing = of.missing;
   answer.estimate = found.consistency;
@@ -89,13 +108,8 @@ Answer classification(const CutScores& of, std::size_t draws, std::uint64_t seed
                  {"pass_share_observed", static_cast<double>(passing) / static_cast<double>(spread.n)},
                  {"reliability", of.reliability},
                  {"cut", of.cut}};
-  say_of_draws(answer, percentile_bootstrap({&spread.n, 1}, draws, seed, [&](const Draw& draw) {
-                 std::vector<double> scores;
-                 for (const std::size_t person : draw.front()) scores.push_back(of.scores[person]);
-                 const Spread drawn = spread_of(scores);
-                 return drawn.variance > 0.0 ? at(drawn.mean, drawn.variance).consistency : std::nan("");
-               }));
-  if (draws > 0) answer.notes.emplace_back("The interval takes the reliability as known.");
+  answer.ci95 = consistency_interval(standing_interval((of.cut - spread.mean) / sd, n), of.reliability);
+  answer.notes.emplace_back("The interval takes the reliability as known.");
   if (std::abs(skewness_of(of.scores, spread)) > 1.0)
     answer.notes.emplace_back("The scores are skewed: shares by the normal distribution are doubtful.");
   return settled(std::move(answer));

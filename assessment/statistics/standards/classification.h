@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "assessment/statistics/answer.h"
@@ -31,7 +30,7 @@ struct CutScores {
   double reliability = 0.0;  // of these scores: alpha, Φ, an ICC
   bool higher_is_better = true;
 };
-// The interval: persons drawn again, with the reliability as it is.
-Answer classification(const CutScores& of, std::size_t draws, std::uint64_t seed);
+// The interval: of where the cut stands in the scores, by the non-central t, with the reliability as it is.
+Answer classification(const CutScores& of);
 
 }  // namespace seldinger::assessment::statistics

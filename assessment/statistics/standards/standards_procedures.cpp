@@ -54,8 +54,6 @@ constexpr ProcedureOption kClassificationOptions[] = {
     {"cut", "a number", "the cut; that score itself passes"},
     {"reliability", "a number between 0 and 1", "of the scores: alpha, Phi, an ICC"},
     kDirection,
-    kDraws,
-    kSeed,
 };
 
 Answer bad_option(const char* test, const char* name, const DataTable& table) {
@@ -233,8 +231,7 @@ Answer run_classification(const DataTable& table, const ProcedureOptions& option
     return bad_option("classification", "reliability", table);
   PersonScores persons = person_scores(table, false);
   if (persons.reason != nullptr) return refused_persons("classification", persons);
-  return classification({std::move(persons.scores), persons.missing, *cut, *reliability, draw.higher_is_better},
-                        draw.draws, draw.seed);
+  return classification({std::move(persons.scores), persons.missing, *cut, *reliability, draw.higher_is_better});
 }
 
 constexpr Procedure kStandards[] = {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -54,7 +56,8 @@ inline std::string r_vector(std::span<const double> values) {
 // What `script` says, by name; in it say(name, value) is there, and says NaN for NA and for an error caught by
 // try(). Packages that are missing fail the test that asks for them.
 inline std::map<std::string, double> r_values(const std::string& script) {
-  const auto folder = fresh_folder("r_oracle");
+  // Several programs' tests may ask at once.
+  const auto folder = fresh_folder("r_oracle_" + std::to_string(getpid()));
   const auto file = folder / "oracle.R", out = folder / "said.txt";
   std::ofstream(file) << "options(warn = -1, digits = 17)\n"
                          "say <- function(name, value) { v <- suppressWarnings(as.numeric(value)[1]); "
@@ -71,6 +74,7 @@ inline std::map<std::string, double> r_values(const std::string& script) {
   errors << std::ifstream(folder / "errors.txt").rdbuf();
   EXPECT_EQ(status, 0) << errors.str();
   EXPECT_TRUE(values.contains("end")) << "the script ended early: " << errors.str();
+  if (status == 0) std::filesystem::remove_all(folder);
   return values;
 }
 

@@ -9,16 +9,17 @@
 
 namespace seldinger::fixtures {
 
-// y = 50 − 2·x + 3·(number of the group) + a person's own level (SD 6) and slope (SD 1) + noise (SD 4), x = 0, 1 …;
-// a quarter of the attempts was not made, a twentieth of the values is missing.
+// y = 50 − 2·x + 3·(number of the group) + a person's own level (SD 6) and slope (SD 1 unless given) + noise (SD
+// 4), x = 0, 1 …; a quarter of the attempts was not made, a twentieth of the values is missing.
 inline assessment::statistics::DataTable unbalanced_growth(base::Rng& rng, std::size_t persons,
                                                            std::size_t attempts, std::size_t groups,
-                                                           double slope = -2.0) {
+                                                           double slope = -2.0, double slopes_sd = 1.0) {
   assessment::statistics::DataTable table;
   table.values.push_back({"y", {}});
   for (std::size_t person = 0; person < persons; ++person) {
     const std::size_t group = person % groups;
-    const double level = 50.0 + 6.0 * rng.normal() + 3.0 * static_cast<double>(group), own = slope + rng.normal();
+    const double level = 50.0 + 6.0 * rng.normal() + 3.0 * static_cast<double>(group),
+                 own = slope + slopes_sd * rng.normal();
     for (std::size_t k = 0; k < attempts; ++k) {
       if (rng.uniform() < 0.25) continue;
       const double x = static_cast<double>(k), y = level + own * x + 4.0 * rng.normal();

@@ -52,7 +52,7 @@ inline LimitsOf limits_or_lower(const std::string& lower) {
 
 inline Covered coverage_of(const std::string& what, std::size_t n, double truth, const Sample& sample,
                            const LimitsOf& limits = limits_of, std::size_t runs = 20000) {
-  RandomTables random(base::hash_combine(n, std::hash<std::string>()(what)));
+  RandomTables random(stream_of(what, n));
   Covered found{.runs = runs};
   for (std::size_t run = 0; run < runs; ++run) {
     const Answer answer = sample(random, n);

@@ -3,13 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/base/hash.h"
 #include "tests/assessment/statistics/r_oracle.h"
 #include "tests/assessment/statistics/relations/tables_of.h"
 
 namespace seldinger::fixtures {
+
+// A stream of random numbers for each thing simulated at each size.
+inline std::uint64_t stream_of(const std::string& what, std::size_t size) {
+  return base::hash_combine(base::hash_bytes(std::as_bytes(std::span(what.data(), what.size()))),
+                            std::uint64_t{size});
+}
 
 class RandomTables {
  public:

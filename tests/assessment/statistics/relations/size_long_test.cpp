@@ -30,7 +30,7 @@ struct Rejected {
 };
 
 Rejected size_of(const std::string& what, const Cell& cell, const std::function<Answer(RandomTables&)>& sample) {
-  RandomTables random(base::hash_combine(cell.first * 1000 + cell.second, std::hash<std::string>()(what)));
+  RandomTables random(fixtures::stream_of(what, 1000 * cell.first + cell.second));
   std::size_t rejected = 0, warned = 0, tested = 0;
   for (std::size_t run = 0; run < kRuns; ++run) {
     const Answer answer = sample(random);
@@ -56,7 +56,7 @@ void expect_printed(const std::string& what, const Cell& cell, const std::functi
   if (got.share > 0.06) {
     EXPECT_EQ(got.warned, 1.0) << what << ' ' << cell.first << '/' << cell.second;
   }
-  EXPECT_LT(got.share, 0.15) << what;
+  EXPECT_LT(got.share, 0.25) << what;
 }
 
 TEST(Size, OfExactTestsIsAtMostFivePercent) {

@@ -198,14 +198,13 @@ TEST(Classification, MirrorsAndRefuses) {
   const std::vector<double> scores = {40, 45, 52, 57, 61, 66, 70};
   std::vector<double> turned = scores;
   for (double& score : turned) score = -score;
-  const Answer up = classification({scores, 0, 50, 0.8, true}, 300, 1),
-               down = classification({turned, 0, -50, 0.8, false}, 300, 1);
+  const Answer up = classification({scores, 0, 50, 0.8, true}), down = classification({turned, 0, -50, 0.8, false});
   expect_standard(*up.estimate, *down.estimate, 1e-12);
   expect_standard(in_answer(up, "pass_share_observed"), in_answer(down, "pass_share_observed"), 1e-12);
   ASSERT_TRUE(up.ci95);
-  EXPECT_EQ(classification({{1, 2, 3}, 0, 2, 0.8, true}, 0, 1).reason, "too_few");
-  EXPECT_EQ(classification({{2, 2, 2, 2, 2}, 0, 2, 0.8, true}, 0, 1).reason, "no_variation");
-  EXPECT_EQ(classification({scores, 0, 50, 1.0, true}, 0, 1).reason, "bad_value");
+  EXPECT_EQ(classification({{1, 2, 3}, 0, 2, 0.8, true}).reason, "too_few");
+  EXPECT_EQ(classification({{2, 2, 2, 2, 2}, 0, 2, 0.8, true}).reason, "no_variation");
+  EXPECT_EQ(classification({scores, 0, 50, 1.0, true}).reason, "bad_value");
   EXPECT_EQ(run_standard("classification", score_table(scores), {{"reliability", "0.8"}}).reason, "bad_value");
 }
 
@@ -218,6 +217,10 @@ cuts <- function(name, score, rating, shares, cut, rel) {
   s <- score[!is.na(score)]; z <- (cut - mean(s)) / sd(s); k <- z / sqrt(rel)
   pp <- 1 - 2 * pnorm(z) + 2 * both(z, z, rel); ch <- pnorm(z)^2 + pnorm(-z)^2
   say(paste0(name, 'consistency'), pp); say(paste0(name, 'kappa'), (pp - ch) / (1 - ch))
+  n <- length(s); t <- sqrt(n) * z
+  at <- function(p) uniroot(function(d) pt(t, n - 1, d) - p, t + c(-9, 9) * sqrt(1 + t^2 / (2 * n)), tol = 1e-13)$root / sqrt(n)
+  ends <- c(at(.975), at(.025)); same <- function(z) 1 - 2 * pnorm(z) + 2 * both(z, z, rel)
+  say(paste0(name, 'same_low'), same(if (prod(ends) < 0) 0 else min(abs(ends)))); say(paste0(name, 'same_high'), same(max(abs(ends))))
   say(paste0(name, 'accuracy'), 1 - pnorm(z) - pnorm(k) + 2 * both(z, k, sqrt(rel)))
 }
 )";
@@ -276,6 +279,9 @@ TEST(Standards, AreThoseOfR) {
         "classification", sets[i].rated,
         {{"cut", exactly(sets[i].cut)}, {"reliability", exactly(sets[i].reliability)}, {"resamples", "0"}});
     expect_standard(*decided.estimate, want.at(name + "consistency"));
+    ASSERT_TRUE(decided.ci95);
+    expect_standard(decided.ci95->low, want.at(name + "same_low"), 1e-7);
+    expect_standard(decided.ci95->high, want.at(name + "same_high"), 1e-7);
     expect_standard(in_answer(decided, "kappa"), want.at(name + "kappa"), 1e-8);
     expect_standard(in_answer(decided, "accuracy"), want.at(name + "accuracy"));
   }

@@ -21,7 +21,7 @@ inline const std::map<std::string, OptionTexts>& standards_options() {
         {"cut_high", "3"},
         {"fail_low", "0"},
         {"fail_high", "0.9"}}},
-      {"classification", {{"resamples", "10"}, {"cut", "1"}, {"reliability", "0.7"}}},
+      {"classification", {{"cut", "1"}, {"reliability", "0.7"}}},
   };
   return kOptions;
 }
