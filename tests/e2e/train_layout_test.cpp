@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/surface/window_size.h"
+#include "app/window/surface/window_size_json.h"
 #include "tests/fixtures/command_library.h"
 #include "tests/fixtures/straight_way.h"
 #include "tests/fixtures/trainee.h"

@@ -10,9 +10,10 @@ namespace seldinger::app {
 namespace {
 
 // A probe that lies on is pressed so far; what is aligned, by judgement: well within the ball of a drill.
-constexpr double kPressedMm = 1.0, kInPlaneMm = 2.0, kEntryInPlaneMm = 3.0, kAtEntryMm = 16.0, kAimedDeg = 4.0;
-constexpr double kFarMm = 30.0;                          // from the entry, further than a target is looked for
-constexpr double kUnseenMm = 8.0;                        // so deep a tip is to be seen
+constexpr double kPressedMm = 1.0, kInPlaneMm = 2.0, kEntryInPlaneMm = 3.0, kAtEntryMm = 16.0, kAimedDeg = 6.0;
+constexpr double kMiddleMm = 9.0;  // about its middle a probe is turned without losing the target
+constexpr double kFarMm = 40.0;    // from the entry, further than a target is looked for
+constexpr double kUnseenMm = 8.0;  // so deep a tip is to be seen
 constexpr double kThereShare = 0.5, kPassedShare = 0.8;  // of the target's radius
 
 std::string told(const char* words, double number) {
@@ -36,6 +37,10 @@ std::string align_words(const cases::Case& scene, const Seen& seen, bool numbers
   if (!numbers || !scene.planned_entry_lps_mm)
     return "Turn the probe until the needle’s way and the target lie in one picture, then aim the needle.";
   const glm::dvec3& entry = *scene.planned_entry_lps_mm;
+  const double aside_mm = std::abs(glm::dot(target - state.probe.origin_lps_mm, state.probe.lateral));
+  if (aside_mm > kMiddleMm)
+    return told("The target is %.1f mm beside the picture’s middle: slide the probe along (Tab takes it).",
+                aside_mm);
   const double of_target = off_plane_mm(state.probe, target), of_entry = off_plane_mm(state.probe, entry);
   if (of_target > kInPlaneMm || of_entry > kEntryInPlaneMm) {
     char text[240];

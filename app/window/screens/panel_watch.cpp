@@ -22,7 +22,7 @@ struct Speed {
 };
 constexpr std::array<Speed, 5> kSpeeds = {{{0.25, "¼ ×"}, {0.5, "½ ×"}, {1.0, "1 ×"}, {2.0, "2 ×"}, {4.0, "4 ×"}}};
 constexpr double kFirstS = 0.01;  // before it there is nothing to be seen
-constexpr double kLeapS = 5.0, kCaptionS = 3.0;
+constexpr double kLeapS = 5.0, kCaptionS = 3.0, kSideCaptionS = 1.5;
 constexpr double kLateS = 0.3, kEarlyS = 0.05;  // of one of two: the other waits; it waits itself
 constexpr float kPictureShare = 0.5F;           // of the width; the room, which shows why, has the rest
 constexpr float kBelowLetters = 8.7F;           // the course, in heights of a letter
@@ -209,7 +209,7 @@ void WatchPanel::draw_side(session::WatchedAttempt& watched, Side& side, const P
   note_item(who);
   const std::string said = side.rests
                                ? "this is the moment in which it was fired"
-                               : assessment::words_at(watched.marks(), side.seen.moment.state.t_s, kCaptionS);
+                               : assessment::words_at(watched.marks(), side.seen.moment.state.t_s, kSideCaptionS);
   ImGui::SameLine();
   ImGui::PushTextWrapPos(left + part.left + part.width);
   ImGui::TextUnformatted(said.c_str());
@@ -240,7 +240,9 @@ void WatchPanel::draw_both(Trainer& trainer, const Keys& keys) {
   if (!late(one, one_) && !late(beside, beside_)) at_s_ = std::min(to_s_, at_s_ + speed_ * elapsed_s_);
   lead(one, one_);
   lead(beside, beside_);
-  heading((one.attempt().case_title + " – yours beside an expert’s, both through the skin at once").c_str());
+  heading((one.attempt().case_title + " – yours beside an expert’s" +
+           (one.punctured_s() && beside.punctured_s() ? ", both through the skin at once" : ""))
+              .c_str());
   const ImVec2 all = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorPos();
   const float high = all.y - kBelowLetters * ImGui::GetFontSize(), half = 0.5F * (all.x - kBetweenPartsPx);
   draw_side(one, one_, {0.0F, 0.0F, half, high}, corner.x, corner.y, "Yours", keys);

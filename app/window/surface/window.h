@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/window/surface/window_size.h"
+#include "app/window/surface/window_size_json.h"
 #include "sim/devices/hands/gamepad_hands.h"
 #include "sim/gpu/context.h"
 

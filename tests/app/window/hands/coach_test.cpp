@@ -36,13 +36,16 @@ class CoachTest : public testing::Test {
 TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   EXPECT_TRUE(has(hint(), "Press the probe on"));
   seen_.press_mm = 2.0;
-  seen_.moment.state.probe.origin_lps_mm.x = -10.0;
-  EXPECT_TRUE(has(hint(), "The probe is 40.0 mm from the green entry")) << hint();
+  seen_.moment.state.probe.origin_lps_mm.x = -20.0;
+  EXPECT_TRUE(has(hint(), "The probe is 50.0 mm from the green entry")) << hint();
   seen_.moment.state.probe.origin_lps_mm.x = 0.0;
   EXPECT_TRUE(has(hint(), "Look for the target"));
   EXPECT_FALSE(has(hint(), " mm ")) << "nothing is told of a target that is not in the picture";
   seen_.frame->target = true;
   cases::State& state = seen_.moment.state;
+  state.probe.origin_lps_mm.x = 12.0;
+  EXPECT_TRUE(has(hint(), "12.0 mm beside the picture’s middle")) << hint();
+  state.probe.origin_lps_mm.x = 0.0;
   state.probe.origin_lps_mm.z = 5.0;
   EXPECT_TRUE(has(hint(), "misses the target’s middle by 5.0 mm and the green entry by 5.0 mm")) << hint();
   state.probe.origin_lps_mm.z = 0.0;

@@ -1,5 +1,5 @@
 // The window's size is kept from one time to the next, and what is no size is no reason to fail.
-#include "app/window/surface/window_size.h"
+#include "app/window/surface/window_size_json.h"
 
 #include <gtest/gtest.h>
 

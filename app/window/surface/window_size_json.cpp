@@ -1,4 +1,4 @@
-#include "app/window/surface/window_size.h"
+#include "app/window/surface/window_size_json.h"
 
 #include <nlohmann/json.hpp>
 #include <string>
