@@ -23,6 +23,7 @@ namespace seldinger::app {
   ROW(case_label)               \
   ROW(case_setting)             \
   ROW(case_check)               \
+  ROW(case_meet)                \
   ROW(case_confirm)             \
   ROW(case_review)              \
   ROW(case_publish)             \

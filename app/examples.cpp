@@ -30,6 +30,7 @@ constexpr std::string_view kLines[] = {
     "case setting 'Own CT' --indication 'lesion of the liver' --pass 'hit >= 1'",
     "case confirm 'Own CT' --no-burned-in-text --by mentor",
     "case check 'Own CT'",
+    "case meet 'Own CT' --people 1",
     "case publish 'Own CT' --own-cohort --by mentor",
     "case version 'Own CT' --by mentor",
     "case review CASE --by mentor",

@@ -45,6 +45,25 @@ std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& 
                  {"back_ns", needs.back_ns}}}});
 }
 
+std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal) {
+  Json levels = Json::array(), missed = Json::array();
+  for (const session::RehearsedLevel& one : rehearsal.levels)
+    levels.push_back({{"operator", one.operator_name}, {"attempts", one.attempts}, {"passed", one.passed}});
+  for (const session::MissedCriterion& one : rehearsal.missed)
+    missed.push_back({{"criterion", assessment::text_of(one.of.criterion)},
+                      {"of_the_time_limit", one.of.of_the_time_limit},
+                      {"missed", one.missed}});
+  return text({{"case_id", case_id},
+               {"synthetic", true},
+               {"people", rehearsal.people},
+               {"seed", rehearsal.seed},
+               {"attempts", rehearsal.attempts()},
+               {"passed", rehearsal.passed()},
+               {"levels", levels},
+               {"missed", missed},
+               {"proves", session::kRehearsalProves}});
+}
+
 std::string json_of_version(const casedb::CaseRow& row) {
   return text({{"case_id", row.case_id},
                {"family_id", row.family_id},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "casedb/cases/case_checks.h"
+#include "session/attempt/rehearsal.h"
 #include "session/case/case_check.h"
 #include "session/case/case_needs.h"
 
@@ -20,6 +21,7 @@ std::string json_of_structure(const std::string& structure_id);
 std::string json_of_labels(const std::vector<LabelCount>& labels, bool resampled);
 std::string json_of_checks(const std::string& case_id, const casedb::CaseCheck& check);
 std::string json_of_needs(const std::string& case_id, const session::CaseNeeds& needs);
+std::string json_of_rehearsal(const std::string& case_id, const session::Rehearsal& rehearsal);
 std::string json_of_version(const casedb::CaseRow& row);
 
 }  // namespace seldinger::app

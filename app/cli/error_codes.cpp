@@ -203,7 +203,7 @@ constexpr ErrorCode kPeopleCodes[] = {
     {"case_taken", kRefuses, "The curriculum already has an item with that case.", "Use another case."},
     {"not_published", kRefuses, "A curriculum takes only cases that are published and not retired.",
      "Publish the case first."},
-    {"no_rule", kRefuses, "A case without a pass rule cannot be an item: nobody could pass it.",
+    {"no_rule", kRefuses, "A case without a pass rule cannot be an item, nor be met: nobody could pass it.",
      "`seldinger case setting --pass` on its next version."},
     {"no_attempts_left", kRefuses, "As many attempts as the case or curriculum allows have been made.", ""}};
 

@@ -71,11 +71,12 @@ int run_train(const Arguments& arguments) {
   if (backend == "gpu" || (backend == "auto" && !window.context().software()))
     trainer.set_pictures_by(session::PicturesBy::gpu);
   Trace trace(arguments.text("--trace"));
+  ScreenWords words(arguments.text("--words"));
   DeskOptions options;
   options.left_handed = arguments.has("--left-handed");
   options.sound.muted = arguments.has("--mute");
   options.sound.volume = 0.01 * static_cast<double>(arguments.whole("--volume", 70, 0, 100));
-  Desk desk(window, trainer, options, arguments.text("--pictures", "."), trace);
+  Desk desk(window, trainer, options, arguments.text("--pictures", "."), trace, words);
   std::signal(SIGTERM, on_signal);  // what runs is stored, as when the window is closed
   std::signal(SIGINT, on_signal);
   while (window.open() && told_to_end == 0) desk.frame();
@@ -108,6 +109,9 @@ constexpr Option kTrainOptions[] = {
     {"--mute", nullptr, "without sound, until M is pressed"},
     {"--volume", "PERCENT", "of the sound; 70 unless given"},
     {"--pictures", "DIR", "where F12 keeps pictures of the window; else the working folder"},
+    {"--words", "FILE|-",
+     "the words of each screen, and what has the keyboard's focus, for a screen reader: what is new of them, as it "
+     "comes; - is standard output"},
     {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
 };
 

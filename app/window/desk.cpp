@@ -9,6 +9,7 @@
 #include "app/cli/file.h"
 #include "app/replay/png.h"
 #include "app/window/desk.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
 #include "sim/base/failure.h"
 
@@ -74,9 +75,22 @@ std::string words_of(const Trainer& trainer) {
   return "";
 }
 
+// For a screen reader.
+std::string words_of(const std::string& screen) {
+  if (screen == "choose") return "the list of cases";
+  if (screen == "attempt") return "the room";
+  if (screen == "ready" || screen == "briefing") return "the briefing";
+  if (screen == "storing") return "the attempt is being stored";
+  if (screen == "editor") return "the case editor";
+  if (screen == "devices") return "the hands";
+  if (screen == "watch") return "a replay";
+  return screen == "log_in" ? "log in" : screen;
+}
+
 }  // namespace
 
-Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace)
+Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace,
+           ScreenWords& words)
     : window_(window),
       trainer_(trainer),
       speaker_(options.sound),
@@ -86,11 +100,12 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
       editor_(window.context()),
       pictures_(std::move(pictures)),
       trace_(trace),
+      words_(words),
       opened_s_(session::clock_s()),
       told_s_(opened_s_),
       between_s_(1.0 / (window.context().software() ? kMostFramesInSoftwareS : kMostFramesS)) {
   look_for_space_mouse();
-  note_items(trace_.wanted());
+  note_items(trace_.wanted() || words_.wanted());
 }
 
 void Desk::look_for_space_mouse() {
@@ -115,7 +130,7 @@ void Desk::draw_screen() {
       break;
     case TrainerScreen::choose:
       editor_.end();
-      choose_.draw(trainer_, keys);
+      choose_.draw(trainer_, keys, window_.take_dropped());
       break;
     case TrainerScreen::briefing:
       watch_.end();
@@ -162,6 +177,7 @@ void Desk::tell(const std::string& screen) {
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   if (screen == "editor" && trainer_.editor() != nullptr) EditorPanel::tell(*trainer_.editor(), line);
   if (screen == "devices" && trainer_.device_page() != nullptr) devices_.tell(*trainer_.device_page(), line);
+  line.focus = focus();
   line.items = noted_items();
   trace_.write(line);
   told_s_ = now_s;
@@ -228,8 +244,14 @@ void Desk::frame() {
   }
   const double began_s = session::clock_s();
   due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : between_s_), began_s);
-  window_.begin_frame();
+  // In the room, and while one is watched, keys are hands.
+  const TrainerScreen up = trainer_.screen();
+  window_.begin_frame(up != TrainerScreen::attempt && up != TrainerScreen::watch);
   forget_items();
+  const std::string drawn = name_of(trainer_);
+  const bool gathers = words_.wanted() && began_s - words_s_ >= kTellEveryS;
+  want_words(gathers);
+  if (gathers) words_s_ = began_s;
   trainer_.look();
   attempt_.look(trainer_);
   draw_screen();
@@ -241,6 +263,7 @@ void Desk::frame() {
   if (window_.keys().alt_enter()) window_.set_whole_screen(!window_.whole_screen());
   window_.show(keeps ? &pixels : nullptr);
   const std::string screen = name_of(trainer_);
+  if (gathers) words_.write(words_of(drawn), take_words(), focus());
   if (screen == "attempt") attempt_.shown(trainer_, window_.width_px(), window_.height_px());
   if (keeps) keep("seldinger", pixels, window_.width_px(), window_.height_px());
   keep_guidance(attempt_.guidance());

@@ -10,6 +10,7 @@
 #include "app/window/screens/panel_watch.h"
 #include "app/window/screens/panels.h"
 #include "app/window/sound/speaker.h"
+#include "app/window/surface/screen_words.h"
 #include "app/window/surface/trace.h"
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
@@ -20,7 +21,8 @@ class Desk {
  public:
   // F12 keeps a picture of the window in `pictures`; so does the guidance's console one of its picture alone. The
   // trace gets four lines a second.
-  Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace);
+  Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace,
+       ScreenWords& words);
 
   void frame();
 
@@ -50,6 +52,8 @@ class Desk {
   std::optional<devices::SpaceMouse> space_mouse_;  // if one is there
   std::filesystem::path pictures_;
   Trace& trace_;
+  ScreenWords& words_;
+  double words_s_ = 0.0;  // when they were gathered last
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;
   int frames_ = 0;
   std::string told_, notice_;  // told: the screen that was up

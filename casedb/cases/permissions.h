@@ -21,13 +21,15 @@ enum class Action {
   see_free_text,      // what somebody typed, and the time of day of what was done
   see_expert_replay,  // an expert's recording, shown before one's own attempt
   practise_case,      // a draft only once attempts have frozen it (casedb/grading/choices.h)
+  skip_gates,         // practise a curriculum's case before what it is gated by is passed
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
   simulate_attempts,
   // Cases.
-  see_case,        // what it holds, also what is right: more than to practise it
-  see_case_notes,  // what people wrote beside their decisions
-  work_on_case,    // in the case editor
+  see_case,         // what it holds, also what is right: more than to practise it
+  see_case_notes,   // what people wrote beside their decisions
+  see_who_decided,  // by the log-in name; without it, a pseudonym
+  work_on_case,     // in the case editor
   confirm_no_burned_in_text,
   overrule_face,  // takes for none what the detector of faces found
   submit_case,
@@ -189,6 +191,10 @@ inline constexpr Permission kPermissions[] = {
      "practise_case",
      "everybody practises what is published for them, a mentor also a frozen draft",
      {{kEveryRole, {CaseState::published}, Whose::reaching}, {{Role::mentor}, {CaseState::draft}}}},
+    {Action::skip_gates,
+     "skip_gates",
+     "a mentor opens every case of a curriculum, whatever is passed before",
+     {{{Role::mentor}}}},
     {Action::look_inside, "look_inside", "the others have to find the way by the pictures", {{{Role::mentor}}}},
     {Action::cause_event, "cause_event", "a mentor lets things happen to the patient", {{{Role::mentor}}}},
     {Action::simulate_attempts,
@@ -205,6 +211,10 @@ inline constexpr Permission kPermissions[] = {
     {Action::see_case_notes,
      "see_case_notes",
      "a mentor or a director reads what reviewers wrote",
+     {{{Role::mentor, Role::director}}}},
+    {Action::see_who_decided,
+     "see_who_decided",
+     "who decided about a case signs for it: mentors and directors read the name",
      {{{Role::mentor, Role::director}}}},
     {Action::work_on_case,
      "work_on_case",

@@ -50,11 +50,28 @@ inline constexpr auto kModalityWords = base::names<cases::Modality>({{cases::Mod
                                                                      {cases::Modality::xray, "Fluoroscopy"},
                                                                      {cases::Modality::ultrasound, "Ultrasound"}});
 
-static_assert([] {  // the editor takes a name by the place of its words
-  for (std::size_t i = 0; i < kModalityWords.size(); ++i)
-    if (kModalityWords[i].value != cases::kModalityNames[i].value) return false;
-  return kModalityWords.size() == cases::kModalityNames.size();
-}());
+inline constexpr auto kApproachWords = base::names<cases::Approach>(
+    {{cases::Approach::in_plane, "in plane"}, {cases::Approach::out_of_plane, "out of plane"}});
+inline constexpr auto kPositionWords =
+    base::names<cases::PatientPosition>({{cases::PatientPosition::supine, "on the back"},
+                                         {cases::PatientPosition::prone, "face down"},
+                                         {cases::PatientPosition::lateral_left, "on the left side"},
+                                         {cases::PatientPosition::lateral_right, "on the right side"}});
+inline constexpr auto kInstrumentWords =
+    base::names<cases::InstrumentKind>({{cases::InstrumentKind::access, "access: the tip decides"},
+                                        {cases::InstrumentKind::core, "core: the fired notch"}});
+
+// The editor takes a name by the place of its words.
+template <typename Names, typename Words>
+consteval bool in_one_order(const Names& names, const Words& words) {
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (words[i].value != names[i].value) return false;
+  return words.size() == names.size();
+}
+static_assert(in_one_order(cases::kModalityNames, kModalityWords) &&
+              in_one_order(cases::kApproachNames, kApproachWords) &&
+              in_one_order(cases::kPatientPositionNames, kPositionWords) &&
+              in_one_order(cases::kInstrumentKindNames, kInstrumentWords));
 
 namespace setting_table {
 
@@ -103,7 +120,8 @@ inline constexpr auto kSettingRows = [] {
        .field = ComposedField{Composed::further_modalities, kFurtherColumns},
        .json = "further_modalities",
        .option = {"--also", "mpr|xray|ultrasound|none", "what it may be practised with too; none: nothing else",
-                  true}},
+                  true},
+       .editor = {.words = "also practised with", .place = 3}},
       {.column = "subject",
        .field = choice<cases::kSubjectNames, &CaseSetting::subject>(),
        .json = "subject",
@@ -113,31 +131,31 @@ inline constexpr auto kSettingRows = [] {
        .field = choice<cases::kPatientPositionNames, &CaseSetting::position>(),
        .json = "patient_position",
        .option = {"--position", base::kAlternatives<cases::kPatientPositionNames>, "how the patient lies"},
-       .editor = {.words = "patient", .place = 4}},
+       .editor = {.words = "patient lies", .place = 5, .names = base::kNamesOf<kPositionWords>}},
       {.column = "approach",
        .field = choice<cases::kApproachNames, &CaseSetting::approach>(),
        .json = "approach",
        .option = {"--approach", base::kAlternatives<cases::kApproachNames>, "of needle to picture"},
-       .editor = {.words = "approach", .place = 3},
+       .editor = {.words = "approach", .place = 4, .names = base::kNamesOf<kApproachWords>},
        .of_attempts = true},
       {.column = "instrument_kind",
        .field = choice<cases::kInstrumentKindNames, needle, &Instrument::kind>(),
        .json = "instrument/kind",
        .option = {"--instrument", base::kAlternatives<cases::kInstrumentKindNames>,
                   "access: the tip decides; core: the fired notch"},
-       .editor = {.words = "needle", .place = 5},
+       .editor = {.words = "needle", .place = 6, .names = base::kNamesOf<kInstrumentWords>},
        .of_attempts = true},
       {.column = nullptr,
        .field = ComposedField{Composed::gauge, {}},
        .json = "instrument/outer_diameter_mm",
        .option = {"--gauge", "G", "16 to 25"},
-       .editor = {.words = "gauge", .place = 6}},
+       .editor = {.words = "gauge", .place = 7}},
       {.column = "instrument_length_mm",
        .field = number<needle, &Instrument::length_mm>(10.0, 500.0),
        .json = "instrument/length_mm",
        .option = {"--length-mm", "L", "the needle's"},
        .unsound = "the needle's length is from 10 to 500 mm",
-       .editor = {.words = "length mm", .place = 7, .step = 10.0},
+       .editor = {.words = "length mm", .place = 8, .step = 10.0},
        .of_attempts = true},
       {.column = "instrument_radius_mm",
        .field = number<needle, &Instrument::radius_mm>(0.1, 5.0),
@@ -178,20 +196,21 @@ inline constexpr auto kSettingRows = [] {
        .option = {"--inr", "X", "what the laboratory found"},
        .unsound = "INR is from 0.5 to 20",
        .page = {.words = "INR", .place = 3, .digits = 1},
-       .editor = {.words = "INR", .place = 9, .digits = 1, .usual = 1.0}},
+       .editor = {.words = "INR", .place = 10, .digits = 1, .usual = 1.0}},
       {.column = "platelets_per_nl",
        .field = maybe_number<clinic, &Clinic::platelets_per_nl>(0.0, 3000.0),
        .json = "clinic/platelets_per_nl",
        .option = {"--platelets", "X", "per nl (10⁹/l)"},
        .unsound = "platelets are from 0 to 3000 per nl",
        .page = {.words = "Platelets per nl", .place = 4},
-       .editor = {.words = "platelets 10⁹/l", .place = 10, .usual = 200.0}},
+       .editor = {.words = "platelets 10⁹/l", .place = 11, .usual = 200.0}},
       {.column = "allergy",
        .field = one_line<clinic, &Clinic::allergy>(),
        .json = "clinic/allergy",
        .option = {"--allergy", "TEXT", "told at the sign-in"},
        .unsound = kWords,
-       .page = {.words = "Allergy", .place = 5}},
+       .page = {.words = "Allergy", .place = 5},
+       .editor = {.words = "allergy", .place = 12}},
       {.column = "indication",
        .field = one_line<clinic, &Clinic::indication>(),
        .json = "clinic/indication",
@@ -204,27 +223,30 @@ inline constexpr auto kSettingRows = [] {
        .json = "clinic/decision",
        .option = {"--decision", "proceed|defer", "what is right"},
        .page = {.words = "Right decision", .place = 6},
-       .editor = {.words = "the right decision is to defer", .place = 12}},
+       .editor = {.words = "the right decision is to defer", .place = 15}},
       {.column = "breath_depth",
        .field = number<motion, &Motion::breath_depth>(0.0, 2.0),
        .json = "motion/breath_depth",
        .option = {"--breath-depth", "SHARE", "of a quiet breath, 16 mm of liver; default 0: none is shown"},
-       .unsound = kBreath},
+       .unsound = kBreath,
+       .editor = {.words = "breath: share of a quiet one", .place = 17, .digits = 2, .step = 0.25}},
       {.column = "breath_period_s",
        .field = number<motion, &Motion::breath_period_s>(1.0, 20.0),
        .json = "motion/breath_period_s",
        .option = {"--breath-period-s", "S", "from breath to breath; default 4"},
-       .unsound = kBreath},
+       .unsound = kBreath,
+       .editor = {.words = "breath every s", .place = 18, .digits = 1, .step = 0.5}},
       {.column = "breath_irregularity",
        .field = number<motion, &Motion::breath_irregularity>(0.0, 0.4),
        .json = "motion/breath_irregularity",
        .option = {"--breath-irregularity", "SHARE", "standard deviation of its period and depth; default 0.1"},
-       .unsound = kBreath},
+       .unsound = kBreath,
+       .editor = {.words = "breath: irregular by", .place = 19, .digits = 2, .step = 0.05}},
       {.column = "tissue_yields",
        .field = yes_or_no<motion, &Motion::yields>("still", "yields", true),
        .json = "motion/tissue",
        .option = {"--tissue", "still|yields", "to probe and needle; default still"},
-       .editor = {.words = "tissue yields", .place = 13}},
+       .editor = {.words = "tissue yields", .place = 16}},
       {.column = nullptr,
        .field = ComposedField{Composed::planned_entry, kEntryColumns},
        .json = "planned_entry_mm",
@@ -234,20 +256,21 @@ inline constexpr auto kSettingRows = [] {
        .json = "difficulty",
        .option = {"--difficulty", base::kAlternatives<kDifficultyNames>, "how hard it is"},
        .page = {.words = "Difficulty", .place = 1},
-       .editor = {.words = "difficulty", .place = 8}},
+       .editor = {.words = "difficulty", .place = 9}},
       {.column = "time_limit_s",
        .field = maybe_number<&CaseSetting::time_limit_s>(1.0, 86400.0),
        .json = "time_limit_s",
        .option = {"--time-limit-s", "S", "an attempt ends then"},
        .unsound = "a time limit is from 1 s to a day",
        .page = {.words = "Time limit, s", .place = 7},
-       .editor = {.words = "time limit s", .place = 11, .usual = 300.0}},
+       .editor = {.words = "time limit s", .place = 13, .usual = 300.0}},
       {.column = "attempt_limit",
        .field = maybe_whole<&CaseSetting::attempt_limit>(1, 1000),
        .json = "attempt_limit",
        .option = {"--attempt-limit", "N", "so many a trainee"},
        .unsound = "an attempt limit is from 1 to 1000",
-       .page = {.words = "Attempts", .place = 8}},
+       .page = {.words = "Attempts", .place = 8},
+       .editor = {.words = "attempts of each", .place = 14, .usual = 10.0}},
       {.column = nullptr, .field = ComposedField{Composed::pass_rule, kRuleColumns}, .json = "rule"},
   });
 }();

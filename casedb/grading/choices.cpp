@@ -85,7 +85,8 @@ Choices choices_of(Library& library, const std::string& person_id, Role role) {
       const auto row =
           std::find_if(rows.begin(), rows.end(), [&](const CaseRow& one) { return one.case_id == item.case_id; });
       if (row == rows.end() || !may(role, Action::practise_case, subject_of(library, *row, person_id))) continue;
-      choices.cases.push_back(choice_of(*row, curriculum, item));
+      Choice& choice = choices.cases.emplace_back(choice_of(*row, curriculum, item));
+      if (may(role, Action::skip_gates)) choice.open = choice.attempts_left.value_or(1) > 0;
     }
   }
   Grader grader(library);

@@ -154,6 +154,27 @@ base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trial
   return done;
 }
 
+base::Result<void> Simulation::forgotten_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
+                                                  const Forgotten& told) const {
+  using Made = base::Result<casedb::NewAttempt>;
+  base::Result<void> done;
+  in_order<Made>(
+      trials.size(), jobs,
+      [&](std::size_t i) { return make(trials[i].profile, trials[i].seed, std::nullopt, false); },
+      [&](std::size_t i, Made made) {
+        if (!made) {
+          done = made.error();
+          return false;
+        }
+        casedb::AttemptRow row;
+        static_cast<casedb::AttemptHead&>(row) = *made;
+        row.end = made->end;
+        row.metrics = std::move(made->metrics);
+        return told(i, casedb::grade_of(row, task_.row));
+      });
+  return done;
+}
+
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                              std::size_t count, std::optional<std::size_t> people) {
   std::vector<SimulatedTrial> trials;

@@ -68,6 +68,11 @@ class Simulation {
   // each. Without pictures none of the moment of firing is made.
   base::Result<void> attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
                               const std::function<void(SimulatedAttempt)>& stored);
+  // The same, graded by the case's rule as it is and not stored. `made` is told of each by its place in `trials`;
+  // false: no more of them.
+  using Forgotten = std::function<bool(std::size_t trial, const assessment::Grade& grade)>;
+  base::Result<void> forgotten_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
+                                        const Forgotten& made) const;
 
   // In real time, as a person's: the servo's thread moves the hands, chunks are stored while it runs, and how time
   // was kept is stored with it. Refused: `not_in_real_time` under a fluoroscope. `opened` is told the attempt's id

@@ -69,6 +69,7 @@ void CaseEditor::read() {
   lesions_ = casedb::list_lesions(library_, case_id_);
   structures_ = casedb::list_structures(library_, case_id_);
   decisions_ = casedb::list_decisions(library_, case_id_);
+  for (const casedb::Account& one : casedb::list_users(library_)) names_[one.person_id] = one.login_name;
   const auto changeable = casedb::changeable_case(library_, case_id_);
   locked_ = changeable ? "" : changeable.error().text;
   lesion = std::min(lesion, lesions_.size());
@@ -77,7 +78,11 @@ void CaseEditor::read() {
 
 std::string CaseEditor::who(const casedb::Decision& decision) const {
   const auto& self = library_.actor().person_id;
-  return self && *self == decision.person_id ? "you" : decision.who();
+  if (self && *self == decision.person_id) return "you";
+  const auto name = names_.find(decision.person_id);
+  casedb::Decision named = decision;
+  if (name != names_.end()) named.pseudonym = name->second;
+  return named.who();
 }
 
 bool CaseEditor::done(const base::Result<void>& result, std::string words,
@@ -321,6 +326,10 @@ void CaseEditor::undo() {
   const Change change = std::move(changes_.back());
   changes_.pop_back();
   done(change.back(), "undone: " + change.words);
+}
+
+bool CaseEditor::is_of_now(const session::Rehearsal& found) const {
+  return scene_ && !checking() && scene_->check.content_mark == found.content_mark;
 }
 
 void CaseEditor::confirm_no_burned_in_text() {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/window/editor/draft_case.h"
+#include "app/window/editor/draft_rehearsal.h"
 #include "app/window/editor/editor_grip.h"
 #include "app/window/editor/editor_view.h"
 #include "casedb/cases/authoring.h"
@@ -45,7 +47,7 @@ class CaseEditor {
   const std::vector<casedb::LesionRow>& lesions() const noexcept { return lesions_; }
   const std::vector<casedb::StructureRow>& structures() const noexcept { return structures_; }
   const std::vector<casedb::Decision>& decisions() const noexcept { return decisions_; }
-  // "you", or the pseudonym: a colleague's name is not for a colleague to read (casedb/cases/permissions.h).
+  // "you", or the log-in name (casedb/cases/permissions.h); of who is erased the pseudonym.
   std::string who(const casedb::Decision& decision) const;
   // Why nothing can be changed; empty: it can.
   const std::string& locked() const noexcept { return locked_; }
@@ -98,6 +100,12 @@ class CaseEditor {
   std::string undo_words() const { return changes_.empty() ? "" : changes_.back().words; }
   void undo();
 
+  // "Can it be met?": of what is stored now, in the background. Changing goes on meanwhile.
+  void rehearse() { rehearsal_.emplace(library_.folder(), case_id_); }
+  DraftRehearsal* rehearsal() noexcept { return rehearsal_ ? &*rehearsal_ : nullptr; }  // null: nobody asked
+  // Whether what a rehearsal found is of the case as it is; false until its checks are through.
+  bool is_of_now(const session::Rehearsal& found) const;
+
   // --- from draft to published, as the commands `case review` and `case publish` ---
   void confirm_no_burned_in_text();
   void submit(const std::string& note);
@@ -128,6 +136,7 @@ class CaseEditor {
   std::vector<casedb::LesionRow> lesions_;
   std::vector<casedb::StructureRow> structures_;
   std::vector<casedb::Decision> decisions_;
+  std::map<std::string, std::string> names_;  // of who decided, by person
   std::string locked_, refusal_, said_;
   std::vector<Change> changes_;
   std::optional<Grip> grip_;
@@ -137,6 +146,7 @@ class CaseEditor {
   std::optional<Publish> publish_;
   std::shared_ptr<const CheckedCase> scene_;
   DraftCase draft_case_;
+  std::optional<DraftRehearsal> rehearsal_;
 };
 
 }  // namespace seldinger::app

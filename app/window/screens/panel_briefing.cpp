@@ -109,6 +109,7 @@ bool BriefingPanel::draw_sign_in(const casedb::CaseRow& row) {
   bool all = true;
   for (std::size_t i = 0; i < kSignIn.size(); ++i) {
     ImGui::Checkbox(kSignIn[i], &checked_[i]);
+    note_item(kSignIn[i]);
     all = all && checked_[i];
   }
   if (noted_button("All checked")) checked_.fill(true);
@@ -183,11 +184,11 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   const bool left = trainer.interrupted() && !trainer.resuming();
   const float high =
       ImGui::GetContentRegionAvail().y - scaled(60.0F) - (left ? ImGui::GetTextLineHeightWithSpacing() : 0.0F);
-  ImGui::BeginChild("task", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("task", half, high);
   draw_task(trainer);
   ImGui::EndChild();
   ImGui::SameLine();
-  ImGui::BeginChild("sign-in", {half, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("sign-in", half, high);
   const bool phantom = row.subject == cases::Subject::phantom;
   const bool all = phantom || draw_sign_in(row);
   if (phantom) draw_hands(row);
@@ -206,7 +207,7 @@ bool BriefingPanel::draw(Trainer& trainer, const Keys& keys) {
   }
   if (!trainer.expert_attempt().empty()) {
     ImGui::SameLine();
-    if (ImGui::Button("Watch an expert (E)") || keys.pressed('E')) {
+    if (noted_button("Watch an expert (E)") || keys.pressed('E')) {
       trainer.watch(trainer.expert_attempt());
       end_screen();
       return false;

@@ -1,9 +1,12 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
+#include "casedb/cases/setting_table.h"
 
 namespace seldinger::app {
 namespace {
@@ -31,7 +34,7 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
   ImGui::TableSetupColumn("Passed", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 2.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, edits ? open_px + 8.0F + edit_px : open_px);
-  ImGui::TableHeadersRow();
+  header_row();
   std::string chosen, versioned;
   for (const Choice& choice : trainer.choices()) {
     if (choice.curriculum != curriculum) continue;
@@ -56,11 +59,13 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     const bool next = trainer.next() == &choice;
     const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
     note_item("Practise");
+    if (framed()) note_focus("Practise: " + choice.title);
     if (open || (next && keys.pressed(kEnter))) chosen = choice.case_id;
     ImGui::EndDisabled();
     if (edits) {
       ImGui::SameLine();
       if (noted_button("Edit", edit_px)) versioned = choice.case_id;
+      if (framed()) note_focus("Edit: " + choice.title);
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("Opens a new version of it as a draft in the case editor");
     }
     ImGui::PopID();
@@ -82,7 +87,7 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 3.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 6.2F * ImGui::GetFontSize());
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.4F * ImGui::GetFontSize());
-  ImGui::TableHeadersRow();
+  header_row();
   std::string opened;
   for (const Draft& draft : trainer.drafts()) {
     ImGui::PushID(draft.case_id.c_str());
@@ -96,6 +101,7 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
     ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
     ImGui::TableNextColumn();
     if (noted_button("Open draft", -1.0F)) opened = draft.case_id;
+    if (framed()) note_focus("Open draft: " + draft.title);
     ImGui::TableNextColumn();
     if (trainer.may_delete(draft) && noted_button("Delete", -1.0F)) {
       to_delete_ = draft.case_id;
@@ -111,9 +117,56 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
   if (!opened.empty()) trainer.open_editor(opened);
 }
 
-void ChoosePanel::draw(Trainer& trainer, const Keys& pressed) {
+// What `seldinger import` asks, as a form; what it reads may be dropped on the window, too.
+void ChoosePanel::draw_import(Trainer& trainer, const Keys& keys) {
+  if (!importing_) return;
+  constexpr const char* kName = "##import";
+  if (!ImGui::IsPopupOpen(kName)) ImGui::OpenPopup(kName);
+  const ImGuiViewport* viewport = ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(viewport->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({std::min(scaled(640.0F), viewport->WorkSize.x - 40.0F), 0.0F});
+  if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return;
+  heading("Import a CT");
+  quiet("A folder of DICOM slices, or a file: DICOM, NIfTI, NRRD, MetaImage. Who it is of is left out.");
+  ImGui::TextUnformatted("Folder or file (may be dropped on the window)");
+  ImGui::SetNextItemWidth(-1.0F);
+  if (std::exchange(import_begins_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##source", source_.data(), source_.size());
+  note_item("Folder or file");
+  ImGui::TextUnformatted("Title, without anything of the patient");
+  ImGui::SetNextItemWidth(-1.0F);
+  ImGui::InputText("##title", import_title_.data(), import_title_.size());
+  note_item("Title");
+  for (std::size_t i = 0; i < casedb::kModalityWords.size(); ++i) {
+    const std::string words(casedb::kModalityWords[i].name);
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::RadioButton(words.c_str(), import_guidance_ == i)) import_guidance_ = i;
+    note_item(words.c_str());
+  }
+  ImGui::Spacing();
+  ImGui::BeginDisabled(source_[0] == '\0');
+  const bool yes = noted_button("Import it");
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  const bool no = noted_button("Not now (Esc)") || keys.pressed(kEscape);
+  if (yes || no) {
+    importing_ = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+  if (yes)
+    trainer.import_case({source_.data(), import_title_.data(), casedb::kModalityWords[import_guidance_].value});
+}
+
+void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string& dropped) {
   const Keys none;
-  const Keys& keys = question_.open() ? none : pressed;  // a question is answered first
+  const bool begins = !dropped.empty() && trainer.may_import() && !trainer.importing() && !question_.open();
+  if (begins) {
+    importing_ = import_begins_ = true;
+    source_.fill('\0');
+    dropped.copy(source_.data(), source_.size() - 1);
+  }
+  const Keys& keys = question_.open() || importing_ ? none : pressed;  // a question is answered first
   begin_screen("choose");
   heading(("Good to see you, " + trainer.account().login_name).c_str());
   ImGui::SameLine(ImGui::GetContentRegionAvail().x - scaled(200.0F));
@@ -121,6 +174,17 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed) {
   ImGui::SameLine();
   const bool out = noted_button("Log out");
   quiet(kTrainingOnly);
+  if (trainer.importing()) {
+    ImGui::TextUnformatted("A CT is being imported …");
+  } else if (trainer.may_import() && noted_button("Import a CT")) {
+    importing_ = import_begins_ = true;
+    source_.fill('\0');
+    import_title_.fill('\0');
+  }
+  if (!trainer.imported().empty()) {
+    ImGui::TextWrapped("%s", trainer.imported().c_str());
+    note_item("imported");
+  }
   if (!trainer.refusal().empty()) {
     ImGui::Spacing();
     ImGui::TextWrapped("That did not work: %s", trainer.refusal().c_str());
@@ -144,6 +208,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed) {
     draw_choices(trainer, keys, curriculum);
   }
   if (!trainer.drafts().empty()) draw_drafts(trainer);
+  draw_import(trainer, pressed);
   if (question_.draw(pressed)) trainer.delete_draft(to_delete_);
   if (out) trainer.log_out();
   if (devices && !out) trainer.show_devices();

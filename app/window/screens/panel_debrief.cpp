@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
 #include "assessment/fault_moments.h"
 #include "assessment/grading/plain_words.h"
@@ -190,7 +191,7 @@ void DebriefPanel::draw_criteria(const Debrief& debrief) {
   ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
   if (banded) ImGui::TableSetupColumn("Consultants", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("Result", ImGuiTableColumnFlags_WidthStretch, 1.2F);
-  ImGui::TableHeadersRow();
+  header_row();
   for (const assessment::CriterionResult& result : debrief.grade.grade.criteria) {
     const assessment::Criterion& criterion = result.criterion;
     const std::string label = reports::metric_label(criterion.metric), own = value_text(result);
@@ -232,7 +233,7 @@ void DebriefPanel::draw_values(const Debrief& debrief) {
     if (metrics.empty() || !ImGui::BeginTable(group.c_str(), 2, kTable)) continue;
     ImGui::TableSetupColumn(group.c_str(), ImGuiTableColumnFlags_WidthStretch, 1.0F);
     ImGui::TableSetupColumn("Yours", ImGuiTableColumnFlags_WidthStretch, 1.0F);
-    ImGui::TableHeadersRow();
+    header_row();
     for (const casedb::MetricValue* metric : metrics) {
       const std::string label = reports::metric_label(metric->id), why = reports::reason_text(*metric);
       const std::string own = reports::value_text(*metric);
@@ -357,7 +358,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   quiet("Click on a line or a step, or press Down, for what it means and how it is told.");
   const float high = ImGui::GetContentRegionAvail().y - buttons_px_;
   const float wide = ImGui::GetContentRegionAvail().x;
-  ImGui::BeginChild("criteria", {0.60F * wide - 8.0F, high}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("criteria", 0.60F * wide - 8.0F, high);
   draw_measured(debrief, picture);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -365,8 +366,7 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
   add_steps(debrief);
   asked_ = std::min(asked_, static_cast<int>(lines_.size()) - 1);
   if (asked_ >= first_step) sought_ = false;  // its definition is what is seen
-  ImGui::BeginChild(asked_ < 0 ? "steps" : "definition", {0.0F, high}, false,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields(asked_ < 0 ? "steps" : "definition", 0.0F, high);
   if (asked_ < 0)
     draw_steps(debrief, first_step);
   else

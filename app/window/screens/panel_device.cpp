@@ -113,7 +113,7 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
       ImGui::Button("Back (Esc)", {scaled(140.0F), 0.0F}) || keys.pressed(kEscape) || keys.pressed(kF1 + 9);
   quiet(kTrainingOnly);
   const ImVec2 all = ImGui::GetContentRegionAvail();
-  ImGui::BeginChild("there", {0.36F * all.x, all.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("there", 0.36F * all.x, all.y);
   draw_hands(trainer, other);
   DevicePage* page = trainer.device_page();  // an exchange made another
   if (page != nullptr) {
@@ -127,7 +127,7 @@ void DevicePanel::draw(Trainer& trainer, const Keys& keys, const OtherHands& oth
   }
   ImGui::EndChild();
   ImGui::SameLine();
-  ImGui::BeginChild("work", {0.0F, all.y}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("work", 0.0F, all.y);
   if (page != nullptr) {
     draw_arm_traces(page->seen().arms, 0.45F * all.y);
     draw_work(trainer, keys, *page);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/attempts/rehearsal_words.h"
 #include "app/window/screens/panels.h"
 #include "app/window/surface/panel_items.h"
 #include "reports/words/check_words.h"
@@ -37,6 +38,9 @@ constexpr const char* kHelp =
     "and is done with Enter\n"
     "Keys: V L T E R – tools · Z – undo · W – next window · Home – all of the CT · C – room cut away · Del – "
     "remove what is chosen · Enter, Esc – finish, drop a tube\n"
+    "Without a mouse: Tab, Shift+Tab – to the next field, button or plane; in a plane arrows lead the cursor "
+    "(Shift: "
+    "by 10 mm), Page Up and Down go through it, Space clicks there\n"
     "Each change is stored at once, and the checks run again.";
 
 }  // namespace
@@ -64,11 +68,27 @@ void EditorPanel::read_keys(Trainer& trainer, const Keys& keys) {
     if (editor.tool == EditorTool::structure) editor.remove_structure(editor.structure);
     if (editor.tool == EditorTool::entry && editor.row().planned_entry_lps_mm) editor.set_entry(std::nullopt);
   }
-  if (editor.scene() && planes_.under_mouse()) {
+  lead_cursor(editor, keys);
+  const auto through = planes_.by_keys() ? planes_.by_keys() : planes_.under_mouse();
+  if (editor.scene() && through) {
     const volume::Volume& volume = editor.scene()->scene.volume;
-    if (keys.pressed(kPageUp)) editor.view.scroll(volume, *planes_.under_mouse(), 1);
-    if (keys.pressed(kPageDown)) editor.view.scroll(volume, *planes_.under_mouse(), -1);
+    if (keys.pressed(kPageUp)) editor.view.scroll(volume, *through, 1);
+    if (keys.pressed(kPageDown)) editor.view.scroll(volume, *through, -1);
   }
+}
+
+// What the mouse does in a plane.
+void EditorPanel::lead_cursor(CaseEditor& editor, const Keys& keys) {
+  if (!editor.scene() || !planes_.by_keys()) return;
+  const volume::Volume& volume = editor.scene()->scene.volume;
+  const PlaneKind& plane = plane_kinds()[*planes_.by_keys()];
+  const double step_mm = keys.shift ? 10.0 : 1.0;
+  const auto by = [&](int forth, int back) {
+    return step_mm * ((keys.held(forth) ? 1.0 : 0.0) - (keys.held(back) ? 1.0 : 0.0));
+  };
+  const glm::dvec3 way = plane.u * by(kRight, kLeft) + plane.v * by(kDown, kUp);
+  if (way != glm::dvec3(0.0)) editor.view.set_cursor(volume, editor.view.cursor_lps_mm() + way);
+  if (keys.pressed(kSpace)) editor.click(editor.view.cursor_lps_mm());
 }
 
 void EditorPanel::draw_top(Trainer& trainer) {
@@ -109,10 +129,49 @@ void EditorPanel::draw_top(Trainer& trainer) {
     ImGui::TextDisabled("%s", editor.said().empty() ? "" : (editor.said() + " – stored").c_str());
 }
 
+// How far it is, or what it found; above the checks, since it is asked for.
+void EditorPanel::draw_rehearsal(CaseEditor& editor) {
+  DraftRehearsal* rehearsal = editor.rehearsal();
+  DraftRehearsal::Now now;
+  now.running = false;
+  if (rehearsal != nullptr) now = rehearsal->now();
+  if (now.running) {
+    const std::string text = rehearsal->stopping() ? "stopping …"
+                             : now.of == 0
+                                 ? "preparing the case …"
+                                 : std::to_string(now.made) + " of " + std::to_string(now.of) + " have tried it";
+    const float share = now.of > 0 ? static_cast<float>(now.made) / static_cast<float>(now.of) : 0.0F;
+    ImGui::ProgressBar(share, {scaled(230.0F), 0.0F}, text.c_str());
+    note_item("can it be met: running");
+    ImGui::SameLine();
+    if (noted_button("Stop##rehearsal")) rehearsal->stop();
+    return;
+  }
+  ImGui::BeginDisabled(editor.lesions().empty() || editor.row().rule.criteria.empty());
+  if (noted_button("Can it be met?")) editor.rehearse();
+  ImGui::EndDisabled();
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("simulated operators try it as it is, graded and forgotten: needs a lesion and a rule");
+  if (now.error) ImGui::TextWrapped("It could not be tried: %s", now.error->text.c_str());
+  if (!now.found) return;
+  const RehearsalWords words = words_of(*now.found);
+  const bool met = now.found->passed() > 0;
+  ImGui::PushStyleColor(ImGuiCol_Text, met ? ImVec4(0.45F, 0.85F, 0.55F, 1.0F) : ImVec4(1.0F, 0.45F, 0.35F, 1.0F));
+  ImGui::TextWrapped("%s", words.found.c_str());
+  ImGui::PopStyleColor();
+  note_item("can it be met: found");
+  if (!editor.checking() && !editor.is_of_now(*now.found)) quiet("This was before the case was last changed.");
+  for (const std::string& line : words.levels) ImGui::BulletText("%s", line.c_str());
+  for (const std::string& line : words.missed) ImGui::TextWrapped("%s", line.c_str());
+  quiet(words.operators.c_str());
+  ImGui::Separator();
+}
+
 void EditorPanel::draw_checks(CaseEditor& editor) {
   const auto scene = editor.scene();
   heading(editor.checking() ? "Checks … running" : "Checks");
   if (!scene) return;
+  draw_rehearsal(editor);
   const ImVec4 bad{1.0F, 0.45F, 0.35F, 1.0F}, good{0.45F, 0.85F, 0.55F, 1.0F}, note{0.95F, 0.80F, 0.40F, 1.0F};
   int id = 0;
   const auto line = [&](const ImVec4& colour, const char* mark, const std::string& name, const std::string& text,
@@ -241,7 +300,7 @@ void EditorPanel::draw_help() {
   ImGui::End();
 }
 
-void EditorPanel::tell(const CaseEditor& editor, TraceLine& line) {
+void EditorPanel::tell(CaseEditor& editor, TraceLine& line) {
   EditorTrace told;
   told.state = casedb::name_of(editor.row().state);
   told.checking = editor.checking();
@@ -254,6 +313,12 @@ void EditorPanel::tell(const CaseEditor& editor, TraceLine& line) {
   if (const auto scene = editor.scene())
     for (const casedb::Check& one : scene->check.checks)
       (one.holds ? told.holding : told.failing).push_back(one.name);
+  if (const DraftRehearsal* rehearsal = editor.rehearsal()) {
+    if (const auto found = rehearsal->now().found) {
+      told.rehearsed = found->attempts();
+      told.met = found->passed();
+    }
+  }
   line.editor = std::move(told);
 }
 
@@ -275,8 +340,9 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   const ImVec2 all = ImGui::GetContentRegionAvail();
   const float wide = std::floor(0.5F * (all.x - scaled(kRightPx) - 12.0F)),
               high = std::floor(0.5F * (all.y - 6.0F));
-  ImGui::BeginChild("planes", {2.0F * wide + 4.0F, all.y}, false,
-                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::BeginChild(
+      "planes", {2.0F * wide + 4.0F, all.y}, false,
+      ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NavFlattened);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {4.0F, 4.0F});
   planes_.draw(0, editor, keys, wide, high);
   ImGui::SameLine();
@@ -289,14 +355,13 @@ void EditorPanel::draw(Trainer& trainer, const Keys& keys) {
   ImGui::SameLine();
   ImGui::BeginGroup();
   const float actions_px = scaled(150.0F);
-  ImGui::BeginChild("tool", {0.0F, 0.5F * (all.y - actions_px)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("tool", 0.0F, 0.5F * (all.y - actions_px));
   draw_tool(editor);
   ImGui::EndChild();
-  ImGui::BeginChild("checks", {0.0F, 0.5F * (all.y - actions_px) - 12.0F}, false,
-                    ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("checks", 0.0F, 0.5F * (all.y - actions_px) - 12.0F);
   draw_checks(editor);
   ImGui::EndChild();
-  ImGui::BeginChild("actions", {0.0F, 0.0F}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  begin_fields("actions", 0.0F, 0.0F);
   draw_actions(trainer);
   ImGui::EndChild();
   ImGui::EndGroup();

@@ -35,6 +35,8 @@ class EditorPlanes {
   void begin();  // another case
   void draw(std::size_t plane, CaseEditor& editor, const Keys& keys, float width, float height);
   std::optional<std::size_t> under_mouse() const noexcept { return under_mouse_; }
+  // The plane that has the keyboard: arrows lead the cursor in it, the page keys through it, Space clicks there.
+  std::optional<std::size_t> by_keys() const noexcept { return by_keys_; }
   glm::dvec2 size_px() const noexcept { return size_px_; }
 
  private:
@@ -50,7 +52,7 @@ class EditorPlanes {
     std::vector<double> asked;  // what the newest wish was made of
   };
   std::array<Shown, PlanePainter::kPlanes> shown_;
-  std::optional<std::size_t> under_mouse_, pressed_;
+  std::optional<std::size_t> under_mouse_, by_keys_, pressed_;
   glm::dvec2 pressed_px_{0.0}, size_px_{1.0};
   bool dragged_ = false, fitted_ = false;
   PlanePainter painter_;
@@ -91,10 +93,11 @@ class EditorPanel {
 
   void draw(Trainer& trainer, const Keys& keys);
   void end() noexcept { case_id_.clear(); }
-  static void tell(const CaseEditor& editor, TraceLine& line);
+  static void tell(CaseEditor& editor, TraceLine& line);
 
  private:
   void read_keys(Trainer& trainer, const Keys& keys);
+  void lead_cursor(CaseEditor& editor, const Keys& keys);
   void draw_top(Trainer& trainer);
   void draw_actions(Trainer& trainer);
   void draw_tool(CaseEditor& editor);
@@ -109,6 +112,7 @@ class EditorPanel {
   bool draw_setting(CaseEditor& editor);             // true: changed
   bool draw_setting(const casedb::SettingRow& row);  // true: changed
   void draw_checks(CaseEditor& editor);
+  static void draw_rehearsal(CaseEditor& editor);
   void draw_history(const CaseEditor& editor);
   void ask_to_publish(const CaseEditor& editor, bool own_cohort);
   void draw_help();

@@ -8,7 +8,9 @@
 
 #include "app/window/screens/panel_editor.h"
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
+#include "app/window/surface/screen_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -220,9 +222,11 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
   const auto cm_px = static_cast<float>(10.0 / editor.view.mm_per_pixel());
   pen.draw->AddLine({corner.x + wide - 10.0F - cm_px, corner.y + 14.0F},
                     {corner.x + wide - 10.0F, corner.y + 14.0F}, kWords, 2.0F);
-  if (under_mouse_ != plane) return;
+  const bool by_keys = by_keys_ == plane;
+  if (!by_keys && under_mouse_ != plane) return;
   const ImVec2 mouse = ImGui::GetMousePos();
-  const glm::dvec3 place = editor.view.place(plane, size_px_, {mouse.x - corner.x, mouse.y - corner.y});
+  const glm::dvec3 place = by_keys ? editor.view.cursor_lps_mm()
+                                   : editor.view.place(plane, size_px_, {mouse.x - corner.x, mouse.y - corner.y});
   const auto spot = editor.spot(place);
   if (!spot || !spot->hu) return;
   std::snprintf(text, sizeof text, "%.1f, %.1f, %.1f   %.0f HU   %s   %.0f mm deep", place.x, place.y, place.z,
@@ -230,6 +234,7 @@ void EditorPlanes::draw_words(std::size_t plane, const CaseEditor& editor, const
   std::string said = text;
   for (const std::string& one : spot->in) said += "   " + one;
   pen.words({corner.x + 6.0F, corner.y + high - scaled(20.0F)}, kWords, said);
+  if (by_keys) say_words(said);
 }
 
 void EditorPlanes::take_mouse(std::size_t plane, CaseEditor& editor, const Keys& keys, const ImVec2& corner) {
@@ -285,6 +290,9 @@ void EditorPlanes::draw(std::size_t plane, CaseEditor& editor, const Keys& keys,
       "plane", {width, height},
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   note_item("plane");
+  if (plane == 0) by_keys_.reset();
+  const bool has_keys = keep_keys();
+  if (has_keys) by_keys_ = plane;
   ImGui::PopID();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRect(corner, {corner.x + width, corner.y + height}, true);
@@ -304,6 +312,12 @@ void EditorPlanes::draw(std::size_t plane, CaseEditor& editor, const Keys& keys,
   if (shown_[plane].painted) {
     draw_case(plane, editor, corner);
     draw_words(plane, editor, corner);
+  }
+  if (has_keys) {
+    const ImVec2 end{corner.x + width, corner.y + height};
+    draw->AddRect({corner.x + 1.0F, corner.y + 1.0F}, {end.x - 1.0F, end.y - 1.0F},
+                  ImGui::GetColorU32(ImGuiCol_NavHighlight), 0.0F, 0, 3.0F);
+    note_focus(plane_kinds()[plane].name);
   }
   draw->PopClipRect();
 }

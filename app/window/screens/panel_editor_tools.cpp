@@ -6,6 +6,8 @@
 
 #include "app/window/screens/panel_editor.h"
 #include "app/window/screens/panels.h"
+#include "app/window/surface/panel_items.h"
+#include "assessment/grading/usual_limit.h"
 #include "assessment/registry.h"
 #include "casedb/cases/setting_table.h"
 #include "reports/words/metric_words.h"
@@ -16,10 +18,18 @@ namespace {
 
 constexpr float kFieldPx = 170.0F;
 
+// A list that falls open, by its label where it is closed.
+bool begin_choice(const char* label, const std::string& now) {
+  const bool open = ImGui::BeginCombo(label, now.c_str());
+  if (!open) note_item(label);
+  return open;
+}
+
 // A number in a field. True once it is entered, not while it is typed.
 bool number(const char* label, double& value, double step, const char* format, bool& in_hand) {
   ImGui::SetNextItemWidth(scaled(kFieldPx));
   ImGui::InputDouble(label, &value, step, 10.0 * step, format);
+  note_item(label);
   in_hand = in_hand || ImGui::IsItemActive();
   return ImGui::IsItemDeactivatedAfterEdit();
 }
@@ -36,6 +46,7 @@ bool optional_number(const char* label, std::optional<double>& value, double usu
   ImGui::BeginDisabled(!told);
   ImGui::SetNextItemWidth(scaled(kFieldPx - 36.0F));
   ImGui::InputDouble(label, &shown, 0.0, 0.0, format);
+  note_item(label);
   in_hand = in_hand || ImGui::IsItemActive();
   if (told && value) value = shown;
   changed = changed || ImGui::IsItemDeactivatedAfterEdit();
@@ -48,7 +59,7 @@ template <std::size_t n, typename Value, typename Name>
 bool choice(const char* label, Value& value, const std::array<Value, n>& all, const Name& name) {
   bool changed = false;
   ImGui::SetNextItemWidth(scaled(kFieldPx));
-  if (!ImGui::BeginCombo(label, std::string(name(value)).c_str())) return false;
+  if (!begin_choice(label, std::string(name(value)))) return false;
   for (const Value one : all)
     if (ImGui::Selectable(std::string(name(one)).c_str(), one == value)) {
       value = one;
@@ -69,7 +80,7 @@ bool draw_gauge(const char* label, cases::Instrument& needle) {
   int gauge = 0;
   for (const cases::Gauge& one : cases::kGauges)
     if (std::abs(one.outer_mm - 2.0 * needle.radius_mm) < 0.05) gauge = one.number;
-  if (!ImGui::BeginCombo(label, gauge > 0 ? std::to_string(gauge).c_str() : "another")) return false;
+  if (!begin_choice(label, gauge > 0 ? std::to_string(gauge) : "another")) return false;
   bool changed = false;
   for (const cases::Gauge& one : cases::kGauges)
     if (ImGui::Selectable(std::to_string(one.number).c_str(), one.number == gauge)) {
@@ -79,6 +90,34 @@ bool draw_gauge(const char* label, cases::Instrument& needle) {
   ImGui::EndCombo();
   return changed;
 }
+
+// Beside the main one: a box each.
+bool draw_further(const char* label, casedb::CaseSetting& setting) {
+  bool changed = false;
+  ImGui::TextUnformatted(label);
+  for (const auto& one : casedb::kModalityWords) {
+    if (one.value == setting.modality) continue;
+    auto& further = setting.further_modalities;
+    bool also = std::find(further.begin(), further.end(), one.value) != further.end();
+    ImGui::SameLine();
+    if (!ImGui::Checkbox((std::string(one.name) + "##also").c_str(), &also)) continue;
+    if (also)
+      further.push_back(one.value);
+    else
+      std::erase(further, one.value);
+    changed = true;
+  }
+  return changed;
+}
+
+// What a structure is to whoever punctures.
+constexpr auto kRuleWords =
+    base::names<cases::StructureRule>({{cases::StructureRule::critical, "never to be touched (critical)"},
+                                       {cases::StructureRule::major, "a complication (major)"},
+                                       {cases::StructureRule::advisory, "better avoided (advisory)"},
+                                       {cases::StructureRule::must_cross, "to be crossed"},
+                                       {cases::StructureRule::organ, "the organ around the target"},
+                                       {cases::StructureRule::target, "the lumen to be reached"}});
 
 enum class Form { sphere, ellipsoid, tube, tissue };
 constexpr std::array<Form, 4> kForms = {Form::sphere, Form::ellipsoid, Form::tube, Form::tissue};
@@ -230,9 +269,9 @@ bool EditorPanel::draw_structure_meaning() {
   ImGui::InputText("name", name_.data(), name_.size());
   bool changed = ImGui::IsItemDeactivatedAfterEdit();
   if (changed) structure_.name = name_of_ = name_.data();
-  changed =
-      choice("rule", structure_.rule, kRules, [](cases::StructureRule rule) { return cases::name_of(rule); }) ||
-      changed;
+  changed = choice("rule", structure_.rule, kRules,
+                   [](cases::StructureRule rule) { return base::name_of(kRuleWords, rule); }) ||
+            changed;
   ImGui::SetNextItemWidth(scaled(kFieldPx));
   if (ImGui::BeginCombo("tissue", volume::about(structure_.tissue).name)) {
     for (std::size_t i = 0; i < volume::kTissueClasses; ++i) {
@@ -332,6 +371,7 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
                fill(text.typed, text.filled_from, one.get(setting_));
                ImGui::SetNextItemWidth(-scaled(60.0F));
                ImGui::InputText(label, text.typed.data(), text.typed.size());
+               note_item(label);
                if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
                one.set(setting_, text.filled_from = text.typed.data());
                return true;
@@ -341,7 +381,7 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
                const auto now = static_cast<std::size_t>(
                    std::find(one.names.begin(), one.names.end(), one.get(setting_)) - one.names.begin());
                ImGui::SetNextItemWidth(scaled(kFieldPx));
-               if (!ImGui::BeginCombo(label, std::string(words[now]).c_str())) return false;
+               if (!begin_choice(label, std::string(words[now]))) return false;
                bool changed = false;
                for (std::size_t i = 0; i < words.size(); ++i)
                  if (ImGui::Selectable(std::string(words[i]).c_str(), i == now))
@@ -352,10 +392,12 @@ bool EditorPanel::draw_setting(const casedb::SettingRow& row) {
              [&](const SwitchField& one) {
                bool value = one.get(setting_);
                const bool changed = ImGui::Checkbox(label, &value);
+               note_item(label);
                one.set(setting_, value);
                return changed;
              },
              [&](const ComposedField& one) {
+               if (one.what == Composed::further_modalities) return draw_further(label, setting_);
                return one.what == Composed::gauge && draw_gauge(label, setting_.instrument);
              }},
       row.field);
@@ -411,17 +453,16 @@ bool EditorPanel::draw_rule(const CaseEditor& editor) {
     changed = true;
   }
   ImGui::SetNextItemWidth(-1.0F);
-  if (ImGui::BeginCombo("##more", "one more criterion …", ImGuiComboFlags_HeightLarge)) {
+  const bool open = ImGui::BeginCombo("##more", "one more criterion …", ImGuiComboFlags_HeightLarge);
+  if (!open) note_item("one more criterion");
+  if (open) {
     const auto scene = editor.scene();
     for (const std::string& id : scene ? scene->check.rule_may_name : std::vector<std::string>{}) {
       if (!ImGui::Selectable((metric_words(id) + "##" + id).c_str())) continue;
       const assessment::MetricInfo* info = assessment::find_metric(id);
       assessment::Criterion more;
       more.metric = id;
-      if (info != nullptr) more.version = info->version;
-      const bool lower = info != nullptr && info->direction == assessment::Direction::lower_is_better;
-      more.comparison = lower ? assessment::Comparison::at_most : assessment::Comparison::at_least;
-      more.value = lower ? 0.0 : 1.0;
+      if (info != nullptr) more = assessment::usual_criterion(*info);
       setting_.rule.criteria.push_back(more);
       changed = true;
     }
@@ -436,6 +477,7 @@ bool EditorPanel::draw_setting(CaseEditor& editor) {
   fill(title_, title_of_, editor.row().title);
   ImGui::SetNextItemWidth(-scaled(60.0F));
   ImGui::InputText("title", title_.data(), title_.size());
+  note_item("title");
   const bool titled = ImGui::IsItemDeactivatedAfterEdit();
   static const std::vector<const casedb::SettingRow*> kRows = casedb::shown_rows(&casedb::SettingRow::editor);
   for (const casedb::SettingRow* row : kRows) changed = draw_setting(*row) || changed;

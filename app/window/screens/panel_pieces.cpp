@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "app/window/screens/panels.h"
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/panel_items.h"
+#include "app/window/surface/screen_words.h"
 #include "casedb/cases/setting_table.h"
 
 namespace seldinger::app {
@@ -13,14 +15,23 @@ void begin_screen(const char* name) {
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->WorkPos);
   ImGui::SetNextWindowSize(viewport->WorkSize);
+  const bool walks = (ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard) != 0 || walking();
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                   ImGuiWindowFlags_NoNav);
+                   (walks ? 0 : ImGuiWindowFlags_NoNav));
+  begin_way();
+  gather_words();
 }
 
 void end_screen() {
+  end_way();
   ImGui::End();
+}
+
+void begin_fields(const char* name, float width, float height) {
+  ImGui::BeginChild(name, {width, height}, false,
+                    ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NavFlattened);
 }
 
 void begin_picture(const char* name, float width, float height) {
@@ -46,12 +57,14 @@ void begin_words(const char* name, const Part& part, float left, float top) {
 }
 
 void heading(const char* text) {
+  gather_words();
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.86F, 0.97F, 1.0F));
   ImGui::TextUnformatted(text);
   ImGui::PopStyleColor();
 }
 
 void quiet(const char* text) {
+  gather_words();
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.62F, 0.66F, 0.70F, 1.0F));
   ImGui::TextWrapped("%s", text);
   ImGui::PopStyleColor();
@@ -71,11 +84,13 @@ bool Question::draw(const Keys& keys) {
   ImGui::SetNextWindowPos(viewport->GetCenter(), ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowSize({std::min(scaled(560.0F), viewport->WorkSize.x - 40.0F), 0.0F});
   if (!ImGui::BeginPopupModal(kName, nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove)) return false;
+  gather_words();
   ImGui::TextWrapped("%s", words_.c_str());
   ImGui::Spacing();
   const bool yes = noted_button(yes_.c_str());
   ImGui::SameLine();
   const bool no = noted_button((no_ + " (Esc)").c_str()) || keys.pressed(kEscape);
+  ImGui::SetItemDefaultFocus();  // a second Enter takes nothing back
   if (yes || no) {
     drop();
     ImGui::CloseCurrentPopup();

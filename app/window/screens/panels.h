@@ -25,6 +25,9 @@ class LogInPanel {
   std::array<char, 66> name_{};
   std::array<char, 130> password_{};
   bool begun_ = false;
+  // Where was typed last, and for how many frames nothing has been: the keyboard goes back there.
+  bool in_password_ = false;
+  int idle_frames_ = 0;
 };
 
 // Asks before what cannot be taken back; nothing else hears the mouse while it does.
@@ -42,13 +45,19 @@ class Question {
 
 class ChoosePanel {
  public:
-  void draw(Trainer& trainer, const Keys& keys);
+  // `dropped`: a CT's file or folder that was let fall on the window; empty: none was.
+  void draw(Trainer& trainer, const Keys& keys, const std::string& dropped);
 
  private:
   void draw_drafts(Trainer& trainer);
+  void draw_import(Trainer& trainer, const Keys& keys);
 
   Question question_;
-  std::string to_delete_;  // the draft that is asked about
+  std::string to_delete_;                           // the draft that is asked about
+  bool importing_ = false, import_begins_ = false;  // the form is open; for its first frame
+  std::array<char, 1024> source_{};
+  std::array<char, 256> import_title_{};
+  std::size_t import_guidance_ = 2;  // of casedb::kModalityWords
 };
 
 class BriefingPanel {
@@ -73,6 +82,8 @@ class BriefingPanel {
 // Pieces that several screens have.
 void begin_screen(const char* name);  // the whole window; end_screen ends it
 void end_screen();
+// A part with words and fields, through which the keyboard's way leads. ImGui::EndChild ends it.
+void begin_fields(const char* name, float width, float height);
 // A part that a picture fills: nothing lies under it, nothing scrolls. 0: what there is. ImGui::EndChild ends it.
 void begin_picture(const char* name, float width, float height);
 // Pixels where a line's letters are 16 pixels high, as many as the letters of now make of them.

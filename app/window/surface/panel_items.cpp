@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "app/window/surface/key_focus.h"
+#include "app/window/surface/screen_words.h"
+
 namespace seldinger::app {
 namespace {
 
@@ -30,6 +33,7 @@ void forget_items() {
 }
 
 void note_item(const char* name) {
+  gather_words();
   const ImVec2 from = ImGui::GetItemRectMin(), size = ImGui::GetItemRectSize();
   note_part(name, from.x, from.y, size.x, size.y);
 }
@@ -50,6 +54,9 @@ void note_place(const char* name, float left, float top, float width, float heig
   });
   if (same > 0) own.append("#").append(std::to_string(same + 1));
   const ImVec2 window = ImGui::GetMainViewport()->Pos;
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  const ImGuiID on = g.ActiveId != 0 ? g.ActiveId : g.NavId;
+  if (on != 0 && on == g.LastItemData.ID) note_focus(own);
   items.push_back({own, left - window.x, top - window.y, width, height});
 }
 

@@ -21,6 +21,7 @@ struct EditorTrace {
   bool checking = false, entry = false;
   std::size_t lesions = 0, structures = 0;
   std::vector<std::string> failing, holding;  // checks
+  std::optional<std::size_t> rehearsed, met;  // attempts of "Can it be met?", and how many of them passed
   glm::dvec3 cursor_lps_mm{0.0};
   double mm_per_pixel = 0.0;
 };
@@ -46,6 +47,7 @@ struct TraceLine {
   std::optional<EditorTrace> editor{};
   std::vector<std::string> arms;  // left, right: "ok", "late", "lost"; empty: none are used
   std::string asks;               // what the device page asks its user for
+  std::string focus;              // the item that the keyboard is on; empty: one without a name, or none
   std::vector<ShownItem> items;   // what can be pressed
 };
 

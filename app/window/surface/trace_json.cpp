@@ -41,8 +41,13 @@ std::string json_of(const TraceLine& line) {
                       {"cursor_lps_mm", {editor.cursor_lps_mm.x, editor.cursor_lps_mm.y, editor.cursor_lps_mm.z}},
                       {"mm_per_pixel", editor.mm_per_pixel}};
   }
+  if (line.editor && line.editor->rehearsed) {
+    json["editor"]["rehearsed"] = *line.editor->rehearsed;
+    json["editor"]["met"] = line.editor->met.value_or(0);
+  }
   if (!line.arms.empty()) json["arms"] = line.arms;
   if (!line.asks.empty()) json["asks"] = line.asks;
+  if (!line.focus.empty()) json["focus"] = line.focus;
   for (const ShownItem& item : line.items)
     json["items"][item.name] = {item.x_px, item.y_px, item.width_px, item.height_px};
   return json.dump();

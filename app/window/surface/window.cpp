@@ -13,6 +13,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include "app/window/surface/key_focus.h"
 #include "app/window/surface/typed_queue.h"
 #include "sim/base/failure.h"
 #include "sim/gpu/window_surface.h"
@@ -24,6 +25,7 @@ static_assert(kSpace == GLFW_KEY_SPACE && kEscape == GLFW_KEY_ESCAPE && kEnter =
 static_assert(kTab == GLFW_KEY_TAB && kBackspace == GLFW_KEY_BACKSPACE && kF1 == GLFW_KEY_F1);
 static_assert(kRight == GLFW_KEY_RIGHT && kLeft == GLFW_KEY_LEFT && kDown == GLFW_KEY_DOWN && kUp == GLFW_KEY_UP);
 static_assert(kPageUp == GLFW_KEY_PAGE_UP && kPageDown == GLFW_KEY_PAGE_DOWN && kHomeKey == GLFW_KEY_HOME);
+constexpr int kKeypadEnter = GLFW_KEY_KP_ENTER;
 static_assert(kF5 == GLFW_KEY_F5 && kF9 == GLFW_KEY_F9 && kF12 == GLFW_KEY_F12);
 
 static_assert(devices::GamepadReading::kAxes == GLFW_GAMEPAD_AXIS_LAST + 1);
@@ -99,6 +101,8 @@ struct Window::Parts {
   float scale = 1.0F;                   // of letters and distances, with what the window's size makes of it
   std::array<int, 4> framed{};          // where it was, and how large, before it took the whole screen
   TypedQueue typed;
+  std::string dropped;
+  bool tab_back = false;     // Shift was down when Tab was pressed last
   std::optional<int> given;  // the queue's key, down for this frame
 
   // Whether the queue has it, and Dear ImGui not yet. Letters come as such, too; F keys are no field's.
@@ -133,6 +137,21 @@ struct Window::Parts {
     set_style(scale);
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
+  }
+
+  // What the framed item takes no screen hears of.
+  void walk(bool walks) {
+    std::vector<int>& now = keys.pressed_;
+    const auto went_down = [&](int key) { return std::find(now.begin(), now.end(), key) != now.end(); };
+    const auto is_press = [](int key) { return key == kEnter || key == kSpace || key == kKeypadEnter; };
+    const bool press = !keys.alt && !keys.control && std::any_of(now.begin(), now.end(), is_press);
+    const bool tab = went_down(kTab) || given == kTab;
+    bool by_mouse = false;
+    for (int button = GLFW_MOUSE_BUTTON_LEFT; button <= GLFW_MOUSE_BUTTON_MIDDLE; ++button)
+      by_mouse = by_mouse || glfwGetMouseButton(window, button) == GLFW_PRESS;
+    if (!walk_by_keys(walks, tab, press, by_mouse)) return;
+    std::erase_if(now, is_press);
+    for (const int key : std::array<int, 3>{kEnter, kSpace, kKeypadEnter}) ImGui::GetIO().KeysDown[key] = false;
   }
 
   void read(Keys& into) const {
@@ -171,6 +190,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
   glfwSetKeyCallback(parts_->window, [](GLFWwindow* window, int key, int code, int action, int modifiers) {
     auto* parts = static_cast<Parts*>(glfwGetWindowUserPointer(window));
     std::vector<int>& down = parts->down;
+    if (key == GLFW_KEY_TAB && action == GLFW_PRESS) parts->tab_back = (modifiers & GLFW_MOD_SHIFT) != 0;
     if (action == GLFW_PRESS) {
       parts->pressed.push_back(key);
       down.push_back(key);
@@ -189,6 +209,9 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
       parts->typed.letter(letter);
     else
       ImGui_ImplGlfw_CharCallback(window, letter);
+  });
+  glfwSetDropCallback(parts_->window, [](GLFWwindow* window, int count, const char** paths) {
+    if (count > 0) static_cast<Parts*>(glfwGetWindowUserPointer(window))->dropped = paths[0];
   });
   glfwSetMouseButtonCallback(parts_->window, ImGui_ImplGlfw_MouseButtonCallback);
   glfwSetScrollCallback(parts_->window, ImGui_ImplGlfw_ScrollCallback);
@@ -258,7 +281,7 @@ void Window::set_whole_screen(bool whole) {
   glfwSetWindowMonitor(parts_->window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
-void Window::begin_frame() {
+void Window::begin_frame(bool walks) {
   // Dear ImGui 1.86 sees what is down when a frame begins; a short press is down for the whole of its frame.
   bool* down = ImGui::GetIO().KeysDown;
   for (const int key : parts_->keys.pressed_)
@@ -269,10 +292,12 @@ void Window::begin_frame() {
   parts_->give_typed();
   parts_->read(parts_->keys);
   parts_->pressed.clear();
+  parts_->walk(walks);
   parts_->fit_letters();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  go_on_from_focus(parts_->tab_back);
   parts_->keys.typing_ = parts_->between.typing_ =
       ImGui::GetIO().WantTextInput || parts_->typed.waits() || parts_->given;
 }
@@ -295,6 +320,10 @@ Pointer Window::pointer() const {
   for (std::size_t i = 0; i < kButtons.size(); ++i)
     pointer.down[i] = glfwGetMouseButton(parts_->window, kButtons[i]) == GLFW_PRESS;
   return pointer;
+}
+
+std::string Window::take_dropped() {
+  return std::exchange(parts_->dropped, {});
 }
 
 double Window::take_wheel() {

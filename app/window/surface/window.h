@@ -82,8 +82,9 @@ class Window {
   void set_whole_screen(bool whole);
   WindowSize size() const noexcept;
 
-  // Between these two what is in the window is said to Dear ImGui.
-  void begin_frame();
+  // Between these two what is in the window is said to Dear ImGui. `walks`: keys go from item to item
+  // (key_focus.h).
+  void begin_frame(bool walks = false);
   void end_frame();
   const Keys& keys() const noexcept;  // of this frame
   // Draws what was said, and is back when that is on the screen, as far as a program can tell. `pixels`: what it
@@ -96,6 +97,8 @@ class Window {
   Pointer pointer() const;
   // Notches since the frame, or the last call; those that are taken the next frame does not have.
   double take_wheel();
+  // What was dropped on the window since the last call; empty: nothing was.
+  std::string take_dropped();
   // The first that GLFW has a mapping for, as it is now; nothing: there is none.
   std::optional<devices::GamepadReading> gamepad() const;
   void set_title(const std::string& title);

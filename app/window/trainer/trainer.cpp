@@ -149,6 +149,7 @@ void Trainer::log_out() {
   trying_ = resuming_ = false;
   plan_.reset();
   choices_ = {};
+  imported_.clear();
   // First: whoever leaves is out, whatever becomes of the library.
   const std::string person_id = std::exchange(account_, {}).person_id;
   library_.act_for(casedb::Actor::nobody());
@@ -203,6 +204,31 @@ void Trainer::delete_draft(const std::string& case_id) {
   const auto erased = casedb::erase_case(library_, case_id, account_.person_id);
   refusal_ = erased ? "" : erased.error().text;
   list_choices();
+}
+
+void Trainer::import_case(CaseImport::Wish wish) {
+  if (screen_ != TrainerScreen::choose || !may_import() || importing()) return;
+  refusal_.clear();
+  imported_.clear();
+  import_ = std::make_unique<CaseImport>(library_.folder(), account_.person_id, std::move(wish));
+}
+
+// Whoever began it may be gone: it is stored all the same.
+void Trainer::take_import() {
+  if (!import_) return;
+  const auto made = import_->made();
+  if (!made) return;
+  const bool theirs = import_->person_id() == account_.person_id;
+  import_.reset();
+  if (!theirs) return;
+  if (!*made) {
+    refusal_ = made->error().text;
+    return;
+  }
+  imported_ = "“" + (*made)->title + "” is imported, as a draft.";
+  for (const std::string& other : (*made)->same_ct)
+    imported_ += " The library has this CT already, in " + other + ".";
+  if (screen_ == TrainerScreen::choose) list_choices();
 }
 
 void Trainer::leave_editor() {
@@ -345,6 +371,7 @@ Debrief Trainer::debrief_of_try() {
 }
 
 void Trainer::look() {
+  take_import();
   look_at_watched();
   if (editor_ && screen_ == TrainerScreen::editor) editor_->look();
   if (!attempt_) return;

@@ -12,6 +12,7 @@
 #include "app/window/editor/case_editor.h"
 #include "app/window/hands/device_page.h"
 #include "app/window/hands/person_attempt.h"
+#include "app/window/trainer/case_import.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
@@ -90,6 +91,15 @@ class Trainer {
   // For good, unless attempts were made on it.
   bool may_delete(const Draft& draft) const noexcept;
   void delete_draft(const std::string& case_id);
+  // A CT becomes a draft of theirs, in the background.
+  bool may_import() const noexcept {
+    return may(casedb::Action::add_case) &&
+           casedb::may(account_.role, casedb::Action::work_on_case, casedb::CaseState::draft);
+  }
+  void import_case(CaseImport::Wish wish);
+  bool importing() const noexcept { return import_ != nullptr; }
+  // What became of it, in words for the list: also which cases hold this CT already.
+  const std::string& imported() const noexcept { return imported_; }
   // A draft like a case that was published or that attempts were made on, the next version, in the case editor.
   void new_version(const std::string& case_id);
   CaseEditor* editor() noexcept { return editor_.get(); }
@@ -156,6 +166,7 @@ class Trainer {
   void prepare(std::shared_ptr<const session::Task> task);
   const session::Task* planned_task() const;  // what may be planned now; null: nothing
   void put_plan(const assessment::PlannedPath& path);
+  void take_import();
   void tell_conditions();
   bool may_watch(const std::string& attempt_id);
   void look_at_watched();
@@ -179,6 +190,8 @@ class Trainer {
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
   std::unique_ptr<CaseEditor> editor_;
   std::unique_ptr<DevicePage> device_page_;
+  std::unique_ptr<CaseImport> import_;
+  std::string imported_;
   std::string first_case_;  // to be opened at log-in
   std::optional<casedb::OpenAttempt> interrupted_;
   bool provisional_ = true, restarting_ = false, trying_ = false, resuming_ = false;

@@ -195,6 +195,18 @@ TEST_F(ChoicesTest, GatesOpenAndWhatIsDueMovesOn) {
   EXPECT_EQ(titles(choices()), (Titles{"Alone", "One", "Two"})) << "a retired one leads nobody";
 }
 
+// Was: the mentor had to pass five cases to show a class the sixth.
+TEST_F(ChoicesTest, AMentorOpensEveryCaseOfACurriculum) {
+  const std::string one = published("One"), two = published("Two");
+  ASSERT_TRUE(publish_curriculum(library_, curriculum("Course", {one, two}), "Dan"));
+  for (const Role role : {Role::trainee, Role::researcher, Role::director, Role::admin}) {
+    EXPECT_TRUE(choices(role).cases[0].open) << name_of(role);
+    EXPECT_FALSE(choices(role).cases[1].open) << name_of(role);
+  }
+  EXPECT_TRUE(choices(Role::mentor).cases[0].open);
+  EXPECT_TRUE(choices(Role::mentor).cases[1].open);
+}
+
 TEST_F(ChoicesTest, AttemptsAreUsedUp) {
   const std::string one = published("One", 9), two = published("Two", 1);
   ASSERT_TRUE(publish_curriculum(library_, curriculum("Year", {one}, 2), "Dan"));

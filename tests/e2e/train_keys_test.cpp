@@ -1,0 +1,129 @@
+// The window without a mouse: log-in, list, briefing, room, debrief and case editor are worked by keys alone, and
+// the text mirror tells what stands on each screen and what the keyboard is on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "casedb/export/dicom_series.h"
+#include "sim/volume/phantom.h"
+#include "tests/fixtures/answers.h"
+#include "tests/fixtures/command_library.h"
+#include "tests/fixtures/files.h"
+#include "tests/fixtures/straight_way.h"
+#include "tests/fixtures/trainee.h"
+
+namespace seldinger {
+namespace {
+
+using Json = nlohmann::json;
+using fixtures::kPassword;
+
+class TrainKeysTest : public testing::Test {
+ protected:
+  void SetUp() override { case_id_ = fixtures::draft_of_course(library_); }
+  void sit_down() {
+    words_ = library_.folder() / "words.txt";
+    person_ = std::make_unique<fixtures::Trainee>(fixtures::kProgram, library_.path(), library_.folder(),
+                                                  std::vector<std::string>{"--words", words_.string(), "--mute"});
+    ASSERT_FALSE(HasFailure());
+  }
+  void press(const std::string& key) const { person_->screen().press(key); }
+  std::string focus() const { return person_->now().value("focus", ""); }
+  bool focuses(const std::string& name) const {
+    return fixtures::until([&] { return focus() == name; });
+  }
+  // Tab by Tab; what it passes is told where it never comes.
+  void go_to(const std::string& name, const std::string& key = "Tab") const {
+    constexpr int kMostStops = 80;
+    std::string passed = focus();
+    for (int i = 0; i < kMostStops && focus() != name; ++i) {
+      press(key);
+      ASSERT_TRUE(person_->passes(0.3));
+      passed += ", " + focus();
+    }
+    ASSERT_EQ(focus(), name) << passed;
+  }
+  void press_at(const std::string& name) const {
+    ASSERT_NO_FATAL_FAILURE(go_to(name));
+    press("Return");
+  }
+  std::string words() const { return fixtures::whole_file(words_); }
+  bool says(const std::string& line) const {
+    return fixtures::until([&] { return words().find(line) != std::string::npos; });
+  }
+
+  // The password's field is left by Escape and entered again, and what is typed stays in it.
+  void log_in(const std::string& name) const {
+    ASSERT_TRUE(focuses("Name"));
+    person_->screen().type(name);
+    press("Escape");
+    ASSERT_TRUE(person_->passes(1.0));
+    ASSERT_EQ(focus(), "Name") << "it was not lost";
+    for (int i = 0; i < 6; ++i) press("BackSpace");
+    person_->screen().type(name);
+    press("Tab");
+    ASSERT_TRUE(focuses("Password"));
+    person_->screen().type("a pass");
+    press("Escape");
+    ASSERT_TRUE(person_->passes(1.0));
+    ASSERT_EQ(focus(), "Password");
+    press("ctrl+a");
+    person_->screen().type(kPassword);
+    press("Return");
+    ASSERT_TRUE(person_->reaches("choose")) << person_->now();
+  }
+
+  fixtures::CommandLibrary library_{fixtures::fresh_test_folder("train_keys")};
+  std::string case_id_;
+  std::filesystem::path words_;
+  std::unique_ptr<fixtures::Trainee> person_;
+};
+
+TEST_F(TrainKeysTest, ATraineeNeedsNoMouse) {
+  const fixtures::StraightWay way = fixtures::straight_way(library_, case_id_);
+  library_.done("case setting " + case_id_ + " --title 'By keys' --entry-mm " + way.entry() +
+                " --inr 1.1 --platelets 210 --pass 'hit >= 1'");
+  library_.done("case publish " + case_id_ + " --by mona --own-cohort");
+  sit_down();
+  ASSERT_NO_FATAL_FAILURE(log_in("tina"));
+  ASSERT_TRUE(says("| By keys |"));
+  ASSERT_NO_FATAL_FAILURE(press_at("Practise: By keys"));
+  ASSERT_TRUE(person_->reaches("ready")) << person_->now();
+  for (const char* item : {"Identity", "Consent", "Imaging seen", "Allergies", "INR and platelets"}) {
+    ASSERT_NO_FATAL_FAILURE(go_to(item));
+    press("space");
+  }
+  EXPECT_TRUE(says("[x] INR and platelets"));
+  person_->keep_picture();
+  ASSERT_NO_FATAL_FAILURE(press_at("Enter the room (Enter)"));
+  ASSERT_TRUE(person_->reaches("attempt")) << person_->now();
+  ASSERT_TRUE(fixtures::until([&] { return person_->now().value("attempt_s", 0.0) > 0.5; }));
+  press("y");
+  if (person_->now().value("held", "") != "needle") press("Tab");
+  ASSERT_TRUE(fixtures::until([&] { return person_->now().value("held", "") == "needle"; }))
+      << "here Tab takes the other tool";
+  const auto tip = [&] {
+    const Json at = person_->now()["needle_lps_mm"];
+    return glm::dvec3(at[0], at[1], at[2]);
+  };
+  const glm::dvec3 before = tip();
+  person_->screen().hold("Next", 1.0);
+  EXPECT_TRUE(fixtures::until([&] { return glm::length(tip() - before) > 3.0; })) << "Page Down pushes it on";
+  press("F9");
+  ASSERT_TRUE(person_->reaches("debrief")) << person_->now();
+  EXPECT_TRUE(says("## debrief"));
+  ASSERT_NO_FATAL_FAILURE(press_at("Cases"));
+  ASSERT_TRUE(person_->reaches("choose")) << person_->now();
+  ASSERT_NO_FATAL_FAILURE(press_at("Log out"));
+  ASSERT_TRUE(person_->reaches("log_in")) << person_->now();
+  for (const char* screen : {"log in", "the list of cases", "the briefing", "the room", "debrief"})
+    EXPECT_NE(words().find("## " + std::string(screen) + "\n"), std::string::npos) << screen;
+  for (const char* secret : {kPassword, "a pass"}) EXPECT_EQ(words().find(secret), std::string::npos) << "in clear";
+}
+
+}  // namespace
+}  // namespace seldinger
