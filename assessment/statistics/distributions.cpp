@@ -117,7 +117,8 @@ double chi_squared_quantile_of(double p, double df) {
 }
 
 double noncentral_chi_squared_cdf(double x, double df, double lambda) {
-  return or_nan([&] { return math::cdf(math::non_central_chi_squared_distribution<double, Policy>(df, lambda), x); });
+  return or_nan(
+      [&] { return math::cdf(math::non_central_chi_squared_distribution<double, Policy>(df, lambda), x); });
 }
 
 double beta_cdf(double x, double a, double b) {

@@ -108,8 +108,8 @@ struct Plan {
 
 inline constexpr std::size_t kMostPrimary = 3, kMostGroups = 8;
 
-// `bad_study_plan`, each problem a finding that names its place ("primary[0].compare"). Of form alone: what was frozen is
-// read whatever became of its metrics.
+// `bad_study_plan`, each problem a finding that names its place ("primary[0].compare"). Of form alone: what was
+// frozen is read whatever became of its metrics.
 base::Result<Plan> plan_from_json(const std::string& text);
 // What is wrong with a plan by the metrics of today, in the same words; asked of drafts.
 std::vector<base::Problem> problems_of(const Plan& plan);

@@ -30,11 +30,11 @@ bool has_plan(Library& library, const std::string& study_id);
 // A plan that is not frozen yet.
 bool has_draft(Library& library, const std::string& study_id);
 
-// A draft, in the place of an older one: `no_study`, `bad_study_plan` (also where a case, a fact or an answer is none of
-// the library's), `plan_frozen`.
+// A draft, in the place of an older one: `no_study`, `bad_study_plan` (also where a case, a fact or an answer is
+// none of the library's), `plan_frozen`.
 base::Result<StoredPlan> store_plan(Library& library, const std::string& study_id, const std::string& json);
-// Body, hash, time and the allocation's seed in one transaction. `no_plan`, `plan_frozen`, `bad_study_plan` (a metric has
-// another version by now).
+// Body, hash, time and the allocation's seed in one transaction. `no_plan`, `plan_frozen`, `bad_study_plan` (a
+// metric has another version by now).
 base::Result<StoredPlan> freeze_plan(Library& library, const std::string& study_id);
 
 }  // namespace seldinger::casedb

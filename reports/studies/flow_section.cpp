@@ -43,8 +43,7 @@ Html flow_section(const ValidityReport& report) {
               "</th><th scope=\"col\">Why</th><th scope=\"col\" "
               "class=\"number\">Attempts</th></tr></thead><tbody>\n");
         any = true;
-        html.raw("<tr><th scope=\"row\">")
-            .text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
+        html.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
         html.raw("</th><td>").text(why.why).raw("</td><td class=\"number\">").text(std::to_string(why.attempts));
         html.raw("</td></tr>\n");
       }
