@@ -6,7 +6,7 @@
 #include "assessment/statistics/growth/cusum_chart.h"
 #include "assessment/statistics/growth/learning_curve.h"
 #include "assessment/statistics/growth/mixed_model.h"
-#include "assessment/statistics/growth/rasch.h"
+#include "assessment/statistics/growth/rasch/rasch.h"
 
 namespace seldinger::assessment::statistics {
 namespace {

@@ -8,7 +8,7 @@
 #include "assessment/statistics/growth/binary_cusum.h"
 #include "assessment/statistics/growth/mixed_model.h"
 #include "assessment/statistics/growth/normal_cusum.h"
-#include "assessment/statistics/growth/rasch.h"
+#include "assessment/statistics/growth/rasch/rasch.h"
 #include "sim/base/rng.h"
 #include "tests/assessment/statistics/growth/numbers_of.h"
 #include "tests/assessment/statistics/growth/odd_growth.h"

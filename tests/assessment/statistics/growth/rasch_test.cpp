@@ -1,5 +1,5 @@
 // Rasch's models: R's eRm on fresh data, conditional probabilities by enumeration, what is refused or left out.
-#include "assessment/statistics/growth/rasch.h"
+#include "assessment/statistics/growth/rasch/rasch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "assessment/statistics/growth/conditional_likelihood.h"
+#include "assessment/statistics/growth/rasch/conditional_likelihood.h"
 #include "sim/base/rng.h"
 #include "tests/assessment/statistics/growth/numbers_of.h"
 #include "tests/assessment/statistics/r_oracle.h"

@@ -1,4 +1,4 @@
-#include "assessment/statistics/growth/facets.h"
+#include "assessment/statistics/growth/rasch/facets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "assessment/statistics/growth/rasch.h"
+#include "assessment/statistics/growth/rasch/rasch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "assessment/statistics/growth/abilities.h"
-#include "assessment/statistics/growth/conditional_likelihood.h"
-#include "assessment/statistics/growth/facets.h"
+#include "assessment/statistics/growth/rasch/abilities.h"
+#include "assessment/statistics/growth/rasch/conditional_likelihood.h"
+#include "assessment/statistics/growth/rasch/facets.h"
 #include "assessment/statistics/spread.h"
 
 namespace seldinger::assessment::statistics {

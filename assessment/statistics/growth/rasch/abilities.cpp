@@ -1,4 +1,4 @@
-#include "assessment/statistics/growth/abilities.h"
+#include "assessment/statistics/growth/rasch/abilities.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "assessment/statistics/growth/conditional_likelihood.h"
+#include "assessment/statistics/growth/rasch/conditional_likelihood.h"
 
 #define EIGEN_MPL2_ONLY
 #include <Eigen/Cholesky>
