@@ -137,6 +137,10 @@ Answer tested(const Outcome& outcome, const std::vector<PersonValue>& people, co
     table.subject.push_back(one.name);
     ++table.rows;
   }
+  // `order` names both groups, and a procedure takes a name that no row bears for a slip.
+  for (const std::string& group : {outcome.first, outcome.second})
+    if (std::find(table.group.begin(), table.group.end(), group) == table.group.end())
+      return statistics::not_estimable(std::string(base::name_of(kTestNames, outcome.test)), "too_few", table.rows);
   const statistics::ProcedureOptions options({{"order", outcome.first + ":" + outcome.second}});
   return procedure_of(outcome.test).run(table, options);
 }

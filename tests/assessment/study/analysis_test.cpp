@@ -200,6 +200,7 @@ TEST(Analysis, WhatIsTooSmallIsNotEstimableAndNeverANumber) {
       EXPECT_FALSE(one.p_adjusted);
     }
   }
+  EXPECT_EQ(analyse(sample_plan(), people({}, kMany)).primary[0].answer.reason, "too_few") << "not a bad option";
   EXPECT_FALSE(analyse(sample_plan(), people({1, 2}, {3, 4})).stopped) << "three in each group were planned";
 }
 
