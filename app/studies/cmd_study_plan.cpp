@@ -44,10 +44,10 @@ int run_study_template(const Arguments& arguments) {
 }
 
 int run_study_plan(const Arguments& arguments) {
-  const auto text = read_text_of(arguments, "FILE.json", kMostPlanBytes);
-  if (!text) return refuse(text.error());
   auto open = open_study(arguments, "STUDY", Action::plan_study);
   if (!open) return refuse(open.error());
+  const auto text = read_text_of(arguments, "FILE.json", kMostPlanBytes);
+  if (!text) return refuse(text.error());
   const auto plan = casedb::store_plan(open->library, open->study.study_id, *text);
   return plan ? answer_plan(arguments, *plan) : refuse(plan.error());
 }

@@ -212,6 +212,13 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"cohort direct", {"Surgery", "--user", "director"}, Action::appoint_director},
       {"study new", {"Probes"}, Action::manage_studies},
       {"study researcher", {"Needles", "--user", "researcher"}, Action::manage_studies},
+      {"study plan", {"Needles", "nowhere.json"}, Action::plan_study, own_study},
+      {"study show", {"Needles"}, Action::plan_study, own_study},
+      {"study freeze", {"Needles"}, Action::plan_study, own_study},
+      {"study enrol", {"Needles", "--user", "trainee"}, Action::enrol_in_study, own_study},
+      {"study look", {"Needles"}, Action::plan_study, own_study},
+      {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
+      {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
       {"consent text", {"nowhere.txt"}, Action::manage_studies},
       {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
       {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
@@ -225,7 +232,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
     for (const Role role : casedb::kAllRoles) {
       Subject subject = one.subject;
       if (one.of_the_trainee) subject.own = role == Role::trainee;
-      if (one.action == Action::export_study) subject.own_study = role == Role::researcher;
+      if (one.subject.own_study) subject.own_study = role == Role::researcher;
       if (role != Role::director) subject.own_programme = false;
       std::vector<std::string> words = one.words;
       words.insert(words.end(), {"--by", casedb::name_of(role), "--token-file", token_of(role).string()});
