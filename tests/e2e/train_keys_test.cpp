@@ -128,6 +128,87 @@ TEST_F(TrainKeysTest, ATraineeNeedsNoMouse) {
   for (const char* secret : {kPassword, "a pass"}) EXPECT_EQ(words().find(secret), std::string::npos) << "in clear";
 }
 
+TEST_F(TrainKeysTest, AMentorNeedsNoMouse) {
+  const Json lesion = library_.ask("case show " + case_id_)["lesions"][0];
+  library_.done("case lesion " + case_id_ + " --remove " + lesion["lesion_id"].get<std::string>());
+  library_.done("case setting " + case_id_ + " --title 'By keys' --pass 'hit >= 1' --pass 'skin_punctures <= 1'");
+  const auto shown = [&] { return library_.ask("case show " + case_id_); };
+  sit_down();
+  ASSERT_NO_FATAL_FAILURE(log_in("mona"));
+  ASSERT_NO_FATAL_FAILURE(press_at("Open draft: By keys"));
+  ASSERT_TRUE(person_->reaches("editor")) << person_->now();
+  const auto editor = [&] { return person_->now().value("editor", Json::object()); };
+  const auto checked = [&] { return fixtures::until([&] { return !editor().value("checking", true); }, 60.0); };
+  ASSERT_TRUE(checked());
+
+  // The cursor to where the lesion was, and the lesion there.
+  ASSERT_NO_FATAL_FAILURE(go_to("Axial"));
+  const Json& to = lesion["center_mm"];
+  const auto lead = [&](int axis, const char* forth, const char* back) {
+    for (int i = 0; i < 60; ++i) {
+      const double left_mm = to[axis].get<double>() - editor()["cursor_lps_mm"][axis].get<double>();
+      if (std::abs(left_mm) < 3.0) return;
+      const std::string shift = std::abs(left_mm) > 25.0 && axis < 2 ? "shift+" : "";
+      press(shift + (left_mm > 0.0 ? forth : back));
+      ASSERT_TRUE(person_->passes(0.3));
+    }
+    FAIL() << axis << " " << editor();
+  };
+  ASSERT_NO_FATAL_FAILURE(lead(0, "Right", "Left"));
+  ASSERT_NO_FATAL_FAILURE(lead(1, "Down", "Up"));
+  press("l");
+  press("space");
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("lesions", 0) == 1; })) << person_->now();
+  press("e");
+  press("space");
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("entry", false); })) << person_->now();
+  ASSERT_TRUE(checked());
+  ASSERT_TRUE(editor()["failing"].empty()) << editor();
+  person_->keep_picture();
+
+  // Letters that are tools elsewhere are letters in a field.
+  press("r");
+  ASSERT_NO_FATAL_FAILURE(go_to("title"));
+  press("ctrl+a");
+  person_->screen().type("velvet");
+  press("Return");
+  ASSERT_TRUE(fixtures::until([&] { return shown()["title"] == "velvet"; })) << shown()["title"];
+  EXPECT_EQ(editor()["lesions"], 1) << "no letter was taken for a tool";
+  person_->keep_picture();
+
+  ASSERT_NO_FATAL_FAILURE(press_at("Can it be met?"));
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("rehearsed", 0) == 24; }, 240.0)) << person_->now();
+  EXPECT_GT(editor()["met"], 0);
+  EXPECT_LT(editor()["met"], 24) << "novices do not all hit";
+  EXPECT_TRUE(says("they prove nothing about trainees"));
+  EXPECT_TRUE(says("expert: "));
+  person_->keep_picture();
+  EXPECT_TRUE(library_.ask("attempt list")["attempts"].size() > 0) << "the demo's own";
+  for (const Json& attempt : library_.ask("attempt list")["attempts"])
+    EXPECT_NE(attempt["case_id"], case_id_) << "none is kept";
+  ASSERT_NO_FATAL_FAILURE(press_at("Can it be met?"));
+  ASSERT_TRUE(focuses("Stop")) << "the keyboard stayed: " << person_->now();
+  press("Return");
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("rehearsed", 24) < 24; }, 60.0)) << person_->now();
+
+  // A question stands on what takes nothing back.
+  ASSERT_NO_FATAL_FAILURE(go_to("Publish to my cohort", "shift+Tab"));
+  press("Return");
+  ASSERT_TRUE(focuses("Not yet (Esc)")) << person_->now();
+  press("Return");
+  ASSERT_TRUE(person_->passes(1.0));
+  EXPECT_EQ(shown()["state"], "draft");
+  ASSERT_NO_FATAL_FAILURE(go_to("Publish to my cohort", "shift+Tab"));
+  press("Return");
+  ASSERT_TRUE(focuses("Not yet (Esc)")) << person_->now();
+  ASSERT_NO_FATAL_FAILURE(go_to("Publish it", "shift+Tab"));
+  press("Return");
+  ASSERT_TRUE(fixtures::until([&] { return editor().value("state", "") == "published"; })) << person_->now();
+  ASSERT_NO_FATAL_FAILURE(press_at("Cases"));
+  ASSERT_TRUE(person_->reaches("choose")) << person_->now();
+  EXPECT_EQ(words().find(kPassword), std::string::npos);
+}
+
 // A CT is imported in the window; of one that is there already the mentor is told, and not kept from it. A trainee
 // is not asked.
 TEST_F(TrainKeysTest, AMentorImportsACtWithoutAMouse) {

@@ -143,12 +143,12 @@ void EditorPanel::draw_rehearsal(CaseEditor& editor) {
     const float share = now.of > 0 ? static_cast<float>(now.made) / static_cast<float>(now.of) : 0.0F;
     ImGui::ProgressBar(share, {scaled(230.0F), 0.0F}, text.c_str());
     note_item("can it be met: running");
-    ImGui::SameLine();
-    if (noted_button("Stop##rehearsal")) rehearsal->stop();
+    ImGui::SameLine();  // the same button to the keyboard, which stays on it
+    if (noted_button("Stop###rehearsal")) rehearsal->stop();
     return;
   }
   ImGui::BeginDisabled(editor.lesions().empty() || editor.row().rule.criteria.empty());
-  if (noted_button("Can it be met?")) editor.rehearse();
+  if (noted_button("Can it be met?###rehearsal")) editor.rehearse();
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
     ImGui::SetTooltip("simulated operators try it as it is, graded and forgotten: needs a lesion and a rule");

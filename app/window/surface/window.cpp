@@ -96,6 +96,7 @@ struct Window::Parts {
   Keys between;  // as poll found them
   std::vector<int> down;
   std::vector<int> pressed;  // since the frame began
+  bool shifted = false;      // one of them with Shift, which may be up again
   std::optional<gpu::Context> context;
   float screen = 1.0F, letters = 1.0F;  // of the screen's dots; what is asked for
   float scale = 1.0F;                   // of letters and distances, with what the window's size makes of it
@@ -160,7 +161,7 @@ struct Window::Parts {
     const auto either = [&](int left, int right) {
       return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
     };
-    into.shift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    into.shift = shifted || either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
     into.control = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
     into.alt = either(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT);
   }
@@ -193,6 +194,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
     if (key == GLFW_KEY_TAB && action == GLFW_PRESS) parts->tab_back = (modifiers & GLFW_MOD_SHIFT) != 0;
     if (action == GLFW_PRESS) {
       parts->pressed.push_back(key);
+      parts->shifted = parts->shifted || (modifiers & GLFW_MOD_SHIFT) != 0;
       down.push_back(key);
     } else if (action == GLFW_RELEASE) {
       down.erase(std::remove(down.begin(), down.end(), key), down.end());
@@ -292,6 +294,7 @@ void Window::begin_frame(bool walks) {
   parts_->give_typed();
   parts_->read(parts_->keys);
   parts_->pressed.clear();
+  parts_->shifted = false;
   parts_->walk(walks);
   parts_->fit_letters();
   ImGui_ImplOpenGL3_NewFrame();
