@@ -2,9 +2,9 @@
 
 #include <imgui.h>
 #include <imgui_internal.h>
-#include <stdio.h>
 #include <stdlib.h>
 
+#include <cstdio>
 #include <iostream>
 #include <sstream>
 
