@@ -10,6 +10,7 @@
 #include "app/window/screens/panel_monitor.h"
 #include "app/window/screens/panel_room.h"
 #include "app/window/sound/speaker.h"
+#include "app/window/surface/attempt_layout.h"
 #include "app/window/surface/trace.h"
 #include "app/window/trainer/trainer.h"
 

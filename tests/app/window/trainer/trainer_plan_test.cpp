@@ -39,7 +39,8 @@ TEST_F(TrainerTest, AWayThatIsPlannedIsKeptAndComparedWithWhatWasDone) {
   const Debrief& debrief = *trainer.debrief();
   EXPECT_EQ(casedb::planned_path(debrief.attempt.conditions), own) << "as the library has kept it";
   ASSERT_TRUE(debrief.path);
-  EXPECT_NEAR(debrief.path->path.depth_mm(), kDepthMm, 1.5);
+  // The hand is still within 1 mm on its way when it fires, and tissue gives way before the needle.
+  EXPECT_NEAR(debrief.path->path.depth_mm(), kDepthMm, 3.0);
   const auto told = compared_words(own, &debrief.path->path);
   ASSERT_EQ(told.size(), 4U);
   EXPECT_TRUE(told[2].starts_with("Depth: ")) << told[2];
