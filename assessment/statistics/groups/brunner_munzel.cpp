@@ -165,7 +165,7 @@ Answer brunner_munzel(const DataTable& table, const ProcedureOptions& options) {
     answer.more.push_back({"standard_error", found.error});
   } else {
     answer.notes.emplace_back(
-        "The groups do not overlap: the statistic has no bound and the estimate no interval.");
+        "The groups do not overlap: the statistic has no bound, and the interval is Newcombe's (method 5).");
   }
   if (permute) {
     answer.more.push_back({"smallest_p", test.smallest});
