@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/statistics/answer_json.h"
 #include "casedb/database/values_json.h"
 
 namespace seldinger::app {
@@ -41,24 +42,6 @@ Json json_of(const std::vector<casedb::StudyNote>& notes, const char* text, bool
   return list;
 }
 
-// By the names that `seldinger stats` gives them.
-Json json_of(const assessment::statistics::Answer& answer) {
-  Json json = {{"test", answer.test},
-               {"status", answer.estimable() ? "ok" : "not_estimable"},
-               {"reason", casedb::maybe(answer.reason)},
-               {"n", answer.n},
-               {"method", casedb::maybe(answer.method)},
-               {"statistic", casedb::maybe(answer.statistic)},
-               {"df", answer.df},
-               {"p_value", casedb::maybe(answer.p_value)},
-               {"estimate", casedb::maybe(answer.estimate)},
-               {"estimate_name", casedb::maybe(answer.estimate_name)},
-               {"ci95", answer.ci95 ? Json::array({answer.ci95->low, answer.ci95->high}) : Json(nullptr)},
-               {"notes", answer.notes}};
-  for (const assessment::statistics::Named& one : answer.more) json[one.name] = one.value;
-  return json;
-}
-
 Json json_of(const study::GroupSum& sum) {
   return {{"name", sum.name},
           {"persons", sum.persons},
@@ -83,9 +66,9 @@ Json json_of(const std::vector<study::Compared>& outcomes, bool primary) {
     for (const study::LeftOut& why : one.left_out)
       left_out.push_back({{"why", why.why}, {"attempts", why.attempts}});
     for (const study::Sensitivity& other : one.sensitivity)
-      sensitivity.push_back({{"rule", other.rule}, {"answer", json_of(other.answer)}});
+      sensitivity.push_back({{"rule", other.rule}, {"answer", Json::parse(json_of_answer(other.answer))}});
     json["left_out"] = std::move(left_out);
-    json["answer"] = one.refused.empty() ? json_of(one.answer) : Json(nullptr);
+    json["answer"] = one.refused.empty() ? Json::parse(json_of_answer(one.answer)) : Json(nullptr);
     if (primary)
       json["p_holm"] = casedb::maybe(one.p_adjusted);
     else if (one.refused.empty())

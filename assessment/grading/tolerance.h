@@ -10,9 +10,4 @@ namespace seldinger::assessment {
 // < 1.
 double tolerance_factor(std::size_t n, double share, double confidence);
 
-// x below which `p` of a standard normal variable lies.
-double normal_quantile(double p);
-// x below which `p` of a chi-squared variable lies.
-double chi_squared_quantile(double p, double degrees);
-
 }  // namespace seldinger::assessment

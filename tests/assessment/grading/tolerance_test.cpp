@@ -10,17 +10,6 @@
 namespace seldinger::assessment {
 namespace {
 
-TEST(ToleranceTest, QuantilesAreThoseOfTheTables) {
-  // Abramowitz and Stegun, Handbook of Mathematical Functions, tables 26.5 and 26.8.
-  EXPECT_NEAR(normal_quantile(0.95), 1.64485, 5e-6);
-  EXPECT_NEAR(normal_quantile(0.025), -1.95996, 5e-6);
-  EXPECT_NEAR(chi_squared_quantile(0.05, 1.0), 0.00393214, 5e-9);
-  EXPECT_NEAR(chi_squared_quantile(0.05, 9.0), 3.32511, 5e-6);
-  EXPECT_NEAR(chi_squared_quantile(0.95, 30.0), 43.773, 5e-4);
-  // NIST/SEMATECH e-Handbook of Statistical Methods, 7.2.6.3.
-  EXPECT_NEAR(chi_squared_quantile(0.01, 42.0), 23.650, 5e-4);
-}
-
 TEST(ToleranceTest, FactorsAreThoseOfTheTables) {
   // The handbook's example: n = 43, 90 %, 99 %.
   EXPECT_NEAR(tolerance_factor(43, 0.90, 0.99), 2.217, 1e-3);

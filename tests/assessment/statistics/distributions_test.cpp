@@ -22,6 +22,17 @@ TEST(Distributions, AreThoseOfR) {
   expect_close(beta_quantile(0.025, 14, 3), 0.61652376315073654);
 }
 
+TEST(Distributions, QuantilesAreThoseOfTheTables) {
+  // Abramowitz and Stegun, Handbook of Mathematical Functions, tables 26.5 and 26.8.
+  EXPECT_NEAR(normal_quantile_of(0.95), 1.64485, 5e-6);
+  EXPECT_NEAR(normal_quantile_of(0.025), -1.95996, 5e-6);
+  EXPECT_NEAR(chi_squared_quantile_of(0.05, 1.0), 0.00393214, 5e-9);
+  EXPECT_NEAR(chi_squared_quantile_of(0.05, 9.0), 3.32511, 5e-6);
+  EXPECT_NEAR(chi_squared_quantile_of(0.95, 30.0), 43.773, 5e-4);
+  // NIST/SEMATECH e-Handbook of Statistical Methods, 7.2.6.3.
+  EXPECT_NEAR(chi_squared_quantile_of(0.01, 42.0), 23.650, 5e-4);
+}
+
 TEST(Distributions, AnswerNaNWhereTheyAreNotDefined) {
   EXPECT_TRUE(std::isnan(student_t_cdf(1.0, -1.0)));
   EXPECT_TRUE(std::isnan(f_quantile(2.0, 3.0, 4.0)));
