@@ -44,8 +44,9 @@ class TrainKeysTest : public testing::Test {
       const std::string before = focus();
       press(key);
       // A slow window has not moved yet; from one item without a name to the next nothing is seen.
-      fixtures::until([&] { return focus() != before; }, 1.5);
-      ASSERT_TRUE(person_->passes(0.3));
+      if (!fixtures::until([&] { return focus() != before; }, 1.5)) {
+        ASSERT_TRUE(person_->passes(0.3));
+      }
       passed += ", " + focus();
     }
     ASSERT_EQ(focus(), name) << passed;
