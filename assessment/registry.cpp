@@ -122,6 +122,10 @@ const MetricInfo* find_metric(const std::string& id) {
   return nullptr;
 }
 
+int version_of(const MetricInfo& info, cases::SightLaw law) noexcept {
+  return info.version - (info.by_sight && law == cases::SightLaw::half_slice ? 1 : 0);
+}
+
 std::vector<MetricValue> measure_all(const Signals& signals) {
   const std::uint32_t unmet = unmet_needs(signals);
   const auto measure = [&](const MetricInfo& info) {
@@ -133,7 +137,8 @@ std::vector<MetricValue> measure_all(const Signals& signals) {
   std::vector<MetricValue> values;
   for (const MetricInfo& info : registry()) {
     const Measured measured = measure(info);
-    values.push_back({info.id, info.version, measured.value, info.unit, measured.reason});
+    values.push_back(
+        {info.id, version_of(info, signals.setting.sight_law), measured.value, info.unit, measured.reason});
   }
   return values;
 }

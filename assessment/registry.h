@@ -16,6 +16,9 @@ std::span<const MetricInfo> registry();
 // The entry of an id; nullptr when unknown.
 const MetricInfo* find_metric(const std::string& id);
 
+// What it is where pictures were told by that law of sight.
+int version_of(const MetricInfo& info, cases::SightLaw law) noexcept;
+
 // All metrics of an attempt, in the registry's order. A value that is not finite becomes null (`not_finite`).
 std::vector<MetricValue> measure_all(const Signals& signals);
 

@@ -529,7 +529,8 @@ CREATE TABLE training_case (
   CHECK (face_state IN ('unchecked', 'none', 'cropped', 'defaced')), burned_in_checked_us INTEGER, burned_in_checked_by TEXT REFERENCES person (person_id) ON DELETE SET NULL
   CHECK (burned_in_checked_by IS NULL OR burned_in_checked_us IS NOT NULL), breath_depth REAL NOT NULL DEFAULT 0.0
   CHECK (breath_depth BETWEEN 0 AND 2), breath_period_s REAL NOT NULL DEFAULT 4.0 CHECK (breath_period_s BETWEEN 1 AND 20), breath_irregularity REAL NOT NULL DEFAULT 0.1
-  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1))) STRICT;
+  CHECK (breath_irregularity BETWEEN 0 AND 0.4), tissue_yields INTEGER NOT NULL DEFAULT 0 CHECK (tissue_yields IN (0, 1)), subject TEXT NOT NULL DEFAULT 'patient' CHECK (subject IN ('patient', 'phantom')), burned_in_by_operator INTEGER CHECK (burned_in_by_operator IN (0, 1)), sight_law TEXT NOT NULL DEFAULT 'half_slice'
+  CHECK (sight_law IN ('half_slice', 'echo'))) STRICT;
 
 CREATE TABLE trusted_key (
   public_key TEXT NOT NULL PRIMARY KEY CHECK (length(public_key) = 64),
@@ -961,6 +962,14 @@ BEFORE UPDATE OF modality, patient_position, further_modalities, approach, instr
   instrument_dead_tip_mm, inr, platelets_per_nl, allergy, indication, decision, planned_entry_x_lps_mm,
   planned_entry_y_lps_mm, planned_entry_z_lps_mm, difficulty, time_limit_s, attempt_limit, pass_rule
 ON training_case
+WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
+  OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'only a draft without attempts is changed: make a new version');
+END;
+
+CREATE TRIGGER training_case_keeps_its_sight_law
+BEFORE UPDATE OF sight_law ON training_case
 WHEN OLD.state <> 'draft' OR EXISTS (SELECT 1 FROM attempt WHERE attempt.case_id = OLD.case_id)
   OR EXISTS (SELECT 1 FROM open_attempt WHERE open_attempt.case_id = OLD.case_id)
 BEGIN

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -105,6 +106,7 @@ void read_needle(const Json& json, Scene& scene, base::Error& error, std::vector
   needle.inner_radius_mm = instrument.inner_radius_mm =
       reader.number("inner_radius_mm", 0.0, needle.radius_mm, by_gauge && !stylet ? 0.5 * gauge->inner_mm : 0.0);
   needle.hu = instrument.hu = reader.number("hu", -1024.0, 32767.0, 3000.0);
+  needle.bevel_turn_rad = glm::radians(reader.number("bevel_deg", -360.0, 360.0, 0.0));
   reader.choice("surface", {"plain", "echogenic"}, "plain");
   if (reader.choice("instrument", {"access", "core"}, "access") == "core")
     instrument.kind = cases::InstrumentKind::core;

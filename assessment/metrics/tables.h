@@ -12,6 +12,10 @@
 
 namespace seldinger::assessment {
 
+// What the version before did otherwise, of a metric that is by_sight.
+#define SELDINGER_BY_HALF_SLICE \
+  ": what pictures showed by the law half_slice, as cases of that law have it still (decision 0057)."
+
 std::span<const MetricInfo> endpoint_metrics();
 std::span<const MetricInfo> approach_metrics();
 std::span<const MetricInfo> structure_metrics();

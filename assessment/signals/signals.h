@@ -43,6 +43,7 @@ struct AttemptSetting {
   std::optional<bool> defer_is_right{};                              // what the case has to be decided
   bool breathes = false, yields = false;                             // what moves the case's tissue
   bool target_cannot_show = false;                                   // in no picture of the case (target_view.h)
+  cases::SightLaw sight_law = cases::SightLaw::echo;                 // by which the frames were told
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {

@@ -53,6 +53,7 @@ struct CaseSetting {
   Difficulty difficulty = Difficulty::moderate;
   std::optional<double> time_limit_s;
   std::optional<int> attempt_limit;
+  cases::SightLaw sight_law = cases::SightLaw::echo;  // of a version made before there was another: half_slice
   assessment::PassRule rule;
 };
 

@@ -271,6 +271,9 @@ inline constexpr auto kSettingRows = [] {
        .unsound = "an attempt limit is from 1 to 1000",
        .page = {.words = "Attempts", .place = 8},
        .editor = {.words = "attempts of each", .place = 14, .usual = 10.0}},
+      {.column = "sight_law",
+       .field = choice<cases::kSightLawNames, &CaseSetting::sight_law>(),
+       .json = "sight_law"},
       {.column = nullptr, .field = ComposedField{Composed::pass_rule, kRuleColumns}, .json = "rule"},
   });
 }();

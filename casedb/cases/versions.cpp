@@ -96,12 +96,15 @@ base::Result<void> check_burned_in(const CaseRow& row) {
   return base::Error{"burned_in_unchecked", "nobody has confirmed that the pictures hold no burned-in text"};
 }
 
+constexpr std::string_view kNewestSightLaw = "'echo'";
+
 // The row of a case and of what belongs to it alone, as they are; columns of later migrations come along.
 void copy_case(Sqlite& database, const std::string& from_case_id, const std::string& case_id) {
   constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
       {"case_id", ":case_id"},
       {"state", "'draft'"},
       {"audience", "'everyone'"},
+      {"sight_law", kNewestSightLaw},
       {"created_us", ":created_us"},
       {"family_id", "coalesce(family_id, case_id)"},
       {"version",

@@ -94,6 +94,7 @@ imaging::UltrasoundView console_view(const cases::Picture& picture, const cases:
   imaging::UltrasoundView view;
   view.probe = probe_of(picture);
   view.depth_mm = picture.depth_mm;
+  view.sight_law = picture.sight_law;
   imaging::set_view(console, view);
   return view;
 }
@@ -124,8 +125,9 @@ imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, co
 std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
                                                                  const cases::Lesion& target) const {
   const cases::ToolPose& touching = plan.probe;
-  const cases::Picture picture =
+  cases::Picture picture =
       ultrasound_picture(glm::dot(target.center_lps_mm - touching.position_lps_mm, touching.axis));
+  picture.sight_law = scene_.picture.sight_law;
   const imaging::Probe& probe = probe_of(picture);
   const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
   if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)

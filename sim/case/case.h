@@ -59,6 +59,14 @@ enum class Modality { mpr, xray, ultrasound };
 inline constexpr auto kModalityNames =
     base::names<Modality>({{Modality::mpr, "mpr"}, {Modality::xray, "xray"}, {Modality::ultrasound, "ultrasound"}});
 
+// By which law a picture is said to show tip and target (docs/decisions/0057): a case's for good.
+enum class SightLaw {
+  half_slice,  // the tip within half the slice's width at any tilt, a target of any size by its contrast
+  echo         // the tip by its echo alone, a target by contrast and size
+};
+inline constexpr auto kSightLawNames =
+    base::names<SightLaw>({{SightLaw::half_slice, "half_slice"}, {SightLaw::echo, "echo"}});
+
 // mpr: the picture under the probe: u = lateral, v = axial, the upper edge's middle at the probe's origin.
 // xray: the fluoroscope's own; depth, width and rate say nothing.
 // ultrasound: the probe's; its width says nothing, its rate is a physical one.
@@ -68,6 +76,7 @@ struct Picture {
   double width_mm = 150.0;
   double rate_hz = 30.0;
   std::string probe{};  // ultrasound: its name
+  SightLaw sight_law = SightLaw::echo;
 };
 
 struct Case {

@@ -17,6 +17,7 @@ struct NeedlePose {
   glm::dvec3 tip_lps_mm{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  // unit, hub → tip
   double length_mm = 200.0, radius_mm = 0.36, inner_radius_mm = 0.0, hu = 3000.0;
+  double bevel_turn_rad = 0.0;  // about the shaft; 0: the bevel faces the probe
 };
 
 // The instrument where its tip is, pointing there.
@@ -30,7 +31,8 @@ using base::is_finite;
 
 inline bool is_finite(const NeedlePose& needle) noexcept {
   return is_finite(needle.tip_lps_mm) && is_finite(needle.direction) && std::isfinite(needle.length_mm) &&
-         std::isfinite(needle.radius_mm) && std::isfinite(needle.inner_radius_mm);
+         std::isfinite(needle.radius_mm) && std::isfinite(needle.inner_radius_mm) &&
+         std::isfinite(needle.bevel_turn_rad);
 }
 
 struct Inserted {

@@ -272,7 +272,7 @@ NeedleLine LineWalker::needle_line(int beam) const {
   if (at.covered > 0.0)
     line.shadow_db = -20.0 * std::log10(1.0 - at.covered * (1.0 - us_amplitude(-kNeedleShadowDb)));
   if (at.depth_mm >= 0.0) {
-    const NeedleEcho echo = needle_echo(view_, needle_->radius_mm, at.depth_mm, at.tilt_rad);
+    const NeedleEcho echo = needle_echo(view_, *needle_, at.depth_mm, at.tilt_rad);
     line.echoes.push_back({at.depth_mm, echo.shaft() * at.weight, at.depth_mm});
     // Lines from inside: the lumen of a hollow one, as deep as saline shows it; the steel of a solid one.
     const double spacing_mm = needle_->inner_radius_mm > 0.0 ? 2.0 * needle_->inner_radius_mm * 1540.0 / 1480.0
@@ -281,10 +281,13 @@ NeedleLine LineWalker::needle_line(int beam) const {
       line.echoes.push_back(
           {at.depth_mm + n * spacing_mm, echo.mirror * at.weight * us_amplitude(-n * kTailDbPerLine), at.depth_mm});
   }
-  if (at.tip_depth_mm >= 0.0)
+  if (at.tip_depth_mm >= 0.0) {
+    // The end of the shaft does not lie in the shaft's shadow.
+    const bool own_shadow = view_.sight_law == cases::SightLaw::half_slice || at.depth_mm < 0.0;
     line.echoes.push_back({at.tip_depth_mm,
-                           needle_echo(view_, needle_->radius_mm, at.tip_depth_mm, 0.0).tip * at.tip_weight,
-                           at.tip_depth_mm});
+                           needle_echo(view_, *needle_, at.tip_depth_mm, at.tilt_rad).tip * at.tip_weight,
+                           own_shadow ? at.tip_depth_mm : std::min(at.depth_mm, at.tip_depth_mm)});
+  }
   return line;
 }
 

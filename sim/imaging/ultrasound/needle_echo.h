@@ -11,7 +11,14 @@ namespace seldinger::imaging {
 constexpr double kNeedleMirrorDb = 36.0;
 constexpr double kNeedleRoughDb = 25.0;
 constexpr double kPlainFadeDbPerDeg = 60.0 * 0.92 / 75.0, kEchogenicFadeDbPerDeg = 60.0 * 0.45 / 75.0;
-constexpr double kNeedleTipDb = 22.0;  // the bevel's, at any angle (design)
+// The tip's, by sight law (docs/decisions/0057). Of half_slice: at any tilt (design).
+constexpr double kNeedleTipDb = 22.0;
+// Of echo: of a bevel that faces the probe it starts where the mirror does and falls linearly (Schafhalter-Zoppoth
+// 2004) to what is just seen in liver at 75°, where a plain needle is all but gone (Nichols 2003); an echogenic
+// one's as much more slowly as its shaft's. Below, what the sharp point alone bends back (judgement: less than
+// liver's speckle). A bevel turned to the side sends back less than one towards or away from the probe (Chin et
+// al., Reg. Anesth. Pain Med. 33 (2008) 532); how much less: judgement.
+constexpr double kTipGoneDeg = 75.0, kTipGoneDb = 6.0, kNeedlePointDb = -3.0, kBevelSideDb = 6.0;
 // The levels are a 22-gauge needle's; a long hard cylinder's echo grows as the root of its radius (Morse and
 // Ingard, Theoretical Acoustics, 8.1), so thinner needles show less (Schafhalter-Zoppoth 2004).
 constexpr double kNeedleLevelRadiusMm = 0.36;
@@ -25,7 +32,8 @@ struct NeedleEcho {
 };
 
 // tilt_rad: of the beam off the needle's normal, [0, π/2].
-NeedleEcho needle_echo(const UltrasoundView& view, double radius_mm, double depth_mm, double tilt_rad) noexcept;
+NeedleEcho needle_echo(const UltrasoundView& view, const NeedlePose& needle, double depth_mm,
+                       double tilt_rad) noexcept;
 
 // Finite, with a length and a radius: one that can be shown.
 bool is_usable(const NeedlePose& needle) noexcept;

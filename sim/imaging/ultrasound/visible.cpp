@@ -128,7 +128,7 @@ class Sight {
   double needle_amplitude(const NeedlePose& needle, const Place& at, bool tip) const {
     const glm::dvec3 along = glm::normalize(needle.direction);
     const double sine = std::min(1.0, std::abs(glm::dot(along, fan_.direction(at.beam))));
-    const NeedleEcho echo = needle_echo(view_, needle.radius_mm, at.depth_mm, std::asin(sine));
+    const NeedleEcho echo = needle_echo(view_, needle, at.depth_mm, std::asin(sine));
     const double y = at.off_plane_mm / slice_sigma_mm(at.depth_mm);
     if (!tip) return echo.shaft() * std::exp(-0.5 * y * y);
     const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
@@ -168,7 +168,17 @@ class Sight {
     return seen * step_mm;
   }
 
-  // Decision 0013.
+  // Cells of speckle in the target's largest section in the slice. A cell is the integral of the intensity's
+  // correlation, exp(−x²/2σ²) for a beam of exp(−x²/2σ²): √(2π)·σ each way (Wagner, Smith, Sandrik and Lopez, IEEE
+  // Trans. Sonics Ultrason. 30 (1983) 156).
+  double cells_of(const cases::Lesion& target, const Place& at) const {
+    const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
+    const double beyond_mm = std::max(0.0, std::abs(at.off_plane_mm) - 0.5 * slice_mm(at.depth_mm));
+    const double section_mm2 = std::max(0.0, target.radius_mm * target.radius_mm - beyond_mm * beyond_mm);
+    return std::clamp(section_mm2 / (2.0 * width.lateral_sigma_mm * width.axial_sigma_mm), 1.0, kMostCellsSeen);
+  }
+
+  // Decisions 0013 and 0057.
   TargetLevel level(const cases::Lesion& target) const {
     const Place at = place_of_tissue(target.center_lps_mm);
     TargetLevel level;
@@ -194,6 +204,10 @@ class Sight {
     const double share = 0.5 * (std::erf((y_mm + r_mm) / sigma_mm) - std::erf((y_mm - r_mm) / sigma_mm));
     const double own = power(table_[static_cast<std::size_t>(tissue_of_lesion(target.hu))].scatter_db);
     const double noise = power(kReceiverNoiseDb);
+    if (view_.sight_law == cases::SightLaw::echo) {
+      level.cells = cells_of(target, at);
+      level.least_cnr = kLeastCnrBySize;
+    }
     level.contrast_db =
         decibels(through * (share * own + (1.0 - share) * beside_lossless) + noise) - decibels(beside + noise);
     return level;
@@ -218,7 +232,7 @@ const NeedlePose* usable_needle(const Inserted& inserted) {
 }  // namespace
 
 double TargetLevel::cnr() const noexcept {
-  return std::abs(contrast_db) / (kSpeckleDb / std::sqrt(kCellsSeen));
+  return std::abs(contrast_db) / (kSpeckleDb / std::sqrt(cells));
 }
 
 UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const UltrasoundView& view,
@@ -231,7 +245,8 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
     if (sight.in_field(tip)) {
       seen.near_plane.tip_2_mm = std::abs(tip.off_plane_mm) <= kNearMm;
       seen.near_plane.tip_5_mm = std::abs(tip.off_plane_mm) <= kLessNearMm;
-      seen.visible.needle_tip = sight.in_slice(tip, 0.0) && sight.needle_stands_out(*needle, tip, true);
+      const bool in_reach = view.sight_law == cases::SightLaw::echo || sight.in_slice(tip, 0.0);
+      seen.visible.needle_tip = in_reach && sight.needle_stands_out(*needle, tip, true);
     }
     seen.visible.needle_length_mm = sight.visible_shaft_mm(*needle);
   }
@@ -243,7 +258,7 @@ UltrasoundVisible ultrasound_visible(const TissueVolume& tissue, const Ultrasoun
       seen.near_plane.target_5_mm = std::abs(center.off_plane_mm) <= kLessNearMm;
       if (sight.in_slice(center, target.radius_mm)) {
         const TargetLevel level = sight.level(target);
-        seen.visible.target = level.transmission_db >= kLeastTransmissionDb && level.cnr() >= kLeastCnr;
+        seen.visible.target = level.transmission_db >= kLeastTransmissionDb && level.stands_out();
       }
     }
   }

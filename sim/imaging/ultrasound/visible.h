@@ -17,12 +17,15 @@ namespace seldinger::imaging {
 // Our judgement (docs/decisions/0013).
 constexpr double kNeedleAboveDb = 6.0;
 constexpr double kLeastTransmissionDb = -12.0;
-constexpr double kLeastCnr = 1.0;
+// By the law of sight: of half_slice over kCellsSeen cells, of echo over the target's own.
+constexpr double kLeastCnr = 1.0, kLeastCnrBySize = 2.5;
 
 // Standard deviation of speckle on the log picture: 10·π/(√6·ln 10) dB, a cell (closed form of Rayleigh's).
 constexpr double kSpeckleDb = 5.57;
-// Over so many cells of speckle the eye averages: 2 × 2 (design; decision 0013).
-constexpr double kCellsSeen = 4.0;
+// Over so many cells of speckle the eye averages: of half_slice 2 × 2 (design; decision 0013); of echo those of the
+// target's section, for what is seen grows with their root (Smith and Wagner, IEEE Trans. Sonics Ultrason. 30
+// (1983) 164), but not beyond a few (judgement): from there on 2.8 dB are enough, as of old.
+constexpr double kCellsSeen = 4.0, kMostCellsSeen = 25.0;
 
 struct UltrasoundVisible {
   Visible visible;
@@ -55,7 +58,10 @@ struct TargetLevel {
   double off_plane_mm = 0.0;
   double transmission_db = 0.0;  // two-way, beyond what the scanner makes up for depth; may be above 0
   double contrast_db = 0.0;      // of its mean level to that beside it, noise included
+  double cells = kCellsSeen;     // of speckle over which it is looked at
+  double least_cnr = kLeastCnr;
   double cnr() const noexcept;
+  bool stands_out() const noexcept { return in_field && cnr() >= least_cnr; }
 };
 TargetLevel target_level(const TissueVolume& tissue, const UltrasoundView& view, const Inserted& inserted,
                          std::span<const float> depth_below_skin_mm, const tissue::Displacement& displacement = {});

@@ -33,6 +33,26 @@ TEST(Visibility, FramesHoldUntilTheNextAtAnyRate) {
   EXPECT_NEAR(number(recording, "vis_joint"), 0.2503, 1e-9);
 }
 
+// What was told by the older law of sight stays of the version of that time, with the same value.
+TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
+  const auto recording = straight([](double t) { return 10.0 * t; }, 5.0);
+  AttemptSetting old = setting();
+  old.sight_law = cases::SightLaw::half_slice;
+  const auto now = measure_all(*make_signals(setting(), recording)),
+             then = measure_all(*make_signals(old, recording));
+  ASSERT_EQ(now.size(), then.size());
+  int by_sight = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const MetricInfo& info = *find_metric(now[i].id);
+    EXPECT_EQ(now[i].version, info.version) << now[i].id;
+    EXPECT_EQ(then[i].version, info.version - (info.by_sight ? 1 : 0)) << now[i].id;
+    EXPECT_GE(then[i].version, 1) << now[i].id;
+    EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
+    by_sight += info.by_sight ? 1 : 0;
+  }
+  EXPECT_EQ(by_sight, 9);
+}
+
 TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {
   EXPECT_EQ(value(straight([](double t) { return t < 2.0 ? -5.0 : 30.0; }, 2.9), "vis_needle").reason,
             "under_1_s_in_tissue");

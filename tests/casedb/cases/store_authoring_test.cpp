@@ -483,6 +483,15 @@ TEST_F(AuthoringTest, ANewVersionIsADraftOfTheSameFamily) {
     EXPECT_EQ(list_lesions(library_, id).size(), 1U);
     EXPECT_EQ(list_structures(library_, id).size(), 1U);
   }
+  // A case of an older library shows by the law of then; its next version by the newest.
+  EXPECT_TRUE(refused_by_constraint([&] {
+    library_.database().run("UPDATE training_case SET sight_law = 'half_slice' WHERE case_id = '" + case_id_ + "'");
+  }));
+  library_.database().run("DROP TRIGGER training_case_keeps_its_sight_law");
+  library_.database().run("UPDATE training_case SET sight_law = 'half_slice' WHERE case_id = '" + case_id_ + "'");
+  EXPECT_EQ(find_case(library_, case_id_).value().sight_law, cases::SightLaw::half_slice);
+  const std::string fourth = new_version(library_, case_id_, "ann").value();
+  EXPECT_EQ(find_case(library_, fourth).value().sight_law, cases::SightLaw::echo);
   // The new one changes; the old one and its attempt do not.
   CaseSetting other = full_setting();
   other.attempt_limit = 9;
