@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
@@ -22,6 +23,7 @@
 
 #include "casedb/import/skin/closed_mesh.h"
 #include "casedb/import/skin/surface_grid.h"
+#include "sim/volume/field_of_view.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -120,6 +122,33 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
+// Whether a triangle faces what was not measured: the body goes on there.
+bool faces_padding(const cases::Mesh& mesh, const glm::uvec3& triangle, const volume::Volume& volume,
+                   const glm::dmat4& voxel_from_lps, const std::vector<std::uint8_t>& padding, double step_mm) {
+  const glm::dvec3 a(mesh.vertices_lps_mm[triangle.x]), b(mesh.vertices_lps_mm[triangle.y]),
+      c(mesh.vertices_lps_mm[triangle.z]), normal = glm::cross(b - a, c - a);
+  const double length = glm::length(normal);
+  if (!(length > 0.0)) return false;
+  for (int steps = 1; steps <= 3; ++steps) {
+    const glm::dvec3 p = (a + b + c) / 3.0 + normal / length * (0.5 * steps * step_mm);
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
+    if (!volume::inside(volume, index)) return false;
+    const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(index)), glm::ivec3(0), volume.size_voxels - 1);
+    if (padding[volume.index(voxel.x, voxel.y, voxel.z)] != 0) return true;
+  }
+  return false;
+}
+
+void mark_padded(const volume::Volume& volume, double target_spacing_mm, cases::Mesh& mesh) {
+  const std::vector<std::uint8_t> padding = volume::padding_of(volume);
+  if (padding.empty()) return;
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  const double step_mm =
+      std::max({target_spacing_mm, volume.spacing_mm.x, volume.spacing_mm.y, volume.spacing_mm.z});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (faces_padding(mesh, mesh.triangles[i], volume, voxel_from_lps, padding, step_mm)) mesh.cut[i] = 1;
+}
+
 // Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not
 // have, neither rounds nor rings. The rim itself is smoothed along its line.
 void smooth_skin(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, int iterations) {
@@ -195,6 +224,7 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
   const std::vector<std::uint8_t> faces = faces_of(mesh, volume);  // decimation moves no vertex
   mesh.cut.reserve(mesh.triangles.size());
   for (const glm::uvec3& triangle : mesh.triangles) mesh.cut.push_back(is_cut(triangle, faces) ? 1 : 0);
+  mark_padded(volume, options.target_spacing_mm, mesh);
   return mesh;
 }
 
