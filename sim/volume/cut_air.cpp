@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numeric>
 #include <utility>
 
@@ -14,6 +15,9 @@ constexpr double kRimMm = 2.0;             // of a piece, left out when its dens
 constexpr double kLeastLungMl = 2.0;       // of what is left: less says nothing
 constexpr double kRoomTissueShare = 0.35;  // of the line between a run's ends, from which on it is the room's
 constexpr double kClearVote = 3.0;         // against lung
+constexpr double kAllDense = 0.9;          // of a lung that needs no vote: with some of the room's air it is less, …
+constexpr double kLungMeanHu = -900.0;     // … and foam, 0.05 g/cm³ and less, is lighter
+constexpr int kSidesOfTheRoom = 3;         // of the field's box, touched by one run: no lung or bowel is so wide
 constexpr double kTogether = 0.3;          // of the smaller of two pieces lies beside the other
 constexpr double kBesideBodyShare =
     0.5;  // of a piece's border with tissue: else it lies between a couch and the edge
@@ -23,11 +27,11 @@ constexpr std::int32_t kTissue = -1, kPadding = -2, kUnseen = 0;
 // Air of one slice that is joined and reaches the edge.
 struct EdgePiece {
   std::uint32_t parent = 0;  // of those that vote together
-  double voxels = 0.0, inner = 0.0, dense = 0.0;
+  double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;  // dense, sum_hu: of inner ones
   double room_votes = 0.0, inside_votes = 0.0;  // edge voxels
   double by_tissue = 0.0, by_body = 0.0;        // voxel faces
   void add(const EdgePiece& other) {
-    voxels += other.voxels, inner += other.inner, dense += other.dense;
+    voxels += other.voxels, inner += other.inner, dense += other.dense, sum_hu += other.sum_hu;
     room_votes += other.room_votes, inside_votes += other.inside_votes;
     by_tissue += other.by_tissue, by_body += other.by_body;
   }
@@ -91,6 +95,11 @@ class EdgeAir {
       }
     for (const glm::ivec2& p : edge_)
       if (map_[at(p.x, p.y)] == kUnseen) grow(p);
+    low_ = high_ = edge_.empty() ? glm::ivec2(0) : edge_.front();
+    for (const glm::ivec2& p : edge_) {
+      low_ = glm::min(low_, p);
+      high_ = glm::max(high_, p);
+    }
     // The field is convex, so that its edge runs round its middle.
     const glm::dvec2 middle(mean_x / field, mean_y / field);
     std::vector<std::pair<double, glm::ivec2>> by_angle;
@@ -113,7 +122,9 @@ class EdgeAir {
       piece.voxels += 1.0;
       if (far_from_tissue(p)) {
         piece.inner += 1.0;
-        piece.dense += volume_.hu[slices_.voxel(slice_, p.x, p.y)] > kLungAboveHu ? 1.0 : 0.0;
+        const int hu = volume_.hu[slices_.voxel(slice_, p.x, p.y)];
+        piece.dense += hu > kLungAboveHu ? 1.0 : 0.0;
+        piece.sum_hu += hu;
       }
       for (const glm::ivec2& q : {glm::ivec2(p.x - 1, p.y), {p.x + 1, p.y}, {p.x, p.y - 1}, {p.x, p.y + 1}}) {
         if (!in_field(q.x, q.y)) continue;
@@ -152,7 +163,14 @@ class EdgeAir {
       while (step <= count && !is_tissue((first + step) % count)) ++step;
       if (step == begin) continue;
       const glm::ivec2 a = edge_[(first + begin) % count], b = edge_[(first + step - 1) % count];
-      const bool room = tissue_share(a, b) >= kRoomTissueShare;
+      std::array<bool, 4> touched{};
+      for (std::size_t i = begin; i < step; ++i) {
+        const glm::ivec2 p = edge_[(first + i) % count];
+        touched[0] |= p.x == low_.x, touched[1] |= p.x == high_.x;
+        touched[2] |= p.y == low_.y, touched[3] |= p.y == high_.y;
+      }
+      const bool room = std::count(touched.begin(), touched.end(), true) >= kSidesOfTheRoom ||
+                        tissue_share(a, b) >= kRoomTissueShare;
       for (std::size_t i = begin; i < step; ++i) {
         EdgePiece& piece = piece_at(edge_[(first + i) % count]);
         (room ? piece.room_votes : piece.inside_votes) += 1.0;
@@ -212,7 +230,8 @@ class EdgeAir {
     for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) {
       const EdgePiece& sum = sums[root(piece)];
       const bool lung = sum.inner >= least_inner && sum.dense * 3.0 > sum.inner * 2.0;
-      const bool votes = sum.inside_votes * (lung ? kClearVote : 1.0) > sum.room_votes;
+      const bool sure = lung && sum.dense >= kAllDense * sum.inner && sum.sum_hu >= kLungMeanHu * sum.inner;
+      const bool votes = sure || sum.inside_votes * (lung ? kClearVote : 1.0) > sum.room_votes;
       inside[piece] = votes && sum.by_body >= kBesideBodyShare * sum.by_tissue ? 1 : 0;
     }
     return inside;
@@ -224,6 +243,7 @@ class EdgeAir {
   int slice_ = 0;
   std::vector<std::int32_t> map_;  // of the slice: kTissue, kPadding, a piece's number, or kUnseen
   std::vector<glm::ivec2> edge_, open_;
+  glm::ivec2 low_{0}, high_{0};  // of the edge
   std::vector<EdgePiece> pieces_;
 };
 

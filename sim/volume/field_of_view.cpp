@@ -75,16 +75,16 @@ class Surround {
     for (int y = 0; y < slices_.height(); ++y)
       for (int x = 0; x < slices_.width(); ++x) {
         if (joined_[at(x, y)] != 0) continue;
-        bool beside = false;
-        for (const glm::ivec2& q : around({x, y}))
-          if (holds(q.x, q.y) && joined_[at(q.x, q.y)] != 0) {
-            edge_mm.push_back((glm::dvec2(x, y) + glm::dvec2(q)) / 2.0 * slices_.spacing_mm());
-            beside = true;
+        for (const glm::ivec2& q : around({x, y})) {
+          if (!holds(q.x, q.y) || joined_[at(q.x, q.y)] == 0) continue;
+          edge_mm.push_back((glm::dvec2(x, y) + glm::dvec2(q)) / 2.0 * slices_.spacing_mm());
+          // A few voxels in, where a body's own edge has no blur.
+          const glm::ivec2 in = glm::ivec2(x, y) + kFarInVoxels * (glm::ivec2(x, y) - q);
+          for (int slice = 0; holds(in.x, in.y) && slice < slices_.count(); ++slice) {
+            ++within;
+            const int hu = volume_.hu[slices_.voxel(slice, in.x, in.y)];
+            air += hu < kRoomBelowHu && hu > lowest_ ? 1 : 0;
           }
-        for (int slice = 0; beside && slice < slices_.count(); ++slice) {
-          ++within;
-          const int hu = volume_.hu[slices_.voxel(slice, x, y)];
-          air += hu <= kSkinHu && hu > lowest_ ? 1 : 0;
         }
       }
     if (edge_mm.size() < kLeastEdge) return false;

@@ -122,6 +122,27 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
+// Where a cap meets another cut, decimation may pull one of its corners to what lies kOffFaceVoxel off the face:
+// the triangle lies there and faces as the cap does.
+bool lies_on_face(const cases::Mesh& mesh, const glm::uvec3& triangle, const glm::dmat4& voxel_from_lps,
+                  const glm::ivec3& size_voxels) {
+  constexpr double kNearVoxel = 2.0 * kOffFaceVoxel, kFacing = 0.9;  // cosine
+  std::array<glm::dvec3, 3> voxel;
+  for (int corner = 0; corner < 3; ++corner)
+    voxel[static_cast<std::size_t>(corner)] =
+        glm::dvec3(voxel_from_lps * glm::dvec4(glm::dvec3(mesh.vertices_lps_mm[triangle[corner]]), 1.0));
+  const glm::dvec3 normal = glm::cross(voxel[1] - voxel[0], voxel[2] - voxel[0]);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(normal[axis]) > kFacing * glm::length(normal))) continue;
+    const auto near = [&](double face) {
+      return std::all_of(voxel.begin(), voxel.end(),
+                         [&](const glm::dvec3& p) { return std::abs(p[axis] - face) < kNearVoxel; });
+    };
+    if (near(-0.5) || near(size_voxels[axis] - 0.5)) return true;
+  }
+  return false;
+}
+
 // Whether a triangle faces what was not measured: the body goes on there.
 bool faces_padding(const cases::Mesh& mesh, const glm::uvec3& triangle, const volume::Volume& volume,
                    const glm::dmat4& voxel_from_lps, const std::vector<std::uint8_t>& padding, double step_mm) {
@@ -223,7 +244,11 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
     for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
   const std::vector<std::uint8_t> faces = faces_of(mesh, volume);  // decimation moves no vertex
   mesh.cut.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles) mesh.cut.push_back(is_cut(triangle, faces) ? 1 : 0);
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const bool cut = is_cut(triangle, faces) || lies_on_face(mesh, triangle, voxel_from_lps, volume.size_voxels);
+    mesh.cut.push_back(cut ? 1 : 0);
+  }
   mark_padded(volume, options.target_spacing_mm, mesh);
   return mesh;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -51,6 +53,7 @@ CutScore score_cut(const cases::Mesh& whole, const cases::MeshIndex& whole_index
     near = closest.triangle;
     const double off_mm = std::abs(closest.distance_mm);
     if (!(off_mm <= score.farthest_mm)) score.farthest_mm = off_mm;
+    if (getenv("DBG") && off_mm > 8 * voxel_mm) std::printf("  %.0f %.0f %.0f off %.1f\n", facet.middle_lps_mm.x, facet.middle_lps_mm.y, facet.middle_lps_mm.z, off_mm);
     if (!(off_mm <= voxel_mm)) score.false_skin_mm2 += facet.area_mm2;
   }
   const cases::MeshIndex cut_index(cut);

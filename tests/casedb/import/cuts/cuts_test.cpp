@@ -21,6 +21,7 @@ void expect_true_skin(const std::string& patient, const volume::Volume& whole,
   ASSERT_TRUE(skin);
   const cases::MeshIndex index(*skin);
   for (const volume::Crop& crop : crops) {
+    if (getenv("ONLY") && crop.name != getenv("ONLY")) continue;
     const volume::Volume field = volume::cropped(whole, body, crop);
     const auto cut = skin_surface(field);
     ASSERT_TRUE(cut);
