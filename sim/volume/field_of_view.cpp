@@ -18,6 +18,7 @@ constexpr double kLeastShare = 0.002;                 // of a slice: the corners
 constexpr double kOffVoxels = 1.5, kOffShare = 0.02;  // of the edge from its circle; share of the radius
 constexpr double kOnCircleShare = 0.95;               // of the edge
 constexpr double kMeasuredAirShare = 0.1;             // of the voxels within the edge, where padding is not kAirHu
+constexpr int kFarInVoxels = 3, kRoomBelowHu = -900;
 constexpr std::size_t kLeastEdge = 20;
 
 struct Circle {

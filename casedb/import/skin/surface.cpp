@@ -19,6 +19,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <string>
 #include <utility>
 
 #include "casedb/import/skin/closed_mesh.h"
@@ -122,23 +123,25 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
-// Where a cap meets another cut, decimation may pull one of its corners to what lies kOffFaceVoxel off the face:
-// the triangle lies there and faces as the cap does.
-bool lies_on_face(const cases::Mesh& mesh, const glm::uvec3& triangle, const glm::dmat4& voxel_from_lps,
-                  const glm::ivec3& size_voxels) {
-  constexpr double kNearVoxel = 2.0 * kOffFaceVoxel, kFacing = 0.9;  // cosine
+// Where a cap meets another cut, decimation may pull one of its corners off the face: the triangle still begins
+// there and faces as the cap does.
+bool leans_on_face(const cases::Mesh& mesh, const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces,
+                   const glm::dmat4& voxel_from_lps, const glm::ivec3& size_voxels) {
+  constexpr double kNearVoxel = 2.0, kFacing = 0.9;  // cosine
   std::array<glm::dvec3, 3> voxel;
   for (int corner = 0; corner < 3; ++corner)
     voxel[static_cast<std::size_t>(corner)] =
         glm::dvec3(voxel_from_lps * glm::dvec4(glm::dvec3(mesh.vertices_lps_mm[triangle[corner]]), 1.0));
   const glm::dvec3 normal = glm::cross(voxel[1] - voxel[0], voxel[2] - voxel[0]);
+  const unsigned on = static_cast<unsigned>(faces[triangle.x] | faces[triangle.y] | faces[triangle.z]);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(normal[axis]) > kFacing * glm::length(normal))) continue;
     const auto near = [&](double face) {
       return std::all_of(voxel.begin(), voxel.end(),
                          [&](const glm::dvec3& p) { return std::abs(p[axis] - face) < kNearVoxel; });
     };
-    if (near(-0.5) || near(size_voxels[axis] - 0.5)) return true;
+    if ((on & 1U << (2 * axis)) != 0 && near(-0.5)) return true;
+    if ((on & 2U << (2 * axis)) != 0 && near(size_voxels[axis] - 0.5)) return true;
   }
   return false;
 }
@@ -246,11 +249,51 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
   mesh.cut.reserve(mesh.triangles.size());
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const bool cut = is_cut(triangle, faces) || lies_on_face(mesh, triangle, voxel_from_lps, volume.size_voxels);
+    const bool cut =
+        is_cut(triangle, faces) || leans_on_face(mesh, triangle, faces, voxel_from_lps, volume.size_voxels);
     mesh.cut.push_back(cut ? 1 : 0);
   }
   mark_padded(volume, options.target_spacing_mm, mesh);
   return mesh;
+}
+
+std::optional<base::Problem> cut_body(const cases::Mesh& skin, const volume::Volume& volume) {
+  // Of the voxel axes nearest to the patient's: −x is right, −y is front, −z is feet (LPS).
+  static constexpr const char* kSides[] = {"right", "left", "front", "back", "feet", "head"};
+  constexpr double kLeastMm2 = 100.0;
+  const std::vector<std::uint8_t> faces = faces_of(skin, volume);
+  std::array<double, 6> side_mm2{};
+  double skin_mm2 = 0.0, elsewhere_mm2 = 0.0, all_mm2 = 0.0;
+  for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+    const glm::uvec3& t = skin.triangles[i];
+    const glm::dvec3 a(skin.vertices_lps_mm[t.x]), b(skin.vertices_lps_mm[t.y]), c(skin.vertices_lps_mm[t.z]);
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double area_mm2 = 0.5 * glm::length(normal);
+    all_mm2 += area_mm2;
+    if (skin.cut[i] == 0) {
+      skin_mm2 += area_mm2;
+    } else if (!is_cut(t, faces)) {
+      elsewhere_mm2 += area_mm2;
+    } else {
+      int axis = 0;
+      for (int other = 1; other < 3; ++other)
+        if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+      side_mm2[static_cast<std::size_t>(2 * axis + (normal[axis] > 0.0 ? 1 : 0))] += area_mm2;
+    }
+  }
+  std::string where;
+  const auto add = [&](const std::string& text) { where += (where.empty() ? "" : ", ") + text; };
+  bool beside = elsewhere_mm2 >= kLeastMm2;
+  for (std::size_t side = 0; side < side_mm2.size(); ++side) {
+    if (side_mm2[side] < kLeastMm2) continue;
+    beside = beside || side < 4;
+    add(kSides[side]);
+  }
+  if (elsewhere_mm2 >= kLeastMm2) add("edge of what was reconstructed");
+  if (!beside) return std::nullopt;  // any CT of a trunk ends towards head and feet
+  return base::Problem{"cut_body", "the CT ends within the patient (" + where + "): there is no skin there, and " +
+                                       std::to_string(std::lround(100.0 * skin_mm2 / all_mm2)) +
+                                       " % of the surface is skin"};
 }
 
 }  // namespace seldinger::casedb

@@ -1,11 +1,15 @@
 #include "tests/casedb/import/cuts/cut_score.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
+
+#include "casedb/import/skin/surface.h"
+#include "sim/volume/body_mask.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -39,8 +43,14 @@ bool well_within(const volume::Volume& field, const glm::dvec3& index) {
 
 }  // namespace
 
-CutScore score_cut(const cases::Mesh& whole, const cases::MeshIndex& whole_index, const cases::Mesh& cut,
-                   const volume::Volume& field) {
+WholePatient::WholePatient(const volume::Volume& volume) : volume_(volume), body_(volume::body_mask(volume)) {
+  auto skin = skin_surface(volume, {.decimate_share = 0.0});
+  EXPECT_TRUE(skin);
+  if (skin) skin_ = std::move(*skin);
+  index_ = cases::MeshIndex(skin_);
+}
+
+CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field) const {
   CutScore score;
   score.triangles = cut.triangles.size();
   const double voxel_mm = std::max({field.spacing_mm.x, field.spacing_mm.y, field.spacing_mm.z});
@@ -49,20 +59,19 @@ CutScore score_cut(const cases::Mesh& whole, const cases::MeshIndex& whole_index
     const Facet facet = facet_of(cut, cut.triangles[i]);
     (cut.cut[i] != 0 ? score.cut_mm2 : score.skin_mm2) += facet.area_mm2;
     if (cut.cut[i] != 0) continue;
-    const cases::Closest closest = whole_index.closest_skin(facet.middle_lps_mm, near);
+    const cases::Closest closest = index_.closest_skin(facet.middle_lps_mm, near);
     near = closest.triangle;
     const double off_mm = std::abs(closest.distance_mm);
     if (!(off_mm <= score.farthest_mm)) score.farthest_mm = off_mm;
-    if (getenv("DBG") && off_mm > 8 * voxel_mm) std::printf("  %.0f %.0f %.0f off %.1f\n", facet.middle_lps_mm.x, facet.middle_lps_mm.y, facet.middle_lps_mm.z, off_mm);
     if (!(off_mm <= voxel_mm)) score.false_skin_mm2 += facet.area_mm2;
   }
   const cases::MeshIndex cut_index(cut);
   const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(field);
   double wanted = 0.0, lost = 0.0;
   near = 0;
-  for (std::size_t i = 0; i < whole.triangles.size(); ++i) {
-    const Facet facet = facet_of(whole, whole.triangles[i]);
-    if (whole.cut[i] != 0 || !well_within(field, glm::dvec3(voxel_from_lps * glm::dvec4(facet.middle_lps_mm, 1.0))))
+  for (std::size_t i = 0; i < skin_.triangles.size(); ++i) {
+    const Facet facet = facet_of(skin_, skin_.triangles[i]);
+    if (skin_.cut[i] != 0 || !well_within(field, glm::dvec3(voxel_from_lps * glm::dvec4(facet.middle_lps_mm, 1.0))))
       continue;
     wanted += facet.area_mm2;
     const cases::Closest closest = cut_index.closest(facet.middle_lps_mm, near);
@@ -71,6 +80,19 @@ CutScore score_cut(const cases::Mesh& whole, const cases::MeshIndex& whole_index
   }
   score.lost_share = wanted > 0.0 ? lost / wanted : 0.0;
   return score;
+}
+
+void expect_true_skin(const WholePatient& whole, const volume::Crop& crop) {
+  // A rim where skin meets a cut is no whole triangle's.
+  constexpr double kRimShare = 0.002, kLostShare = 0.01;
+  const volume::Volume field = volume::cropped(whole.volume(), whole.body(), crop);
+  const auto skin = skin_surface(field);
+  ASSERT_TRUE(skin) << crop.name;
+  const CutScore score = whole.score(*skin, field);
+  EXPECT_LE(score.false_skin_mm2, std::max(kRimShare * score.skin_mm2, 100.0))
+      << crop.name << ": " << score.farthest_mm << " mm";
+  EXPECT_LE(score.lost_share, kLostShare) << crop.name;
+  EXPECT_GT(score.cut_mm2, 0.0) << crop.name;
 }
 
 }  // namespace seldinger::casedb
