@@ -15,10 +15,10 @@ constexpr double kRimMm = 2.0;             // of a piece, left out when its dens
 constexpr double kLeastLungMl = 2.0;       // of what is left: less says nothing
 constexpr double kRoomTissueShare = 0.35;  // of the line between a run's ends, from which on it is the room's
 constexpr double kClearVote = 3.0;         // against lung
-constexpr double kAllDense = 0.9;          // of a lung that needs no vote: with some of the room's air it is less, …
-constexpr double kLungMeanHu = -900.0;     // … and foam, 0.05 g/cm³ and less, is lighter
-constexpr int kSidesOfTheRoom = 3;         // of the field's box, touched by one run: no lung or bowel is so wide
-constexpr double kTogether = 0.3;          // of the smaller of two pieces lies beside the other
+constexpr double kAllDense = 0.9;       // of a lung that needs no vote: with some of the room's air it is less, …
+constexpr double kLungMeanHu = -900.0;  // … and foam, 0.05 g/cm³ and less, is lighter
+constexpr int kSidesOfTheRoom = 3;      // of the field's box, touched by one run: no lung or bowel is so wide
+constexpr double kTogether = 0.3;       // of the smaller of two pieces lies beside the other
 constexpr double kBesideBodyShare =
     0.5;  // of a piece's border with tissue: else it lies between a couch and the edge
 
@@ -26,10 +26,10 @@ constexpr std::int32_t kTissue = -1, kPadding = -2, kUnseen = 0;
 
 // Air of one slice that is joined and reaches the edge.
 struct EdgePiece {
-  std::uint32_t parent = 0;  // of those that vote together
+  std::uint32_t parent = 0;                                     // of those that vote together
   double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;  // dense, sum_hu: of inner ones
-  double room_votes = 0.0, inside_votes = 0.0;  // edge voxels
-  double by_tissue = 0.0, by_body = 0.0;        // voxel faces
+  double room_votes = 0.0, inside_votes = 0.0;                  // edge voxels
+  double by_tissue = 0.0, by_body = 0.0;                        // voxel faces
   void add(const EdgePiece& other) {
     voxels += other.voxels, inner += other.inner, dense += other.dense, sum_hu += other.sum_hu;
     room_votes += other.room_votes, inside_votes += other.inside_votes;

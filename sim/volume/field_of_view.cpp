@@ -10,6 +10,7 @@
 
 #include "sim/volume/axial_slices.h"
 #include "sim/volume/body_mask.h"
+#include "sim/volume/padding_planes.h"
 
 namespace seldinger::volume {
 namespace {
@@ -67,6 +68,8 @@ class Surround {
       for (const glm::ivec2& q : around(p)) reach(q.x, q.y);
     }
   }
+
+  int lowest() const { return lowest_; }
 
   bool is_circle() const {
     const auto count = static_cast<double>(std::count(joined_.begin(), joined_.end(), 1));
@@ -139,7 +142,10 @@ std::vector<std::uint8_t> padding_of(const Volume& volume) {
   if (volume.hu.empty()) return {};
   const AxialSlices slices(volume);
   const Surround surround(volume, slices);
-  return surround.is_circle() ? surround.mask() : std::vector<std::uint8_t>();
+  const bool circle = surround.is_circle();
+  std::vector<std::uint8_t> padding = circle ? surround.mask() : std::vector<std::uint8_t>(volume.hu.size(), 0);
+  const bool planes = surround.lowest() == kAirHu && add_padding_planes(volume, padding);
+  return circle || planes ? padding : std::vector<std::uint8_t>();
 }
 
 }  // namespace seldinger::volume
