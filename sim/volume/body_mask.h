@@ -1,6 +1,6 @@
 // The body: largest 3-D component (6-neighbours) above a threshold, interior air filled per axial slice
 // (docs/clinical.md, "Body and patient"). Where the field of view cuts the body, lung, bowel and airways behind the
-// cut are inside (docs/decisions/0057).
+// cut are inside (docs/decisions/0060).
 #pragma once
 
 #include <cstdint>
