@@ -92,9 +92,10 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
     return;
   }
   if (!skin_within_reach(scene, lesion.lesion.center_lps_mm)) {
-    checks.push_back({"lesion_reachable", false,
-                      which + ": no skin lies within the needle's reach, where the CT does not end in the patient",
-                      lesion.form.center_lps_mm});
+    checks.push_back(
+        {"lesion_reachable", false,
+         which + ": there is no skin within the needle's reach; around it the CT ends within the patient",
+         lesion.form.center_lps_mm});
     return;
   }
   assessment::PathLimits limits = assessment::path_limits(scene);
