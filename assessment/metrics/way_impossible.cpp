@@ -70,7 +70,7 @@ constexpr MetricInfo kWayMetrics[] = {
      "pointed up by more than 30° with its hub 10 mm and more below the table: no hand does. Else 0. Such an "
      "attempt "
      "is not graded.",
-     "docs/clinical.md, Body and patient", &way_impossible, kProportion, kMirrored | kOneDarkFrame},
+     "docs/clinical.md, Body and patient", &way_impossible, kProportion, kInAnyFrame | kMirrored | kOneDarkFrame},
 };
 
 }  // namespace

@@ -24,7 +24,7 @@
 
 #include "casedb/import/skin/closed_mesh.h"
 #include "casedb/import/skin/surface_grid.h"
-#include "sim/volume/field_of_view.h"
+#include "sim/volume/body/field_of_view.h"
 
 namespace seldinger::casedb {
 namespace {

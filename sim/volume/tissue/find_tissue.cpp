@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "sim/base/check.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "sim/volume/tissue/class_steps.h"
 
 namespace seldinger::volume {

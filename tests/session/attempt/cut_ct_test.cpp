@@ -12,7 +12,7 @@
 #include "casedb/import/skin/surface.h"
 #include "session/attempt/simulated_attempt.h"
 #include "session/attempt/simulation.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "sim/volume/phantom.h"
 #include "tests/casedb/import/cuts/cropped.h"
 

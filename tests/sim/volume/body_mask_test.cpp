@@ -1,5 +1,5 @@
 // The body is the largest piece above the threshold, without couch or sheets, its air filled slice by slice.
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 #include <gtest/gtest.h>
 

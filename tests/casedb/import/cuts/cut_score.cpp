@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "casedb/import/skin/surface.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 namespace seldinger::casedb {
 namespace {
+
+constexpr double kOffMm = 10.0, kOffVoxels = 4.0;  // from the field's edge, where skin may be lost
 
 struct Facet {
   glm::dvec3 middle_lps_mm{0.0};
@@ -26,19 +28,19 @@ Facet facet_of(const cases::Mesh& mesh, const glm::uvec3& t) {
 
 // Whether all of the neighbourhood was measured; padding is kAirHu through and through.
 bool well_within(const volume::Volume& field, const glm::dvec3& index) {
-  constexpr double kOffMm = 10.0;
-  const glm::dvec3 off = kOffMm / field.spacing_mm;
+  const glm::dvec3 mm = field.spacing_mm;
+  const glm::dvec3 off = std::max(kOffMm, kOffVoxels * std::max({mm.x, mm.y, mm.z})) / mm;
   if (!volume::inside(field, index - off) || !volume::inside(field, index + off)) return false;
-  int measured = 0, all = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-1.0, 1.0}) {
-      glm::dvec3 at = index;
-      at[axis] += side * off[axis];
-      const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(at)), glm::ivec3(0), field.size_voxels - 1);
-      measured += field.at(voxel.x, voxel.y, voxel.z) != volume::kAirHu ? 1 : 0;
-      ++all;
-    }
-  return measured == all;
+  // On a ball, in 26 directions.
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const glm::dvec3 at = index + off * glm::normalize(glm::dvec3(x, y, z));
+        const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(at)), glm::ivec3(0), field.size_voxels - 1);
+        if (field.at(voxel.x, voxel.y, voxel.z) == volume::kAirHu) return false;
+      }
+  return true;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct CutScore {
   double skin_mm2 = 0.0, cut_mm2 = 0.0;
   double false_skin_mm2 = 0.0;  // called skin, and farther than a voxel from the whole patient's
   double farthest_mm = 0.0;     // of what is called skin from the whole patient's
-  double lost_share = 0.0;      // of the whole patient's skin within the field, 10 mm and more off its edge
+  double lost_share = 0.0;      // of the whole patient's skin within the field, 10 mm and 4 voxels off its edge
 };
 
 // A CT before it is cropped: what its crops are held against.

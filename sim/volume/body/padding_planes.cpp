@@ -1,4 +1,4 @@
-#include "sim/volume/padding_planes.h"
+#include "sim/volume/body/padding_planes.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "sim/base/rng.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 namespace seldinger::volume {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/volume/field_of_view.h"
+#include "sim/volume/body/field_of_view.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "sim/volume/axial_slices.h"
-#include "sim/volume/body_mask.h"
-#include "sim/volume/padding_planes.h"
+#include "sim/volume/body/body_mask.h"
+#include "sim/volume/body/padding_planes.h"
 
 namespace seldinger::volume {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/volume/cut_air.h"
+#include "sim/volume/body/cut_air.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "sim/volume/axial_slices.h"
+#include "sim/volume/body/cut_air.h"
+#include "sim/volume/body/field_of_view.h"
 #include "sim/volume/components.h"
-#include "sim/volume/cut_air.h"
-#include "sim/volume/field_of_view.h"
 
 namespace seldinger::volume {
 namespace {
