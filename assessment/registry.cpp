@@ -13,10 +13,10 @@ namespace {
 
 std::vector<MetricInfo> all_metrics() {
   std::vector<MetricInfo> all;
-  for (const auto& table :
-       {endpoint_metrics(), approach_metrics(), puncture_metrics(), structure_metrics(), procedure_metrics(),
-        breath_metrics(), force_metrics(), advance_metrics(), probe_metrics(), last_advance_metrics(),
-        visibility_metrics(), path_metrics(), time_metrics(), fluoroscopy_metrics(), recording_metrics()})
+  for (const auto& table : {endpoint_metrics(), approach_metrics(), puncture_metrics(), structure_metrics(),
+                            procedure_metrics(), breath_metrics(), force_metrics(), advance_metrics(),
+                            probe_metrics(), last_advance_metrics(), visibility_metrics(), path_metrics(),
+                            time_metrics(), fluoroscopy_metrics(), recording_metrics(), way_metrics()})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

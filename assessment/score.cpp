@@ -4,6 +4,7 @@
 
 #include "assessment/registry.h"
 #include "assessment/signals/target_view.h"
+#include "sim/case/patient_position.h"
 
 namespace seldinger::assessment {
 
@@ -21,6 +22,11 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   }
   setting.subject = scene.subject;
   setting.position = scene.position;
+  const glm::dvec3 up = cases::upwards(scene.position);
+  for (const glm::vec3& vertex : scene.skin.vertices_lps_mm) {
+    const double height_mm = glm::dot(glm::dvec3(vertex), up);
+    if (!setting.table_mm || height_mm < *setting.table_mm) setting.table_mm = height_mm;
+  }
   setting.defer_is_right = scene.defer_is_right;
   setting.breathes = scene.breathing.has_value();
   setting.yields = scene.yields;

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "casedb/cases/authoring.h"
 #include "casedb/export/dicom_series.h"
@@ -50,6 +51,8 @@ base::Result<casedb::NewCase> import_built_in(volume::Phantom phantom, const std
   if (!written) return written.error();
   auto imported = import_case(folder.path(), {}, title, origin);
   if (imported) imported->labels = std::move(phantom.labels);
+  if (imported)  // a block of gel ends where it is meant to
+    std::erase_if(imported->warnings, [](const base::Problem& warning) { return warning.code == "cut_body"; });
   if (imported) imported->no_burned_in_text = true;  // we made every voxel
   return imported;
 }
@@ -95,6 +98,7 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   progress("making the skin");
   auto skin = casedb::skin_surface(read->volume);
   if (!skin) return casedb::with_doubted_hu(skin.error(), *read);
+  if (auto cut = casedb::cut_body(*skin, read->volume)) read->warnings.push_back(std::move(*cut));
   casedb::NewCase made;
   const glm::ivec3 size = read->volume.size_voxels;
   made.title = !title.empty() ? title

@@ -185,6 +185,8 @@ constexpr Phrase kPhrases[] = {
      "Tracking jumped only {times} beyond repair", "Tracking never jumped beyond repair"},
     {"repaired_share", "tracking", "{} of the tracked poses had to be repaired",
      "Only {} of the tracked poses had to be repaired", "No tracked pose had to be repaired"},
+    {"way_impossible", "way", "Had the needle where no hand can lead it",
+     "Had the needle where no hand can lead it", "Had the needle only where a hand can lead it"},
 };
 
 void replace(std::string& text, std::string_view hole, std::string_view value) {

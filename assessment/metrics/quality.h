@@ -13,8 +13,9 @@ constexpr double kMaxRepairedShare = 0.01;                      // judgement: on
 
 // Why an attempt with these metrics is not to be graded, as a stable code; empty when it is. `too_short` (no time
 // passed), `tracking_gaps` (over 5 % of the time), `tracking_slow` (under 60 Hz in over 5 % of the time),
-// `tracking_jumps` (any that was not repaired), `tracking_repaired` (over 1 % of the poses), `quality_not_measured`
-// (stored before these were). Of several versions of a metric the newest counts.
+// `tracking_jumps` (any that was not repaired), `tracking_repaired` (over 1 % of the poses), `way_impossible`
+// (through a cut side of the CT or the table, or out of the body ahead), `quality_not_measured` (stored before
+// these were). Of several versions of a metric the newest counts.
 std::string why_not_gradable(std::span<const MetricValue> metrics);
 
 }  // namespace seldinger::assessment

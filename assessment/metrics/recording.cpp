@@ -89,6 +89,9 @@ std::string why_not_gradable(std::span<const MetricValue> metrics) {
   if (!left->value || *left->value > 0.0) return "tracking_jumps";
   if (repaired != nullptr && !(repaired->value && *repaired->value <= kMaxRepairedShare))
     return "tracking_repaired";
+  // Stored before it was asked, an attempt keeps its grade.
+  const MetricValue* impossible = newest("way_impossible");
+  if (impossible != nullptr && impossible->value && !(*impossible->value == 0.0)) return "way_impossible";
   return "";
 }
 

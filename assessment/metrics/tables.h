@@ -28,6 +28,7 @@ std::span<const MetricInfo> path_metrics();
 std::span<const MetricInfo> force_metrics();
 std::span<const MetricInfo> time_metrics();
 std::span<const MetricInfo> fluoroscopy_metrics();
+std::span<const MetricInfo> way_metrics();
 std::span<const MetricInfo> recording_metrics();
 std::span<const MetricInfo> procedure_metrics();
 std::span<const MetricInfo> breath_metrics();

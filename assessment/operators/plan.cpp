@@ -55,11 +55,33 @@ bool free_path(const volume::Volume& volume, const glm::dmat4& voxel_from_lps, c
   return true;
 }
 
-// Whether a needle gets to its entry from outside without going through a fold of skin or along it.
+// Whether a place outside lies where the patient goes on beyond a cut side of the CT.
+bool beyond_a_cut(const cases::MeshIndex& skin, const cases::Closest& near, const glm::dvec3& p) {
+  constexpr double kStraightAhead = 0.98;  // cosine: not beside the cut
+  return skin.cut(near.triangle) &&
+         glm::dot(p - near.point_lps_mm, skin.normal(near.triangle)) > kStraightAhead * near.distance_mm;
+}
+
+// Whether an entry keeps off the rim of a cut: a hand sways by millimetres.
+bool off_every_cut(const cases::MeshIndex& skin, const glm::dvec3& entry, const glm::dvec3& outward) {
+  constexpr double kOffCutMm = 10.0;
+  const auto [u, v] = base::perpendiculars(outward);
+  for (int k = 0; k < 8; ++k) {
+    const double angle = k * std::numbers::pi / 4.0;
+    const glm::dvec3 p = entry + (u * base::exact_cos(angle) + v * base::exact_sin(angle)) * kOffCutMm;
+    if (skin.cut(skin.closest(p).triangle)) return false;
+  }
+  return true;
+}
+
+// Whether a needle gets to its entry from outside without going through a fold of skin or along it, nor through
+// what of the patient the CT does not show.
 bool free_outside(const cases::MeshIndex& skin, const glm::dvec3& target, const Way& way) {
+  if (!off_every_cut(skin, target + way.outward * way.depth_mm, way.outward)) return false;
   for (double out_mm = kSkinStepMm; out_mm <= kNeedleOutsideMm; out_mm += kSkinStepMm) {
     const glm::dvec3 p = target + way.outward * (way.depth_mm + out_mm);
-    if (skin.closest(p).distance_mm < std::min(kOffSkinMm, 0.25 * out_mm)) return false;
+    const cases::Closest near = skin.closest(p);
+    if (near.distance_mm < std::min(kOffSkinMm, 0.25 * out_mm) || beyond_a_cut(skin, near, p)) return false;
   }
   return true;
 }

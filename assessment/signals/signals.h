@@ -44,6 +44,9 @@ struct AttemptSetting {
   bool breathes = false, yields = false;                             // what moves the case's tissue
   bool target_cannot_show = false;                                   // in no picture of the case (target_view.h)
   cases::SightLaw sight_law = cases::SightLaw::echo;                 // by which the frames were told
+  std::optional<double> table_mm{};       // how high, upwards, what the patient lies on is; nothing: not known
+  bool breathes = false, yields = false;  // what moves the case's tissue
+  bool target_cannot_show = false;        // in no picture of the case (target_view.h)
 };
 
 inline Manner manner_of(const AttemptSetting& setting) {

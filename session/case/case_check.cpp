@@ -65,6 +65,13 @@ double bone_share(const cases::Shape& shape, const glm::dvec3& center_lps_mm, co
   return classes[volume.index(at.x, at.y, at.z)] == volume::TissueClass::bone ? 1.0 : 0.0;
 }
 
+// Whether any way to the target begins at skin: where the CT is cut all around it, none does.
+bool skin_within_reach(const cases::Case& scene, const glm::dvec3& target_lps_mm) {
+  if (scene.skin_index.empty()) return false;
+  const cases::Closest near = scene.skin_index.closest_skin(target_lps_mm);
+  return !scene.skin_index.cut(near.triangle) && std::abs(near.distance_mm) <= scene.instrument.length_mm;
+}
+
 void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const casedb::LesionRow& lesion,
                   const std::string& which, std::vector<Check>& checks) {
   const double depth_mm = -scene.skin_index.closest(lesion.lesion.center_lps_mm).distance_mm;
@@ -82,6 +89,13 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
   checks.push_back({"lesion_not_in_bone", bone <= kMostBoneShare, which + share, lesion.form.center_lps_mm});
   if (row.clinic.defer) {
     checks.push_back({"lesion_reachable", true, which + ": not asked, the right decision is to defer"});
+    return;
+  }
+  if (!skin_within_reach(scene, lesion.lesion.center_lps_mm)) {
+    checks.push_back(
+        {"lesion_reachable", false,
+         which + ": there is no skin within the needle's reach; around it the CT ends within the patient",
+         lesion.form.center_lps_mm});
     return;
   }
   assessment::PathLimits limits = assessment::path_limits(scene);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "sim/volume/axial_slices.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "sim/volume/components.h"
 
 namespace seldinger::casedb {

@@ -15,13 +15,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <string>
 #include <utility>
 
 #include "casedb/import/skin/closed_mesh.h"
 #include "casedb/import/skin/surface_grid.h"
+#include "sim/volume/body/field_of_view.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -120,6 +123,56 @@ bool is_cut(const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces) 
   return (faces[triangle.x] & faces[triangle.y] & faces[triangle.z]) != 0;
 }
 
+// Where a cap meets another cut, decimation may pull one of its corners off the face: the triangle still begins
+// there and faces as the cap does.
+bool leans_on_face(const cases::Mesh& mesh, const glm::uvec3& triangle, const std::vector<std::uint8_t>& faces,
+                   const glm::dmat4& voxel_from_lps, const glm::ivec3& size_voxels) {
+  constexpr double kNearVoxel = 2.0, kFacing = 0.9;  // cosine
+  std::array<glm::dvec3, 3> voxel;
+  for (int corner = 0; corner < 3; ++corner)
+    voxel[static_cast<std::size_t>(corner)] =
+        glm::dvec3(voxel_from_lps * glm::dvec4(glm::dvec3(mesh.vertices_lps_mm[triangle[corner]]), 1.0));
+  const glm::dvec3 normal = glm::cross(voxel[1] - voxel[0], voxel[2] - voxel[0]);
+  const unsigned on = static_cast<unsigned>(faces[triangle.x] | faces[triangle.y] | faces[triangle.z]);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(normal[axis]) > kFacing * glm::length(normal))) continue;
+    const auto near = [&](double face) {
+      return std::all_of(voxel.begin(), voxel.end(),
+                         [&](const glm::dvec3& p) { return std::abs(p[axis] - face) < kNearVoxel; });
+    };
+    if ((on & 1U << (2 * axis)) != 0 && near(-0.5)) return true;
+    if ((on & 2U << (2 * axis)) != 0 && near(size_voxels[axis] - 0.5)) return true;
+  }
+  return false;
+}
+
+// Whether a triangle faces what was not measured: the body goes on there.
+bool faces_padding(const cases::Mesh& mesh, const glm::uvec3& triangle, const volume::Volume& volume,
+                   const glm::dmat4& voxel_from_lps, const std::vector<std::uint8_t>& padding, double step_mm) {
+  const glm::dvec3 a(mesh.vertices_lps_mm[triangle.x]), b(mesh.vertices_lps_mm[triangle.y]),
+      c(mesh.vertices_lps_mm[triangle.z]), normal = glm::cross(b - a, c - a);
+  const double length = glm::length(normal);
+  if (!(length > 0.0)) return false;
+  for (int steps = 1; steps <= 3; ++steps) {
+    const glm::dvec3 p = (a + b + c) / 3.0 + normal / length * (0.5 * steps * step_mm);
+    const glm::dvec3 index(voxel_from_lps * glm::dvec4(p, 1.0));
+    if (!volume::inside(volume, index)) return false;
+    const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(index)), glm::ivec3(0), volume.size_voxels - 1);
+    if (padding[volume.index(voxel.x, voxel.y, voxel.z)] != 0) return true;
+  }
+  return false;
+}
+
+void mark_padded(const volume::Volume& volume, double target_spacing_mm, cases::Mesh& mesh) {
+  const std::vector<std::uint8_t> padding = volume::padding_of(volume);
+  if (padding.empty()) return;
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  const double step_mm =
+      std::max({target_spacing_mm, volume.spacing_mm.x, volume.spacing_mm.y, volume.spacing_mm.z});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (faces_padding(mesh, mesh.triangles[i], volume, voxel_from_lps, padding, step_mm)) mesh.cut[i] = 1;
+}
+
 // Moves the vertices of the skin; caps are left out, so that their right-angled rim, an edge the body does not
 // have, neither rounds nor rings. The rim itself is smoothed along its line.
 void smooth_skin(cases::Mesh& mesh, const std::vector<std::uint8_t>& faces, int iterations) {
@@ -194,8 +247,53 @@ base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const Surfa
     for (glm::uvec3& triangle : mesh.triangles) std::swap(triangle.y, triangle.z);
   const std::vector<std::uint8_t> faces = faces_of(mesh, volume);  // decimation moves no vertex
   mesh.cut.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles) mesh.cut.push_back(is_cut(triangle, faces) ? 1 : 0);
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(volume);
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const bool cut =
+        is_cut(triangle, faces) || leans_on_face(mesh, triangle, faces, voxel_from_lps, volume.size_voxels);
+    mesh.cut.push_back(cut ? 1 : 0);
+  }
+  mark_padded(volume, options.target_spacing_mm, mesh);
   return mesh;
+}
+
+std::optional<base::Problem> cut_body(const cases::Mesh& skin, const volume::Volume& volume) {
+  // Of the voxel axes nearest to the patient's: −x is right, −y is front, −z is feet (LPS).
+  static constexpr const char* kSides[] = {"right", "left", "front", "back", "feet", "head"};
+  constexpr double kLeastMm2 = 100.0;
+  const std::vector<std::uint8_t> faces = faces_of(skin, volume);
+  std::array<double, 6> side_mm2{};
+  double skin_mm2 = 0.0, elsewhere_mm2 = 0.0, all_mm2 = 0.0;
+  for (std::size_t i = 0; i < skin.triangles.size(); ++i) {
+    const glm::uvec3& t = skin.triangles[i];
+    const glm::dvec3 a(skin.vertices_lps_mm[t.x]), b(skin.vertices_lps_mm[t.y]), c(skin.vertices_lps_mm[t.z]);
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double area_mm2 = 0.5 * glm::length(normal);
+    all_mm2 += area_mm2;
+    if (skin.cut[i] == 0) {
+      skin_mm2 += area_mm2;
+    } else if (!is_cut(t, faces)) {
+      elsewhere_mm2 += area_mm2;
+    } else {
+      int axis = 0;
+      for (int other = 1; other < 3; ++other)
+        if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+      side_mm2[static_cast<std::size_t>(2 * axis + (normal[axis] > 0.0 ? 1 : 0))] += area_mm2;
+    }
+  }
+  std::string where;
+  const auto add = [&](const std::string& text) { where += (where.empty() ? "" : ", ") + text; };
+  bool beside = elsewhere_mm2 >= kLeastMm2;
+  for (std::size_t side = 0; side < side_mm2.size(); ++side) {
+    if (side_mm2[side] < kLeastMm2) continue;
+    beside = beside || side < 4;
+    add(kSides[side]);
+  }
+  if (elsewhere_mm2 >= kLeastMm2) add("edge of what was reconstructed");
+  if (!beside) return std::nullopt;  // any CT of a trunk ends towards head and feet
+  return base::Problem{"cut_body", "the CT ends within the patient (" + where + "): there is no skin there, and " +
+                                       std::to_string(std::lround(100.0 * skin_mm2 / all_mm2)) +
+                                       " % of the surface is skin"};
 }
 
 }  // namespace seldinger::casedb

@@ -1,6 +1,8 @@
 // The skin as a closed triangle mesh: the iso-surface of the body mask. The door of VTK.
 #pragma once
 
+#include <optional>
+
 #include "sim/base/result.h"
 #include "sim/case/form/mesh.h"
 #include "sim/volume/volume.h"
@@ -15,8 +17,11 @@ struct SurfaceOptions {
 };
 
 // Clamp, shrink, pad with one voxel of air, iso-surface, smooth, decimate, outward normals; closed where the volume
-// ends, those caps marked cut. Smoothed first: on decimated triangles of every size it goes astray by millimetres.
-// Refused: `no_body`.
+// ends or what lies beyond the reconstruction's circle begins, those caps marked cut. Smoothed first: on decimated
+// triangles of every size it goes astray by millimetres. Refused: `no_body`.
 base::Result<cases::Mesh> skin_surface(const volume::Volume& volume, const SurfaceOptions& options = {});
+
+// The warning `cut_body` of a skin that ends at more than the patient's head and feet: where, and how much is skin.
+std::optional<base::Problem> cut_body(const cases::Mesh& skin, const volume::Volume& volume);
 
 }  // namespace seldinger::casedb

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 namespace seldinger::casedb {
 namespace {

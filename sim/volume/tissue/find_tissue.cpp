@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "sim/base/check.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "sim/volume/tissue/class_steps.h"
 
 namespace seldinger::volume {
@@ -24,9 +24,8 @@ void let_labels_win(const LabelMap& labels, Tissue& tissue_of) {
     }
 }
 
-std::vector<TissueClass> body_and_air(const Volume& volume) {
+std::vector<TissueClass> body_and_air(const Volume& volume, const std::vector<std::uint8_t>& body) {
   std::vector<TissueClass> classes(volume.hu.size());
-  const std::vector<std::uint8_t> body = body_mask(volume);
   std::transform(body.begin(), body.end(), classes.begin(),
                  [](std::uint8_t in) { return in != 0 ? TissueClass::soft_tissue : TissueClass::air; });
   mark_air_spaces(volume, classes);
@@ -38,7 +37,7 @@ std::vector<TissueClass> body_and_air(const Volume& volume) {
 Tissue find_tissue(const Volume& volume, const LabelMap* labels) {
   if (labels != nullptr) CHECK(labels->label.size() == volume.hu.size());
   Tissue made;
-  made.classes = body_and_air(volume);
+  made.classes = body_and_air(volume, body_mask(volume));
   mark_bone_by_shape(volume, made.classes, made.bone_share);
   mark_soft_tissue(volume, made.classes);
   if (labels != nullptr) let_labels_win(*labels, made);
@@ -52,7 +51,7 @@ std::vector<TissueClass> tissue_classes(const Volume& volume, const LabelMap* la
 std::vector<TissueClass> tissue_classes_by_rule_1(const Volume& volume, const LabelMap* labels) {
   if (labels != nullptr) CHECK(labels->label.size() == volume.hu.size());
   Tissue made;
-  made.classes = body_and_air(volume);
+  made.classes = body_and_air(volume, body_mask_by_rule_1(volume));
   made.bone_share.resize(made.classes.size());
   mark_hard_tissue(volume, made.classes);
   mark_soft_tissue(volume, made.classes);

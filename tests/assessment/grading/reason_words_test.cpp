@@ -67,7 +67,7 @@ TEST(ReasonWordsTest, EveryReasonInTheSourcesHasThem) {
 TEST(ReasonWordsTest, EveryReasonOfAGradeHasThem) {
   for (const char* code :
        {"other_version", "not_stored", "no_reason_stored", "not_finite", "interrupted", "device_lost",
-        "tracking_gaps", "tracking_slow", "tracking_jumps", "too_short", "quality_not_measured"})
+        "tracking_gaps", "tracking_slow", "tracking_jumps", "tracking_repaired", "way_impossible", "too_short", "quality_not_measured"})
     EXPECT_NE(find_reason_words(code), nullptr) << code;
 }
 

@@ -6,7 +6,7 @@
 
 #include "casedb/export/dicom_series.h"
 #include "casedb/import/import.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "sim/volume/phantom.h"
 #include "tests/fixtures/folders.h"
 

@@ -7,7 +7,7 @@
 
 #include "casedb/import/skin/surface.h"
 #include "sim/case/form/mesh_index.h"
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 #include "tests/casedb/import/import_case.h"
 #include "tests/fixtures/shared_data.h"
 

@@ -1,5 +1,5 @@
 // The body is the largest piece above the threshold, without couch or sheets, its air filled slice by slice.
-#include "sim/volume/body_mask.h"
+#include "sim/volume/body/body_mask.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ TEST(BodyMask, AgreesWithThePlainDefinitionOnRandomVolumes) {
     Volume v = empty_volume({1 + static_cast<int>(random() % 14), 1 + static_cast<int>(random() % 14),
                              1 + static_cast<int>(random() % 6)});
     for (std::int16_t& hu : v.hu) hu = random() % 100 < 25 + static_cast<unsigned>(round) ? 0 : -1000;
-    const Mask mask = body_mask(v), expected = plain_mask(v, kSkinHu);
+    const Mask mask = body_mask_by_rule_1(v), expected = plain_mask(v, kSkinHu);
     // Two pieces of the same size: either may be the body.
     if (std::count(mask.begin(), mask.end(), 1) == 0) continue;
     Volume chosen = v;

@@ -1,0 +1,259 @@
+#include "sim/volume/body/cut_air.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numeric>
+#include <utility>
+
+namespace seldinger::volume {
+namespace {
+
+constexpr int kLungAboveHu = -930;         // as decision 0012 tells lung from gas
+constexpr double kRimMm = 2.0;             // of a piece, left out when its density is asked
+constexpr double kLeastLungMl = 2.0;       // of what is left: less says nothing
+constexpr double kRoomTissueShare = 0.35;  // of the line between a run's ends, from which on it is the room's
+constexpr double kClearVote = 3.0;         // against lung
+constexpr double kAllDense = 0.9;       // of a lung that needs no vote: with some of the room's air it is less, …
+constexpr double kLungMeanHu = -900.0;  // … and foam, 0.05 g/cm³ and less, is lighter
+constexpr int kSidesOfTheRoom = 3;      // of the field's box, touched by one run: no lung or bowel is so wide
+constexpr double kTogether = 0.3;       // of the smaller of two pieces lies beside the other
+constexpr double kBesideBodyShare =
+    0.5;  // of a piece's border with tissue: else it lies between a couch and the edge
+
+constexpr std::int32_t kTissue = -1, kPadding = -2, kUnseen = 0;
+
+// Air of one slice that is joined and reaches the edge.
+struct EdgePiece {
+  std::uint32_t parent = 0;                                     // of those that vote together
+  double voxels = 0.0, inner = 0.0, dense = 0.0, sum_hu = 0.0;  // dense, sum_hu: of inner ones
+  double room_votes = 0.0, inside_votes = 0.0;                  // edge voxels
+  double by_tissue = 0.0, by_body = 0.0;                        // voxel faces
+  void add(const EdgePiece& other) {
+    voxels += other.voxels, inner += other.inner, dense += other.dense, sum_hu += other.sum_hu;
+    room_votes += other.room_votes, inside_votes += other.inside_votes;
+    by_tissue += other.by_tissue, by_body += other.by_body;
+  }
+};
+
+class EdgeAir {
+ public:
+  EdgeAir(const Volume& volume, const AxialSlices& slices, const std::vector<std::uint8_t>& tissue,
+          const std::vector<std::uint8_t>& body, const std::vector<std::uint8_t>& padding)
+      : volume_(volume), slices_(slices), tissue_(tissue), body_(body), padding_(padding) {}
+
+  std::vector<std::uint8_t> find() {
+    pieces_.resize(1);  // 0 is kUnseen
+    std::vector<std::int32_t> below, all(volume_.hu.size(), kUnseen);
+    for (int slice = 0; slice < slices_.count(); ++slice) {
+      label(slice);
+      vote();
+      if (slice > 0) join(below);
+      for (int y = 0; y < height(); ++y)
+        for (int x = 0; x < width(); ++x) all[slices_.voxel(slice, x, y)] = std::max(map_[at(x, y)], kUnseen);
+      below = map_;
+    }
+    const std::vector<std::uint8_t> inside = judged();
+    std::vector<std::uint8_t> air(volume_.hu.size(), 0);
+    for (std::size_t voxel = 0; voxel < air.size(); ++voxel)
+      air[voxel] = inside[static_cast<std::size_t>(all[voxel])];
+    return air;
+  }
+
+ private:
+  int width() const { return slices_.width(); }
+  int height() const { return slices_.height(); }
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x);
+  }
+  bool in_field(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width() && y < height() && map_[at(x, y)] != kPadding;
+  }
+  bool on_edge(int x, int y) const {
+    return in_field(x, y) &&
+           !(in_field(x - 1, y) && in_field(x + 1, y) && in_field(x, y - 1) && in_field(x, y + 1));
+  }
+
+  void label(int slice) {
+    slice_ = slice;
+    map_.resize(static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()));
+    for (int y = 0; y < height(); ++y)
+      for (int x = 0; x < width(); ++x) {
+        const std::size_t voxel = slices_.voxel(slice, x, y);
+        map_[at(x, y)] = !padding_.empty() && padding_[voxel] != 0 ? kPadding
+                         : tissue_[voxel] != 0                     ? kTissue
+                                                                   : kUnseen;
+      }
+    edge_.clear();
+    double mean_x = 0.0, mean_y = 0.0, field = 0.0;
+    for (int y = 0; y < height(); ++y)
+      for (int x = 0; x < width(); ++x) {
+        if (!in_field(x, y)) continue;
+        mean_x += x, mean_y += y, field += 1.0;
+        if (on_edge(x, y)) edge_.emplace_back(x, y);
+      }
+    for (const glm::ivec2& p : edge_)
+      if (map_[at(p.x, p.y)] == kUnseen) grow(p);
+    low_ = high_ = edge_.empty() ? glm::ivec2(0) : edge_.front();
+    for (const glm::ivec2& p : edge_) {
+      low_ = glm::min(low_, p);
+      high_ = glm::max(high_, p);
+    }
+    // The field is convex, so that its edge runs round its middle.
+    const glm::dvec2 middle(mean_x / field, mean_y / field);
+    std::vector<std::pair<double, glm::ivec2>> by_angle;
+    by_angle.reserve(edge_.size());
+    for (const glm::ivec2& p : edge_) by_angle.emplace_back(std::atan2(p.y - middle.y, p.x - middle.x), p);
+    std::stable_sort(by_angle.begin(), by_angle.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < edge_.size(); ++i) edge_[i] = by_angle[i].second;
+  }
+
+  void grow(const glm::ivec2& from) {
+    const auto id = static_cast<std::int32_t>(pieces_.size());
+    EdgePiece& piece = pieces_.emplace_back();
+    piece.parent = static_cast<std::uint32_t>(id);
+    map_[at(from.x, from.y)] = id;
+    open_.assign(1, from);
+    while (!open_.empty()) {
+      const glm::ivec2 p = open_.back();
+      open_.pop_back();
+      piece.voxels += 1.0;
+      if (far_from_tissue(p)) {
+        piece.inner += 1.0;
+        const int hu = volume_.hu[slices_.voxel(slice_, p.x, p.y)];
+        piece.dense += hu > kLungAboveHu ? 1.0 : 0.0;
+        piece.sum_hu += hu;
+      }
+      for (const glm::ivec2& q : {glm::ivec2(p.x - 1, p.y), {p.x + 1, p.y}, {p.x, p.y - 1}, {p.x, p.y + 1}}) {
+        if (!in_field(q.x, q.y)) continue;
+        std::int32_t& other = map_[at(q.x, q.y)];
+        if (other == kTissue) {
+          piece.by_tissue += 1.0;
+          piece.by_body += body_[slices_.voxel(slice_, q.x, q.y)] != 0 ? 1.0 : 0.0;
+        }
+        if (other != kUnseen) continue;
+        other = id;
+        open_.push_back(q);
+      }
+    }
+  }
+
+  bool far_from_tissue(const glm::ivec2& p) const {
+    const int rx = std::max(1, static_cast<int>(std::lround(kRimMm / slices_.spacing_mm().x))),
+              ry = std::max(1, static_cast<int>(std::lround(kRimMm / slices_.spacing_mm().y)));
+    for (const glm::ivec2& q : {glm::ivec2(p.x - rx, p.y), {p.x + rx, p.y}, {p.x, p.y - ry}, {p.x, p.y + ry}})
+      if (in_field(q.x, q.y) && map_[at(q.x, q.y)] == kTissue) return false;
+    return true;
+  }
+
+  // Each run of air along the edge, between two pieces of tissue, votes with its length.
+  void vote() {
+    const auto is_tissue = [&](std::size_t i) { return map_[at(edge_[i].x, edge_[i].y)] == kTissue; };
+    const std::size_t count = edge_.size();
+    std::size_t first = 0;
+    while (first < count && !is_tissue(first)) ++first;
+    if (first == count) {  // no tissue at the edge: whatever is around is the room's
+      for (const glm::ivec2& p : edge_) piece_at(p).room_votes += 1.0;
+      return;
+    }
+    for (std::size_t step = 1; step <= count; ++step) {
+      const std::size_t begin = step;
+      while (step <= count && !is_tissue((first + step) % count)) ++step;
+      if (step == begin) continue;
+      const glm::ivec2 a = edge_[(first + begin) % count], b = edge_[(first + step - 1) % count];
+      std::array<bool, 4> touched{};
+      for (std::size_t i = begin; i < step; ++i) {
+        const glm::ivec2 p = edge_[(first + i) % count];
+        touched[0] |= p.x == low_.x, touched[1] |= p.x == high_.x;
+        touched[2] |= p.y == low_.y, touched[3] |= p.y == high_.y;
+      }
+      const bool room = std::count(touched.begin(), touched.end(), true) >= kSidesOfTheRoom ||
+                        tissue_share(a, b) >= kRoomTissueShare;
+      for (std::size_t i = begin; i < step; ++i) {
+        EdgePiece& piece = piece_at(edge_[(first + i) % count]);
+        (room ? piece.room_votes : piece.inside_votes) += 1.0;
+      }
+    }
+  }
+
+  EdgePiece& piece_at(const glm::ivec2& p) { return pieces_[static_cast<std::size_t>(map_[at(p.x, p.y)])]; }
+
+  // Of the straight line from a to b; air of another piece between them counts as tissue does: the line leaves the
+  // air that it began in.
+  double tissue_share(const glm::ivec2& a, const glm::ivec2& b) const {
+    const int steps = std::max({std::abs(b.x - a.x), std::abs(b.y - a.y), 1});
+    const std::int32_t own = map_[at(a.x, a.y)];
+    double other = 0.0;
+    for (int i = 0; i <= steps; ++i) {
+      const double part = static_cast<double>(i) / steps;
+      const int x = static_cast<int>(std::lround(a.x + part * (b.x - a.x))),
+                y = static_cast<int>(std::lround(a.y + part * (b.y - a.y)));
+      other += in_field(x, y) && map_[at(x, y)] != own ? 1.0 : 0.0;
+    }
+    return other / (steps + 1);
+  }
+
+  void join(const std::vector<std::int32_t>& below) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> beside;
+    for (std::size_t i = 0; i < map_.size(); ++i)
+      if (map_[i] > kUnseen && below[i] > kUnseen) beside.emplace_back(below[i], map_[i]);
+    std::sort(beside.begin(), beside.end());
+    for (std::size_t i = 0; i < beside.size();) {
+      std::size_t end = i;
+      while (end < beside.size() && beside[end] == beside[i]) ++end;
+      const auto [one, other] = beside[i];
+      const double smaller =
+          std::min(pieces_[static_cast<std::size_t>(one)].voxels, pieces_[static_cast<std::size_t>(other)].voxels);
+      if (static_cast<double>(end - i) >= kTogether * smaller) {
+        const std::uint32_t root_one = root(static_cast<std::uint32_t>(one)),
+                            root_other = root(static_cast<std::uint32_t>(other));
+        pieces_[std::max(root_one, root_other)].parent = std::min(root_one, root_other);
+      }
+      i = end;
+    }
+  }
+
+  std::uint32_t root(std::uint32_t piece) {
+    while (pieces_[piece].parent != piece) piece = pieces_[piece].parent = pieces_[pieces_[piece].parent].parent;
+    return piece;
+  }
+
+  // By piece: 1 where it is the body's.
+  std::vector<std::uint8_t> judged() {
+    std::vector<EdgePiece> sums(pieces_.size());
+    for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) sums[root(piece)].add(pieces_[piece]);
+    const glm::dvec3 mm = volume_.spacing_mm;
+    const double least_inner = kLeastLungMl * 1000.0 / (mm.x * mm.y * mm.z);
+    std::vector<std::uint8_t> inside(pieces_.size(), 0);
+    for (std::uint32_t piece = 1; piece < pieces_.size(); ++piece) {
+      const EdgePiece& sum = sums[root(piece)];
+      const bool lung = sum.inner >= least_inner && sum.dense * 3.0 > sum.inner * 2.0;
+      const bool sure = lung && sum.dense >= kAllDense * sum.inner && sum.sum_hu >= kLungMeanHu * sum.inner;
+      const bool votes = sure || sum.inside_votes * (lung ? kClearVote : 1.0) > sum.room_votes;
+      inside[piece] = votes && sum.by_body >= kBesideBodyShare * sum.by_tissue ? 1 : 0;
+    }
+    return inside;
+  }
+
+  const Volume& volume_;
+  const AxialSlices& slices_;
+  const std::vector<std::uint8_t>&tissue_, &body_, &padding_;
+  int slice_ = 0;
+  std::vector<std::int32_t> map_;  // of the slice: kTissue, kPadding, a piece's number, or kUnseen
+  std::vector<glm::ivec2> edge_, open_;
+  glm::ivec2 low_{0}, high_{0};  // of the edge
+  std::vector<EdgePiece> pieces_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> air_cut_by_edge(const Volume& volume, const AxialSlices& slices,
+                                          const std::vector<std::uint8_t>& tissue,
+                                          const std::vector<std::uint8_t>& body,
+                                          const std::vector<std::uint8_t>& padding) {
+  return EdgeAir(volume, slices, tissue, body, padding).find();
+}
+
+}  // namespace seldinger::volume

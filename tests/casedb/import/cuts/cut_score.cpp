@@ -1,0 +1,103 @@
+#include "tests/casedb/import/cuts/cut_score.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "casedb/import/skin/surface.h"
+#include "sim/volume/body/body_mask.h"
+
+namespace seldinger::casedb {
+namespace {
+
+constexpr double kOffMm = 10.0, kOffVoxels = 4.0;  // from the field's edge, where skin may be lost
+
+struct Facet {
+  glm::dvec3 middle_lps_mm{0.0};
+  double area_mm2 = 0.0;
+};
+
+Facet facet_of(const cases::Mesh& mesh, const glm::uvec3& t) {
+  const glm::dvec3 a(mesh.vertices_lps_mm[t.x]), b(mesh.vertices_lps_mm[t.y]), c(mesh.vertices_lps_mm[t.z]);
+  return {(a + b + c) / 3.0, 0.5 * glm::length(glm::cross(b - a, c - a))};
+}
+
+// Whether all of the neighbourhood was measured; padding is kAirHu through and through.
+bool well_within(const volume::Volume& field, const glm::dvec3& index) {
+  const glm::dvec3 mm = field.spacing_mm;
+  const glm::dvec3 off = std::max(kOffMm, kOffVoxels * std::max({mm.x, mm.y, mm.z})) / mm;
+  if (!volume::inside(field, index - off) || !volume::inside(field, index + off)) return false;
+  // On a ball, in 26 directions.
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const glm::dvec3 at = index + off * glm::normalize(glm::dvec3(x, y, z));
+        const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::round(at)), glm::ivec3(0), field.size_voxels - 1);
+        if (field.at(voxel.x, voxel.y, voxel.z) == volume::kAirHu) return false;
+      }
+  return true;
+}
+
+}  // namespace
+
+WholePatient::WholePatient(const volume::Volume& volume) : volume_(volume), body_(volume::body_mask(volume)) {
+  auto skin = skin_surface(volume, {.decimate_share = 0.0});
+  EXPECT_TRUE(skin);
+  if (skin) skin_ = std::move(*skin);
+  index_ = cases::MeshIndex(skin_);
+}
+
+CutScore WholePatient::score(const cases::Mesh& cut, const volume::Volume& field) const {
+  CutScore score;
+  score.triangles = cut.triangles.size();
+  const double voxel_mm = std::max({field.spacing_mm.x, field.spacing_mm.y, field.spacing_mm.z});
+  std::uint32_t near = 0;
+  for (std::size_t i = 0; i < cut.triangles.size(); ++i) {
+    const Facet facet = facet_of(cut, cut.triangles[i]);
+    (cut.cut[i] != 0 ? score.cut_mm2 : score.skin_mm2) += facet.area_mm2;
+    if (cut.cut[i] != 0) continue;
+    const cases::Closest closest = index_.closest_skin(facet.middle_lps_mm, near);
+    near = closest.triangle;
+    const double off_mm = std::abs(closest.distance_mm);
+    if (!(off_mm <= score.farthest_mm)) score.farthest_mm = off_mm;
+    if (!(off_mm <= voxel_mm)) score.false_skin_mm2 += facet.area_mm2;
+  }
+  const cases::MeshIndex cut_index(cut);
+  const glm::dmat4 voxel_from_lps = volume::voxel_from_lps(field);
+  double wanted = 0.0, lost = 0.0;
+  near = 0;
+  for (std::size_t i = 0; i < skin_.triangles.size(); ++i) {
+    const Facet facet = facet_of(skin_, skin_.triangles[i]);
+    if (skin_.cut[i] != 0 || !well_within(field, glm::dvec3(voxel_from_lps * glm::dvec4(facet.middle_lps_mm, 1.0))))
+      continue;
+    wanted += facet.area_mm2;
+    const cases::Closest closest = cut_index.closest(facet.middle_lps_mm, near);
+    near = closest.triangle;
+    if (cut_index.cut(closest.triangle) || !(std::abs(closest.distance_mm) <= voxel_mm)) lost += facet.area_mm2;
+  }
+  score.lost_share = wanted > 0.0 ? lost / wanted : 0.0;
+  return score;
+}
+
+void expect_true_skin(const WholePatient& whole, const volume::Crop& crop) {
+  // A rim where skin meets a cut is no whole triangle's; where a circle grazes the skin, more of it is taken for
+  // cut.
+  constexpr double kRimShare = 0.003, kRimMm2 = 1000.0, kLostShare = 0.01;
+  const volume::Volume field = volume::cropped(whole.volume(), whole.body(), crop);
+  const auto skin = skin_surface(field);
+  ASSERT_TRUE(skin) << crop.name;
+  const CutScore score = whole.score(*skin, field);
+  EXPECT_LE(score.false_skin_mm2, std::max(kRimShare * score.skin_mm2, kRimMm2))
+      << crop.name << ": " << score.farthest_mm << " mm";
+  if (crop.name != "circle narrow") {
+    EXPECT_LE(score.lost_share, kLostShare) << crop.name;
+  }
+  EXPECT_GT(score.cut_mm2, 0.0) << crop.name;
+}
+
+}  // namespace seldinger::casedb
