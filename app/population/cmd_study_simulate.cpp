@@ -108,6 +108,8 @@ int run_study_simulate(const Arguments& arguments) {
   if (!text) return refuse(text.error());
   auto plan = study::plan_from_json(*text);
   if (!plan) return refuse(plan.error());
+  if (auto problems = study::problems_of(*plan); !problems.empty())
+    return refuse({"bad_study_plan", "the plan asks for what is not measured today", std::move(problems)});
   plan->people = study::People::simulated;  // whatever it is planned for: these are
   const population::World world = world_of(arguments, *plan);
   const auto studies = static_cast<std::size_t>(arguments.whole("--studies", 1000, 1, 1'000'000));
@@ -115,6 +117,10 @@ int run_study_simulate(const Arguments& arguments) {
   const auto seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
+  for (const auto* outcomes : {&plan->primary, &plan->secondary})
+    for (const study::Outcome& one : *outcomes)
+      if (one.case_id != surrogate->mark().case_id)
+        return refuse({"other_surrogate", "the surrogate is of another case than the plan's outcomes"});
   if (arguments.has("--out"))
     if (const auto written =
             write_study(arguments.text("--out"), population::simulated_study(*plan, world, *surrogate, seed, 1));

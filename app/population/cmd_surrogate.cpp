@@ -34,10 +34,10 @@ struct Ready {
   std::uint64_t seed;
 };
 
-base::Result<Ready> ready(const Arguments& arguments, int attempts, int seed) {
+base::Result<Ready> ready(const Arguments& arguments, int attempts, int fewest, int seed) {
   arguments.required("--case");
-  const auto count = arguments.whole("--attempts", attempts, static_cast<int>(population::Surrogate::kFewest),
-                                     static_cast<int>(population::Surrogate::kMost));
+  const auto count =
+      arguments.whole("--attempts", attempts, fewest, static_cast<int>(population::Surrogate::kMost));
   const auto jobs = arguments.whole("--jobs", std::clamp(std::thread::hardware_concurrency(), 1U, 16U), 1, 256);
   const auto first = arguments.whole("--seed", seed, 0, 9'007'199'254'740'992);
   auto library = open_acting(arguments);
@@ -51,7 +51,7 @@ base::Result<Ready> ready(const Arguments& arguments, int attempts, int seed) {
 
 int run_surrogate_fit(const Arguments& arguments) {
   const auto out = file_of("--out", arguments.required("--out"), {".json"});
-  auto made = ready(arguments, 1200, 1);
+  auto made = ready(arguments, 600, static_cast<int>(population::Surrogate::kFewest), 1);
   if (!made) return refuse(made.error());
   auto points = simulated_points(made->simulation, fitted_groups(), made->seed, made->attempts, made->jobs);
   if (!points) return refuse(points.error());
@@ -110,7 +110,7 @@ void print(const std::string& group, const population::Agreement& one) {
 int run_surrogate_check(const Arguments& arguments) {
   const auto surrogate = surrogate_of(arguments);
   if (!surrogate) return refuse(surrogate.error());
-  auto made = ready(arguments, 500, 1'000'001);
+  auto made = ready(arguments, 500, 30, 1'000'001);
   if (!made) return refuse(made.error());
   if (const std::string other = difference(surrogate->mark(), mark_of_case(made->library, made->simulation));
       !other.empty())
@@ -145,7 +145,7 @@ constexpr Option kFile{"--surrogate", "FILE.json", "what `seldinger surrogate fi
 constexpr Option kJobs{"--jobs", "N", "threads; default one for each core. The results are the same"};
 constexpr Option kFitOptions[] = {kLibrary,
                                   kCase,
-                                  {"--attempts", "N", "to fit it to; default 1200"},
+                                  {"--attempts", "N", "to fit it to; default 600"},
                                   {"--seed", "N", "of the people; default 1"},
                                   kJobs,
                                   {"--out", "FILE.json", "the new file"},

@@ -15,7 +15,8 @@ namespace population = assessment::population;
 
 population::SurrogateMark mark_of_case(casedb::Library& library, const session::Simulation& simulation) {
   const casedb::CaseRow& row = simulation.task().row;
-  return population::mark_of_today(engine::kStepVersion, row.title, casedb::content_mark(library, row.case_id));
+  return population::mark_of_today(engine::kStepVersion, row.case_id, row.title,
+                                   casedb::content_mark(library, row.case_id));
 }
 
 base::Result<population::Surrogate> surrogate_of(const Arguments& arguments) {
@@ -24,8 +25,8 @@ base::Result<population::Surrogate> surrogate_of(const Arguments& arguments) {
   if (!text) return error_of("--surrogate", file, text.error());
   auto surrogate = population::Surrogate::from_json(*text);
   if (!surrogate) return error_of("--surrogate", file, surrogate.error());
-  const auto today =
-      population::mark_of_today(engine::kStepVersion, surrogate->mark().case_title, surrogate->mark().case_mark);
+  const auto today = population::mark_of_today(engine::kStepVersion, surrogate->mark().case_id,
+                                               surrogate->mark().case_title, surrogate->mark().case_mark);
   if (const std::string other = difference(surrogate->mark(), today); !other.empty())
     return base::Error{"other_surrogate", "the surrogate is of " + other, {}};
   return surrogate;

@@ -58,8 +58,8 @@ std::string answers_csv(const population::SimulatedStudy& study) {
   std::string text = "synthetic,person,group,statement,points\n";
   for (const population::StudiedPerson& one : study.people)
     for (std::size_t s = 0; s < population::statements().size(); ++s)
-      text += "1," + one.name + "," + cell_text(one.group) + "," + cell_text(population::statements()[s].words) + "," +
-              std::to_string(population::answer_of(one.person, s)) + "\n";
+      text += "1," + one.name + "," + cell_text(one.group) + "," + cell_text(population::statements()[s].words) +
+              "," + std::to_string(population::answer_of(one.person, s)) + "\n";
   return text;
 }
 

@@ -81,9 +81,11 @@ Place place_of(const Person& person, const Occasion& occasion) {
   return place;
 }
 
-SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_title, std::string case_mark) {
+SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
+                            std::string case_mark) {
   SurrogateMark mark;
   mark.step_version = step_version;
+  mark.case_id = std::move(case_id);
   mark.case_title = std::move(case_title);
   mark.case_mark = std::move(case_mark);
   for (const MetricInfo& info : registry()) mark.metrics.push_back({std::string(info.id), info.version});
@@ -93,7 +95,7 @@ SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_title, 
 std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
   if (one.people_version != other.people_version) return "another model of people";
   if (one.step_version != other.step_version) return "another version of the simulation's step";
-  if (one.case_title != other.case_title || one.case_mark != other.case_mark)
+  if (one.case_id != other.case_id || one.case_title != other.case_title || one.case_mark != other.case_mark)
     return "another case, or the case has changed since";
   for (const SurrogateMark::Metric& metric : one.metrics)
     if (std::find(other.metrics.begin(), other.metrics.end(), metric) == other.metrics.end())

@@ -25,7 +25,7 @@ Place place_of(const Person& person, const Occasion& occasion);
 struct SurrogateMark {
   int people_version = kPeopleVersion;
   std::uint32_t step_version = 0;
-  std::string case_title, case_mark;  // the mark is of the case's content
+  std::string case_id, case_title, case_mark;  // the mark is of the case's content
   struct Metric {
     std::string id;
     int version = 1;
@@ -35,7 +35,8 @@ struct SurrogateMark {
   bool operator==(const SurrogateMark&) const = default;
 };
 // Of the metrics of today.
-SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_title, std::string case_mark);
+SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
+                            std::string case_mark);
 // What differs, in words; empty: nothing.
 std::string difference(const SurrogateMark& one, const SurrogateMark& other);
 

@@ -50,6 +50,7 @@ std::string Surrogate::to_json() const {
                         {"synthetic", true},
                         {"people_version", mark_.people_version},
                         {"step_version", mark_.step_version},
+                        {"case_id", mark_.case_id},
                         {"case", mark_.case_title},
                         {"case_mark", mark_.case_mark},
                         {"metrics", metrics},
@@ -62,13 +63,14 @@ base::Result<Surrogate> Surrogate::from_json(const std::string& text) {
   if (!json.is_object() || json.value("surrogate", Ordered()) != 1) return bad_surrogate();
   for (const char* key : {"people_version", "step_version"})
     if (!json.contains(key) || !json[key].is_number_integer()) return bad_surrogate();
-  for (const char* key : {"case", "case_mark"})
+  for (const char* key : {"case_id", "case", "case_mark"})
     if (!json.contains(key) || !json[key].is_string()) return bad_surrogate();
   for (const char* key : {"metrics", "attempts"})
     if (!json.contains(key) || !json[key].is_array()) return bad_surrogate();
   SurrogateMark mark;
   mark.people_version = json["people_version"].get<int>();
   mark.step_version = json["step_version"].get<std::uint32_t>();
+  mark.case_id = json["case_id"].get<std::string>();
   mark.case_title = json["case"].get<std::string>();
   mark.case_mark = json["case_mark"].get<std::string>();
   for (const Ordered& one : json["metrics"]) {
