@@ -1,11 +1,11 @@
 // study simulate.
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/file.h"
 #include "app/population/open_surrogate.h"
+#include "app/population/population_json.h"
 #include "app/population/study_tables.h"
 #include "assessment/population/studies/simulated_study.h"
 
@@ -14,7 +14,6 @@ namespace {
 
 namespace population = assessment::population;
 namespace study = assessment::study;
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostPlanBytes = 1U << 20U;
 
@@ -86,23 +85,6 @@ void print(const population::StudiesSum& sum, const population::World& world, do
   }
 }
 
-Json json_of(const population::StudiesSum& sum, const population::World& world) {
-  const auto ratio = [](double part, std::size_t of) {
-    return of == 0 ? Json(nullptr) : Json(part / static_cast<double>(of));
-  };
-  Json outcomes = Json::array();
-  for (const population::OutcomeSum& one : sum.primary)
-    outcomes.push_back({{"name", one.name},
-                        {"analysed", one.analysed},
-                        {"significant", one.significant},
-                        {"estimate_name", one.estimate_name},
-                        {"truth", one.truth ? Json(*one.truth) : Json(nullptr)},
-                        {"mean_estimate", ratio(one.sum_of_estimates, one.analysed)},
-                        {"coverage", ratio(static_cast<double>(one.covered), one.with_interval)},
-                        {"mean_width", ratio(one.sum_of_widths, one.with_interval)}});
-  return {{"synthetic", true}, {"studies", sum.studies}, {"per_group", world.per_group}, {"primary", outcomes}};
-}
-
 int run_study_simulate(const Arguments& arguments) {
   const auto text = read_text_of(arguments, "PLAN.json", kMostPlanBytes);
   if (!text) return refuse(text.error());
@@ -128,7 +110,7 @@ int run_study_simulate(const Arguments& arguments) {
       return refuse(written.error());
   const auto sum = population::simulate_studies(*plan, world, *surrogate, seed, studies, truth);
   if (arguments.has("--json"))
-    std::fputs((json_of(sum, world).dump() + "\n").c_str(), stdout);
+    std::fputs(json_of_studies(sum, world).c_str(), stdout);
   else
     print(sum, world, plan->alpha);
   return kDone;

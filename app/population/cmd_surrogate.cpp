@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "app/acting/acting.h"
@@ -11,6 +10,7 @@
 #include "app/cli/file.h"
 #include "app/population/effects_text.h"
 #include "app/population/open_surrogate.h"
+#include "app/population/population_json.h"
 #include "assessment/population/agreement.h"
 #include "session/attempt/simulation.h"
 
@@ -18,7 +18,6 @@ namespace seldinger::app {
 namespace {
 
 namespace population = assessment::population;
-using Json = nlohmann::ordered_json;
 
 // A surrogate is asked about groups between and a little beyond those that there are.
 std::vector<population::Group> fitted_groups() {
@@ -60,34 +59,11 @@ int run_surrogate_fit(const Arguments& arguments) {
   if (!surrogate) return refuse(surrogate.error());
   write_file(out, surrogate->to_json());
   if (arguments.has("--json"))
-    std::fputs((Json{{"synthetic", true}, {"attempts", surrogate->points()}}.dump() + "\n").c_str(), stdout);
+    std::fputs(json_of_fit(*surrogate).c_str(), stdout);
   else
     std::printf("fitted to %zu simulated attempts; `seldinger surrogate check` tells how well\n",
                 surrogate->points());
   return kDone;
-}
-
-Json json_of(const std::string& group, const population::Agreement& one) {
-  Json metrics = Json::array();
-  for (const population::MetricAgreement& metric : one.metrics)
-    metrics.push_back({{"metric", metric.metric},
-                       {"values", metric.values},
-                       {"quantile_sd", metric.quantile_sd},
-                       {"quantile_error_sd", metric.quantile_error_sd},
-                       {"null_points", metric.null_points},
-                       {"zero_points", metric.zero_points}});
-  return {{"group", group},
-          {"attempts", one.attempts},
-          {"metrics", metrics},
-          {"quantiles_off", one.quantiles_off},
-          {"quantiles_beyond_chance", one.quantiles_beyond_chance},
-          {"shares_off", one.shares_off},
-          {"shares_beyond_chance", one.shares_beyond_chance},
-          {"pairs", one.pairs},
-          {"pairs_off", one.pairs_off},
-          {"pairs_beyond_chance", one.pairs_beyond_chance},
-          {"worst_rank_correlation", one.worst_rank_correlation},
-          {"worst_pair", one.worst_pair}};
 }
 
 void print(const std::string& group, const population::Agreement& one) {
@@ -108,14 +84,14 @@ void print(const std::string& group, const population::Agreement& one) {
 }
 
 int run_surrogate_check(const Arguments& arguments) {
-  const auto surrogate = surrogate_of(arguments);
-  if (!surrogate) return refuse(surrogate.error());
   auto made = ready(arguments, 500, 30, 1'000'001);
   if (!made) return refuse(made.error());
+  const auto surrogate = surrogate_of(arguments);
+  if (!surrogate) return refuse(surrogate.error());
   if (const std::string other = difference(surrogate->mark(), mark_of_case(made->library, made->simulation));
       !other.empty())
     return refuse({"other_surrogate", "the surrogate is of " + other});
-  Json answer = Json::array();
+  std::vector<LevelAgreement> levels;
   std::size_t beyond = 0;
   for (const char* name : {"novice", "intermediate", "expert"}) {
     const auto points = simulated_points(made->simulation, {*population::named_group(name)}, made->seed,
@@ -123,11 +99,10 @@ int run_surrogate_check(const Arguments& arguments) {
     if (!points) return refuse(points.error());
     const auto one = population::agreement_of(*surrogate, *points, 20, made->seed);
     beyond += one.quantiles_beyond_chance + one.shares_beyond_chance + one.pairs_beyond_chance;
-    answer.push_back(json_of(name, one));
+    levels.push_back({name, one});
     if (!arguments.has("--json")) print(name, one);
   }
-  if (arguments.has("--json"))
-    std::fputs((Json{{"synthetic", true}, {"levels", answer}}.dump() + "\n").c_str(), stdout);
+  if (arguments.has("--json")) std::fputs(json_of_agreement(levels).c_str(), stdout);
   return beyond == 0 ? kDone : kCheckFailed;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "assessment/population/reference_effects.h"
@@ -13,7 +12,6 @@ namespace seldinger::app {
 namespace {
 
 namespace population = assessment::population;
-using Json = nlohmann::ordered_json;
 using population::EffectKind;
 using population::ReferenceEffect;
 
@@ -60,6 +58,8 @@ Found found_by(const SimulatedEffects& effects, std::size_t n1, std::size_t n2) 
   return metrics > 0.0 ? Found{power / metrics, size / power} : Found{};
 }
 
+}  // namespace
+
 std::optional<double> predicted(const SimulatedEffects& effects, const ReferenceEffect& row) {
   if (row.kind == EffectKind::discriminating) return found_by(effects, row.n1, row.n2).share;
   if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row.n1, row.n2).mean_size;
@@ -79,8 +79,6 @@ const char* kind_text(EffectKind kind) {
   }
   return "";
 }
-
-}  // namespace
 
 SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::size_t people, std::uint64_t seed) {
   SimulatedEffects made{surrogate.mark().case_title, people, {}};
@@ -131,37 +129,6 @@ std::string text_of_effects(const SimulatedEffects& effects) {
     text += line;
   }
   return text;
-}
-
-std::string json_of_effects(const SimulatedEffects& effects) {
-  Json metrics = Json::array(), published = Json::array();
-  for (const SimulatedEffect& one : effects.metrics)
-    metrics.push_back({{"metric", one.metric},
-                       {"values", one.values},
-                       {"d", one.difference ? Json(*one.difference) : Json(nullptr)},
-                       {"auc", one.area ? Json(*one.area) : Json(nullptr)}});
-  for (const ReferenceEffect& row : population::reference_effects()) {
-    const auto interval = population::interval95(row);
-    const auto value = predicted(effects, row);
-    published.push_back(
-        {{"source", row.source},
-         {"what", row.what},
-         {"kind", kind_text(row.kind)},
-         {"value", row.value},
-         {"ci95", {interval.low, interval.high}},
-         {"selected", row.selected},
-         {"unselected", row.selected ? Json(population::unselected(row.value, row.n1, row.n2)) : Json(nullptr)},
-         {"fitted", row.fitted},
-         {"how", row.how},
-         {"simulated", value ? Json(*value) : Json(nullptr)}});
-  }
-  return Json{{"synthetic", true},
-              {"case", effects.case_title},
-              {"people", effects.people},
-              {"metrics", metrics},
-              {"published", published}}
-             .dump() +
-         "\n";
 }
 
 }  // namespace seldinger::app

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/population/reference_effects.h"
 #include "assessment/population/surrogate.h"
 
 namespace seldinger::app {
@@ -25,6 +26,10 @@ struct SimulatedEffects {
 SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,
                                    std::uint64_t seed);
 std::string text_of_effects(const SimulatedEffects& effects);  // Markdown
-std::string json_of_effects(const SimulatedEffects& effects);
+
+// What such people would have shown in the published study, where that is simulated.
+std::optional<double> predicted(const SimulatedEffects& effects,
+                                const assessment::population::ReferenceEffect& row);
+const char* kind_text(assessment::population::EffectKind kind);
 
 }  // namespace seldinger::app
