@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numeric>
 
+#include "assessment/population/raters.h"
 #include "assessment/population/reference_effects.h"
 #include "assessment/statistics/ranks.h"
 
@@ -63,6 +64,7 @@ Found found_by(const SimulatedEffects& effects, std::size_t n1, std::size_t n2) 
 std::optional<double> predicted(const SimulatedEffects& effects, const ReferenceEffect& row) {
   if (row.kind == EffectKind::discriminating) return found_by(effects, row.n1, row.n2).share;
   if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row.n1, row.n2).mean_size;
+  if (row.statement >= 0) return effects.answers.at(static_cast<std::size_t>(row.statement)).difference;
   return std::nullopt;
 }
 
@@ -81,13 +83,17 @@ const char* kind_text(EffectKind kind) {
 }
 
 SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::size_t people, std::uint64_t seed) {
-  SimulatedEffects made{surrogate.mark().case_title, people, {}};
+  SimulatedEffects made{surrogate.mark().case_title, people, {}, {}};
   const std::size_t metrics = surrogate.mark().metrics.size();
-  std::vector<std::vector<double>> less(metrics), more(metrics);
+  const std::size_t asked = population::statements().size();
+  std::vector<std::vector<double>> less(metrics), more(metrics), trainees(asked), experts(asked);
   for (const bool expert : {false, true}) {
     const auto group = *population::named_group(expert ? "expert" : "novice");
     for (std::size_t number = 1; number <= people; ++number) {
-      const auto values = surrogate.draw(population::drawn_person(group, seed, number), {1, 0, 0.0});
+      const population::Person person = population::drawn_person(group, seed, number);
+      const auto values = surrogate.draw(person, {1, 0, 0.0});
+      for (std::size_t s = 0; s < asked; ++s)
+        (expert ? experts : trainees)[s].push_back(population::answer_of(person, s));
       for (std::size_t m = 0; m < metrics; ++m)
         if (values[m]) (expert ? more : less)[m].push_back(*values[m]);
     }
@@ -95,6 +101,8 @@ SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::
   for (std::size_t m = 0; m < metrics; ++m)
     if (less[m].size() + more[m].size() > 0)
       made.metrics.push_back(effect_of(surrogate.mark().metrics[m].id, less[m], more[m]));
+  for (std::size_t s = 0; s < asked; ++s)
+    made.answers.push_back(effect_of(std::string(population::statements()[s].words), trainees[s], experts[s]));
   return made;
 }
 

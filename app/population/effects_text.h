@@ -22,6 +22,7 @@ struct SimulatedEffects {
   std::string case_title;
   std::size_t people = 0;  // in each group
   std::vector<SimulatedEffect> metrics;
+  std::vector<SimulatedEffect> answers;  // one for each of statements()
 };
 SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,
                                    std::uint64_t seed);

@@ -30,6 +30,7 @@ struct ReferenceEffect {
   bool selected = false;  // reported because it was significant
   bool fitted = false;    // the population was set by it; the others are predicted
   std::string_view how;   // the value was had from the publication's figures
+  int statement = -1;     // of a questionnaire: which of statements() asks the same; -1: none
 };
 std::span<const ReferenceEffect> reference_effects();
 
