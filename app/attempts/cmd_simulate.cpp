@@ -77,6 +77,18 @@ void print_sum(const std::vector<session::SimulatedAttempt>& attempts) {
   if (attempts.size() > 1 && graded > 0) std::printf("%zu of %zu passed\n", passed, graded);
 }
 
+// All that was asked for, what was made before among it, in the order of people and their attempts.
+std::vector<session::SimulatedAttempt> with_those(std::vector<session::SimulatedAttempt> there,
+                                                  std::vector<session::SimulatedAttempt> made,
+                                                  casedb::Library& library, casedb::Grader& grader) {
+  if (there.empty()) return made;
+  for (session::SimulatedAttempt& one : there) made.push_back(graded(library, grader, std::move(one)));
+  std::stable_sort(made.begin(), made.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.person, a.number) < std::pair(b.person, b.number);
+  });
+  return made;
+}
+
 int resume(const Arguments& arguments) {
   for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--days", "--cohort", "--shard",
                              "--jobs", "--instrument", "--modality", "--no-pictures"})
@@ -177,12 +189,14 @@ int run_simulate(const Arguments& arguments) {
     }
   }
   progress.clear();
-  if (arguments.has("--json"))
-    std::fputs(json_of_simulation(attempts).c_str(), stdout);
-  else {
+  if (arguments.has("--json")) {
+    std::fputs(json_of_simulation(with_those(std::move(people_there->there), std::move(attempts), *library, grader))
+                   .c_str(),
+               stdout);
+  } else {
     print_sum(attempts);
-    if (people_there->there > 0)
-      std::printf("%zu attempts of these people were there already\n", people_there->there);
+    if (!people_there->there.empty())
+      std::printf("%zu attempts of these people were there already\n", people_there->there.size());
   }
   return kDone;
 }

@@ -1,6 +1,6 @@
 #include "session/attempt/simulated_people.h"
 
-#include <set>
+#include <map>
 #include <span>
 
 #include "casedb/database/uuid.h"
@@ -58,14 +58,15 @@ StoredPeople people_trials(casedb::Library& library, const PeopleWish& wish, con
   const std::int64_t now_us = casedb::now_us();
   each_person(wish, [&](const population::Person& person) {
     const std::string person_id = casedb::simulated_person(library, person, wish.seed);
-    std::set<std::uint64_t> seeds;
-    for (const casedb::AttemptRow& row : casedb::list_attempts_of(library, person_id))
-      if (row.case_id == task.row.case_id && row.lesion_id == task.lesion.lesion_id) seeds.insert(row.seed);
+    std::map<std::uint64_t, casedb::AttemptRow> by_seed;
+    for (casedb::AttemptRow& row : casedb::list_attempts_of(library, person_id))
+      if (was_made_at(row, task)) by_seed.emplace(row.seed, std::move(row));
     std::vector<SimulatedTrial> own;
     add_trials(wish, person, case_key_of(task.row.title), now_us, own);
     for (SimulatedTrial& trial : own) {
-      if (seeds.contains(trial.seed)) {
-        ++stored.there;
+      if (const auto row = by_seed.find(trial.seed); row != by_seed.end()) {
+        stored.there.push_back({row->second.attempt_id, row->second.operator_name, trial.seed,
+                                std::move(row->second.metrics), trial.person, trial.number});
         continue;
       }
       trial.person_id = person_id;

@@ -32,7 +32,7 @@ std::vector<SimulatedTrial> people_trials(const PeopleWish& wish, std::uint64_t 
 struct StoredPeople {
   std::vector<std::string> person_ids;  // of this shard, by number
   std::vector<SimulatedTrial> trials;
-  std::size_t there = 0;  // attempts that are stored already
+  std::vector<SimulatedAttempt> there;  // what is stored already, as it is there
 };
 StoredPeople people_trials(casedb::Library& library, const PeopleWish& wish, const Task& task);
 
