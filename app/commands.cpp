@@ -128,7 +128,8 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"To begin", {"demo", "train", "serve", "doctor", "help"}},
       {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
-      {"Attempts", {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
+      {"Attempts",
+       {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
       {"Studies", {"study", "report"}},
       {"Numbers", {"stats"}},
