@@ -43,6 +43,9 @@ namespace seldinger::app {
   ROW(render)                   \
   ROW(sheet)                    \
   ROW(simulate)                 \
+  ROW(surrogate_fit)            \
+  ROW(surrogate_check)          \
+  ROW(surrogate_effects)        \
   ROW(score)                    \
   ROW(replay)                   \
   ROW(recompute)                \
@@ -86,6 +89,7 @@ namespace seldinger::app {
   ROW(study_enrol)              \
   ROW(study_look)               \
   ROW(study_deviate)            \
+  ROW(study_simulate)           \
   ROW(report)                   \
   ROW(consent_text)             \
   ROW(consent_list)             \
@@ -124,7 +128,8 @@ const std::vector<Group>& groups() {
   static const std::vector<Group> kGroups = {
       {"To begin", {"demo", "train", "serve", "doctor", "help"}},
       {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
-      {"Attempts", {"simulate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
+      {"Attempts",
+       {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
       {"Studies", {"study", "report"}},
       {"Numbers", {"stats"}},

@@ -309,7 +309,7 @@ CREATE TABLE person (
   person_id TEXT NOT NULL PRIMARY KEY CHECK (length(person_id) = 36),
   pseudonym TEXT NOT NULL UNIQUE, -- random; what others than mentors see
   created_us INTEGER NOT NULL
-, erased_us INTEGER) STRICT;
+, erased_us INTEGER, kind TEXT NOT NULL DEFAULT 'real' CHECK (kind IN ('real', 'simulated'))) STRICT;
 
 CREATE TABLE person_fact (
   person_id TEXT NOT NULL REFERENCES person (person_id),
@@ -359,6 +359,20 @@ CREATE TABLE servo_record (
   period BLOB NOT NULL, -- each a cases::TimeHistogram, compressed
   latency BLOB NOT NULL,
   compute BLOB NOT NULL
+) STRICT;
+
+CREATE TABLE simulated_truth (
+  person_id TEXT NOT NULL PRIMARY KEY REFERENCES person (person_id),
+  people_version INTEGER NOT NULL CHECK (people_version > 0), -- of the model (assessment/population/person.h)
+  seed INTEGER NOT NULL, -- as attempt.seed
+  group_name TEXT NOT NULL CHECK (group_name <> ''),
+  number INTEGER NOT NULL CHECK (number > 0), -- of the person in seed and group
+  eye_hand REAL NOT NULL, -- abilities before practice, in the population's standard deviations
+  spatial REAL NOT NULL,
+  planning REAL NOT NULL,
+  conduct REAL NOT NULL,
+  strategy REAL NOT NULL, -- towards fast and rough
+  UNIQUE (people_version, seed, group_name, number)
 ) STRICT;
 
 CREATE TABLE standard (
@@ -577,7 +591,9 @@ CREATE VIEW consenting AS
 SELECT study.study_id, person.person_id
 FROM study CROSS JOIN person
 WHERE person.erased_us IS NULL AND (
-  EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
+  person.kind = 'simulated' AND EXISTS (SELECT 1 FROM study_plan
+    WHERE study_plan.study_id = study.study_id AND instr(study_plan.body, '"people":"simulated"') > 0)
+  OR EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
     WHERE consent.person_id = person.person_id AND consent_text.study_id = study.study_id AND withdrawn_us IS NULL)
   OR EXISTS (SELECT 1 FROM consent JOIN consent_text USING (text_id)
     WHERE consent.person_id = person.person_id AND consent_text.study_id IS NULL AND withdrawn_us IS NULL)
@@ -807,6 +823,11 @@ BEGIN
   SELECT RAISE(ABORT, 'an answer cannot be changed: give another');
 END;
 
+CREATE TRIGGER person_kind_is_immutable BEFORE UPDATE OF kind ON person WHEN NEW.kind <> OLD.kind
+BEGIN
+  SELECT RAISE(ABORT, 'nobody becomes simulated, or real');
+END;
+
 CREATE TRIGGER person_level_is_immutable BEFORE UPDATE ON person_level
 BEGIN
   SELECT RAISE(ABORT, 'what somebody was cannot be changed');
@@ -832,6 +853,23 @@ CREATE TRIGGER servo_record_is_kept BEFORE DELETE ON servo_record
 WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a servo record cannot be deleted');
+END;
+
+CREATE TRIGGER simulated_people_have_no_account BEFORE INSERT ON account
+WHEN (SELECT kind FROM person WHERE person_id = NEW.person_id) = 'simulated'
+BEGIN
+  SELECT RAISE(ABORT, 'a simulated person has no account');
+END;
+
+CREATE TRIGGER simulated_people_make_simulated_attempts BEFORE INSERT ON attempt
+WHEN NEW.operator_name = 'person' AND (SELECT kind FROM person WHERE person_id = NEW.person_id) = 'simulated'
+BEGIN
+  SELECT RAISE(ABORT, 'what a simulated person does is no attempt of a person');
+END;
+
+CREATE TRIGGER simulated_truth_is_immutable BEFORE UPDATE ON simulated_truth
+BEGIN
+  SELECT RAISE(ABORT, 'what was planted cannot be changed');
 END;
 
 CREATE TRIGGER standard_attempt_is_immutable BEFORE UPDATE ON standard_attempt
@@ -992,4 +1030,10 @@ CREATE TRIGGER training_case_published_keeps_its_name BEFORE UPDATE OF title, au
 WHEN OLD.state IN ('published', 'retired') AND (OLD.title <> NEW.title OR OLD.audience <> NEW.audience)
 BEGIN
   SELECT RAISE(ABORT, 'a published case is not changed: make a new version');
+END;
+
+CREATE TRIGGER truth_is_of_simulated_people BEFORE INSERT ON simulated_truth
+WHEN (SELECT kind FROM person WHERE person_id = NEW.person_id) <> 'simulated'
+BEGIN
+  SELECT RAISE(ABORT, 'nobody knows the ability of a real person');
 END;

@@ -8,6 +8,7 @@
 #include "app/attempts/attempt_line.h"
 #include "app/attempts/grade_text.h"
 #include "app/attempts/metrics_text.h"
+#include "app/attempts/people_options.h"
 #include "app/attempts/this_program.h"
 #include "app/cli/command.h"
 #include "app/cli/file.h"
@@ -76,9 +77,21 @@ void print_sum(const std::vector<session::SimulatedAttempt>& attempts) {
   if (attempts.size() > 1 && graded > 0) std::printf("%zu of %zu passed\n", passed, graded);
 }
 
+// All that was asked for, what was made before among it, in the order of people and their attempts.
+std::vector<session::SimulatedAttempt> with_those(std::vector<session::SimulatedAttempt> there,
+                                                  std::vector<session::SimulatedAttempt> made,
+                                                  casedb::Library& library, casedb::Grader& grader) {
+  if (there.empty()) return made;
+  for (session::SimulatedAttempt& one : there) made.push_back(graded(library, grader, std::move(one)));
+  std::stable_sort(made.begin(), made.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.person, a.number) < std::pair(b.person, b.number);
+  });
+  return made;
+}
+
 int resume(const Arguments& arguments) {
-  for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--jobs", "--instrument",
-                             "--modality", "--no-pictures"})
+  for (const char* option : {"--case", "--lesion", "--seed", "--count", "--people", "--days", "--cohort", "--shard",
+                             "--jobs", "--instrument", "--modality", "--no-pictures"})
     if (arguments.has(option)) throw UsageError(std::string(option) + " does not go with --resume");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -131,7 +144,12 @@ int run_simulate(const Arguments& arguments) {
     if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   }
   std::vector<cases::Event> scenario = scenario_of(arguments);
-  const auto profile = profile_of(arguments.required("--operator"));
+  auto wished = people_wish(arguments, people, seed, static_cast<std::size_t>(count));
+  if (!wished) return refuse(wished.error());
+  const std::optional<session::PeopleWish>& wish = *wished;
+  const base::Result<assessment::OperatorProfile> profile =
+      wish ? base::Result<assessment::OperatorProfile>(*assessment::named_profile("intermediate"))
+           : profile_of(arguments.required("--operator"));
   if (!profile) return refuse(profile.error());
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -143,7 +161,10 @@ int run_simulate(const Arguments& arguments) {
   if (const auto set = simulation->set_scenario(std::move(scenario)); !set) return refuse(set.error());
   std::vector<session::SimulatedAttempt> attempts;
   casedb::Grader grader(*library);  // against the experts as they were before this run
-  const auto trials = session::simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
+  auto people_there = people_in_library(*library, arguments, wish, *simulation);
+  if (!people_there) return refuse(people_there.error());
+  const auto trials = wish ? std::move(people_there->trials)
+                           : session::simulated_trials(*profile, seed, static_cast<std::size_t>(count), people);
   Progress progress(trials.size());
   const auto stored = [&](session::SimulatedAttempt attempt) {
     attempts.push_back(graded(*library, grader, std::move(attempt)));
@@ -168,10 +189,15 @@ int run_simulate(const Arguments& arguments) {
     }
   }
   progress.clear();
-  if (arguments.has("--json"))
-    std::fputs(json_of_simulation(attempts).c_str(), stdout);
-  else
+  if (arguments.has("--json")) {
+    std::fputs(json_of_simulation(with_those(std::move(people_there->there), std::move(attempts), *library, grader))
+                   .c_str(),
+               stdout);
+  } else {
     print_sum(attempts);
+    if (!people_there->there.empty())
+      std::printf("%zu attempts of these people were there already\n", people_there->there.size());
+  }
   return kDone;
 }
 
@@ -184,7 +210,13 @@ constexpr Option kSimulateOptions[] = {
     {"--seed", "N", "attempt i uses seed N + i"},
     {"--count", "K", "how many attempts, of each person; default 1"},
     {"--people", "P",
-     "of P different people with that profile: the same for the same seed; default the profile itself"},
+     "of P different people, the same for the same seed: of novice, intermediate, expert and a group's file they "
+     "are "
+     "people of the library, and only what is not stored yet is made; default the profile itself"},
+    {"--days", "D,D,…",
+     "sessions of these people, in days from now; each makes --count attempts in each; default 0"},
+    {"--cohort", "COHORT", "enrol these people as its learners"},
+    {"--shard", "I/N", "only every N-th of these people, from the I-th: N calls make them all, each once"},
     {"--jobs", "N", "threads; default one for each core. The results are the same"},
     {"--details", nullptr, "grade, sentences and every metric of each, not a line alone"},
     {"--no-pictures", nullptr, "store no picture of the moment of firing"},

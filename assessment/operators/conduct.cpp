@@ -64,6 +64,8 @@ void Conduct::begin(Part part) {
       break;
   }
   wait_s_ = steps_.empty() ? 0.0 : skills_.step_s;
+  // A breath is not asked for after a talk.
+  if (part != Part::hold_breath && part != Part::ask_breath) wait_s_ += skills_.pause_s;
 }
 
 void Conduct::hear(EventKind kind) {

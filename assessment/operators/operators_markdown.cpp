@@ -14,10 +14,14 @@ about people: no standard is set by them, no validity shown. Every attempt of th
 
 ```
 seldinger simulate --library DIR --case ID --operator expert --seed 1 --count 10          ten attempts of one expert
-seldinger simulate --library DIR --case ID --operator novice --people 12 --seed 1         twelve different novices
+seldinger simulate --library DIR --case ID --operator novice --people 12 --seed 1         twelve simulated people
 seldinger simulate --library DIR --case ID --operator learner --people 5 --count 30       five learning curves
 seldinger simulate --library DIR --case ID --operator FILE.json                           one of your own
 ```
+
+An operator is one clone, however many seeds it has. `--people` of novice, intermediate, expert or a group's file makes
+[simulated people](simulated-people.md) instead, who overlap as people do; of learner and a file of skills it makes people
+about that operator, each with streams of their own.
 
 What they see is what a person would: what each picture shows, after their reaction time; the needle outside the skin and
 the marks on its shaft; of the tip no more than whether the picture shows it, and where while it does. They sign in, and

@@ -84,6 +84,8 @@ constexpr SkillField kFields[] = {
     {"shows_share", "share", 0, 1, 0.4, 0.8, 1, true,
      "probability of testing the probe's side, and of measuring the depth, rather than only saying so",
      &S::shows_share},
+    {"pause_s", "s", 0, 120, 0, 0, 0, false, "talk and rest before the sign-in, the preparation and the sign-out",
+     &S::pause_s},
 };
 static_assert(sizeof(Skills) == std::size(kFields) * sizeof(double), "every skill has its row");
 

@@ -28,6 +28,8 @@ struct Skills {
   double holds_breath_early_share, waits_for_breath_share;
   // What a deed can show.
   double shows_share;
+  // Between the parts of the work.
+  double pause_s;
 };
 
 struct SkillField {

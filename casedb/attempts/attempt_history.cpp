@@ -9,7 +9,8 @@ std::vector<AttemptKey> list_attempt_keys(Library& library) {
   std::vector<AttemptKey> keys;
   for (Statement rows = question(library.database(), "attempt_keys"); rows.step();) {
     keys.push_back({rows.text("attempt_id"), rows.text("case_id"), std::nullopt, rows.integer("started_us"),
-                    rows.integer("synthetic") != 0});
+                    rows.integer("synthetic") != 0, false});
+    keys.back().of_simulated_person = !rows.is_null("of_simulated") && rows.integer("of_simulated") != 0;
     if (!rows.is_null("person_id")) keys.back().person_id = rows.text("person_id");
   }
   return keys;

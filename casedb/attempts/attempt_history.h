@@ -17,6 +17,7 @@ struct AttemptKey {
   std::optional<std::string> person_id;
   std::int64_t started_us = 0;
   bool synthetic = false;  // a simulated operator's, also in a person's name
+  bool of_simulated_person = false;
 };
 std::vector<AttemptKey> list_attempt_keys(Library& library);  // oldest first
 

@@ -66,6 +66,11 @@ class Names {
   const casedb::HashKey& key_;
 };
 
+// Nobody takes a simulated person for another.
+const char* prefix_of(const casedb::AttemptKey& key) noexcept {
+  return key.of_simulated_person ? "S-" : "P-";
+}
+
 // An attempt in the order of the rows: a person's attempts lie together as they were made, people and the
 // simulations of nobody in the order of their names, which tells nothing.
 struct Place {
@@ -90,9 +95,9 @@ std::vector<Place> places_of(std::span<const casedb::AttemptKey> keys, const Raw
     if (!key.synthetic && !(key.person_id && consenting.contains(*key.person_id))) continue;
     Place place{&key, {}, names.of("A-", key.attempt_id)};
     if (!key.synthetic && !choice.exact) place.precision = Precision::coarse;
-    if (!key.synthetic) {
+    if (!key.synthetic || key.of_simulated_person) {
       auto [at, is_new] = people.try_emplace(*key.person_id);
-      if (is_new) at->second = {key.started_us, 0, names.of("P-", *key.person_id)};
+      if (is_new) at->second = {key.started_us, 0, names.of(prefix_of(key), *key.person_id)};
       place.person = at->second.name;
       place.person_attempt = ++at->second.attempts;
       place.days = days(at->second.first_us, key.started_us, place.precision);
@@ -150,10 +155,13 @@ void write_recording(const fs::path& folder, const RawChoice& choice, const std:
 void write_facts(casedb::Library& library, std::span<const casedb::AttemptKey> keys, const Names& names,
                  const std::set<std::string>& people, Precision precision, Table& table) {
   std::map<std::string, std::int64_t> first_us;
-  for (const casedb::AttemptKey& key : keys)
-    if (key.person_id && !key.synthetic) first_us.try_emplace(*key.person_id, key.started_us);
   std::map<std::string, std::string> by_name;
-  for (const std::string& person_id : people) by_name.emplace(names.of("P-", person_id), person_id);
+  for (const casedb::AttemptKey& key : keys)
+    if (key.person_id && (!key.synthetic || key.of_simulated_person)) {
+      first_us.try_emplace(*key.person_id, key.started_us);
+      if (people.contains(*key.person_id))
+        by_name.try_emplace(names.of(prefix_of(key), *key.person_id), *key.person_id);
+    }
   for (const auto& [name, person_id] : by_name)
     for (const casedb::FactGiven& one : casedb::list_facts(library, person_id))
       table.add(line_of(fact_columns(),

@@ -55,15 +55,16 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
       // Whose attempt it is.
       {{"attempt", "text", "", "", "this export's name of the attempt; says nothing of when or whose it was"},
        [](CsvLine& line, const Facts& f) { line.text(f.names.attempt); }},
-      {{"person", "text", "", "a simulation",
-        "this export's name of the person; the same in another export only with the same key"},
+      {{"person", "text", "", "a simulation of nobody",
+        "this export's name of the person, S- of a simulated one; the same in another export only with the same "
+        "key"},
        [](CsvLine& line, const Facts& f) { f.names.person ? line.text(*f.names.person) : line.nothing(); }},
-      {{"person_attempt", "integer", "", "a simulation",
+      {{"person_attempt", "integer", "", "a simulation of nobody",
         "which of the person's attempts in the library, from 1, whatever the case"},
        [](CsvLine& line, const Facts& f) {
          f.person_attempt ? line.whole(std::int64_t{*f.person_attempt}) : line.nothing();
        }},
-      {{"days_since_first", "number", "d", "a simulation",
+      {{"days_since_first", "number", "d", "a simulation of nobody",
         "from the start of the person's first attempt in the library to this one's; no date is exported"},
        [](CsvLine& line, const Facts& f) { line.number(f.days_since_first); }},
       // Who or what moved the hands.

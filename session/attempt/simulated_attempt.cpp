@@ -44,8 +44,8 @@ class Attempt {
 
 // `act` tells what the person's hands want of a state.
 template <typename Person, typename Act>
-cases::Recording run(Attempt& attempt, Guidance& guidance, Person& person, const Act& act) {
-  while (!person.done() && attempt.state().t_s < kMaxAttemptSeconds) {
+cases::Recording run(Attempt& attempt, Guidance& guidance, Person& person, double limit_s, const Act& act) {
+  while (!person.done() && attempt.state().t_s < limit_s) {
     cases::Inputs hands = act(attempt.state());
     hands.exposure = guidance.state().report;
     person.hear(attempt.tick(hands));
@@ -58,18 +58,18 @@ cases::Recording run(Attempt& attempt, Guidance& guidance, Person& person, const
 
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                              const assessment::OperatorProfile& profile, std::uint64_t seed,
-                             std::span<const cases::Event> scenario) {
+                             std::span<const cases::Event> scenario, double limit_s) {
   const std::unique_ptr<Guidance> guidance = guidance_of(scene);
   const GuidanceState& seen = guidance->state();
   Attempt attempt(scene, scenario);
   if (guidance_kind(scene.picture.modality).probe_guides) {
     assessment::ScriptedOperator person(profile, plan, scene.instrument, seed);
-    return run(attempt, *guidance, person, [&](const cases::State& state) {
+    return run(attempt, *guidance, person, limit_s, [&](const cases::State& state) {
       return person.act(state, seen.fresh ? &seen.truth : nullptr, base::kTickS, seen.moved_mm);
     });
   }
   assessment::FluoroscopyOperator person(profile, plan, scene.instrument, scene.fluoroscope, scene.position, seed);
-  return run(attempt, *guidance, person, [&](const cases::State& state) {
+  return run(attempt, *guidance, person, limit_s, [&](const cases::State& state) {
     return person.act(state, seen.fresh ? &seen.fix : nullptr, base::kTickS);
   });
 }

@@ -15,9 +15,9 @@ namespace seldinger::session {
 
 constexpr double kMaxAttemptSeconds = 300.0;  // an operator who has not fired by then gives up
 
-// `scenario`: a mentor's events, by rising time.
+// `scenario`: a mentor's events, by rising time. After `limit_s` it is over, whatever was done by then.
 cases::Recording run_attempt(const cases::Case& scene, const assessment::PuncturePlan& plan,
                              const assessment::OperatorProfile& profile, std::uint64_t seed,
-                             std::span<const cases::Event> scenario = {});
+                             std::span<const cases::Event> scenario = {}, double limit_s = kMaxAttemptSeconds);
 
 }  // namespace seldinger::session

@@ -1,5 +1,6 @@
 #include "session/attempt/simulation.h"
 
+#include "assessment/population/streams.h"
 #include "assessment/score.h"
 #include "session/attempt/endpoint_picture.h"
 #include "session/attempt/median_attempt.h"
@@ -11,6 +12,8 @@
 #include "sim/engine/step.h"
 
 namespace seldinger::session {
+
+namespace population = assessment::population;
 
 base::Result<Simulation> Simulation::prepare(casedb::Library& library, Program program, const std::string& case_id,
                                              const std::string& lesion_id,
@@ -80,15 +83,26 @@ base::Result<SimulatedAttempt> Simulation::run_live(LiveAttempt live, assessment
   return SimulatedAttempt{stored->attempt_id, live.head().operator_name, seed, stored->metrics};
 }
 
-base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProfile& profile, std::uint64_t seed,
-                                                  const std::optional<std::string>& person_id, bool picture) const {
+base::Result<casedb::NewAttempt> Simulation::make(const SimulatedTrial& trial, bool picture) const {
   casedb::NewAttempt attempt;
-  static_cast<casedb::AttemptHead&>(attempt) = head_of(task_, program_, profile.name, seed, person_id);
-  attempt.recording = run_attempt(task_.scene, task_.plan, profile, seed, scenario_);
+  static_cast<casedb::AttemptHead&>(attempt) =
+      head_of(task_, program_, trial.profile.name, trial.seed, trial.person_id);
+  if (trial.started_us) attempt.started_us = *trial.started_us;
+  double limit_s = kMaxAttemptSeconds;
+  casedb::AttemptEnd at_limit = casedb::AttemptEnd::time_limit;
+  if (trial.mishaps) {
+    limit_s = trial.mishaps->patience_s;
+    at_limit = casedb::AttemptEnd::stopped;
+    if (const auto lost_s = trial.mishaps->device_lost_s; lost_s && *lost_s < limit_s) {
+      limit_s = *lost_s;
+      at_limit = casedb::AttemptEnd::device_lost;
+    }
+  }
+  attempt.recording = run_attempt(task_.scene, task_.plan, trial.profile, trial.seed, scenario_, limit_s);
   attempt.duration_s = static_cast<double>(attempt.recording.inputs.size()) * attempt.recording.dt_s;
-  attempt.end = attempt.recording.endpoint                ? casedb::AttemptEnd::fired
-                : attempt.duration_s < kMaxAttemptSeconds ? casedb::AttemptEnd::stopped
-                                                          : casedb::AttemptEnd::time_limit;
+  attempt.end = attempt.recording.endpoint     ? casedb::AttemptEnd::fired
+                : attempt.duration_s < limit_s ? casedb::AttemptEnd::stopped
+                                               : at_limit;
   auto scored = assessment::score(task_.scene, attempt.recording);
   if (!scored) return scored.error();
   attempt.metrics = std::move(scored->metrics);
@@ -99,7 +113,7 @@ base::Result<casedb::NewAttempt> Simulation::make(const assessment::OperatorProf
 
 base::Result<SimulatedAttempt> Simulation::attempt(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                                    const std::optional<std::string>& person_id) {
-  const auto made = make(profile, seed, person_id, true);
+  const auto made = make({.profile = profile, .seed = seed, .person_id = person_id}, true);
   if (!made) return made.error();
   const auto attempt_id = casedb::add_attempt(*library_, *made);
   if (!attempt_id) return attempt_id.error();
@@ -114,7 +128,8 @@ base::Result<SimulatedAttempt> Simulation::median_attempt(const assessment::Oper
   std::vector<casedb::NewAttempt> all;
   std::optional<base::Error> refused;
   in_order<Made>(
-      seeds.size(), jobs, [&](std::size_t i) { return make(profile, seeds[i], person_id, false); },
+      seeds.size(), jobs,
+      [&](std::size_t i) { return make({.profile = profile, .seed = seeds[i], .person_id = person_id}, false); },
       [&](std::size_t, Made made) {
         if (made)
           all.push_back(std::move(*made));
@@ -137,8 +152,7 @@ base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trial
   using Made = base::Result<casedb::NewAttempt>;
   base::Result<void> done;
   in_order<Made>(
-      trials.size(), jobs,
-      [&](std::size_t i) { return make(trials[i].profile, trials[i].seed, std::nullopt, pictures); },
+      trials.size(), jobs, [&](std::size_t i) { return make(trials[i], pictures); },
       [&](std::size_t i, Made made) {
         const auto attempt_id = made ? casedb::add_attempt(*library_, *made) : made.error();
         if (!attempt_id) {
@@ -154,13 +168,28 @@ base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trial
   return done;
 }
 
+base::Result<void> Simulation::measured_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
+                                                 const Measured& told) const {
+  using Made = base::Result<casedb::NewAttempt>;
+  base::Result<void> done;
+  in_order<Made>(
+      trials.size(), jobs, [&](std::size_t i) { return make(trials[i], false); },
+      [&](std::size_t i, Made made) {
+        if (!made) {
+          done = made.error();
+          return false;
+        }
+        return told(i, {std::move(made->metrics), made->duration_s});
+      });
+  return done;
+}
+
 base::Result<void> Simulation::forgotten_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
                                                   const Forgotten& told) const {
   using Made = base::Result<casedb::NewAttempt>;
   base::Result<void> done;
   in_order<Made>(
-      trials.size(), jobs,
-      [&](std::size_t i) { return make(trials[i].profile, trials[i].seed, std::nullopt, false); },
+      trials.size(), jobs, [&](std::size_t i) { return make(trials[i], false); },
       [&](std::size_t i, Made made) {
         if (!made) {
           done = made.error();
@@ -178,15 +207,21 @@ base::Result<void> Simulation::forgotten_attempts(const std::vector<SimulatedTri
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                              std::size_t count, std::optional<std::size_t> people) {
   std::vector<SimulatedTrial> trials;
-  for (std::size_t p = 0; p < people.value_or(1); ++p) {
-    assessment::OperatorProfile person = profile;
-    if (people) {
-      person = assessment::person_of(profile, base::hash_combine(seed, p));
-      person.name.append("-").append(std::to_string(p + 1));
-    }
+  if (!people) {
     for (std::size_t i = 0; i < count; ++i)
-      trials.push_back({assessment::at_attempt(person, i), seed + trials.size(),
-                        people ? std::optional<std::uint64_t>(p + 1) : std::nullopt, i});
+      trials.push_back({.profile = assessment::at_attempt(profile, i), .seed = seed + i, .number = i});
+    return trials;
+  }
+  for (std::size_t p = 1; p <= *people; ++p) {
+    const std::uint64_t key = population::person_key(seed, profile.name, p);
+    assessment::OperatorProfile person =
+        assessment::person_of(profile, population::stream_of(key, population::Drawn::specific));
+    person.name.append("-").append(std::to_string(p));
+    for (std::size_t i = 0; i < count; ++i)
+      trials.push_back({.profile = assessment::at_attempt(person, i),
+                        .seed = population::stream_of(key, population::Drawn::attempt, i) >> 11U,
+                        .person = p,
+                        .number = i});
   }
   return trials;
 }

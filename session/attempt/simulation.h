@@ -10,6 +10,7 @@
 #include "assessment/metrics/metric.h"
 #include "assessment/operators/profile.h"
 #include "assessment/operators/scripted.h"
+#include "assessment/population/person.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
@@ -22,14 +23,18 @@ namespace seldinger::session {
 
 // One of the attempts to be made: by whom, as he is then.
 struct SimulatedTrial {
-  assessment::OperatorProfile profile;
+  assessment::OperatorProfile profile{};
   std::uint64_t seed = 0;
-  std::optional<std::uint64_t> person;  // number among people drawn about a profile, from 1
-  std::uint64_t number = 0;             // of the attempt, from 0
+  std::optional<std::uint64_t> person{};  // number among people drawn about a profile, from 1
+  std::uint64_t number = 0;               // of the attempt, from 0
+  // Of a simulated person (simulated_people.h): who, when, and what keeps the attempt from being whole.
+  std::optional<std::string> person_id{};
+  std::optional<std::int64_t> started_us{};
+  std::optional<assessment::population::Mishaps> mishaps{};
 };
 
-// `count` attempts of each of `people`, or of the profile itself; attempt i has seed + i, person p is drawn by seed
-// and p alone, so that the same seed is the same people at every case.
+// `count` attempts of the profile itself, attempt i with seed + i; or of each of `people`, drawn about the profile
+// by seed, profile and number, so that the same seed is the same people at every case, and no two share a stream.
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,
                                              std::size_t count, std::optional<std::size_t> people);
 
@@ -70,6 +75,13 @@ class Simulation {
                               const std::function<void(SimulatedAttempt)>& stored);
   // The same, graded by the case's rule as it is and not stored. `made` is told of each by its place in `trials`;
   // false: no more of them.
+  struct ForgottenAttempt {
+    std::vector<assessment::MetricValue> metrics;
+    double duration_s = 0.0;
+  };
+  using Measured = std::function<bool(std::size_t trial, const ForgottenAttempt& attempt)>;
+  base::Result<void> measured_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
+                                       const Measured& made) const;
   using Forgotten = std::function<bool(std::size_t trial, const assessment::Grade& grade)>;
   base::Result<void> forgotten_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
                                         const Forgotten& made) const;
@@ -86,10 +98,11 @@ class Simulation {
   // otherwise), as InterruptedAttempt::replay.
   base::Result<SimulatedAttempt> resume(InterruptedAttempt interrupted, const assessment::OperatorProfile& profile);
 
+  const Task& task() const noexcept { return task_; }
+
  private:
   // Changes nothing, so that threads may make many at once.
-  base::Result<casedb::NewAttempt> make(const assessment::OperatorProfile& profile, std::uint64_t seed,
-                                        const std::optional<std::string>& person_id, bool picture) const;
+  base::Result<casedb::NewAttempt> make(const SimulatedTrial& trial, bool picture) const;
   base::Result<SimulatedAttempt> run_live(LiveAttempt live, assessment::ScriptedOperator& person,
                                           std::uint32_t happened, std::uint64_t seed,
                                           const Opened& opened = {}) const;

@@ -81,7 +81,9 @@ TEST_F(Examples, AreTypedOneAfterTheOther) {
       EXPECT_EQ(ran.err.rfind(refused->second, 0), 0U) << ran.exit_code << ran.err;
       continue;
     }
-    EXPECT_EQ(ran.exit_code, line == "doctor" ? 1 : 0) << ran.out << ran.err;  // there is no display here
+    // There is no display here, and of so few attempts a surrogate is off.
+    const bool finds = line == "doctor" || line.rfind("surrogate check", 0) == 0;
+    EXPECT_EQ(ran.exit_code, finds ? 1 : 0) << ran.out << ran.err;
     if (line.rfind("case version", 0) == 0) case_ = ran.out.substr(5, 36);
     if (line.rfind("bundle key", 0) == 0) key_ = ran.out.substr(0, 64);
     if (line.rfind("consent list", 0) == 0)

@@ -87,21 +87,41 @@ TEST_F(SimulateTest, ThreadsAndPicturesChangeNothing) {
   EXPECT_NE(a[0].at("metrics"), a[1].at("metrics"));
 }
 
-TEST_F(SimulateTest, PeopleAreDifferentAndTheSameAgain) {
+TEST_F(SimulateTest, PeopleAreDifferentAndOnceThere) {
   const std::string words =
       "simulate --people 3 --count 2 --seed 5 --no-pictures --operator expert --case " + first_case();
-  const Json first = ask(words), again = ask(words);
+  // Two shards, then all of them: what a shard made is not made again.
+  const Json shard = ask(words + " --shard 2/2"), first = ask(words), again = ask(words);
   const Json& attempts = first.at("attempts");
+  ASSERT_EQ(shard.at("attempts").size(), 2U);
   ASSERT_EQ(attempts.size(), 6U);
-  std::set<std::string> names;
+  std::set<Json> seeds;
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(attempts[i].at("person"), i / 2 + 1);
     EXPECT_EQ(attempts[i].at("attempt_number"), i % 2 + 1);
-    EXPECT_EQ(attempts[i].at("seed"), 5 + i);
+    EXPECT_EQ(attempts[i].at("operator"), "expert");
+    EXPECT_EQ(attempts[i].at("synthetic"), true);
     EXPECT_EQ(attempts[i].at("metrics"), again.at("attempts")[i].at("metrics"));
-    names.insert(attempts[i].at("operator").get<std::string>());
+    EXPECT_EQ(attempts[i].at("attempt_id"), again.at("attempts")[i].at("attempt_id"));
+    seeds.insert(attempts[i].at("seed"));
   }
-  EXPECT_EQ(names, (std::set<std::string>{"expert-1", "expert-2", "expert-3"}));
+  EXPECT_EQ(seeds.size(), 6U);
+  EXPECT_EQ(attempts[2].at("attempt_id"), shard.at("attempts")[0].at("attempt_id"));
+  EXPECT_EQ(attempts[3].at("metrics"), shard.at("attempts")[1].at("metrics"));
+  // Another group's people of the same seed and number are others.
+  const Json novices = ask("simulate --people 1 --seed 5 --no-pictures --operator novice --case " + first_case());
+  EXPECT_FALSE(seeds.contains(novices.at("attempts")[0].at("seed")));
+}
+
+TEST_F(SimulateTest, AFileOfSkillsMakesPeopleAboutItsOperator) {
+  const auto file = scratch_ / "own.json";
+  std::ofstream(file) << R"({"name": "own", "like": "expert"})";
+  const std::string words =
+      "simulate --people 2 --seed 5 --no-pictures --operator " + file.string() + " --case " + first_case();
+  const Json first = ask(words), again = ask(words);
+  ASSERT_EQ(first.at("attempts").size(), 2U);
+  EXPECT_EQ(first.at("attempts")[1].at("operator"), "own-2");
+  EXPECT_EQ(first.at("attempts")[1].at("metrics"), again.at("attempts")[1].at("metrics"));
 }
 
 TEST_F(SimulateTest, ALearnerGetsBetter) {

@@ -43,9 +43,11 @@ class StudyCommands : public testing::Test {
     std::vector<std::vector<std::string>> made;
     for (const char* profile : {"novice", "expert"}) {
       std::vector<std::string>& ids = made.emplace_back();
-      const Json simulated =
-          library_.ask("simulate --no-pictures --case " + case_id_ + " --operator " + profile + " --people " +
-                       std::to_string(kPeople) + " --count " + std::to_string(kAttempts) + " --seed 11");
+      // About the operator: people of a group would be people of the library themselves.
+      std::ofstream(at("operator.json")) << R"({"like": ")" << profile << R"("})";
+      const Json simulated = library_.ask("simulate --no-pictures --case " + case_id_ + " --operator " +
+                                          at("operator.json") + " --people " + std::to_string(kPeople) +
+                                          " --count " + std::to_string(kAttempts) + " --seed 11");
       for (const Json& one : simulated["attempts"]) ids.push_back(one["attempt_id"]);
       ASSERT_EQ(ids.size(), static_cast<std::size_t>(kPeople * kAttempts));
     }
@@ -95,6 +97,24 @@ class StudyCommands : public testing::Test {
     return at(name);
   }
 };
+
+// From the population to a report's numbers, with no account and no consent.
+TEST_F(StudyCommands, SimulatedPeopleAreEnrolledAndSaidToBeSimulated) {
+  for (const char* group : {"novice", "expert"})
+    library_.done("simulate --no-pictures --people 8 --seed 3 --case " + case_id_ + " --operator " + group);
+  library_.done("study plan Needles " + file_of(plan()));
+  library_.done("study freeze Needles");
+  const Json enrolled = library_.ask("study enrol Needles --all");
+  ASSERT_GE(enrolled["enrolments"].size(), 8U) << enrolled.dump();
+  for (const Json& one : enrolled["enrolments"]) EXPECT_EQ(one["pseudonym"].get<std::string>().substr(0, 2), "S-");
+  const auto look = library_.call("study look Needles");
+  EXPECT_EQ(look.exit_code, 0) << look.err;
+  EXPECT_NE(look.out.find("SIMULATED"), std::string::npos) << look.out;
+  library_.done("report validity --study Needles --out " + at("validity.html"));
+  EXPECT_NE(fixtures::whole_file(at("validity.html")).find("SIMULATED"), std::string::npos);
+  library_.done("export --study Needles --raw none --out " + at("table"));
+  EXPECT_NE(fixtures::whole_file(library_.folder() / "table" / "attempts.csv").find(",S-"), std::string::npos);
+}
 
 TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
   people_practise();

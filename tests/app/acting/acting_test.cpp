@@ -182,6 +182,8 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"backup", {out}, Action::keep_library},
       {"check", {"--repair"}, Action::keep_library},
       {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
+      {"surrogate fit", {"--case", "nowhere", "--out", "s.json"}, Action::simulate_attempts},
+      {"surrogate check", {"--case", "nowhere", "--surrogate", "s.json"}, Action::simulate_attempts},
       {"recompute", {}, Action::keep_library},
       {"export", {"--study", "Needles", "--out", out}, Action::export_study, own_study},
       {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},

@@ -11,6 +11,7 @@
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
+#include "casedb/people/simulated_people.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
 #include "tests/assessment/study/sample_plan.h"
@@ -92,6 +93,29 @@ TEST_F(StudiesTest, ADraftIsReplacedAndAFrozenPlanStays) {
                              "UPDATE study_plan SET seed = NULL", "DELETE FROM study_plan"})
     EXPECT_TRUE(refused_by_constraint([&] { library_.database().run(change); })) << change;
   EXPECT_EQ(find_plan(library_, study_id_)->body, frozen->body);
+}
+
+// Nobody asks simulated people for consent; and no study of people has them.
+TEST_F(StudiesTest, SimulatedPeopleTakePartInStudiesOfSimulatedPeopleAlone) {
+  const auto group = *assessment::population::named_group("novice");
+  std::string simulated;
+  for (std::uint64_t number = 1; simulated.empty(); ++number) {
+    const auto person = assessment::population::drawn_person(group, 1, number);
+    if (person.years <= 0.9) simulated = simulated_person(library_, person, 1);
+  }
+  const std::string real = somebody("tina", {{"years_in_radiology", "0.5"}});
+  freeze(study::sample_plan_json());
+  EXPECT_EQ(code(enrol_in_study(library_, study_id_, simulated)), "no_consent");
+  EXPECT_TRUE(enrol_in_study(library_, study_id_, real));
+  const std::string other = add_study(library_, "Simulated needles").value();
+  EXPECT_FALSE(consenting_people(library_, other).contains(simulated)) << "no plan yet";
+  ASSERT_TRUE(store_plan(library_, other, plan_of(study::sample_plan_json(R"(, "people": "simulated")"))));
+  ASSERT_TRUE(freeze_plan(library_, other));
+  EXPECT_EQ(code(enrol_in_study(library_, other, real)), "no_consent");
+  const auto enrolled = enrol_in_study(library_, other, simulated);
+  ASSERT_TRUE(enrolled) << enrolled.error().text;
+  EXPECT_EQ(enrolled->pseudonym.substr(0, 2), "S-");
+  EXPECT_TRUE(list_study_enrolments(library_, other).at(0).consents);
 }
 
 TEST_F(StudiesTest, APlanNamesWhatTheLibraryHas) {

@@ -1,0 +1,142 @@
+#include "app/population/effects_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "assessment/population/raters.h"
+#include "assessment/population/reference_effects.h"
+#include "assessment/statistics/ranks.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace population = assessment::population;
+using population::EffectKind;
+using population::ReferenceEffect;
+
+double mean_of(const std::vector<double>& x) {
+  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
+double squares_of(const std::vector<double>& x) {
+  const double mean = mean_of(x);
+  return std::accumulate(x.begin(), x.end(), 0.0,
+                         [&](double sum, double one) { return sum + (one - mean) * (one - mean); });
+}
+
+SimulatedEffect effect_of(const std::string& metric, const std::vector<double>& less,
+                          const std::vector<double>& more) {
+  SimulatedEffect made{metric, less.size() + more.size(), {}, {}};
+  if (less.size() < 2 || more.size() < 2) return made;
+  const double pooled = std::sqrt((squares_of(less) + squares_of(more)) / static_cast<double>(made.values - 2));
+  if (!(pooled > 0.0)) return made;
+  made.difference = (mean_of(more) - mean_of(less)) / pooled;
+  std::vector<double> all = more;
+  all.insert(all.end(), less.begin(), less.end());
+  const auto ranks = assessment::statistics::midranks(all);
+  const auto n = static_cast<double>(more.size());
+  const double sum = std::accumulate(ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(more.size()), 0.0);
+  made.area = (sum - n * (n + 1.0) / 2.0) / (n * static_cast<double>(less.size()));
+  return made;
+}
+
+// What a study of so many people would find of these metrics: the share that is significant, and how large those
+// look.
+struct Found {
+  double share = 0.0, mean_size = 0.0;
+};
+Found found_by(const SimulatedEffects& effects, std::size_t n1, std::size_t n2) {
+  double power = 0.0, size = 0.0, metrics = 0.0;
+  for (const SimulatedEffect& one : effects.metrics) {
+    if (!one.difference) continue;
+    const auto selected = population::selected_of(*one.difference, n1, n2);
+    power += selected.power;
+    size += selected.power * selected.mean_size;
+    metrics += 1.0;
+  }
+  return metrics > 0.0 ? Found{power / metrics, size / power} : Found{};
+}
+
+}  // namespace
+
+std::optional<double> predicted(const SimulatedEffects& effects, const ReferenceEffect& row) {
+  if (row.kind == EffectKind::discriminating) return found_by(effects, row.n1, row.n2).share;
+  if (row.kind == EffectKind::difference && row.selected) return found_by(effects, row.n1, row.n2).mean_size;
+  if (row.statement >= 0) return effects.answers.at(static_cast<std::size_t>(row.statement)).difference;
+  return std::nullopt;
+}
+
+const char* kind_text(EffectKind kind) {
+  switch (kind) {
+    case EffectKind::difference:
+      return "d";
+    case EffectKind::discriminating:
+      return "share that discriminates";
+    case EffectKind::ratio:
+      return "ratio";
+    case EffectKind::level:
+      return "level";
+  }
+  return "";
+}
+
+SimulatedEffects simulated_effects(const population::Surrogate& surrogate, std::size_t people, std::uint64_t seed) {
+  SimulatedEffects made{surrogate.mark().case_title, people, {}, {}};
+  const std::size_t metrics = surrogate.mark().metrics.size();
+  const std::size_t asked = population::statements().size();
+  std::vector<std::vector<double>> less(metrics), more(metrics), trainees(asked), experts(asked);
+  for (const bool expert : {false, true}) {
+    const auto group = *population::named_group(expert ? "expert" : "novice");
+    for (std::size_t number = 1; number <= people; ++number) {
+      const population::Person person = population::drawn_person(group, seed, number);
+      const auto values = surrogate.draw(person, {1, 0, 0.0});
+      for (std::size_t s = 0; s < asked; ++s)
+        (expert ? experts : trainees)[s].push_back(population::answer_of(person, s));
+      for (std::size_t m = 0; m < metrics; ++m)
+        if (values[m]) (expert ? more : less)[m].push_back(*values[m]);
+    }
+  }
+  for (std::size_t m = 0; m < metrics; ++m)
+    if (less[m].size() + more[m].size() > 0)
+      made.metrics.push_back(effect_of(surrogate.mark().metrics[m].id, less[m], more[m]));
+  for (std::size_t s = 0; s < asked; ++s)
+    made.answers.push_back(effect_of(std::string(population::statements()[s].words), trainees[s], experts[s]));
+  return made;
+}
+
+std::string text_of_effects(const SimulatedEffects& effects) {
+  char line[512];
+  std::snprintf(
+      line, sizeof line,
+      "Simulated, nothing here is about people: %zu novices and %zu experts at `%s`, experts minus novices.\n\n",
+      effects.people, effects.people, effects.case_title.c_str());
+  std::string text = line;
+  text += "| metric | values | d | area under the ROC curve |\n|---|---|---|---|\n";
+  for (const SimulatedEffect& one : effects.metrics) {
+    if (!one.difference || !one.area) continue;
+    std::snprintf(line, sizeof line, "| `%s` | %zu | %+.2f | %.2f |\n", one.metric.c_str(), one.values,
+                  *one.difference, *one.area);
+    text += line;
+  }
+  text += "\n| published | of | what | value | 95 % | people | simulated | |\n|---|---|---|---|---|---|---|---|\n";
+  for (const ReferenceEffect& row : population::reference_effects()) {
+    const auto interval = population::interval95(row);
+    char bounds[48] = "", people[32] = "", simulated[32] = "not simulated";
+    if (row.kind == EffectKind::difference || row.kind == EffectKind::discriminating)
+      std::snprintf(bounds, sizeof bounds, "%.2f to %.2f", interval.low, interval.high);
+    if (row.n2 > 0)
+      std::snprintf(people, sizeof people, "%zu and %zu", row.n1, row.n2);
+    else if (row.n1 > 0)
+      std::snprintf(people, sizeof people, "%zu", row.n1);
+    if (const auto value = predicted(effects, row)) std::snprintf(simulated, sizeof simulated, "%.2f", *value);
+    std::snprintf(line, sizeof line, "| %s | %s | %s | %.2f | %s | %s | %s | %s%s |\n", row.source.data(),
+                  row.what.data(), kind_text(row.kind), row.value, bounds, people, simulated,
+                  row.selected ? "reported because significant; " : "", row.fitted ? "fitted" : "not fitted");
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,36 @@
+// How groups of simulated people differ in each metric, beside what was published of people.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assessment/population/reference_effects.h"
+#include "assessment/population/surrogate.h"
+
+namespace seldinger::app {
+
+struct SimulatedEffect {
+  std::string metric;
+  std::size_t values = 0;            // of both groups, of those that are not null
+  std::optional<double> difference;  // in pooled standard deviations, experts minus novices
+  std::optional<double> area;        // P(expert's > novice's) + ½ P(equal)
+};
+struct SimulatedEffects {
+  std::string case_title;
+  std::size_t people = 0;  // in each group
+  std::vector<SimulatedEffect> metrics;
+  std::vector<SimulatedEffect> answers;  // one for each of statements()
+};
+SimulatedEffects simulated_effects(const assessment::population::Surrogate& surrogate, std::size_t people,
+                                   std::uint64_t seed);
+std::string text_of_effects(const SimulatedEffects& effects);  // Markdown
+
+// What such people would have shown in the published study, where that is simulated.
+std::optional<double> predicted(const SimulatedEffects& effects,
+                                const assessment::population::ReferenceEffect& row);
+const char* kind_text(assessment::population::EffectKind kind);
+
+}  // namespace seldinger::app

@@ -1,0 +1,64 @@
+#include "app/population/open_surrogate.h"
+
+#include "app/cli/command.h"
+#include "app/cli/file.h"
+#include "app/cli/progress.h"
+#include "app/cli/words.h"
+#include "casedb/cases/case_checks.h"
+#include "session/attempt/simulated_people.h"
+#include "sim/base/check.h"
+#include "sim/engine/step.h"
+
+namespace seldinger::app {
+
+namespace population = assessment::population;
+
+population::SurrogateMark mark_of_case(casedb::Library& library, const session::Simulation& simulation) {
+  const casedb::CaseRow& row = simulation.task().row;
+  return population::mark_of_today(engine::kStepVersion, row.case_id, row.title,
+                                   casedb::content_mark(library, row.case_id));
+}
+
+base::Result<population::Surrogate> surrogate_of(const Arguments& arguments) {
+  const std::string file = arguments.required("--surrogate");
+  const auto text = read_text(file);
+  if (!text) return error_of("--surrogate", file, text.error());
+  auto surrogate = population::Surrogate::from_json(*text);
+  if (!surrogate) return error_of("--surrogate", file, surrogate.error());
+  const auto today = population::mark_of_today(engine::kStepVersion, surrogate->mark().case_id,
+                                               surrogate->mark().case_title, surrogate->mark().case_mark);
+  if (const std::string other = difference(surrogate->mark(), today); !other.empty())
+    return base::Error{"other_surrogate", "the surrogate is of " + other, {}};
+  return surrogate;
+}
+
+base::Result<std::vector<population::SimulatedPoint>> simulated_points(const session::Simulation& simulation,
+                                                                       const std::vector<population::Group>& groups,
+                                                                       std::uint64_t seed, std::size_t people,
+                                                                       std::size_t jobs) {
+  const std::uint64_t case_key = session::case_key_of(simulation.task().row.title);
+  std::vector<session::SimulatedTrial> trials;
+  std::vector<population::SimulatedPoint> points;
+  for (std::size_t number = 1; number <= people; ++number) {
+    const auto person = population::drawn_person(groups[(number - 1) % groups.size()], seed, number);
+    const population::Occasion occasion{case_key, 0, 0.0};
+    session::SimulatedTrial& trial = trials.emplace_back();
+    trial.profile = population::profile_on(person, occasion);
+    trial.seed = population::attempt_seed(person, occasion);
+    trial.mishaps = population::mishaps_on(person, occasion);
+    trial.mishaps->device_lost_s.reset();  // at random and of no ability: studies plant it themselves
+    points.emplace_back().place = population::place_of(person, occasion);
+  }
+  Progress progress(trials.size());
+  const auto done = simulation.measured_attempts(
+      trials, jobs, [&](std::size_t i, const session::Simulation::ForgottenAttempt& attempt) {
+        for (const assessment::MetricValue& one : attempt.metrics) points[i].values.push_back(one.value);
+        progress.one_done();
+        return true;
+      });
+  progress.clear();
+  if (!done) return done.error();
+  return points;
+}
+
+}  // namespace seldinger::app

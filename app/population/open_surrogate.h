@@ -1,0 +1,26 @@
+// A surrogate from a file, and what it must be of to be used today.
+#pragma once
+
+#include <string>
+
+#include "app/cli/arguments.h"
+#include "assessment/population/surrogate.h"
+#include "session/attempt/simulation.h"
+#include "sim/base/result.h"
+
+namespace seldinger::app {
+
+// Of a case as it is now, and of this program.
+assessment::population::SurrogateMark mark_of_case(casedb::Library& library, const session::Simulation& simulation);
+
+// The file of --surrogate: `bad_surrogate`, and `other_surrogate` where it is of other metrics, people or
+// simulation than this program's.
+base::Result<assessment::population::Surrogate> surrogate_of(const Arguments& arguments);
+
+// Everybody's place among abilities, and what the attempt measured: attempts that are simulated whole and not
+// stored.
+base::Result<std::vector<assessment::population::SimulatedPoint>> simulated_points(
+    const session::Simulation& simulation, const std::vector<assessment::population::Group>& groups,
+    std::uint64_t seed, std::size_t people, std::size_t jobs);
+
+}  // namespace seldinger::app

@@ -1,0 +1,104 @@
+#include "app/population/population_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "casedb/database/values_json.h"
+
+namespace seldinger::app {
+namespace {
+
+namespace population = assessment::population;
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json ratio(double part, std::size_t of) {
+  return of == 0 ? Json(nullptr) : Json(part / static_cast<double>(of));
+}
+
+Json level_json(const LevelAgreement& level) {
+  const population::Agreement& one = level.agreement;
+  Json metrics = Json::array();
+  for (const population::MetricAgreement& metric : one.metrics)
+    metrics.push_back({{"metric", metric.metric},
+                       {"values", metric.values},
+                       {"quantile_sd", metric.quantile_sd},
+                       {"quantile_error_sd", metric.quantile_error_sd},
+                       {"null_points", metric.null_points},
+                       {"zero_points", metric.zero_points}});
+  return {{"group", level.group},
+          {"attempts", one.attempts},
+          {"metrics", metrics},
+          {"quantiles_off", one.quantiles_off},
+          {"quantiles_beyond_chance", one.quantiles_beyond_chance},
+          {"shares_off", one.shares_off},
+          {"shares_beyond_chance", one.shares_beyond_chance},
+          {"pairs", one.pairs},
+          {"pairs_off", one.pairs_off},
+          {"pairs_beyond_chance", one.pairs_beyond_chance},
+          {"worst_rank_correlation", one.worst_rank_correlation},
+          {"worst_pair", one.worst_pair}};
+}
+
+}  // namespace
+
+std::string json_of_fit(const population::Surrogate& surrogate) {
+  return casedb::text(Json{{"synthetic", true},
+                           {"case_id", surrogate.mark().case_id},
+                           {"attempts", surrogate.points()},
+                           {"metrics", surrogate.mark().metrics.size()}});
+}
+
+std::string json_of_agreement(const std::vector<LevelAgreement>& levels) {
+  Json list = Json::array();
+  for (const LevelAgreement& one : levels) list.push_back(level_json(one));
+  return casedb::text(Json{{"synthetic", true}, {"levels", list}});
+}
+
+std::string json_of_effects(const SimulatedEffects& effects) {
+  Json metrics = Json::array(), published = Json::array();
+  for (const SimulatedEffect& one : effects.metrics)
+    metrics.push_back({{"metric", one.metric},
+                       {"values", one.values},
+                       {"d", number_or_null(one.difference)},
+                       {"auc", number_or_null(one.area)}});
+  for (const population::ReferenceEffect& row : population::reference_effects()) {
+    const auto interval = population::interval95(row);
+    const std::optional<double> unselected =
+        row.selected ? std::optional(population::unselected(row.value, row.n1, row.n2)) : std::nullopt;
+    published.push_back({{"source", row.source},
+                         {"what", row.what},
+                         {"kind", kind_text(row.kind)},
+                         {"value", row.value},
+                         {"ci95", {interval.low, interval.high}},
+                         {"selected", row.selected},
+                         {"unselected", number_or_null(unselected)},
+                         {"fitted", row.fitted},
+                         {"how", row.how},
+                         {"simulated", number_or_null(predicted(effects, row))}});
+  }
+  return casedb::text(Json{{"synthetic", true},
+                           {"case", effects.case_title},
+                           {"people", effects.people},
+                           {"metrics", metrics},
+                           {"published", published}});
+}
+
+std::string json_of_studies(const population::StudiesSum& sum, const population::World& world) {
+  Json outcomes = Json::array();
+  for (const population::OutcomeSum& one : sum.primary)
+    outcomes.push_back({{"name", one.name},
+                        {"analysed", one.analysed},
+                        {"significant", one.significant},
+                        {"estimate_name", one.estimate_name},
+                        {"truth", number_or_null(one.truth)},
+                        {"mean_estimate", ratio(one.sum_of_estimates, one.analysed)},
+                        {"coverage", ratio(static_cast<double>(one.covered), one.with_interval)},
+                        {"mean_width", ratio(one.sum_of_widths, one.with_interval)}});
+  return casedb::text(
+      Json{{"synthetic", true}, {"studies", sum.studies}, {"per_group", world.per_group}, {"primary", outcomes}});
+}
+
+}  // namespace seldinger::app

@@ -1,0 +1,37 @@
+// How well a surrogate does: attempts that were simulated whole, and that it was not fitted to, held against what
+// it draws for the same people. Differences are told beside what chance alone makes of so few attempts.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assessment/population/surrogate.h"
+
+namespace seldinger::assessment::population {
+
+struct MetricAgreement {
+  std::string metric;
+  std::size_t values = 0;  // of the attempts, that are not null
+  // The surrogate's minus the attempts': of the quantiles 10, 50 and 90 the largest, in standard deviations; of
+  // nulls and of zeros in points of 100.
+  double quantile_sd = 0.0, quantile_error_sd = 0.0;  // and one standard error of such a quantile
+  double null_points = 0.0, null_error_points = 0.0;
+  double zero_points = 0.0, zero_error_points = 0.0;
+};
+struct Agreement {
+  std::size_t attempts = 0, draws = 0;
+  std::vector<MetricAgreement> metrics;  // those with 30 values or more
+  std::size_t pairs = 0;
+  double worst_rank_correlation = 0.0, rank_correlation_error = 0.0;  // of the pairs' Spearman correlations
+  std::string worst_pair;
+  // How many are further apart than .1 SD, 3 points, .1; and how many of them by more than 3 standard errors
+  // beyond.
+  std::size_t quantiles_off = 0, shares_off = 0, pairs_off = 0;
+  std::size_t quantiles_beyond_chance = 0, shares_beyond_chance = 0, pairs_beyond_chance = 0;
+};
+Agreement agreement_of(const Surrogate& surrogate, std::span<const SimulatedPoint> held_out, std::size_t draws_each,
+                       std::uint64_t seed);
+
+}  // namespace seldinger::assessment::population

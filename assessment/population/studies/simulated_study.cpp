@@ -1,0 +1,135 @@
+#include "assessment/population/studies/simulated_study.h"
+
+#include <algorithm>
+#include <set>
+
+#include "assessment/population/streams.h"
+#include "sim/base/check.h"
+
+namespace seldinger::assessment::population {
+namespace {
+
+constexpr std::uint64_t kTruth = 0;  // the number of the study that tells the truth: none of those drawn
+
+std::vector<MetricValue> metrics_of(const SurrogateMark& mark, const Values& values) {
+  std::vector<MetricValue> metrics;
+  for (std::size_t m = 0; m < values.size(); ++m)
+    metrics.push_back({mark.metrics[m].id, mark.metrics[m].version, values[m], "", values[m] ? "" : "surrogate"});
+  return metrics;
+}
+
+// What a place adds to every ability of its people. Of one place nothing: there is nothing that it could differ
+// from.
+double effect_of(std::uint64_t study_key, const char* kind, std::size_t places, std::size_t which, double sd) {
+  if (places < 2) return 0.0;
+  return sd * normal_of(stream_of(person_key(study_key, kind, which), Drawn::ability));
+}
+
+std::string case_of(const study::Plan& plan) {
+  CHECK(!plan.primary.empty());
+  return plan.primary.front().case_id;
+}
+
+void add_visits(const study::Plan& plan, const World& world, const Surrogate& surrogate, StudiedPerson& one,
+                const std::vector<Rater>& raters, std::vector<std::uint64_t>& rated, SimulatedStudy& made) {
+  study::StudyPerson& data = made.data.emplace_back();
+  data.name = one.name;
+  data.group = one.group;
+  std::vector<double> days_before;
+  for (std::size_t visit = 0; visit < plan.visits.size(); ++visit) {
+    if (!comes_to(one.person, visit)) return;
+    const double day = (plan.visits[visit].from_day + plan.visits[visit].to_day) / 2.0;
+    Occasion occasion{base::hash_combine(1, std::uint64_t{surrogate.points()}), visit, 0.0};
+    if (days_before.empty() || day > days_before.back())
+      occasion.gain = gain_of(one.person.practice, days_before, day);
+    days_before.push_back(day);
+    study::StudyAttempt& attempt = data.attempts.emplace_back();
+    attempt.case_id = case_of(plan);
+    attempt.day = day;
+    attempt.synthetic = plan.people == study::People::simulated;
+    attempt.hand = "simulated";
+    if (mishaps_on(one.person, occasion).device_lost_s) attempt.cut_off = "the device was lost";
+    attempt.metrics = metrics_of(surrogate.mark(), surrogate.draw(one.person, occasion));
+    if (world.raters == 0) continue;
+    const std::size_t rater = rated.size() == 0 ? 0 : made.data.size() % world.raters;
+    for (std::size_t item = 0; item < rated_items().size(); ++item)
+      made.ratings.push_back(
+          {one.name, visit, rater + 1, item,
+           rating_of(raters[rater], one.person, ability_on(one.person, occasion), item, rated[rater])});
+    ++rated[rater];
+  }
+}
+
+std::vector<OutcomeSum> sums_of(const study::Plan& plan) {
+  std::vector<OutcomeSum> sums;
+  for (const study::Outcome& one : plan.primary) sums.emplace_back().name = one.name;
+  return sums;
+}
+
+}  // namespace
+
+SimulatedStudy simulated_study(const study::Plan& plan, const World& world, const Surrogate& surrogate,
+                               std::uint64_t seed, std::uint64_t number) {
+  CHECK(world.groups.size() == plan.groups.size());
+  const std::uint64_t study_key = base::hash_combine(base::hash_combine(0x7374756479ULL, seed), number);
+  SimulatedStudy made;
+  std::vector<Rater> raters;
+  for (std::size_t r = 1; r <= world.raters; ++r) raters.push_back(drawn_rater(study_key, r));
+  std::vector<std::uint64_t> rated(world.raters);
+  for (std::size_t g = 0; g < world.groups.size(); ++g)
+    for (std::size_t p = 1; p <= world.per_group; ++p) {
+      StudiedPerson& one = made.people.emplace_back();
+      one.person = drawn_person(world.groups[g], study_key, p);
+      one.group = plan.groups[g].name;
+      one.name = "S" + std::to_string(g + 1) + "-" + std::to_string(p);
+      one.site = (p - 1) % world.sites + 1;
+      one.device = (p - 1) / world.sites % world.devices + 1;
+      const double added = effect_of(study_key, "site", world.sites, one.site, world.site_sd) +
+                           effect_of(study_key, "device", world.devices, one.device, world.device_sd);
+      for (double& ability : one.person.ability) ability += added;
+      add_visits(plan, world, surrogate, one, raters, rated, made);
+    }
+  return made;
+}
+
+StudiesSum simulate_studies(const study::Plan& plan, const World& world, const Surrogate& surrogate,
+                            std::uint64_t seed, std::size_t studies, std::size_t truth_people,
+                            const std::function<bool(std::size_t done)>& told) {
+  StudiesSum sum;
+  sum.primary = sums_of(plan);
+  const auto result_of = [&](const World& of, std::uint64_t number) {
+    study::StudyResult result = study::analyse(plan, simulated_study(plan, of, surrogate, seed, number).data);
+    std::erase_if(result.primary, [](const study::Compared& one) { return !one.hand.empty(); });
+    return result;
+  };
+  World many = world;
+  many.per_group = truth_people;
+  many.sites = many.devices = 1;
+  many.raters = 0;
+  const study::StudyResult truth = result_of(many, kTruth);
+  CHECK(truth.primary.size() <= sum.primary.size());
+  for (std::size_t i = 0; i < truth.primary.size(); ++i) {
+    sum.primary[i].truth = truth.primary[i].answer.estimate;
+    sum.primary[i].estimate_name = truth.primary[i].answer.estimate_name;
+  }
+  for (std::size_t s = 1; s <= studies; ++s) {
+    const study::StudyResult result = result_of(world, s);
+    ++sum.studies;
+    for (std::size_t i = 0; i < result.primary.size(); ++i) {
+      const study::Compared& one = result.primary[i];
+      OutcomeSum& of = sum.primary[i];
+      if (!one.refused.empty() || !one.answer.estimable() || !one.answer.estimate) continue;
+      ++of.analysed;
+      of.sum_of_estimates += *one.answer.estimate;
+      if (one.p_adjusted && *one.p_adjusted < plan.alpha) ++of.significant;
+      if (!one.answer.ci95 || !of.truth) continue;
+      ++of.with_interval;
+      of.sum_of_widths += one.answer.ci95->high - one.answer.ci95->low;
+      if (one.answer.ci95->low <= *of.truth && *of.truth <= one.answer.ci95->high) ++of.covered;
+    }
+    if (told && !told(s)) break;
+  }
+  return sum;
+}
+
+}  // namespace seldinger::assessment::population

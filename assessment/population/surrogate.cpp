@@ -1,0 +1,199 @@
+#include "assessment/population/surrogate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "assessment/population/streams.h"
+#include "assessment/registry.h"
+#include "assessment/statistics/distributions.h"
+#include "sim/base/check.h"
+#include "sim/base/exact_math.h"
+
+namespace seldinger::assessment::population {
+namespace {
+
+constexpr double kNearSd = 0.8;  // how far an attempt's leftover is used, in standard deviations of ability
+constexpr std::uint64_t kMostTries = 64;
+constexpr std::size_t kFewestValues =
+    4 * (1 + 2 * kAxes);  // for a surface; of fewer the level is the same everywhere
+constexpr std::uint64_t kTies = 0x74696573ULL;
+constexpr std::size_t kTerms = 1 + 2 * kAxes;
+
+// 1, each axis, each axis squared.
+std::array<double, kTerms> terms_of(const Place& place) noexcept {
+  std::array<double, kTerms> terms{1.0};
+  for (std::size_t i = 0; i < kAxes; ++i) {
+    terms[1 + i] = place[i];
+    terms[1 + kAxes + i] = place[i] * place[i];
+  }
+  return terms;
+}
+
+double height(const std::vector<double>& coefficients, const Place& place) noexcept {
+  const auto terms = terms_of(place);
+  return std::inner_product(terms.begin(), terms.end(), coefficients.begin(), 0.0);
+}
+
+// Least squares by the normal equations, with a ridge so small that it only settles what the points leave open.
+std::vector<double> solved(const std::vector<SimulatedPoint>& points, std::span<const std::size_t> with_value,
+                           const std::vector<double>& scores) {
+  std::array<std::array<double, kTerms + 1>, kTerms> rows{};
+  for (const std::size_t p : with_value) {
+    const auto terms = terms_of(points[p].place);
+    for (std::size_t i = 0; i < kTerms; ++i) {
+      for (std::size_t j = 0; j < kTerms; ++j) rows[i][j] += terms[i] * terms[j];
+      rows[i][kTerms] += terms[i] * scores[p];
+    }
+  }
+  for (std::size_t i = 0; i < kTerms; ++i) rows[i][i] += 1e-6 * static_cast<double>(with_value.size());
+  for (std::size_t i = 0; i < kTerms; ++i)  // Gauss and Jordan; positive definite, so no pivot is sought
+    for (std::size_t k = 0; k < kTerms; ++k) {
+      if (k == i) continue;
+      const double factor = rows[k][i] / rows[i][i];
+      for (std::size_t j = i; j <= kTerms; ++j) rows[k][j] -= factor * rows[i][j];
+    }
+  std::vector<double> solution(kTerms);
+  for (std::size_t i = 0; i < kTerms; ++i) solution[i] = rows[i][kTerms] / rows[i][i];
+  return solution;
+}
+
+// The value that lies a share up the sorted ones. Between two that stand alone others are possible; next to a value
+// that many have, as 0 is, they are not.
+double at_share(const std::vector<double>& sorted, double share, bool between) {
+  const double place = share * static_cast<double>(sorted.size());
+  const auto last = static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, last));
+  if (!between || low + 2 >= sorted.size() || low == 0) return sorted[low];
+  const double a = sorted[low], b = sorted[low + 1];
+  if (sorted[low - 1] == a || sorted[low + 2] == b) return a;
+  return a + (b - a) * std::clamp(place - static_cast<double>(low), 0.0, 1.0);
+}
+
+}  // namespace
+
+Place place_of(const Person& person, const Occasion& occasion) {
+  Place place{};
+  const Abilities ability = ability_on(person, occasion);
+  std::copy(ability.begin(), ability.end(), place.begin());
+  place[kAbilities] = person.strategy;
+  return place;
+}
+
+SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
+                            std::string case_mark) {
+  SurrogateMark mark;
+  mark.step_version = step_version;
+  mark.case_id = std::move(case_id);
+  mark.case_title = std::move(case_title);
+  mark.case_mark = std::move(case_mark);
+  for (const MetricInfo& info : registry()) mark.metrics.push_back({std::string(info.id), info.version});
+  return mark;
+}
+
+std::string difference(const SurrogateMark& one, const SurrogateMark& other) {
+  if (one.people_version != other.people_version) return "another model of people";
+  if (one.step_version != other.step_version) return "another version of the simulation's step";
+  if (one.case_id != other.case_id || one.case_title != other.case_title || one.case_mark != other.case_mark)
+    return "another case, or the case has changed since";
+  for (const SurrogateMark::Metric& metric : one.metrics)
+    if (std::find(other.metrics.begin(), other.metrics.end(), metric) == other.metrics.end())
+      return "another version of the metric " + metric.id;
+  return one.metrics == other.metrics ? "" : "other metrics";
+}
+
+base::Result<Surrogate> Surrogate::fit(SurrogateMark mark, std::vector<SimulatedPoint> points) {
+  if (points.size() < kFewest || points.size() > kMost)
+    return base::Error{"bad_surrogate", "a surrogate is fitted to " + std::to_string(kFewest) + " to " +
+                                            std::to_string(kMost) + " attempts"};
+  for (const SimulatedPoint& one : points) CHECK(one.values.size() == mark.metrics.size());
+  Surrogate made;
+  made.mark_ = std::move(mark);
+  made.points_ = std::move(points);
+  made.fit_surfaces();
+  return made;
+}
+
+void Surrogate::fit_surfaces() {
+  for (std::size_t m = 0; m < mark_.metrics.size(); ++m) {
+    Surface& surface = surfaces_.emplace_back();
+    surface.scores.resize(points_.size());
+    surface.coefficients.resize(kTerms);
+    const MetricInfo* info = find_metric(mark_.metrics[m].id);
+    surface.between =
+        info != nullptr && info->estimand.scale != Scale::count && info->estimand.scale != Scale::yes_no;
+    std::vector<std::size_t> order;
+    for (std::size_t p = 0; p < points_.size(); ++p)
+      if (points_[p].values[m]) order.push_back(p);
+    // Equal values in an order of chance: each gets a place of its own among those that they take together.
+    const std::uint64_t ties = base::hash_combine(kTies, m);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const double x = *points_[a].values[m], y = *points_[b].values[m];
+      if (x != y) return x < y;
+      return base::hash_combine(ties, std::uint64_t{a}) < base::hash_combine(ties, std::uint64_t{b});
+    });
+    const auto n = static_cast<double>(order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+      surface.sorted.push_back(*points_[order[rank]].values[m]);
+      surface.scores[order[rank]] = statistics::normal_quantile_of((static_cast<double>(rank) + 0.5) / n);
+    }
+    if (order.size() >= kFewestValues) surface.coefficients = solved(points_, order, surface.scores);
+  }
+}
+
+std::size_t Surrogate::index_of(const std::string& metric) const {
+  for (std::size_t m = 0; m < mark_.metrics.size(); ++m)
+    if (mark_.metrics[m].id == metric) return m;
+  return std::string::npos;
+}
+
+// One of the attempts, the likelier the nearer: by trying until one is taken.
+std::size_t Surrogate::near(const Place& place, std::uint64_t stream) const {
+  std::size_t nearest = 0;
+  double least = 1e300;
+  for (std::uint64_t i = 0; i < kMostTries; ++i) {
+    const auto tried =
+        static_cast<std::size_t>(base::uniform_at(stream, 2 * i) * static_cast<double>(points_.size()));
+    double squared = 0.0;
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      const double off = points_[tried].place[a] - place[a];
+      squared += off * off;
+    }
+    if (squared < least) {
+      least = squared;
+      nearest = tried;
+    }
+    if (base::uniform_at(stream, 2 * i + 1) < base::exact_exp(-0.5 * squared / (kNearSd * kNearSd))) return tried;
+  }
+  return nearest;
+}
+
+Values Surrogate::moved(std::size_t from, const Place& to) const {
+  Values values;
+  values.reserve(surfaces_.size());
+  for (std::size_t m = 0; m < surfaces_.size(); ++m) {
+    const Surface& surface = surfaces_[m];
+    if (!points_[from].values[m]) {
+      values.emplace_back();
+      continue;
+    }
+    const double score =
+        surface.scores[from] + height(surface.coefficients, to) - height(surface.coefficients, points_[from].place);
+    values.emplace_back(at_share(surface.sorted, statistics::normal_cdf(score), surface.between));
+  }
+  return values;
+}
+
+Values Surrogate::draw(const Place& place, std::uint64_t stream) const {
+  return moved(near(place, stream), place);
+}
+
+Values Surrogate::draw(const Person& person, const Occasion& occasion) const {
+  const std::uint64_t own = stream_of(person.key, Drawn::surrogate, occasion.case_key);
+  const std::uint64_t then = stream_of(person.key, Drawn::surrogate, occasion.case_key, occasion.attempt + 1);
+  const bool is_own = base::uniform_at(then, 1ULL << 32U) < kOwnShare;
+  return draw(place_of(person, occasion), is_own ? own : then);
+}
+
+}  // namespace seldinger::assessment::population

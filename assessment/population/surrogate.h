@@ -1,0 +1,86 @@
+// What a simulated person's attempt at a case would measure, drawn in microseconds instead of simulated in seconds:
+// of attempts that were simulated whole, a response surface over abilities and strategy, and around it what those
+// attempts left over, whole, so that metrics hang together, and are null together, as they did. It is of one case,
+// one model of people and one version of each metric, and refused for any other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assessment/metrics/metric.h"
+#include "assessment/population/person.h"
+#include "sim/base/result.h"
+
+namespace seldinger::assessment::population {
+
+constexpr std::size_t kAxes = kAbilities + 1;
+using Place = std::array<double, kAxes>;  // abilities on the occasion, then strategy
+Place place_of(const Person& person, const Occasion& occasion);
+
+// Of what a surrogate is. Two of different marks are different things.
+struct SurrogateMark {
+  int people_version = kPeopleVersion;
+  std::uint32_t step_version = 0;
+  std::string case_id, case_title, case_mark;  // the mark is of the case's content
+  struct Metric {
+    std::string id;
+    int version = 1;
+    bool operator==(const Metric&) const = default;
+  };
+  std::vector<Metric> metrics;  // of the registry, in its order
+  bool operator==(const SurrogateMark&) const = default;
+};
+// Of the metrics of today.
+SurrogateMark mark_of_today(std::uint32_t step_version, std::string case_id, std::string case_title,
+                            std::string case_mark);
+// What differs, in words; empty: nothing.
+std::string difference(const SurrogateMark& one, const SurrogateMark& other);
+
+using Values = std::vector<std::optional<double>>;  // in the mark's order; nothing: the metric has none
+
+struct SimulatedPoint {
+  Place place{};
+  Values values;
+};
+
+class Surrogate {
+ public:
+  // `too_few`: less than kFewest attempts.
+  static constexpr std::size_t kFewest = 60, kMost = 20'000;
+  static base::Result<Surrogate> fit(SurrogateMark mark, std::vector<SimulatedPoint> points);
+
+  const SurrogateMark& mark() const noexcept { return mark_; }
+  std::size_t points() const noexcept { return points_.size(); }
+  std::size_t index_of(const std::string& metric) const;  // npos: there is no such one
+  // Of an attempt at that place. The same stream, the same draw.
+  Values draw(const Place& place, std::uint64_t stream) const;
+  // Of a person's attempt: what is left over is with a share of kOwnShare that of the person at this case, so that
+  // attempts of one person are alike.
+  static constexpr double kOwnShare = 0.4;
+  Values draw(const Person& person, const Occasion& occasion) const;
+
+  std::string to_json() const;
+  static base::Result<Surrogate> from_json(const std::string& text);  // `bad_surrogate`
+
+ private:
+  Surrogate() = default;
+  void fit_surfaces();
+  std::size_t near(const Place& place, std::uint64_t stream) const;
+  Values moved(std::size_t from, const Place& to) const;
+
+  struct Surface {
+    std::vector<double> coefficients;
+    std::vector<double> scores;  // of each point: the normal score of its value; 0: it has none
+    std::vector<double> sorted;  // the values
+    bool between = false;        // values between those that were seen are possible
+  };
+  SurrogateMark mark_;
+  std::vector<SimulatedPoint> points_;
+  std::vector<Surface> surfaces_;
+};
+
+}  // namespace seldinger::assessment::population

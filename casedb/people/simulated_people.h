@@ -1,0 +1,28 @@
+// Simulated people in a library: persons of their own kind, without name, account or log-in, whose attempts are
+// simulated ones. What was planted in them lies in a table of its own, which is asked by itself alone: nothing that
+// tells of people or their attempts knows it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "assessment/population/person.h"
+#include "casedb/database/library.h"
+
+namespace seldinger::casedb {
+
+struct SimulatedTruth {
+  std::string person_id, group;
+  std::uint64_t seed = 0, number = 1;
+  int people_version = 1;
+  assessment::population::Abilities ability{};
+  double strategy = 0.0;
+};
+
+// Whoever that seed, group and number make; the same in every library, and added where there is none yet, with the
+// facts that such a person tells (casedb/people/facts.h). Answers the person's id.
+std::string simulated_person(Library& library, const assessment::population::Person& person, std::uint64_t seed);
+std::vector<SimulatedTruth> list_simulated_truths(Library& library);  // by group, seed and number
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,92 @@
+// Simulated studies: that what is planted equal is not found different more often than chance has it, that
+// intervals hold what is true, and that a larger shift is found more often.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include "assessment/population/studies/simulated_study.h"
+#include "tests/assessment/population/known_attempts.h"
+#include "tests/assessment/study/sample_plan.h"
+
+namespace seldinger::assessment::population {
+namespace {
+
+// More of them in `./run test --long`.
+const std::size_t kStudies = std::getenv("SELDINGER_REPETITIONS") == nullptr ? 150 : 2000;
+
+World world_of(double first, double second, std::size_t per_group) {
+  World world;
+  world.groups = {shifted_group(first), shifted_group(second)};
+  world.groups[0].name = "few";
+  world.groups[1].name = "many";
+  world.per_group = per_group;
+  return world;
+}
+
+const study::Plan& plan() {
+  static const study::Plan kPlan = study::sample_plan(R"(, "people": "simulated")");
+  return kPlan;
+}
+
+double three_errors(double share, std::size_t of) {
+  return 3.0 * std::sqrt(share * (1.0 - share) / static_cast<double>(of));
+}
+
+TEST(SimulatedStudies, WhatIsPlantedEqualIsFoundDifferentAsOftenAsPlanned) {
+  const auto sum = simulate_studies(plan(), world_of(0.0, 0.0, 12), fitted(), 3, kStudies, 20'000);
+  ASSERT_EQ(sum.primary.size(), 2U);
+  EXPECT_GE(sum.primary[0].analysed, kStudies - 2);
+  // Of two primary outcomes each is held to .025.
+  EXPECT_LE(static_cast<double>(sum.primary[0].significant),
+            (0.025 + three_errors(0.025, kStudies)) * static_cast<double>(sum.primary[0].analysed));
+  EXPECT_NEAR(*sum.primary[0].truth, 0.5, 5.0 * std::sqrt(1.0 / (12.0 * 10'000.0)));
+  EXPECT_EQ(sum.primary[1].analysed, 0U) << "the surrogate has no no-go length";
+}
+
+TEST(SimulatedStudies, IntervalsHoldWhatIsTrueAndPowerRisesWithTheShift) {
+  std::size_t before = 0;
+  double truth_before = 0.5;
+  for (const double shift : {0.2, 0.5, 0.8, 1.2}) {
+    const auto sum = simulate_studies(plan(), world_of(0.0, shift, 30), fitted(), 5, kStudies, 40'000);
+    const OutcomeSum& one = sum.primary[0];
+    ASSERT_EQ(one.with_interval, kStudies) << shift;
+    const double covered = static_cast<double>(one.covered) / static_cast<double>(one.with_interval);
+    EXPECT_NEAR(covered, 0.95, 0.015 + three_errors(0.95, kStudies)) << shift;
+    RecordProperty("coverage_" + std::to_string(shift), std::to_string(covered));
+    EXPECT_GT(one.significant, before);
+    EXPECT_GT(*one.truth, truth_before) << "the less able are further off";
+    before = one.significant;
+    truth_before = *one.truth;
+  }
+}
+
+TEST(SimulatedStudies, HaveTheSitesDevicesVisitsAndRatersThatWerePlanned) {
+  World world = world_of(0.0, 1.2, 12);
+  world.sites = 3;
+  world.devices = 2;
+  world.raters = 2;
+  const SimulatedStudy made = simulated_study(plan(), world, fitted(), 1, 1);
+  ASSERT_EQ(made.people.size(), 24U);
+  ASSERT_EQ(made.data.size(), 24U);
+  std::set<std::size_t> sites, devices;
+  std::set<std::size_t> raters;
+  for (const StudiedPerson& one : made.people) {
+    sites.insert(one.site);
+    devices.insert(one.device);
+  }
+  for (const Rating& one : made.ratings) raters.insert(one.rater);
+  EXPECT_EQ(sites.size(), 3U);
+  EXPECT_EQ(devices.size(), 2U);
+  EXPECT_EQ(raters.size(), 2U);
+  EXPECT_EQ(made.ratings.size(), 24U * rated_items().size());
+  for (const auto& person : made.data)
+    for (const auto& attempt : person.attempts) EXPECT_TRUE(attempt.synthetic);
+  // Another number is another study, the same the same.
+  EXPECT_EQ(simulated_study(plan(), world, fitted(), 1, 1).people[5].person.ability, made.people[5].person.ability);
+  EXPECT_NE(simulated_study(plan(), world, fitted(), 1, 2).people[5].person.ability, made.people[5].person.ability);
+}
+
+}  // namespace
+}  // namespace seldinger::assessment::population

@@ -1,0 +1,140 @@
+// A surrogate against attempts of a known law: that it keeps what they are, follows abilities as they do, and is
+// refused for anything else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "assessment/population/agreement.h"
+#include "assessment/population/streams.h"
+#include "assessment/population/surrogate.h"
+#include "assessment/registry.h"
+#include "tests/assessment/population/known_attempts.h"
+
+namespace seldinger::assessment::population {
+namespace {
+
+TEST(Surrogate, AgreesWithAttemptsThatItDoesNotKnow) {
+  for (const double shift : {0.0, 1.2}) {
+    const auto agreement = agreement_of(fitted(), attempts_of({shift}, 77, 1000), 20, 3);
+    EXPECT_EQ(agreement.metrics.size(), 4U);
+    EXPECT_EQ(agreement.pairs, 3U) << "one is the same in all";
+    EXPECT_EQ(agreement.quantiles_beyond_chance, 0U);
+    EXPECT_EQ(agreement.shares_beyond_chance, 0U);
+    EXPECT_EQ(agreement.pairs_off, 0U) << agreement.worst_pair << agreement.worst_rank_correlation;
+  }
+}
+
+TEST(Surrogate, AWrongOneIsFoundOut) {
+  // Of attempts in which ability does the opposite.
+  std::vector<SimulatedPoint> points = attempts_of({0.0, 1.2}, 1, 2000);
+  for (SimulatedPoint& one : points) one.place[1] = 1.2 - one.place[1];
+  const auto wrong = Surrogate::fit(known_mark(), points);
+  EXPECT_GT(agreement_of(*wrong, attempts_of({1.8}, 77, 1000), 20, 3).quantiles_beyond_chance, 0U);
+}
+
+// E ln distance is .5 − .4 E θ: between the shifts it falls by .4 times the shift.
+TEST(Surrogate, FollowsAbilityByTheRightAmount) {
+  const std::size_t distance = fitted().index_of("tip_target_dist");
+  std::map<double, double> mean;
+  constexpr std::size_t kPeople = 20'000;
+  for (const double shift : {0.0, 0.8}) {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t number = 1; number <= kPeople; ++number) {
+      const auto values = fitted().draw(drawn_person(shifted_group(shift), 5, number), {5, 0, 0.0});
+      if (!values[distance]) continue;
+      sum += std::log(*values[distance]);
+      count += 1.0;
+    }
+    EXPECT_NEAR(count / kPeople, 1.0 - kNullShare, 0.03);
+    mean[shift] = sum / count;
+  }
+  // One attempt's ln has the SD √(.16 + .36) = .72; the fit's slope, of 1,800 points with θ of SD 1.3, an error of
+  // .013.
+  EXPECT_NEAR(mean[0.8] - mean[0.0], -0.32, 3.0 * std::hypot(0.72 * std::sqrt(2.0 / 18'000.0), 0.8 * 0.013));
+}
+
+TEST(Surrogate, PeopleOfTwoGroupsAreNobodysTwins) {
+  const std::size_t distance = fitted().index_of("tip_target_dist"), time = fitted().index_of("time_total");
+  for (const std::size_t metric : {distance, time}) {
+    double x = 0, y = 0, xx = 0, yy = 0, xy = 0, n = 0;
+    for (std::size_t number = 1; number <= 5000; ++number) {
+      const auto a = fitted().draw(drawn_person(shifted_group(0.0), 5, number), {5, 0, 0.0})[metric];
+      const auto b = fitted().draw(drawn_person(shifted_group(0.8), 5, number), {5, 0, 0.0})[metric];
+      if (!a || !b) continue;
+      x += *a, y += *b, xx += *a * *a, yy += *b * *b, xy += *a * *b, n += 1;
+    }
+    EXPECT_LT(std::abs((xy - x * y / n) / std::sqrt((xx - x * x / n) * (yy - y * y / n))), 0.06);
+  }
+}
+
+TEST(Surrogate, AttemptsOfOnePersonAreAlike) {
+  const std::size_t time = fitted().index_of("time_total");
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0, n = 0;
+  for (std::size_t number = 1; number <= 5000; ++number) {
+    const Person one = drawn_person(shifted_group(0.0), 5, number);
+    const auto a = fitted().draw(one, {5, 0, 0.0})[time], b = fitted().draw(one, {5, 1, 0.0})[time];
+    if (!a || !b) continue;
+    x += *a, y += *b, xx += *a * *a, yy += *b * *b, xy += *a * *b, n += 1;
+  }
+  // With .16 of both attempts the person's own leftover is the same; strategy adds to that.
+  EXPECT_GT((xy - x * y / n) / std::sqrt((xx - x * x / n) * (yy - y * y / n)), 0.16);
+}
+
+TEST(Surrogate, CountsStayCountsAndNothingIsBeyondWhatWasSeen) {
+  const std::size_t count = fitted().index_of("withdrawals_full"), distance = fitted().index_of("tip_target_dist");
+  double most = 0.0;
+  for (const SimulatedPoint& one : attempts_of({-0.6, 0.0, 0.6, 1.2, 1.8}, 1, 2000))
+    most = std::max(most, one.values[distance].value_or(0.0));
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    Place place{};
+    place.fill(i % 2 == 0 ? 9.0 : -9.0);  // where nobody was
+    const auto values = fitted().draw(place, stream_of(1, Drawn::surrogate, i));
+    EXPECT_TRUE(!values[count] || *values[count] == 0.0 || *values[count] == 1.0);
+    EXPECT_LE(values[distance].value_or(0.0), most);
+  }
+}
+
+TEST(Surrogate, ItsFileDrawsTheSame) {
+  const auto again = Surrogate::from_json(fitted().to_json());
+  ASSERT_TRUE(again.has_value());
+  EXPECT_EQ(again->mark(), fitted().mark());
+  for (std::uint64_t i = 0; i < 100; ++i) EXPECT_EQ(again->draw({}, i), fitted().draw({}, i));
+}
+
+TEST(Surrogate, AFileOfSomethingElseIsRefused) {
+  const std::string good = fitted().to_json();
+  for (const std::string& bad :
+       {std::string("[]"), std::string("{"), std::string(R"({"surrogate": 1})"), good.substr(0, good.size() / 2),
+        std::string(
+            R"({"surrogate":1,"people_version":1,"step_version":1,"case_id":"c","case":"a","case_mark":"b",)") +
+            R"("metrics":[["hit",1]],"attempts":[[0,0,0,0,0,1]]})"}) {
+    const auto refused = Surrogate::from_json(bad);
+    ASSERT_FALSE(refused.has_value()) << bad.substr(0, 80);
+    EXPECT_EQ(refused.error().code, "bad_surrogate");
+  }
+}
+
+TEST(Surrogate, AnyDifferenceOfItsMarkIsTold) {
+  const SurrogateMark mark = known_mark();
+  EXPECT_EQ(difference(mark, mark), "");
+  EXPECT_EQ(mark.metrics.size(), registry().size());
+  SurrogateMark other = mark;
+  ++other.metrics.back().version;
+  EXPECT_NE(difference(mark, other), "");
+  other = mark;
+  other.metrics.pop_back();
+  EXPECT_NE(difference(mark, other), "");
+  EXPECT_NE(difference(other, mark), "");
+  EXPECT_NE(difference(mark, mark_of_today(kStep + 1, "case-1", "Ball", "x")), "");
+  EXPECT_NE(difference(mark, mark_of_today(kStep, "case-1", "Ball", "y")), "");
+  other = mark;
+  ++other.people_version;
+  EXPECT_NE(difference(mark, other), "");
+}
+
+}  // namespace
+}  // namespace seldinger::assessment::population
