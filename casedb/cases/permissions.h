@@ -52,16 +52,18 @@ enum class Action {
   see_standard_attempts,  // which attempts made it
   set_standard,
   // People.
-  see_cohort,        // who is in it, by name
-  see_cohort_cells,  // how many are in it and what they did together, from kSmallestCell people upwards
-  manage_cohorts,    // makes them, says who belongs to them
-  appoint_director,  // of a programme
-  manage_studies,    // what they ask, who works on them
-  export_study,      // attempts of those who consent, without names
-  plan_study,        // its plan, the freeze, deviations, looks and reports
-  enrol_in_study,    // people who consent to it
-  answer_consent,    // give and withdraw, and state facts of oneself
-  let_in_again,      // somebody whose log-in is delayed
+  see_cohort,             // who is in it, by name
+  see_cohort_cells,       // how many are in it and what they did together, from kSmallestCell people upwards
+  manage_cohorts,         // makes them, says who belongs to them
+  appoint_director,       // of a programme
+  manage_studies,         // what they ask, who works on them
+  export_study,           // attempts of those who consent, without names
+  plan_study,             // its plan, the freeze, deviations, looks and reports
+  enrol_in_study,         // people who consent to it
+  manage_questionnaires,  // stores them, opens rounds in which they are answered
+  see_responses,   // of a round: by respondent and group. "own": opened by oneself; of a study: its researchers'
+  answer_consent,  // give and withdraw, and state facts of oneself
+  let_in_again,    // somebody whose log-in is delayed
   erase_attempts,
   erase_person,
   erase_case,
@@ -307,6 +309,16 @@ inline constexpr Permission kPermissions[] = {
      "enrol_in_study",
      "a researcher enrols those who consent in an own study, an admin or a director in any",
      {{{Role::researcher}, {}, Whose::own_studies}, {{Role::admin, Role::director}}}},
+    {Action::manage_questionnaires,
+     "manage_questionnaires",
+     "a mentor, researcher, director or admin stores questionnaires and opens rounds of them",
+     {{{Role::mentor, Role::researcher, Role::director, Role::admin}}}},
+    {Action::see_responses,
+     "see_responses",
+     "a mentor, researcher or director reads the answers of a round that they opened, a researcher those of an own "
+     "study",
+     {{{Role::mentor, Role::researcher, Role::director}, {}, Whose::own},
+      {{Role::researcher}, {}, Whose::own_studies}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
     {Action::let_in_again,
      "let_in_again",

@@ -62,6 +62,8 @@ constexpr Row kMatrix[] = {
     {"export_study",              "",          "",                    "study",            "",          ""},
     {"plan_study",                "",          "",                    "study",            "",          ""},
     {"enrol_in_study",            "",          "",                    "study",            "all",       "all"},
+    {"manage_questionnaires",     "",          "all",                 "all",              "all",       "all"},
+    {"see_responses",             "",          "own",                 "own|study",        "own",       ""},
     {"answer_consent",            "own",       "own",                 "own",              "own",       "own"},
     {"let_in_again",              "",          "",                    "",                 "",          "all"},
     {"erase_attempts",            "own",       "own",                 "own",              "own",       "all"},
