@@ -25,6 +25,7 @@ enum class Action {
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
   simulate_attempts,
+  comment_attempt,  // at a moment of it, for its trainee to read
   // Cases.
   see_case,         // what it holds, also what is right: more than to practise it
   see_case_notes,   // what people wrote beside their decisions
@@ -203,6 +204,10 @@ inline constexpr Permission kPermissions[] = {
      "simulate_attempts",
      "a mentor or a researcher has attempts simulated",
      {{{Role::mentor, Role::researcher}}}},
+    {Action::comment_attempt,
+     "comment_attempt",
+     "a mentor comments on attempts of the own cohort",
+     {{{Role::mentor}, {}, Whose::own_cohorts}}},
 
     {Action::see_case,
      "see_case",

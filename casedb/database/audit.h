@@ -28,6 +28,7 @@ enum class Act {
   disable_account,
   unproven,     // --by a name without a password or a session
   not_allowed,  // the table of permissions refused; the object is the action
+  comment_attempt,
   // Cases.
   add_case,
   change_case,  // lesions, structures, label maps, setting, title

@@ -25,12 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr PersonColumn kRemoved[] = {
-    {"account", "person_id"},          {"attempt", "person_id"},
-    {"enrolment", "person_id"},        {"login_session", "person_id"},
-    {"open_attempt", "person_id"},     {"person_fact", "person_id"},
-    {"person_level", "person_id"},     {"programme_director", "person_id"},
-    {"replay_watched", "person_id"},   {"study_enrolment", "person_id"},
-    {"study_researcher", "person_id"},
+    {"account", "person_id"},        {"attempt", "person_id"},         {"attempt_comment", "person_id"},
+    {"enrolment", "person_id"},      {"login_session", "person_id"},   {"open_attempt", "person_id"},
+    {"person_fact", "person_id"},    {"person_level", "person_id"},    {"programme_director", "person_id"},
+    {"replay_watched", "person_id"}, {"study_enrolment", "person_id"}, {"study_researcher", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
     {"audit", "person_id"},           {"case_decision", "person_id"},

@@ -41,7 +41,7 @@ base::Result<void> check_groups(const std::vector<std::string>& groups) {
 std::vector<std::string> groups_of(Library& library, const std::string& round_id) {
   std::vector<std::string> groups;
   Statement rows = question(library.database(), "questionnaire_groups");
-  for (rows.bind("round_id", round_id); rows.step();) groups.push_back(rows.text("name"));
+  for (rows.bind("round_id", round_id); rows.step();) groups.push_back(rows.text("group_name"));
   return groups;
 }
 
@@ -97,7 +97,10 @@ base::Result<Round> open_round(Library& library, const NewRound& made) {
       .run();
   Statement group = question(library.database(), "add_questionnaire_group");
   for (std::size_t i = 0; i < made.groups.size(); ++i) {
-    group.bind("round_id", round_id).bind("place", static_cast<std::int64_t>(i)).bind("name", made.groups[i]).run();
+    group.bind("round_id", round_id)
+        .bind("place", static_cast<std::int64_t>(i))
+        .bind("group_name", made.groups[i])
+        .run();
   }
   audit(library, Act::open_round, {"round", round_id});
   transaction.commit();

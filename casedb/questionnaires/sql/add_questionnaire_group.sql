@@ -1,2 +1,2 @@
 -- A group of a round.
-INSERT INTO questionnaire_group (round_id, place, name) VALUES (:round_id, :place, :name)
+INSERT INTO questionnaire_group (round_id, place, group_name) VALUES (:round_id, :place, :group_name)

@@ -31,6 +31,7 @@ constexpr Row kMatrix[] = {
     {"look_inside",               "",          "all",                 "",                 "",          ""},
     {"cause_event",               "",          "all",                 "",                 "",          ""},
     {"simulate_attempts",         "",          "all",                 "all",              "",          ""},
+    {"comment_attempt",           "",          "cohort",              "",                 "",          ""},
     {"see_case",                  "",          "drpx:all",            "px:all",           "rpx:all",   "px:all"},
     {"see_case_notes",            "",          "all",                 "",                 "all",       ""},
     {"see_who_decided",           "",          "all",                 "",                 "all",       ""},

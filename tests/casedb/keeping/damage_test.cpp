@@ -259,8 +259,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
   {
     Sqlite old(folder_ / kDatabaseFile);
     for (const char* later :
-         {"response", "response_set", "questionnaire_group", "questionnaire_round", "questionnaire", "study_plan",
-          "study_stratum", "study_enrolment", "study_look", "study_deviation"})
+         {"attempt_comment", "response", "response_set", "questionnaire_group", "questionnaire_round",
+          "questionnaire", "study_plan", "study_stratum", "study_enrolment", "study_look", "study_deviation"})
       old.run(std::string("DROP TABLE ") + later);  // as schema 20 has them not yet
     old.run("PRAGMA user_version = 20");
     Transaction transaction(old);

@@ -38,7 +38,7 @@ CREATE UNIQUE INDEX questionnaire_round_by_code ON questionnaire_round (code);
 CREATE TABLE questionnaire_group (
   round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
   place INTEGER NOT NULL CHECK (place >= 0),
-  name TEXT NOT NULL CHECK (name <> ''),
+  group_name TEXT NOT NULL CHECK (group_name <> ''),
   PRIMARY KEY (round_id, place)
 ) STRICT;
 
