@@ -107,7 +107,7 @@ std::map<std::string, std::string> problems_of(const assessment::questionnaire::
     const auto* item = form.find_item(item_id);
     if (item == nullptr) continue;
     const auto answer = assessment::questionnaire::answer_from_text(form, *item, text);
-    if (!answer) problems.emplace(item_id, "This cannot be taken: " + answer.error().text + ".");
+    if (!answer) problems.emplace(item_id, "Please mend this: it " + answer.error().text + ".");
   }
   return problems;
 }

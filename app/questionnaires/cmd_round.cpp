@@ -122,7 +122,7 @@ int run_questionnaire_export(const Arguments& arguments) {
   const auto responses = casedb::list_responses(*library, round->code);
   if (!responses) return refuse(responses.error());
   if (const auto noted = note_export(*library, *responses); !noted) return refuse(noted.error());
-  write_file(out, reports::responses_csv(*responses));
+  write_file(out, arguments.has("--scores") ? reports::scores_csv(*responses) : reports::responses_csv(*responses));
   std::printf("%zu people's answers to %s version %d\n", responses->sets.size(), round->form_id.c_str(),
               round->version);
   return kDone;
@@ -134,7 +134,10 @@ constexpr Option kOpenOptions[] = {kLibrary,
                                    {"--group", "NAME", "a group that respondents choose from; two to six", true},
                                    {"--study", "STUDY", "answers are of this study: its researchers read them"},
                                    kJson};
-constexpr Option kExportOptionsOfRound[] = {kLibrary, {"--out", "FILE.csv", "the file"}};
+constexpr Option kExportOptionsOfRound[] = {
+    kLibrary,
+    {"--out", "FILE.csv", "the file"},
+    {"--scores", nullptr, "a line for each respondent and a column for each item, as `seldinger stats` takes it"}};
 
 }  // namespace
 

@@ -29,11 +29,11 @@ std::string number_text(double value) {
   return {digits, std::to_chars(std::begin(digits), std::end(digits), value).ptr};
 }
 
-base::Error bad_answer(const Item& item, const std::string& what) {
-  return {"bad_answer", "item " + item.id + " " + what};
+base::Error bad_answer(const std::string& what) {
+  return {"bad_answer", what};
 }
 
-base::Result<ItemAnswer> comment_from(const Item& item, std::string_view typed) {
+base::Result<ItemAnswer> comment_from(std::string_view typed) {
   // What a browser sends for a line's end.
   std::string text;
   for (const char c : typed)
@@ -42,7 +42,7 @@ base::Result<ItemAnswer> comment_from(const Item& item, std::string_view typed) 
     return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t';
   });
   if (text.size() > kMostCommentBytes || control)
-    return bad_answer(item, "takes a comment of up to " + std::to_string(kMostCommentBytes) + " bytes of text");
+    return bad_answer("takes a comment of up to " + std::to_string(kMostCommentBytes) + " bytes of text");
   return ItemAnswer{AnswerState::answered, {}, text};
 }
 
@@ -70,22 +70,22 @@ const Item* Form::find_item(std::string_view item_id) const noexcept {
 base::Result<ItemAnswer> answer_from_text(const Form& form, const Item& item, std::string_view typed) {
   typed = without_blanks(typed);
   if (typed.empty()) return ItemAnswer{};
-  if (item.kind == ItemKind::comment) return comment_from(item, typed);
+  if (item.kind == ItemKind::comment) return comment_from(typed);
   if (typed == kNotApplicableWord) {
-    if (!item.not_applicable) return bad_answer(item, "cannot be answered with n/a");
+    if (!item.not_applicable) return bad_answer("cannot be answered with n/a");
     return ItemAnswer{AnswerState::not_applicable, {}, {}};
   }
   if (item.kind == ItemKind::choice) {
     const auto found = std::find(item.choices.begin(), item.choices.end(), typed);
-    if (found == item.choices.end()) return bad_answer(item, "is answered with none of its choices");
+    if (found == item.choices.end()) return bad_answer("is answered with none of its choices");
     return ItemAnswer{AnswerState::answered, static_cast<double>(found - item.choices.begin() + 1), {}};
   }
   const auto value = number_from(typed);
   if (item.kind == ItemKind::scale) {
-    if (!value || point_of(form, item, *value) == nullptr) return bad_answer(item, "is answered off its scale");
+    if (!value || point_of(form, item, *value) == nullptr) return bad_answer("is answered off its scale");
   } else if (!value || *value < item.least || *value > item.most || (item.whole && *value != std::floor(*value))) {
-    return bad_answer(item, std::string("takes a ") + (item.whole ? "whole " : "") + "number from " +
-                                number_text(item.least) + " to " + number_text(item.most));
+    return bad_answer(std::string("takes a ") + (item.whole ? "whole " : "") + "number from " +
+                      number_text(item.least) + " to " + number_text(item.most));
   }
   return ItemAnswer{AnswerState::answered, *value + 0.0, {}};  // no −0
 }

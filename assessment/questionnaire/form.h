@@ -82,7 +82,8 @@ struct ItemAnswer {
 inline constexpr std::string_view kNotApplicableWord = "n/a";  // as it is typed and as a page sends it
 inline constexpr std::size_t kMostCommentBytes = 2'000;
 
-// What was typed or ticked for an item; nothing is missing. `bad_answer`.
+// What was typed or ticked for an item; nothing is missing. `bad_answer`, in words that go on from the item's name:
+// "takes a whole number from 0 to 70".
 base::Result<ItemAnswer> answer_from_text(const Form& form, const Item& item, std::string_view typed);
 // As answer_from_text reads it again: "", "n/a", "4", a choice's word, a comment.
 std::string text_of(const Item& item, const ItemAnswer& answer);

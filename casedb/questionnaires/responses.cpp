@@ -156,7 +156,7 @@ ItemAnswers read_typed(const questionnaire::Form& form, const std::map<std::stri
     if (answer)
       answers.emplace(item_id, std::move(*answer));
     else
-      wrong.push_back({"bad_answer", where + answer.error().text});
+      wrong.push_back({"bad_answer", where + "item " + item_id + " " + answer.error().text});
   }
   return answers;
 }

@@ -215,11 +215,12 @@ std::string answer_section_page(const AnswerSection& view) {
   else
     for (const Item* item : sections[view.section]) add_item(html, view, *item);
   html.raw("<p class=\"steps\">");
-  if (view.section > 0) html.raw("<button class=\"quiet\" name=\"go\" value=\"back\">Back</button> ");
+  // The first button of a form is what Enter presses.
   if (last)
     html.raw("<button name=\"go\" value=\"send\">Send</button>");
   else
     html.raw("<button name=\"go\" value=\"next\">Next</button>");
+  if (view.section > 0) html.raw(" <button class=\"quiet\" name=\"go\" value=\"back\">Back</button>");
   html.raw("</p>\n</form>\n<p class=\"why\">Your participant code: <strong>").text(view.draft->set.respondent);
   html.raw("</strong>. What you send with Next is kept, should this page be closed.</p>\n</div>\n");
   return page(form.title, {}, html);

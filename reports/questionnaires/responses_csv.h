@@ -12,4 +12,8 @@ namespace seldinger::reports {
 // none for "don't know"), label, comment. By respondent, each with every item of the form in its order.
 std::string responses_csv(const casedb::Responses& responses);
 
+// The same as `seldinger stats` takes it: a line for each respondent, a column for each item that is a number or on
+// a scale, holding what counts (`scored`), and nothing where nothing does.
+std::string scores_csv(const casedb::Responses& responses);
+
 }  // namespace seldinger::reports

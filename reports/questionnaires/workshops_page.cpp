@@ -278,7 +278,8 @@ std::string workshops_page() {
       "one alone is possible it is certain as far as the printed digits are; else all that are possible are shown. "
       "Where one set of answers alone has the printed mean and SD, these are the answers: “determined”. Else one "
       "set of "
-      "those that fit is shown, which is an example and not what people said.</p>\n</section>\n");
+      "those that fit is shown, which is an example and not what people said. That answers of experts to 8c and 8d "
+      "in 2006 range from 1 to 4 is taken from the text.</p>\n</section>\n");
   add_figures(html);
   html.raw("<section>\n<h2>Tables 6.1 to 6.3</h2>\n");
   add_table(html, "6.1", "Early version, 2005; 1 strongly disagree to 7 strongly agree, 4 don't know.");

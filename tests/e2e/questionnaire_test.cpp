@@ -74,6 +74,13 @@ TEST_F(QuestionnaireCommands, GoFromPaperTypedTwiceToATable) {
   EXPECT_EQ(said["A2 4"], "answered 20.5");
   EXPECT_EQ(said["A2 1"], "answered 3");
 
+  // From answers to a statistic without another program: two people, so nothing is estimated, and it says so.
+  library_.done("questionnaire export " + code_ + " --scores --out " + at("scores.csv") + " --by mona");
+  const auto alpha = fixtures::run(
+      std::string(fixtures::kProgram) + " stats alpha --csv '" + at("scores.csv") + "' --value 8a,8b,8c,8d --json",
+      library_.folder());
+  EXPECT_NE(alpha.out.find("\"reason\": \"too_few\""), std::string::npos) << alpha.out << alpha.err;
+
   library_.done("questionnaire close " + code_ + " --by mona");
   EXPECT_EQ(refusal(import + " --by mona"), "round_closed");
   library_.done("check");
