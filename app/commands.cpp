@@ -91,6 +91,14 @@ namespace seldinger::app {
   ROW(study_deviate)            \
   ROW(study_simulate)           \
   ROW(report)                   \
+  ROW(questionnaire_template)   \
+  ROW(questionnaire_add)        \
+  ROW(questionnaire_list)       \
+  ROW(questionnaire_show)       \
+  ROW(questionnaire_open)       \
+  ROW(questionnaire_close)      \
+  ROW(questionnaire_import)     \
+  ROW(questionnaire_export)     \
   ROW(consent_text)             \
   ROW(consent_list)             \
   ROW(consent_give)             \
@@ -131,7 +139,7 @@ const std::vector<Group>& groups() {
       {"Attempts",
        {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
-      {"Studies", {"study", "report"}},
+      {"Studies", {"study", "questionnaire", "report"}},
       {"Numbers", {"stats"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},

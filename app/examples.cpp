@@ -1,6 +1,6 @@
 // Examples of every command, in an order in which they can be typed one after the other:
 // tests/e2e/examples_test.cpp does, in a folder that holds a CT in `ct` and the page `consent.txt`. Where
-// ATTEMPT, CASE, TEXT, LESION, MAP and KEY stand, it puts what a command before has printed.
+// ATTEMPT, CASE, TEXT, LESION, MAP, KEY and CODE stand, it puts what a command before has printed.
 #include <array>
 #include <string_view>
 
@@ -104,6 +104,15 @@ constexpr std::string_view kLines[] = {
     "study template --case 'Drill 1' --out drill-plan.json --library first-hour",
     "study simulate drill-plan.json --surrogate drill.json --shift novices=0 --shift experienced=0.8 --studies 100",
     "report validity --study Needles --out validity.html",
+    "report workshops --out workshops.html",
+    "questionnaire template workshop-2007 --out form.json",
+    "questionnaire add form.json",
+    "questionnaire show workshop-2007",
+    "questionnaire open workshop-2007 --title 'Study day' --group trainee --group expert",
+    "questionnaire list",
+    "questionnaire import CODE first.csv second.csv",
+    "questionnaire export CODE --out answers.csv",
+    "questionnaire close CODE",
     "consent withdraw TEXT --user novice",
     "attempt delete ATTEMPT",
     "backup copy",

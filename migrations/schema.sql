@@ -39,6 +39,16 @@ CREATE TABLE attempt (
   FOREIGN KEY (lesion_id, case_id) REFERENCES lesion (lesion_id, case_id)
 ) STRICT;
 
+CREATE TABLE attempt_comment (
+  attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
+  comment_id TEXT NOT NULL,
+  at_s REAL NOT NULL CHECK (at_s >= 0), -- since the attempt began
+  body TEXT NOT NULL CHECK (body <> ''),
+  person_id TEXT REFERENCES person (person_id), -- null: the operator
+  written_us INTEGER NOT NULL,
+  PRIMARY KEY (attempt_id, comment_id)
+) STRICT;
+
 CREATE TABLE attempt_condition (
   attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
   condition_id TEXT NOT NULL,
@@ -334,6 +344,35 @@ CREATE TABLE programme_director (
   PRIMARY KEY (programme, person_id, from_us)
 ) STRICT;
 
+CREATE TABLE questionnaire (
+  questionnaire_id TEXT NOT NULL PRIMARY KEY,
+  form_id TEXT NOT NULL CHECK (form_id <> ''),
+  version INTEGER NOT NULL CHECK (version > 0),
+  language TEXT NOT NULL CHECK (language <> ''),
+  body TEXT NOT NULL CHECK (body <> ''), -- canonical JSON (assessment/questionnaire/form.h)
+  body_hash TEXT NOT NULL CHECK (length(body_hash) = 64), -- SHA-256 of body
+  stored_us INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE questionnaire_group (
+  round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
+  place INTEGER NOT NULL CHECK (place >= 0),
+  group_name TEXT NOT NULL CHECK (group_name <> ''),
+  PRIMARY KEY (round_id, place)
+) STRICT;
+
+CREATE TABLE questionnaire_round (
+  round_id TEXT NOT NULL PRIMARY KEY,
+  code TEXT NOT NULL CHECK (length(code) = 6),
+  title TEXT NOT NULL CHECK (title <> ''),
+  form_id TEXT NOT NULL,
+  version INTEGER NOT NULL,
+  study_id TEXT REFERENCES study (study_id), -- null: of no study
+  opened_us INTEGER NOT NULL,
+  opened_by TEXT REFERENCES person (person_id), -- null: the operator
+  closed_us INTEGER -- null: open
+) STRICT;
+
 CREATE TABLE recording_chunk (
   attempt_id TEXT NOT NULL REFERENCES attempt (attempt_id),
   sequence INTEGER NOT NULL CHECK (sequence >= 0),
@@ -348,6 +387,28 @@ CREATE TABLE replay_watched (
   watched_us INTEGER NOT NULL,
   PRIMARY KEY (person_id, attempt_id, watched_us)
 ) STRICT, WITHOUT ROWID;
+
+CREATE TABLE response (
+  response_id TEXT NOT NULL REFERENCES response_set (response_id),
+  item_id TEXT NOT NULL CHECK (item_id <> ''),
+  state TEXT NOT NULL CHECK (state IN ('missing', 'not_applicable', 'answered')),
+  value REAL, -- of a scale or a number; of a choice its place, from 1
+  body TEXT NOT NULL, -- of a comment
+  PRIMARY KEY (response_id, item_id),
+  CHECK ((state = 'answered') = (value IS NOT NULL OR body <> ''))
+) STRICT;
+
+CREATE TABLE response_set (
+  response_id TEXT NOT NULL PRIMARY KEY,
+  round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
+  questionnaire_id TEXT NOT NULL REFERENCES questionnaire (questionnaire_id),
+  respondent TEXT NOT NULL CHECK (respondent <> ''), -- a code, drawn or brought along
+  group_name TEXT NOT NULL, -- empty: none
+  source TEXT NOT NULL CHECK (source IN ('page', 'paper')),
+  draft_key TEXT CHECK (length(draft_key) = 64), -- SHA-256 of what the browser keeps; null: not a draft of a page
+  begun_us INTEGER NOT NULL,
+  submitted_us INTEGER -- null: a draft
+) STRICT;
 
 CREATE TABLE servo_record (
   attempt_id TEXT NOT NULL PRIMARY KEY REFERENCES attempt (attempt_id),
@@ -558,6 +619,8 @@ CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
 
 CREATE INDEX attempt_by_time ON attempt (started_us, attempt_id);
 
+CREATE INDEX attempt_comment_by_person ON attempt_comment (person_id);
+
 CREATE INDEX audit_by_object ON audit (object_id, act);
 
 CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
@@ -568,7 +631,17 @@ CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
 
+CREATE UNIQUE INDEX questionnaire_by_form ON questionnaire (form_id, version, language);
+
+CREATE UNIQUE INDEX questionnaire_round_by_code ON questionnaire_round (code);
+
 CREATE INDEX replay_watched_by_attempt ON replay_watched (attempt_id);
+
+CREATE UNIQUE INDEX response_set_by_draft ON response_set (draft_key);
+
+CREATE INDEX response_set_by_questionnaire ON response_set (questionnaire_id);
+
+CREATE UNIQUE INDEX response_set_by_respondent ON response_set (round_id, respondent);
 
 CREATE INDEX standard_attempt_by_attempt ON standard_attempt (attempt_id);
 
@@ -607,6 +680,11 @@ WHERE operator_name = 'expert' OR operator_name = 'person' AND person_id IS NOT 
   SELECT level FROM person_level
   WHERE person_level.person_id = attempt.person_id AND since_us <= attempt.started_us
   ORDER BY since_us DESC LIMIT 1);
+
+CREATE TRIGGER attempt_comment_is_immutable BEFORE UPDATE ON attempt_comment
+BEGIN
+  SELECT RAISE(ABORT, 'a comment is not changed');
+END;
 
 CREATE TRIGGER attempt_condition_is_immutable BEFORE UPDATE ON attempt_condition
 BEGIN
@@ -833,6 +911,16 @@ BEGIN
   SELECT RAISE(ABORT, 'what somebody was cannot be changed');
 END;
 
+CREATE TRIGGER questionnaire_is_immutable BEFORE UPDATE ON questionnaire
+BEGIN
+  SELECT RAISE(ABORT, 'a questionnaire is not changed: store another version');
+END;
+
+CREATE TRIGGER questionnaire_stays BEFORE DELETE ON questionnaire
+BEGIN
+  SELECT RAISE(ABORT, 'a questionnaire cannot be removed');
+END;
+
 CREATE TRIGGER recording_chunk_is_immutable BEFORE UPDATE ON recording_chunk
 BEGIN
   SELECT RAISE(ABORT, 'a recording cannot be changed');
@@ -842,6 +930,30 @@ CREATE TRIGGER recording_chunk_is_kept BEFORE DELETE ON recording_chunk
 WHEN OLD.attempt_id NOT IN (SELECT id FROM erasing)
 BEGIN
   SELECT RAISE(ABORT, 'a recording cannot be deleted');
+END;
+
+CREATE TRIGGER response_set_is_of_the_rounds_version BEFORE INSERT ON response_set
+WHEN NOT EXISTS (SELECT 1 FROM questionnaire_round JOIN questionnaire USING (form_id, version)
+  WHERE round_id = NEW.round_id AND questionnaire_id = NEW.questionnaire_id)
+BEGIN
+  SELECT RAISE(ABORT, 'answers are to the version that the round asks');
+END;
+
+CREATE TRIGGER response_set_submitted_is_immutable BEFORE UPDATE ON response_set WHEN OLD.submitted_us IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'submitted answers cannot be changed');
+END;
+
+CREATE TRIGGER response_submitted_is_complete BEFORE INSERT ON response
+WHEN (SELECT submitted_us FROM response_set WHERE response_id = NEW.response_id) IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'submitted answers cannot be added to');
+END;
+
+CREATE TRIGGER response_submitted_is_immutable BEFORE UPDATE ON response
+WHEN (SELECT submitted_us FROM response_set WHERE response_id = OLD.response_id) IS NOT NULL
+BEGIN
+  SELECT RAISE(ABORT, 'submitted answers cannot be changed');
 END;
 
 CREATE TRIGGER servo_record_is_immutable BEFORE UPDATE ON servo_record

@@ -115,6 +115,32 @@ class LibraryQuestions final : public Questions {
     return casedb::erase_attempts_of(*library, person_id, person_id);
   }
 
+  base::Result<RoundForms> find_round(const std::string& code) override {
+    const std::lock_guard lock(pages_.mutex);
+    auto round = casedb::find_round(pages_.library, code);
+    if (!round) return round.error();
+    auto forms = casedb::find_forms(pages_.library, round->form_id, round->version);
+    if (!forms) return forms.error();
+    return RoundForms{std::move(*round), std::move(*forms)};
+  }
+
+  base::Result<std::string> begin_response(const std::string& code, const casedb::Respondent& respondent) override {
+    const std::lock_guard lock(changes_.mutex);
+    return casedb::begin_response(changes_.library, code, respondent);
+  }
+
+  base::Result<casedb::Draft> find_draft(const std::string& secret) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::find_draft(pages_.library, secret);
+  }
+
+  base::Result<void> keep_answers(const std::string& secret, const std::map<std::string, std::string>& typed,
+                                  bool send) override {
+    const std::lock_guard lock(changes_.mutex);
+    if (const auto kept = casedb::save_draft(changes_.library, secret, typed); !kept) return kept.error();
+    return send ? casedb::submit_draft(changes_.library, secret) : base::Result<void>();
+  }
+
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::count_attempts(pages_.library, whose);
@@ -134,6 +160,18 @@ class LibraryQuestions final : public Questions {
   casedb::AttemptGrade look_at(const casedb::AttemptRow& row) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::Grader(pages_.library).look_at(row);
+  }
+
+  std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_comments(pages_.library, attempt_id);
+  }
+
+  base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
+                                 const std::string& body) override {
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor reader(changes_.library, person_id);
+    return casedb::add_comment(changes_.library, attempt_id, at_s, body);
   }
 
   std::vector<assessment::StepResult> list_steps(const std::string& attempt_id) override {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "casedb/attempts/attempts.h"
+#include "casedb/attempts/comments.h"
 #include "casedb/cases/case_checks.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/grading.h"
@@ -18,10 +19,17 @@
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
+#include "casedb/questionnaires/responses.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
 
 namespace seldinger::web {
+
+// A round of a questionnaire, and its version in every language.
+struct RoundForms {
+  casedb::Round round;
+  std::vector<casedb::StoredForm> forms;
+};
 
 class Questions {
  public:
@@ -46,6 +54,15 @@ class Questions {
   // On their own wish; takes seconds: the library is written anew.
   virtual base::Result<casedb::Erased> erase_attempts_of(const std::string& person_id) = 0;
 
+  // Questionnaires, answered by nobody in particular: as casedb/questionnaires refuses.
+  virtual base::Result<RoundForms> find_round(const std::string& code) = 0;
+  virtual base::Result<std::string> begin_response(const std::string& code,
+                                                   const casedb::Respondent& respondent) = 0;
+  virtual base::Result<casedb::Draft> find_draft(const std::string& secret) = 0;
+  // Keeps what was typed, and sends all of it.
+  virtual base::Result<void> keep_answers(const std::string& secret,
+                                          const std::map<std::string, std::string>& typed, bool send) = 0;
+
   virtual std::size_t count_attempts(const casedb::WhoseAttempts& whose) = 0;
   virtual std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
                                                         std::size_t count) = 0;              // newest first
@@ -60,6 +77,9 @@ class Questions {
   virtual std::string case_mark(const std::string& case_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.
   virtual base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) = 0;
+  virtual std::vector<casedb::AttemptComment> list_comments(const std::string& attempt_id) = 0;
+  virtual base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
+                                         const std::string& body) = 0;
   virtual std::vector<assessment::StepResult> list_steps(
       const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;

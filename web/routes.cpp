@@ -17,8 +17,9 @@
 #include "reports/pages/style_sheet.h"
 #include "sim/base/failure.h"
 #include "web/access.h"
-#include "web/attempt_json.h"
-#include "web/case_json.h"
+#include "web/answering.h"
+#include "web/json/attempt_json.h"
+#include "web/json/case_json.h"
 
 namespace seldinger::web {
 namespace {
@@ -189,6 +190,18 @@ std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) 
   return std::move(*row);
 }
 
+std::vector<reports::CommentView> comments_of(Site& site, const std::string& attempt_id) {
+  std::vector<reports::CommentView> comments;
+  for (casedb::AttemptComment& one : site.questions.list_comments(attempt_id)) {
+    const auto author = one.person_id ? site.questions.find_account(*one.person_id) : std::nullopt;
+    std::string name = author          ? author->login_name
+                       : one.person_id ? reports::person_text(*one.person_id)
+                                       : "Operator";
+    comments.push_back({std::move(one), std::move(name)});
+  }
+  return comments;
+}
+
 Response show_attempt(Site& site, const Call& call) {
   auto row = visible_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
@@ -198,10 +211,27 @@ Response show_attempt(Site& site, const Call& call) {
   const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
   const auto recording = site.questions.load_recording(row->attempt_id);
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
-  const reports::AttemptView view{*row, operator_label(role, relations, *row, account_of), grade,
-                                  site.questions.list_steps(row->attempt_id)};
+  reports::AttemptView view{*row, operator_label(role, relations, *row, account_of), grade,
+                            site.questions.list_steps(row->attempt_id)};
+  if (casedb::may(role, casedb::Action::see_free_text)) view.comments = comments_of(site, row->attempt_id);
+  view.may_comment = casedb::may(role, casedb::Action::comment_attempt, relation_to(relations, row->person_id));
   return html_response(200, reports::attempt_page(call.reader->visitor(), view,
                                                   recording.has_value() ? &recording.value() : nullptr));
+}
+
+Response comment_attempt(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  const casedb::Account& account = call.reader->account;
+  const Relations relations = site.questions.relations_of(account.person_id);
+  if (!row || !casedb::may(account.role, casedb::Action::comment_attempt, relation_to(relations, row->person_id)))
+    return refusal(404, call.reader);
+  const std::string at = field(call, "at");
+  double at_s = 0.0;
+  const auto read = std::from_chars(at.data(), at.data() + at.size(), at_s, std::chars_format::fixed);
+  if (!at.empty() && (read.ec != std::errc() || read.ptr != at.data() + at.size()))
+    return refusal(400, call.reader);
+  const auto said = site.questions.add_comment(account.person_id, row->attempt_id, at_s, field(call, "text"));
+  return said ? redirect("/attempts/" + row->attempt_id + "#comments") : refusal(400, call.reader);
 }
 
 bool is_png(const std::vector<std::byte>& bytes) {
@@ -448,6 +478,14 @@ constexpr Route kRoutes[] = {
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
     {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in, Lane::log_in},
     {"POST", "/logout", kAnyRole, true, "", "ends the session: token", log_out, Lane::changes},
+    {"GET", "/answer", kOpen, true, "", "a questionnaire's code, or who answers it; ?code=CODE", show_answer_start},
+    {"POST", "/answer", kOpen, true, "", "begins to answer: code, group, respondent, language, begin, token",
+     begin_answers},
+    {"GET", "/answer/form", kOpen, true, "the browser that began",
+     "a section of the questionnaire that is being answered; ?section=N", show_answer_section},
+    {"POST", "/answer/form", kOpen, true, "the browser that began",
+     "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
+    {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
@@ -458,6 +496,8 @@ constexpr Route kRoutes[] = {
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,
      "its grade, score and sentences as `score` prints them; of experts to others than mentors only rounded bands",
      show_grade},
+    {"POST", "/attempts/{attempt_id}/comments", Action::comment_attempt, true, "mentor: own cohort",
+     "says something of a moment of it: at, text, token", comment_attempt, Lane::changes},
     {"GET", "/metrics", kAnyRole, true, "", "what each metric measures; #metric-ID", list_metrics},
     {"GET", "/curricula", Action::see_curriculum, true, kCurricula, "items, gates, and how far the trainee is",
      list_curricula},

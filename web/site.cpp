@@ -63,6 +63,7 @@ Response refusal(int status, const Reader* reader, std::string_view fault_id) {
 CookieNames::CookieNames(int port)
     : session("seldinger_" + std::to_string(port)),
       before_login("seldinger_before_login_" + std::to_string(port)),
+      answers("seldinger_answers_" + std::to_string(port)),
       known("seldinger_known_" + std::to_string(port)) {}
 
 Site::Site(Questions& questions_in, const Surroundings& surroundings_in)

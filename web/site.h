@@ -28,6 +28,7 @@ struct CookieNames {
   explicit CookieNames(int port);
   std::string session;       // "seldinger_8080"
   std::string before_login;  // of the log-in form
+  std::string answers;       // of a questionnaire that is being answered
   std::string known;         // that this browser has logged somebody in: see casedb::LoginDelays
 };
 

@@ -4,14 +4,20 @@
 #include "app/cli/file.h"
 #include "app/cli/version.h"
 #include "app/studies/acting_in_study.h"
+#include "reports/questionnaires/workshops_page.h"
 #include "reports/studies/validity_report.h"
 
 namespace seldinger::app {
 namespace {
 
 int run_report(const Arguments& arguments) {
-  if (arguments.positional(0) != "validity") throw UsageError("KIND is validity");
+  const std::string kind = arguments.positional(0);
+  if (kind != "validity" && kind != "workshops") throw UsageError("KIND is validity or workshops");
   const auto out = file_of("--out", arguments.required("--out"), {".html"});
+  if (kind == "workshops") {
+    write_file(out, reports::workshops_page());
+    return kDone;
+  }
   arguments.required("--study");
   auto open = open_study(arguments, "--study", casedb::Action::plan_study);
   if (!open) return refuse(open.error());
@@ -23,7 +29,7 @@ int run_report(const Arguments& arguments) {
 }
 
 constexpr Option kReportOptions[] = {
-    kLibrary, {"--study", "STUDY", "of this study"}, {"--out", "FILE.html", "the file"}};
+    kLibrary, {"--study", "STUDY", "of this study, for validity"}, {"--out", "FILE.html", "the file"}};
 
 }  // namespace
 
@@ -36,7 +42,8 @@ Command report_command() {
           .acts = true,
           .summary =
               "Writes a report as one file that opens offline and prints. KIND: validity, of a study "
-              "(docs/studies.md); it is a look, and noted.",
+              "(docs/studies.md), which is a look, and noted; or workshops, the thesis' own three "
+              "(docs/questionnaires.md).",
           .run = &run_report};
 }
 

@@ -25,6 +25,7 @@ enum class Action {
   look_inside,        // into the patient, while an attempt is watched
   cause_event,        // let something happen to the patient during an attempt
   simulate_attempts,
+  comment_attempt,  // at a moment of it, for its trainee to read
   // Cases.
   see_case,         // what it holds, also what is right: more than to practise it
   see_case_notes,   // what people wrote beside their decisions
@@ -52,16 +53,18 @@ enum class Action {
   see_standard_attempts,  // which attempts made it
   set_standard,
   // People.
-  see_cohort,        // who is in it, by name
-  see_cohort_cells,  // how many are in it and what they did together, from kSmallestCell people upwards
-  manage_cohorts,    // makes them, says who belongs to them
-  appoint_director,  // of a programme
-  manage_studies,    // what they ask, who works on them
-  export_study,      // attempts of those who consent, without names
-  plan_study,        // its plan, the freeze, deviations, looks and reports
-  enrol_in_study,    // people who consent to it
-  answer_consent,    // give and withdraw, and state facts of oneself
-  let_in_again,      // somebody whose log-in is delayed
+  see_cohort,             // who is in it, by name
+  see_cohort_cells,       // how many are in it and what they did together, from kSmallestCell people upwards
+  manage_cohorts,         // makes them, says who belongs to them
+  appoint_director,       // of a programme
+  manage_studies,         // what they ask, who works on them
+  export_study,           // attempts of those who consent, without names
+  plan_study,             // its plan, the freeze, deviations, looks and reports
+  enrol_in_study,         // people who consent to it
+  manage_questionnaires,  // stores them, opens rounds in which they are answered
+  see_responses,   // of a round: by respondent and group. "own": opened by oneself; of a study: its researchers'
+  answer_consent,  // give and withdraw, and state facts of oneself
+  let_in_again,    // somebody whose log-in is delayed
   erase_attempts,
   erase_person,
   erase_case,
@@ -201,6 +204,10 @@ inline constexpr Permission kPermissions[] = {
      "simulate_attempts",
      "a mentor or a researcher has attempts simulated",
      {{{Role::mentor, Role::researcher}}}},
+    {Action::comment_attempt,
+     "comment_attempt",
+     "a mentor comments on attempts of the own cohort",
+     {{{Role::mentor}, {}, Whose::own_cohorts}}},
 
     {Action::see_case,
      "see_case",
@@ -307,6 +314,16 @@ inline constexpr Permission kPermissions[] = {
      "enrol_in_study",
      "a researcher enrols those who consent in an own study, an admin or a director in any",
      {{{Role::researcher}, {}, Whose::own_studies}, {{Role::admin, Role::director}}}},
+    {Action::manage_questionnaires,
+     "manage_questionnaires",
+     "a mentor, researcher, director or admin stores questionnaires and opens rounds of them",
+     {{{Role::mentor, Role::researcher, Role::director, Role::admin}}}},
+    {Action::see_responses,
+     "see_responses",
+     "a mentor, researcher or director reads the answers of a round that they opened, a researcher those of an own "
+     "study",
+     {{{Role::mentor, Role::researcher, Role::director}, {}, Whose::own},
+      {{Role::researcher}, {}, Whose::own_studies}}},
     {Action::answer_consent, "answer_consent", "everybody answers for themselves", {{kEveryRole, {}, Whose::own}}},
     {Action::let_in_again,
      "let_in_again",

@@ -28,6 +28,7 @@ enum class Act {
   disable_account,
   unproven,     // --by a name without a password or a session
   not_allowed,  // the table of permissions refused; the object is the action
+  comment_attempt,
   // Cases.
   add_case,
   change_case,  // lesions, structures, label maps, setting, title
@@ -60,6 +61,11 @@ enum class Act {
   enrol_in_study,
   look_at_study,
   deviate_from_study,
+  store_questionnaire,
+  open_round,
+  close_round,
+  import_responses,
+  export_responses,
   add_consent_text,
   give_consent,
   withdraw_consent,

@@ -25,12 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr PersonColumn kRemoved[] = {
-    {"account", "person_id"},          {"attempt", "person_id"},
-    {"enrolment", "person_id"},        {"login_session", "person_id"},
-    {"open_attempt", "person_id"},     {"person_fact", "person_id"},
-    {"person_level", "person_id"},     {"programme_director", "person_id"},
-    {"replay_watched", "person_id"},   {"study_enrolment", "person_id"},
-    {"study_researcher", "person_id"}, {"simulated_truth", "person_id"},
+    {"account", "person_id"},         {"attempt", "person_id"},         {"attempt_comment", "person_id"},
+    {"enrolment", "person_id"},       {"login_session", "person_id"},   {"open_attempt", "person_id"},
+    {"person_fact", "person_id"},     {"person_level", "person_id"},    {"programme_director", "person_id"},
+    {"replay_watched", "person_id"},  {"study_enrolment", "person_id"}, {"study_researcher", "person_id"},
+    {"simulated_truth", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
     {"audit", "person_id"},           {"case_decision", "person_id"},
@@ -38,7 +37,7 @@ constexpr PersonColumn kKept[] = {
     {"curriculum", "published_by"},   {"standard", "set_by"},
     {"erasure", "by_person_id"},      {"training_case", "burned_in_checked_by"},
     {"study_plan", "frozen_by"},      {"study_look", "person_id"},
-    {"study_deviation", "person_id"},
+    {"study_deviation", "person_id"}, {"questionnaire_round", "opened_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {

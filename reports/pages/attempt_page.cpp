@@ -6,6 +6,7 @@
 
 #include "reports/charts/time_chart.h"
 #include "reports/pages/sections/beam_table.h"
+#include "reports/pages/sections/comment_section.h"
 #include "reports/pages/sections/grade_section.h"
 #include "reports/pages/sections/metric_details.h"
 #include "reports/pages/sections/step_section.h"
@@ -241,6 +242,7 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
       .raw("</time></p>\n");
   html.add(grade_section(attempt.grade));
   add_outcome(html, row);
+  html.add(comment_section(attempt, attempt.may_comment ? visitor.form_token : std::string()));
   html.raw("<div class=\"columns\">\n");
   add_metrics(html, attempt);
   html.raw("<div>\n");

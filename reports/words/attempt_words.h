@@ -5,9 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include "casedb/attempts/comments.h"
 #include "casedb/grading/grading.h"
 
 namespace seldinger::reports {
+
+// What somebody said of a moment, and how they are called for this reader.
+struct CommentView {
+  casedb::AttemptComment comment;
+  std::string author;
+};
 
 // An attempt, how its operator is called for this reader (whether a log-in name may be shown is not ours to say),
 // what it is worth, and its steps; a list needs no more of that than the grade.
@@ -16,6 +23,8 @@ struct AttemptView {
   std::string operator_label;
   casedb::AttemptGrade grade{};
   std::vector<assessment::StepResult> steps{};
+  std::vector<CommentView> comments{};
+  bool may_comment = false;  // the reader
 };
 
 std::string instrument_text(const cases::Instrument& instrument);       // short: "Access needle"

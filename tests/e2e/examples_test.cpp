@@ -31,7 +31,7 @@ const std::map<std::string, std::string> kRefused = {
 class Examples : public testing::Test {
  protected:
   const fs::path folder_ = fixtures::fresh_folder("examples"), at_ = folder_ / "here", home_ = folder_ / "home";
-  std::string case_, text_, key_;
+  std::string case_, text_, key_, code_;
 
   void SetUp() override {
     for (const fs::path& one : {at_ / "ct", at_ / "docs", home_}) fs::create_directories(one);
@@ -49,6 +49,9 @@ class Examples : public testing::Test {
         << std::string(8, '\1');
     std::ofstream(at_ / "scores.csv") << "score,experience,before,after\n61,novice,50,61\n55,novice,48,55\n"
                                          "80,expert,79,80\n91,expert,83,91\n";
+    for (const char* typed : {"first.csv", "second.csv"})
+      std::ofstream(at_ / typed) << "respondent,version,group,1,2,3,4,5,6a,6b,7,8a,8b,8c,8d,8e,8f,8g,8h,9\n"
+                                    "A1,1,trainee,SpR,female,31,2,4,12,3,2,4,3,2,3,3,n/a,4,,good\n";
     // As the template of a device's calibration has them (docs/devices.md), 50 mm off along one axis.
     std::ofstream(at_ / "points.csv") << "point,x_mm,y_mm,z_mm\na,5,-64,-50\nb,5,64,-50\nc,-59,0,-50\nd,69,0,-50\n"
                                          "e,5,0,-50\nf,-12,11,93\n";
@@ -62,6 +65,7 @@ class Examples : public testing::Test {
   }
   std::string settled(std::string line) {
     line = with(with(with(line, " CASE", " " + case_), " TEXT", " " + text_), " KEY", " " + key_);
+    line = with(line, " CODE", " " + code_);
     if (line.find(" ATTEMPT") == std::string::npos) return line;
     const Json listed = Json::parse(type("attempt list --json").out, nullptr, false);
     return with(line, "ATTEMPT", listed["attempts"].at(0)["attempt_id"].get<std::string>().substr(0, 30));
@@ -85,6 +89,7 @@ TEST_F(Examples, AreTypedOneAfterTheOther) {
     const bool finds = line == "doctor" || line.rfind("surrogate check", 0) == 0;
     EXPECT_EQ(ran.exit_code, finds ? 1 : 0) << ran.out << ran.err;
     if (line.rfind("case version", 0) == 0) case_ = ran.out.substr(5, 36);
+    if (line.rfind("questionnaire open", 0) == 0) code_ = ran.out.substr(0, 6);
     if (line.rfind("bundle key", 0) == 0) key_ = ran.out.substr(0, 64);
     if (line.rfind("consent list", 0) == 0)
       text_ = Json::parse(type(line + " --json").out, nullptr, false)["consents"].at(0)["text_id"];

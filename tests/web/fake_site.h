@@ -87,6 +87,18 @@ class FakeQuestions final : public Questions {
     done.push_back("erased " + person_id);
     return erased;
   }
+  base::Result<RoundForms> find_round(const std::string&) override {
+    return base::Error{"no_round", "no questionnaire is answered under that code"};
+  }
+  base::Result<std::string> begin_response(const std::string&, const casedb::Respondent&) override {
+    return base::Error{"no_round", "no questionnaire is answered under that code"};
+  }
+  base::Result<casedb::Draft> find_draft(const std::string&) override {
+    return base::Error{"no_draft", "there are no answers that were begun here"};
+  }
+  base::Result<void> keep_answers(const std::string&, const std::map<std::string, std::string>&, bool) override {
+    return base::Error{"no_draft", "there are no answers that were begun here"};
+  }
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override { return seen(whose).size(); }
   std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
                                                 std::size_t count) override {
@@ -104,6 +116,12 @@ class FakeQuestions final : public Questions {
     return base::Error{"no_attempt", "there is no such attempt"};
   }
   casedb::AttemptGrade look_at(const casedb::AttemptRow&) override { return grade; }
+  std::vector<casedb::AttemptComment> list_comments(const std::string&) override { return comments; }
+  base::Result<void> add_comment(const std::string& person_id, const std::string& attempt_id, double at_s,
+                                 const std::string& body) override {
+    done.push_back(person_id + " says " + body + " of " + attempt_id + " at " + std::to_string(at_s));
+    return {};
+  }
   std::vector<assessment::StepResult> list_steps(const std::string&) override { return {}; }
   std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) override {
     return std::vector<assessment::Grade>(rows.size(), grade.grade);
@@ -153,10 +171,11 @@ class FakeQuestions final : public Questions {
   reports::AboutMe about_me;
   std::string asked_about;
   std::vector<std::string> logged_out;
-  std::vector<std::string> done;             // what was changed, in words
-  std::vector<casedb::AttemptRow> attempts;  // newest first
-  std::vector<casedb::CaseRow> cases;        // oldest first
-  casedb::AttemptGrade grade;                // of every attempt
+  std::vector<std::string> done;                 // what was changed, in words
+  std::vector<casedb::AttemptRow> attempts;      // newest first
+  std::vector<casedb::CaseRow> cases;            // oldest first
+  casedb::AttemptGrade grade;                    // of every attempt
+  std::vector<casedb::AttemptComment> comments;  // of every attempt
   std::vector<reports::CurriculumView> curricula;
   std::optional<std::string> curricula_asked_for;
   std::vector<std::byte> picture;

@@ -134,7 +134,7 @@ TEST_F(PeopleMatrix, EveryRouteOfAnAttemptAnswersAsTheTableSays) {
       const bool may = casedb::may(role, Action::see_attempt, relation);
       for (const Route& route : routes()) {
         const std::size_t hole = route.pattern.find("{attempt_id}");
-        if (hole == route.pattern.npos) continue;
+        if (hole == route.pattern.npos || route.method != "GET") continue;
         const std::string path = std::string(route.pattern.substr(0, hole)) + attempt_id +
                                  std::string(route.pattern.substr(hole + std::string_view("{attempt_id}").size()));
         const Response response = browser.get(path);

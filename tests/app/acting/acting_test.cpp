@@ -20,6 +20,7 @@
 #include "casedb/people/cohorts.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/login_session.h"
+#include "casedb/questionnaires/rounds.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::app {
@@ -48,7 +49,7 @@ class ActingTest : public testing::Test {
  protected:
   fs::path folder_ = fixtures::fresh_test_folder("acting");
   fs::path made_ = folder_ / "made", library_ = folder_ / "library";
-  std::string draft_, in_review_, published_, attempt_, curriculum_, text_;
+  std::string draft_, in_review_, published_, attempt_, curriculum_, text_, round_, other_round_;
   std::map<Role, std::string> person_;
 
   void SetUp() override {
@@ -99,6 +100,10 @@ class ActingTest : public testing::Test {
     const std::string study = casedb::add_study(library, "Needles").value();
     ASSERT_TRUE(casedb::add_researcher(library, study, person_[Role::researcher]));
     static_cast<void>(casedb::add_consent_text(library, study, "May we?").value());
+    ASSERT_TRUE(casedb::store_form(library, R"({"id": "short", "version": 1, "language": "en", "title": "Short",
+        "items": [{"id": "1", "text": "Anything?", "kind": "comment"}]})"));
+    round_ = casedb::open_round(library, {"Visit", "short", 1, study, {}})->code;
+    other_round_ = casedb::open_round(library, {"Day", "short", 1, {}, {}})->code;
     text_ = casedb::list_consents(library, person_[Role::trainee]).front().text_id;
   }
   // The library as it was made.
@@ -221,6 +226,13 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"study look", {"Needles"}, Action::plan_study, own_study},
       {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
       {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
+      {"questionnaire add", {"nowhere.json"}, Action::manage_questionnaires},
+      {"questionnaire open", {"short", "--title", "Another day"}, Action::manage_questionnaires},
+      {"questionnaire close", {round_}, Action::manage_questionnaires},
+      {"questionnaire import", {round_, "nowhere.csv", "nowhere.csv"}, Action::manage_questionnaires},
+      {"questionnaire export", {round_, "--out", out + ".csv"}, Action::see_responses, own_study},
+      {"questionnaire export", {other_round_, "--out", out + ".csv"}, Action::see_responses},
+      {"questionnaire export", {"XXXXXX", "--out", out + ".csv"}, Action::see_responses},
       {"consent text", {"nowhere.txt"}, Action::manage_studies},
       {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
       {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},

@@ -1,4 +1,4 @@
-#include "web/attempt_json.h"
+#include "web/json/attempt_json.h"
 
 #include <cmath>
 

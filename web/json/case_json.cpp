@@ -1,4 +1,4 @@
-#include "web/case_json.h"
+#include "web/json/case_json.h"
 
 #include "casedb/database/values_json.h"
 

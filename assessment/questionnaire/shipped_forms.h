@@ -1,0 +1,21 @@
+// The questionnaires that come with the program: those of the thesis' three workshops (Vidal, appendix C), the
+// first mended as its table 6.1 tells.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assessment/questionnaire/form.h"
+
+namespace seldinger::assessment::questionnaire {
+
+struct ShippedForm {
+  std::string_view json;
+  Form form;
+};
+const std::vector<ShippedForm>& shipped_forms();  // by their ids
+// nullptr: there is none.
+const ShippedForm* find_shipped_form(std::string_view form_id);
+
+}  // namespace seldinger::assessment::questionnaire
