@@ -65,9 +65,9 @@ TEST(ReasonWordsTest, EveryReasonInTheSourcesHasThem) {
 
 // What grading adds to them (grade.cpp, builds.cpp).
 TEST(ReasonWordsTest, EveryReasonOfAGradeHasThem) {
-  for (const char* code :
-       {"other_version", "not_stored", "no_reason_stored", "not_finite", "interrupted", "device_lost",
-        "tracking_gaps", "tracking_slow", "tracking_jumps", "tracking_repaired", "way_impossible", "too_short", "quality_not_measured"})
+  for (const char* code : {"other_version", "not_stored", "no_reason_stored", "not_finite", "interrupted",
+                           "device_lost", "tracking_gaps", "tracking_slow", "tracking_jumps", "tracking_repaired",
+                           "way_impossible", "too_short", "quality_not_measured"})
     EXPECT_NE(find_reason_words(code), nullptr) << code;
 }
 
