@@ -200,8 +200,9 @@ TEST(Demo, OptionsOfImportAreItsOwnToo) {
 TEST(Demo, WarningsOfImportAreShown) {
   SELDINGER_NEEDS_SHARED_DATA();
   const Json& warnings = real_demo().answer.at("warnings");
-  ASSERT_EQ(warnings.size(), 1U);
+  ASSERT_EQ(warnings.size(), 2U);
   EXPECT_EQ(warnings[0].at("code"), "left_out");
+  EXPECT_EQ(warnings[1].at("code"), "cut_body") << "the scan ends within the patient";
 }
 
 // Seed 1 of the expert is an outlier on most CTs: it withdraws and goes about. Each shown is one of five seeds, and

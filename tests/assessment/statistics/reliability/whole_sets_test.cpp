@@ -55,7 +55,8 @@ TEST(WholeSets, AreAllThatThereAre) {
 }
 
 TEST(WholeSets, NeedNoEndsOfAScale) {
-  const WholeSets sets = whole_sets_of({.n = 3, .mean = 13.5, .sd = 13.48, .items = 2});
+  EXPECT_EQ(whole_sets_of({.n = 3, .mean = 13.5, .sd = 13.48, .items = 2}).count, 2U) << "−2, 20 and 22.5, too";
+  const WholeSets sets = whole_sets_of({.n = 3, .mean = 13.5, .sd = 13.48, .items = 2, .low = 0.0});
   EXPECT_EQ(sets.count, 1U);
   EXPECT_EQ(sets.first, (std::vector<std::int64_t>{9, 14, 58})) << "4.5, 7 and 29 in halves";
 }
