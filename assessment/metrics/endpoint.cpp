@@ -90,13 +90,14 @@ constexpr MetricInfo kEndpointMetrics[] = {
      "sweep through it before is no hit, nor is a needle that came to it otherwise than through skin.",
      kVidal, &hit, kProportionOrFailure, kOfTheWay | kNothingIsNothing,
      "1: an access needle hit the target lesion alone, also where a structure is the lumen to be reached; 2: also "
-     "with a needle that had not come through skin."},
+     "with a needle that had not come through skin, as cases of before decision 0057 have it still.",
+     true},
     {"first_pass_success", 4, "bool", "First pass hit", Group::target, Direction::higher_is_better,
      kEndpoint | kTarget | kSkin | kMotion,
      "1 where the target was hit with one skin puncture and no partial withdrawal, else 0. Null: never_punctured.",
      "first-pass completion as in a phantom study of needle guidance, PMC5318157", &first_pass_success,
      kProportionOrFailure, kOfTheWay | kNothingIsNothing,
-     "1: as hit 1 and withdrawals_partial 1 had it; 2: as withdrawals_partial 2 had it; 3: as hit 2 had it."},
+     "1: as hit 1 and withdrawals_partial 1 had it; 2: as withdrawals_partial 2 had it; 3: as hit 2 had it.", true},
     {"core_in_target", 1, "mm", "Core in target", Group::target, Direction::higher_is_better,
      kCoreNeedle | kEndpoint | kTarget, "Length of the fired notch inside the target.", kJohnson, &core_in_target,
      kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
@@ -119,7 +120,8 @@ constexpr MetricInfo kEndpointMetrics[] = {
 }  // namespace
 
 bool target_hit(const Signals& signals) {
-  if (!signals.setting.skin->empty() && !signals.passages.back().in_body) return false;
+  const bool asks_for_skin = signals.setting.sight_law != cases::SightLaw::half_slice;  // as cases of before do not
+  if (asks_for_skin && !signals.setting.skin->empty() && !signals.passages.back().in_body) return false;
   if (core(signals)) return *core_in_target(signals).value >= kMinCoreMm;
   // A lumen to be reached is reached anywhere in it, not only where a lesion marks the place.
   const glm::dvec3& tip = signals.endpoint->tip_at_rest_lps_mm();

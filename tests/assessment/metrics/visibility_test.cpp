@@ -50,7 +50,7 @@ TEST(Visibility, OfTheOlderLawItIsTheVersionBefore) {
     EXPECT_EQ(then[i].value, now[i].value) << now[i].id;
     by_sight += info.by_sight ? 1 : 0;
   }
-  EXPECT_EQ(by_sight, 9);
+  EXPECT_EQ(by_sight, 11);
 }
 
 TEST(Visibility, TooLittleTimeOutOfPlaneAndNoTargetAreNull) {
