@@ -50,7 +50,7 @@ class FullDiskTest : public testing::Test {
 
 TEST_F(FullDiskTest, ALibraryThatDoesNotFitLeavesNoFolder) {
   int failures = 0;
-  for (rlim_t limit_bytes = 0; limit_bytes <= 1024 * 1024; limit_bytes += 8192) {
+  for (rlim_t limit_bytes = 0; limit_bytes <= 4096 * 1024; limit_bytes += 8192) {
     library_ = folder_ / "a" / "b" / "library";
     const int outcome = outcome_within(limit_bytes, [&] { open_library(library_); });
     if (outcome == kDone) break;
