@@ -76,8 +76,8 @@ struct MetricInfo {
   Estimand estimand{};
   std::uint32_t laws = 0;    // Law, or-ed
   const char* history = "";  // what each older version did otherwise: "1: ..."
-  // It asks whether pictures showed tip or target, or for a hit. In a case of the older law of sight it is the version
-  // before, for good (version_of).
+  // It asks whether pictures showed tip or target, or for a hit. In a case of the older law of sight it is the
+  // version before, for good (version_of).
   bool by_sight = false;
 };
 
