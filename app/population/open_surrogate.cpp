@@ -51,7 +51,7 @@ base::Result<std::vector<population::SimulatedPoint>> simulated_points(const ses
   }
   Progress progress(trials.size());
   const auto done = simulation.measured_attempts(
-      trials, jobs, [&](std::size_t i, const session::Simulation::ForgottenAttempt& attempt) {
+      trials, jobs, [&](std::size_t i, const session::Simulation::MeasuredAttempt& attempt) {
         for (const assessment::MetricValue& one : attempt.metrics) points[i].values.push_back(one.value);
         progress.one_done();
         return true;

@@ -41,12 +41,17 @@ int run_questionnaire_open(const Arguments& arguments) {
   return kDone;
 }
 
+// The round of the code that is named, for who may close it or add to it.
+base::Result<casedb::Round> managed_round(casedb::Library& library, const Arguments& arguments) {
+  const auto by = acting(library, arguments, casedb::Action::manage_questionnaires);
+  if (!by) return by.error();
+  return casedb::find_round(library, arguments.positional(0));
+}
+
 int run_questionnaire_close(const Arguments& arguments) {
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires);
-  if (!by) return refuse(by.error());
-  const auto round = casedb::find_round(*library, arguments.positional(0));
+  const auto round = managed_round(*library, arguments);
   if (!round) return refuse(round.error());
   const auto closed = casedb::close_round(*library, round->round_id);
   if (!closed) return refuse(closed.error());
@@ -57,9 +62,7 @@ int run_questionnaire_close(const Arguments& arguments) {
 int run_questionnaire_import(const Arguments& arguments) {
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires);
-  if (!by) return refuse(by.error());
-  const auto round = casedb::find_round(*library, arguments.positional(0));
+  const auto round = managed_round(*library, arguments);
   if (!round) return refuse(round.error());
   const auto forms = casedb::find_forms(*library, round->form_id, round->version);
   if (!forms) return refuse(forms.error());

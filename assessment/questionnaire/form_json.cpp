@@ -1,42 +1,20 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <set>
 
+#include "assessment/json/object_reader_json.h"
 #include "assessment/questionnaire/form.h"
 
 namespace seldinger::assessment::questionnaire {
 namespace {
 
-using Json = nlohmann::json;  // its objects are in the order of their keys
-
 constexpr std::size_t kMostWords = 2'000, kMostId = 24, kMostItems = 100, kMostPoints = 11;
 constexpr int kMostVersion = 1'000'000;
 constexpr double kFarthest = 1e6;
 
-// The fields of one object: notes what is wrong with each, and what nobody asked for.
-class FormReader {
+class FormReader : public ObjectReader {
  public:
   FormReader(const Json& json, std::string where, std::vector<base::Problem>& wrong)
-      : json_(json), where_(std::move(where)), wrong_(wrong) {
-    if (!json_.is_object()) bad("", "is no object");
-  }
-  FormReader(const FormReader&) = delete;
-  FormReader& operator=(const FormReader&) = delete;
-  ~FormReader() {
-    if (!json_.is_object()) return;
-    std::size_t unknown = 0;
-    for (const auto& [key, value] : json_.items()) unknown += asked_.contains(key) ? 0U : 1U;
-    if (unknown > 0) bad("", "holds " + std::to_string(unknown) + " fields that it does not know");
-  }
+      : ObjectReader(json, std::move(where), wrong, "bad_form", "the form") {}
 
-  void bad(const std::string& field, const std::string& what) {
-    const std::string place = where_.empty() ? field : field.empty() ? where_ : where_ + "." + field;
-    wrong_.push_back({"bad_form", (place.empty() ? std::string("the form") : place) + " " + what});
-  }
-  bool has(const char* field) {
-    asked_.insert(field);
-    return json_.is_object() && json_.contains(field);
-  }
   std::string words(const char* field, bool needed) {
     if (!has(field)) {
       if (needed) bad(field, "is missing");
@@ -76,23 +54,6 @@ class FormReader {
     if (!json_.at(field).is_boolean()) bad(field, "is neither true nor false");
     return json_.at(field).is_boolean() && json_.at(field).get<bool>();
   }
-  // The list's elements with their places.
-  std::vector<std::pair<const Json*, std::string>> list(const char* field, std::size_t least, std::size_t most) {
-    std::vector<std::pair<const Json*, std::string>> elements;
-    if (!has(field)) {
-      if (least > 0) bad(field, "is missing");
-      return elements;
-    }
-    const Json& value = json_.at(field);
-    if (!value.is_array() || value.size() < least || value.size() > most) {
-      bad(field, "is no list of " + std::to_string(least) + " to " + std::to_string(most));
-      return elements;
-    }
-    const std::string place = where_.empty() ? std::string(field) : where_ + "." + field;
-    for (std::size_t i = 0; i < value.size(); ++i)
-      elements.emplace_back(&value[i], place + "[" + std::to_string(i) + "]");
-    return elements;
-  }
   std::vector<std::string> lines(const char* field, std::size_t least, std::size_t most) {
     std::vector<std::string> all;
     for (const auto& [json, place] : list(field, least, most)) {
@@ -104,12 +65,6 @@ class FormReader {
     }
     return all;
   }
-
- private:
-  const Json& json_;
-  std::string where_;
-  std::vector<base::Problem>& wrong_;
-  std::set<std::string> asked_;
 };
 
 Scale read_scale(const Json& json, const std::string& where, std::vector<base::Problem>& wrong) {
@@ -250,25 +205,10 @@ std::string text_of_json(const Json& json) {
 
 base::Result<Form> form_from_json(const std::string& text) {
   base::Error error{"bad_form", "the questionnaire is not as it should be"};
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  bool twice = false;
-  const Json json = Json::parse(
-      text,
-      [&](int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.empty())
-          twice = twice || !keys.back().insert(parsed.get<std::string>()).second;
-        return true;
-      },
-      false);
-  if (!json.is_object()) {
-    error.findings.push_back({"bad_form", "the file holds no JSON object"});
-    return error;
-  }
-  if (twice) error.findings.push_back({"bad_form", "an object names a field twice"});
+  const auto json = object_in(text, "bad_form", error.findings);
+  if (!json) return error;
   Form form;
-  read_form(json, form, error.findings);
+  read_form(*json, form, error.findings);
   if (!error.findings.empty()) return error;
   return form;
 }

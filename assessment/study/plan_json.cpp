@@ -1,42 +1,20 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <set>
 
+#include "assessment/json/object_reader_json.h"
 #include "assessment/study/plan.h"
 
 namespace seldinger::assessment::study {
 namespace {
 
-using Json = nlohmann::json;  // its objects are in the order of their keys
-
 constexpr std::size_t kMostWords = 4'000, kMostName = 60, kMostList = 50;
 constexpr double kFarDay = 20'000.0;
 
-// Reads the fields of one object, notes what is wrong with each, and what nobody asked for.
-class PlanReader {
+class PlanReader : public ObjectReader {
  public:
   PlanReader(const Json& json, std::string where, std::vector<base::Problem>& wrong)
-      : json_(json), where_(std::move(where)), wrong_(wrong) {
-    if (!json_.is_object()) bad("", "is no object");
-  }
-  PlanReader(const PlanReader&) = delete;
-  PlanReader& operator=(const PlanReader&) = delete;
-  ~PlanReader() {
-    if (!json_.is_object()) return;
-    std::size_t unknown = 0;
-    for (const auto& [key, value] : json_.items()) unknown += asked_.contains(key) ? 0U : 1U;
-    if (unknown > 0) bad("", "holds " + std::to_string(unknown) + " fields that a plan does not know");
-  }
+      : ObjectReader(json, std::move(where), wrong, "bad_study_plan", "the plan") {}
 
-  void bad(const std::string& field, const std::string& what) {
-    const std::string place = where_.empty() ? field : field.empty() ? where_ : where_ + "." + field;
-    wrong_.push_back({"bad_study_plan", (place.empty() ? std::string("the plan") : place) + " " + what});
-  }
-  bool has(const char* field) {
-    asked_.insert(field);
-    return json_.is_object() && json_.contains(field);
-  }
   std::string words(const char* field, bool needed, std::size_t most = kMostWords) {
     if (!has(field)) {
       if (needed) bad(field, "is missing");
@@ -96,23 +74,6 @@ class PlanReader {
     if (!found && !sign.empty()) bad(field, "is none of: <=, >=, =");
     return found.value_or(Comparison::equal);
   }
-  // The list's elements with their places; nothing where it is none.
-  std::vector<std::pair<const Json*, std::string>> list(const char* field, std::size_t least, std::size_t most) {
-    std::vector<std::pair<const Json*, std::string>> elements;
-    if (!has(field)) {
-      if (least > 0) bad(field, "is missing");
-      return elements;
-    }
-    const Json& value = json_.at(field);
-    if (!value.is_array() || value.size() < least || value.size() > most) {
-      bad(field, "is no list of " + std::to_string(least) + " to " + std::to_string(most));
-      return elements;
-    }
-    const std::string place = where_.empty() ? std::string(field) : where_ + "." + field;
-    for (std::size_t i = 0; i < value.size(); ++i)
-      elements.emplace_back(&value[i], place + "[" + std::to_string(i) + "]");
-    return elements;
-  }
   std::vector<std::string> texts(const char* field) {
     std::vector<std::string> all;
     for (const auto& [json, place] : list(field, 0, kMostList)) {
@@ -124,12 +85,6 @@ class PlanReader {
     return all;
   }
   const Json& at(const char* field) const { return json_.at(field); }
-
- private:
-  const Json& json_;
-  std::string where_;
-  std::vector<base::Problem>& wrong_;
-  std::set<std::string> asked_;
 };
 
 enum class Better { lower, higher };
@@ -313,25 +268,10 @@ Json json_of(const PlannedGroup& group, bool arm) {
 
 base::Result<Plan> plan_from_json(const std::string& text) {
   base::Error error{"bad_study_plan", "the plan is not as it should be"};
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  bool twice = false;
-  const Json json = Json::parse(
-      text,
-      [&](int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.empty())
-          twice = twice || !keys.back().insert(parsed.get<std::string>()).second;
-        return true;
-      },
-      false);
-  if (!json.is_object()) {
-    error.findings.push_back({"bad_study_plan", "the file holds no JSON object"});
-    return error;
-  }
-  if (twice) error.findings.push_back({"bad_study_plan", "an object names a field twice"});
+  const auto json = object_in(text, "bad_study_plan", error.findings);
+  if (!json) return error;
   Plan plan;
-  read_plan(json, plan, error.findings);
+  read_plan(*json, plan, error.findings);
   if (!error.findings.empty()) return error;
   return plan;
 }

@@ -88,8 +88,10 @@ Html mean_chart(const MeanChart& chart) {
   html.raw("<svg class=\"means\" role=\"img\" viewBox=\"0 0 ").text(mean_px(kMeanWidth)).raw(" ");
   html.text(mean_px(y + kMeanBottom)).raw("\"><title>").text(chart.said).raw("</title>");
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    const double x = kMeanLabels + 10.0 +
-                     (kMeanWidth - kMeanLabels) / static_cast<double>(chart.series.size()) * static_cast<double>(i);
+    // More than two names do not fit above the marks alone.
+    const double from = chart.series.size() > 2 ? 0.0 : kMeanLabels;
+    const double x =
+        from + 10.0 + (kMeanWidth - from) / static_cast<double>(chart.series.size()) * static_cast<double>(i);
     add_mark(html, i, x, 10.0);
     add_mean_text(html, "start", x + 9.0, 14.0, chart.series[i]);
   }

@@ -147,61 +147,49 @@ base::Result<SimulatedAttempt> Simulation::median_attempt(const assessment::Oper
   return SimulatedAttempt{*attempt_id, profile.name, middle.seed, middle.metrics};
 }
 
-base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
-                                        const std::function<void(SimulatedAttempt)>& stored) {
+base::Result<void> Simulation::each(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                                    const Taken& take) const {
   using Made = base::Result<casedb::NewAttempt>;
   base::Result<void> done;
   in_order<Made>(
       trials.size(), jobs, [&](std::size_t i) { return make(trials[i], pictures); },
       [&](std::size_t i, Made made) {
-        const auto attempt_id = made ? casedb::add_attempt(*library_, *made) : made.error();
-        if (!attempt_id) {
-          done = attempt_id.error();
-          return false;
-        }
-        SimulatedAttempt one{*attempt_id, trials[i].profile.name, trials[i].seed, made->metrics};
-        one.person = trials[i].person;
-        one.number = trials[i].number;
-        stored(std::move(one));
-        return true;
+        const base::Result<bool> more = made ? take(i, *made) : made.error();
+        if (!more) done = more.error();
+        return more && *more;
       });
   return done;
+}
+
+base::Result<void> Simulation::attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                                        const std::function<void(SimulatedAttempt)>& stored) {
+  return each(trials, jobs, pictures, [&](std::size_t i, casedb::NewAttempt& made) -> base::Result<bool> {
+    const auto attempt_id = casedb::add_attempt(*library_, made);
+    if (!attempt_id) return attempt_id.error();
+    SimulatedAttempt one{*attempt_id, trials[i].profile.name, trials[i].seed, made.metrics};
+    one.person = trials[i].person;
+    one.number = trials[i].number;
+    stored(std::move(one));
+    return true;
+  });
 }
 
 base::Result<void> Simulation::measured_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
                                                  const Measured& told) const {
-  using Made = base::Result<casedb::NewAttempt>;
-  base::Result<void> done;
-  in_order<Made>(
-      trials.size(), jobs, [&](std::size_t i) { return make(trials[i], false); },
-      [&](std::size_t i, Made made) {
-        if (!made) {
-          done = made.error();
-          return false;
-        }
-        return told(i, {std::move(made->metrics), made->duration_s});
-      });
-  return done;
+  return each(trials, jobs, false, [&](std::size_t i, casedb::NewAttempt& made) -> base::Result<bool> {
+    return told(i, {std::move(made.metrics), made.duration_s});
+  });
 }
 
 base::Result<void> Simulation::forgotten_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
                                                   const Forgotten& told) const {
-  using Made = base::Result<casedb::NewAttempt>;
-  base::Result<void> done;
-  in_order<Made>(
-      trials.size(), jobs, [&](std::size_t i) { return make(trials[i], false); },
-      [&](std::size_t i, Made made) {
-        if (!made) {
-          done = made.error();
-          return false;
-        }
-        casedb::AttemptRow row;
-        static_cast<casedb::AttemptHead&>(row) = *made;
-        row.end = made->end;
-        row.metrics = std::move(made->metrics);
-        return told(i, casedb::grade_of(row, task_.row));
-      });
-  return done;
+  return each(trials, jobs, false, [&](std::size_t i, casedb::NewAttempt& made) -> base::Result<bool> {
+    casedb::AttemptRow row;
+    static_cast<casedb::AttemptHead&>(row) = made;
+    row.end = made.end;
+    row.metrics = std::move(made.metrics);
+    return told(i, casedb::grade_of(row, task_.row));
+  });
 }
 
 std::vector<SimulatedTrial> simulated_trials(const assessment::OperatorProfile& profile, std::uint64_t seed,

@@ -73,13 +73,13 @@ class Simulation {
   // each. Without pictures none of the moment of firing is made.
   base::Result<void> attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
                               const std::function<void(SimulatedAttempt)>& stored);
-  // The same, graded by the case's rule as it is and not stored. `made` is told of each by its place in `trials`;
-  // false: no more of them.
-  struct ForgottenAttempt {
+  // The same, not stored: as measured, or graded by the case's rule as it is. `made` is told of each by its place
+  // in `trials`; false: no more of them.
+  struct MeasuredAttempt {
     std::vector<assessment::MetricValue> metrics;
     double duration_s = 0.0;
   };
-  using Measured = std::function<bool(std::size_t trial, const ForgottenAttempt& attempt)>;
+  using Measured = std::function<bool(std::size_t trial, const MeasuredAttempt& attempt)>;
   base::Result<void> measured_attempts(const std::vector<SimulatedTrial>& trials, std::size_t jobs,
                                        const Measured& made) const;
   using Forgotten = std::function<bool(std::size_t trial, const assessment::Grade& grade)>;
@@ -103,6 +103,10 @@ class Simulation {
  private:
   // Changes nothing, so that threads may make many at once.
   base::Result<casedb::NewAttempt> make(const SimulatedTrial& trial, bool picture) const;
+  // Made on so many threads, taken in their order; false or an error: no more of them.
+  using Taken = std::function<base::Result<bool>(std::size_t trial, casedb::NewAttempt& made)>;
+  base::Result<void> each(const std::vector<SimulatedTrial>& trials, std::size_t jobs, bool pictures,
+                          const Taken& take) const;
   base::Result<SimulatedAttempt> run_live(LiveAttempt live, assessment::ScriptedOperator& person,
                                           std::uint32_t happened, std::uint64_t seed,
                                           const Opened& opened = {}) const;

@@ -86,7 +86,7 @@ TEST(Plan, EverythingThatIsWrongIsSaid) {
       {"groups[0].facts[0].comparison is none of", {"\"<=\"", "\"<\""}},
       {"stopping.per_group is no number", {"\"per_group\": 3", "\"per_group\": 1"}},
       {"missing.absent is none of: left_out, failure", {"\"left_out\"", "\"ignored\""}},
-      {"holds 1 fields that a plan does not know", {"\"decision\": \"d\"", "\"decision\": \"d\", \"p\": 1"}},
+      {"holds 1 fields that the plan does not know", {"\"decision\": \"d\"", "\"decision\": \"d\", \"p\": 1"}},
       {"decision is no text", {"\"decision\": \"d\"", "\"decision\": \"  \""}},
       {"names a field twice", {"\"decision\": \"d\"", "\"decision\": \"d\", \"decision\": \"e\""}},
   };
