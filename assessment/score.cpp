@@ -30,7 +30,7 @@ base::Result<Signals> signals_of(const cases::Case& scene, const cases::Recordin
   setting.defer_is_right = scene.defer_is_right;
   setting.breathes = scene.breathing.has_value();
   setting.yields = scene.yields;
-  setting.sight_law = scene.picture.sight_law;
+  setting.sight_law = scene.sight_law;
   setting.target_cannot_show = target_cannot_show(scene);
   return make_signals(setting, recording);
 }

@@ -37,9 +37,7 @@ class Scenes {
       lesion_id_ = attempt.lesion_id;
     }
     scene_.instrument = attempt.instrument;
-    const cases::SightLaw law = scene_.picture.sight_law;  // the case's, which an attempt does not repeat
     scene_.picture = attempt.picture;
-    scene_.picture.sight_law = law;
     scene_.approach = attempt.approach;
     return &scene_;
   }

@@ -63,7 +63,7 @@ void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
   if (setting.subject == cases::Subject::patient) scene.defer_is_right = setting.clinic.defer;
   scene.breathing = setting.motion.breathing();
   scene.yields = setting.motion.yields;
-  scene.picture.sight_law = setting.sight_law;
+  scene.sight_law = setting.sight_law;
 }
 
 // Of all that was painted.

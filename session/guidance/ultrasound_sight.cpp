@@ -94,7 +94,6 @@ imaging::UltrasoundView console_view(const cases::Picture& picture, const cases:
   imaging::UltrasoundView view;
   view.probe = probe_of(picture);
   view.depth_mm = picture.depth_mm;
-  view.sight_law = picture.sight_law;
   imaging::set_view(console, view);
   return view;
 }
@@ -109,6 +108,13 @@ UltrasoundSight::UltrasoundSight(const cases::Case& scene)
   CHECK(scene.classes.size() == scene.volume.hu.size());
 }
 
+imaging::UltrasoundView UltrasoundSight::view_of(const cases::Picture& picture,
+                                                 const cases::ConsoleSetting& console) const {
+  imaging::UltrasoundView view = console_view(picture, console);
+  view.sight_law = scene_.sight_law;
+  return view;
+}
+
 imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& view,
                                                 const imaging::Inserted& inserted,
                                                 const tissue::Displacement& displacement) const {
@@ -119,15 +125,14 @@ imaging::UltrasoundVisible UltrasoundSight::see(const imaging::UltrasoundView& v
 imaging::UltrasoundVisible UltrasoundSight::see(const cases::ToolPose& probe, const cases::ConsoleSetting& console,
                                                 const imaging::NeedlePose& needle,
                                                 const tissue::Displacement& displacement) const {
-  return see(held(console_view(scene_.picture, console), probe), {needle, scene_.lesions}, displacement);
+  return see(held(view_of(scene_.picture, console), probe), {needle, scene_.lesions}, displacement);
 }
 
 std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessment::PuncturePlan& plan,
                                                                  const cases::Lesion& target) const {
   const cases::ToolPose& touching = plan.probe;
-  cases::Picture picture =
+  const cases::Picture picture =
       ultrasound_picture(glm::dot(target.center_lps_mm - touching.position_lps_mm, touching.axis));
-  picture.sight_law = scene_.picture.sight_law;
   const imaging::Probe& probe = probe_of(picture);
   const double beside_mm = std::abs(glm::dot(plan.entry_lps_mm - touching.position_lps_mm, touching.side));
   if (plan.approach == cases::Approach::in_plane && beside_mm < half_face_mm(probe) + kBesideFaceMm)
@@ -139,7 +144,7 @@ std::optional<assessment::ProbeView> UltrasoundSight::looks_from(const assessmen
     return imaging::needle_pose(scene_.instrument, plan.entry_lps_mm + inserted_mm * plan.direction,
                                 plan.direction);
   };
-  const imaging::UltrasoundView unheld = console_view(picture, {}), view = held(unheld, pressed.probe);
+  const imaging::UltrasoundView unheld = view_of(picture, {}), view = held(unheld, pressed.probe);
   const std::vector<float> depths = element_depths(scene_.skin_index, view, kContactStride);
   const imaging::Visible seen =
       imaging::ultrasound_visible(tissue_, view, {needle(plan.depth_mm), {target}}, depths).visible;
@@ -183,7 +188,7 @@ imaging::UltrasoundView UltrasoundSight::polar(const cases::ToolPose& probe, con
                                                const imaging::NeedlePose& needle, std::uint64_t seed,
                                                std::uint64_t frame, imaging::PolarPicture& picture,
                                                const tissue::Displacement& displacement) const {
-  imaging::UltrasoundView view = held(console_view(scene_.picture, console), probe);
+  imaging::UltrasoundView view = held(view_of(scene_.picture, console), probe);
   view.method = method_;
   const std::vector<float> depths = element_depths(scene_.skin_index, view, 1, displacement);
   if (gpu_)

@@ -76,6 +76,8 @@ class UltrasoundSight {
 
  private:
   struct Screen;  // what pictures need beside the tissue, made with the first
+  // console_view under the scene's law of sight.
+  imaging::UltrasoundView view_of(const cases::Picture& picture, const cases::ConsoleSetting& console) const;
   imaging::UltrasoundVisible see(const imaging::UltrasoundView& view, const imaging::Inserted& inserted,
                                  const tissue::Displacement& displacement) const;
 

@@ -76,7 +76,6 @@ struct Picture {
   double width_mm = 150.0;
   double rate_hz = 30.0;
   std::string probe{};  // ultrasound: its name
-  SightLaw sight_law = SightLaw::echo;
 };
 
 struct Case {
@@ -90,6 +89,7 @@ struct Case {
   std::vector<Structure> structures;
   Instrument instrument;
   Picture picture;
+  SightLaw sight_law = SightLaw::echo;
   Approach approach = Approach::in_plane;  // of needle to picture; says nothing under xray
   Subject subject = Subject::patient;
   PatientPosition position = PatientPosition::supine;
