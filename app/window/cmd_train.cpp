@@ -112,7 +112,7 @@ constexpr Option kTrainOptions[] = {
     {"--words", "FILE|-",
      "the words of each screen, and what has the keyboard's focus, for a screen reader: what is new of them, as it "
      "comes; - is standard output"},
-    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second"},
+    {"--trace", "FILE.jsonl", "screen, rates and lags, four times a second and after each key"},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "app/cli/file.h"
 #include "app/replay/png.h"
@@ -17,6 +18,7 @@ namespace seldinger::app {
 namespace {
 
 constexpr double kTellEveryS = 0.25;
+constexpr int kFramesOfAKey = 2;        // in the second after its own a press has moved the focus
 constexpr double kHiddenS = 0.1;        // from frame to frame of a window that nobody sees
 constexpr double kHandsEveryS = 0.004;  // half of what lies between two words of a usual mouse
 constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
@@ -159,10 +161,20 @@ void Desk::draw_screen() {
   if (keys.pressed(kF1 + 9)) trainer_.show_devices();
 }
 
+bool Desk::settles() {
+  const std::optional<int> heard = window_.keys_heard();
+  since_key_ = heard == keys_ ? since_key_ + 1 : 0;
+  if (heard) keys_ = *heard;
+  if (since_key_ != kFramesOfAKey) return false;
+  return std::exchange(keys_shown_, keys_) != keys_;
+}
+
 void Desk::tell(const std::string& screen) {
   const double now_s = session::clock_s(), passed_s = now_s - told_s_;
   ++frames_;
-  if (passed_s < kTellEveryS && screen == told_ && !(screen == "attempt" && attempt_.first_picture())) return;
+  const bool hands = screen == "attempt" || screen == "watch", settled = settles();
+  const bool tells = screen != told_ || (settled && !hands) || (screen == "attempt" && attempt_.first_picture());
+  if (passed_s < kTellEveryS && !tells) return;
   TraceLine line;
   line.t_s = now_s - opened_s_;
   line.screen = screen;
@@ -177,6 +189,7 @@ void Desk::tell(const std::string& screen) {
   for (const Sound sound : speaker_.take_played()) line.sounds.emplace_back(info_of(sound).name);
   if (screen == "editor" && trainer_.editor() != nullptr) EditorPanel::tell(*trainer_.editor(), line);
   if (screen == "devices" && trainer_.device_page() != nullptr) devices_.tell(*trainer_.device_page(), line);
+  line.keys = keys_shown_;
   line.focus = focus();
   line.items = noted_items();
   trace_.write(line);

@@ -20,7 +20,7 @@ namespace seldinger::app {
 class Desk {
  public:
   // F12 keeps a picture of the window in `pictures`; so does the guidance's console one of its picture alone. The
-  // trace gets four lines a second.
+  // trace gets four lines a second, and one once the screen shows what a key did.
   Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesystem::path pictures, Trace& trace,
        ScreenWords& words);
 
@@ -32,6 +32,7 @@ class Desk {
   void look_for_space_mouse();
   void go_on();                 // of hands between frames
   void finish(double began_s);  // what is being drawn for the frame that began then
+  bool settles();               // whether this frame is the first that shows what the last keys did
   void tell(const std::string& screen);
   // As `name`-1.png or the next that is free; what there is to say of it.
   std::string keep(const std::string& name, const std::vector<unsigned char>& rgb, int width_px, int height_px);
@@ -55,8 +56,8 @@ class Desk {
   ScreenWords& words_;
   double words_s_ = 0.0;  // when they were gathered last
   double opened_s_, told_s_, due_s_ = 0.0, between_s_;
-  int frames_ = 0;
-  std::string told_, notice_;  // told: the screen that was up
+  int frames_ = 0, keys_ = 0, keys_shown_ = 0, since_key_ = 0;  // since_key_: frames
+  std::string told_, notice_;                                   // told: the screen that was up
   double notice_until_s_ = 0.0;
   Speaker::State sound_ = Speaker::State::unasked;
 };

@@ -19,7 +19,7 @@ class ActingCommands : public testing::Test {
 };
 
 TEST_F(ActingCommands, OneShellNoLongerLooksLikeThreePeople) {
-  const std::string demo = library_.ask("demo --no-serve")["case_id"];
+  const std::string demo = library_.demo()["case_id"];
   for (const char* user : {"mona --role mentor", "rolf --role mentor", "dora --role director"})
     library_.done(std::string("user add ") + user);
 

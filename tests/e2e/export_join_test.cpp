@@ -45,7 +45,7 @@ struct Exported {
 class Made {
  public:
   Made() {
-    const std::string case_id = library_.ask("demo --no-serve")["case_id"];
+    const std::string case_id = library_.demo()["case_id"];
     library_.done("simulate --operator intermediate --no-pictures --seed 100 --count " + std::to_string(kAttempts) +
                   " --case " + case_id);
     std::ofstream(at("text.txt")) << "May your attempts be used?\n";

@@ -9,6 +9,7 @@
 
 #include "tests/fixtures/answers.h"
 #include "tests/fixtures/csv_table.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/places.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/shared_data.h"
@@ -41,7 +42,7 @@ struct Made {
     return Json::parse(ran.out, nullptr, false);
   }
   Made() {
-    case_id = answer("demo --no-serve").at("case_id").get<std::string>();
+    case_id = fixtures::demo_library("", library).at("case_id").get<std::string>();
     xray_case_id = answer("demo --no-serve --modality xray").at("case_id").get<std::string>();
     const Json written = answer("import " + fixtures::shared_data_dir().string() +
                                 "/ct-abdomen-pelvis/abdomen_pelvis_2x.mha --title '=HYPERLINK(\"Quagmire\")'");

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/shared_data.h"
 
@@ -24,12 +25,7 @@ struct XrayDemo {
   std::filesystem::path scratch = fixtures::fresh_folder("demo_xray");
   std::string library = (scratch / "library").string();
   Json answer;
-  XrayDemo() {
-    const auto ran = run(kProgram + " demo --modality xray --no-serve --json --library " + library, scratch);
-    EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    answer = Json::parse(ran.out, nullptr, false);
-    EXPECT_TRUE(answer.is_object()) << ran.out;
-  }
+  XrayDemo() { answer = fixtures::demo_library("--modality xray", library); }
   Json simulate(const std::string& who) const {
     const auto ran =
         run(kProgram + " simulate --library " + library + " --case " + answer.at("case_id").get<std::string>() +

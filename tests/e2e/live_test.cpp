@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/until.h"
 
@@ -26,9 +27,8 @@ class LiveTest : public testing::Test {
   static void SetUpTestSuite() {
     scratch_ = fixtures::fresh_folder("live");
     library_ = (scratch_ / "library").string();
-    const auto ran = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    case_id_ = Json::parse(ran.out)["case_id"];
+    const Json demo = fixtures::demo_library("", library_);
+    case_id_ = demo["case_id"];
   }
   static Json ask(const std::string& words, int expected = 0) {
     const auto ran = run(kProgram + " " + words + " --json --library " + library_, scratch_);
@@ -192,9 +192,7 @@ TEST_F(LiveTest, WhatAKillInterruptedGoesOn) {
 
 TEST_F(LiveTest, UnderXrayItIsRefused) {
   const std::string library = (scratch_ / "xray").string();
-  const auto demo = run(kProgram + " demo --no-serve --json --modality xray --library " + library, scratch_);
-  ASSERT_EQ(demo.exit_code, 0) << demo.err;
-  const std::string xray_case = Json::parse(demo.out)["case_id"];
+  const std::string xray_case = fixtures::demo_library("--modality xray", library)["case_id"];
   const auto ran = run(
       kProgram + " simulate --real-time --operator expert --library " + library + " --case " + xray_case, scratch_);
   EXPECT_EQ(ran.exit_code, 3);

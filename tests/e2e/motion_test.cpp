@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -22,9 +23,8 @@ class MotionTest : public testing::Test {
   static void SetUpTestSuite() {
     scratch_ = fixtures::fresh_folder("motion");
     library_ = (scratch_ / "library").string();
-    const auto ran = run(kProgram + " demo --no-serve --json --library " + library_, scratch_);
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    still_ = Json::parse(ran.out)["case_id"];
+    const Json demo = fixtures::demo_library("", library_);
+    still_ = demo["case_id"];
     const auto added = run(
         "printf 'a long password' | " + kProgram + " user add mia --role mentor --library " + library_, scratch_);
     ASSERT_EQ(added.exit_code, 0) << added.err;

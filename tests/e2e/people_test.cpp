@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 class PeopleCommands : public testing::Test {
  protected:
   fixtures::CommandLibrary library_{fixtures::fresh_folder("people_commands")};
-  std::string case_id_ = library_.ask("demo --no-serve")["case_id"];
+  std::string case_id_ = library_.demo()["case_id"];
 
   void SetUp() override {
     for (const char* user : {"Zebedee-Quagmire --role trainee", "tina --role trainee", "mona --role mentor",

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 
 namespace seldinger {
@@ -37,7 +38,7 @@ class SimulateTest : public testing::Test {
   static void SetUpTestSuite() {
     scratch_ = fixtures::fresh_folder("simulate");
     library_ = (scratch_ / "library").string();
-    const Json made = ask("demo --cases");
+    const Json made = fixtures::demo_library("--cases", library_);
     cases_ = made.at("cases");
   }
   static Json ask(const std::string& words) {

@@ -75,8 +75,8 @@ class Soak : public testing::Test {
 
   void attempt(bool ultrasound) {
     const fixtures::Screen& screen = trainee_->screen();
-    screen.press("y");
-    screen.press("F4");
+    trainee_->press("y");
+    trainee_->press("F4");
     if (ultrasound) {
       ASSERT_NO_FATAL_FAILURE(trainee_->press_probe_on());
     } else {
@@ -95,7 +95,7 @@ class Soak : public testing::Test {
     ASSERT_NO_FATAL_FAILURE(trainee_->open_case(ultrasound ? 0 : 1));
     ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
     ASSERT_TRUE(until([&] { return trainee_->now().value("attempt_s", 0.0) > 1.0; }, 60.0));
-    trainee_->screen().press("F5");
+    trainee_->press("F5");
     ASSERT_TRUE(until(
         [&] {
           const auto now = trainee_->now();
@@ -103,12 +103,12 @@ class Soak : public testing::Test {
         },
         60.0));
     ASSERT_NO_FATAL_FAILURE(attempt(ultrasound));
-    trainee_->screen().press("F9");
+    trainee_->press("F9");
     ASSERT_TRUE(trainee_->reaches("debrief", 120.0));
-    trainee_->screen().press("w");
+    trainee_->press("w");
     ASSERT_TRUE(trainee_->reaches("watch", 60.0));
     trainee_->passes(2.0);  // what is watched is drawn meanwhile
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief", 60.0));
     ASSERT_NO_FATAL_FAILURE(trainee_->leave_debrief());
   }

@@ -21,7 +21,7 @@ constexpr int kPeople = 6, kAttempts = 2;  // of each group, of each of them
 class StudyCommands : public testing::Test {
  protected:
   fixtures::CommandLibrary library_{fixtures::fresh_folder("study_commands")};
-  std::string case_id_ = library_.ask("demo --no-serve")["case_id"];
+  std::string case_id_ = library_.demo()["case_id"];
 
   void SetUp() override {
     for (const char* user : {"rita --role researcher", "mona --role mentor", "adam --role admin"})

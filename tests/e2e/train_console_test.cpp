@@ -33,7 +33,7 @@ class TrainConsoleTest : public testing::Test {
   }
   Json now() const { return trainee_->now(); }
   void press(const std::string& key, int times = 1) {
-    for (int i = 0; i < times; ++i) trainee_->screen().press(key);
+    for (int i = 0; i < times; ++i) trainee_->press(key);
   }
   // By key: the guidance's picture alone.
   fixtures::RgbPicture guidance() {

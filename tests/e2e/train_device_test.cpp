@@ -104,7 +104,7 @@ TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAtte
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   const Json both = {"ok", "ok"};
   ASSERT_TRUE(until([&] { return arms_are(trainee, both); })) << trainee.now();
-  for (const char* key : {"y", "F4"}) trainee.screen().press(key);
+  for (const char* key : {"y", "F4"}) trainee.press(key);
   // The mouse's start melts into the arm's place outside the body.
   ASSERT_TRUE(trainee.stands_still([](const Json& line) { return place(line, "needle_lps_mm"); }, 0.1))
       << trainee.now();
@@ -177,29 +177,29 @@ TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfte
   const auto asks = [&](const char* words) {
     return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
   };
-  trainee.screen().press("F10");
+  trainee.press("F10");
   ASSERT_TRUE(trainee.reaches("devices")) << "before anybody logs in";
   ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); })) << trainee.now();
-  for (const char* key : {"2", "c"}) trainee.screen().press(key);
+  for (const char* key : {"2", "c"}) trainee.press(key);
   ASSERT_TRUE(until([&] { return asks("on a: "); })) << trainee.now();
   for (const char* point : {"on b: ", "on c: ", "on d: ", "on e: ", "on f: ", "All points"}) {
-    trainee.screen().press("v");
+    trainee.press("v");
     // A point is taken of a hand that has come to rest; until then it is asked for again.
     ASSERT_TRUE(until([&] {
-      trainee.screen().press("space");
+      trainee.press("space");
       return until([&] { return asks(point); }, 3.0);
     })) << trainee.now();
   }
   trainee.keep_picture();
   EXPECT_FALSE(std::filesystem::exists(station));
-  trainee.screen().press("Return");
+  trainee.press("Return");
   ASSERT_TRUE(until([&] { return std::filesystem::exists(station); }));
   const Json kept = Json::parse(fixtures::whole_file(station));
   EXPECT_EQ(kept["devices"]["right"]["points"].size(), 6U);
   EXPECT_EQ(kept["devices"]["right"]["device_id"], "sim-right");
   EXPECT_LT(kept["devices"]["right"]["residual_max_mm"].get<double>(), 1.0);
 
-  trainee.screen().press("t");
+  trainee.press("t");
   ASSERT_TRUE(until([&] { return asks("as far as it goes"); })) << trainee.now();
   for (const char* key : {"Right", "Down", "Prior"}) trainee.screen().hold(key, 1.5);
   for (int more = 0; more < 6 && asks("as far as it goes"); ++more)
@@ -207,14 +207,14 @@ TEST(TrainDevice, AnArmIsCalibratedAndTestedAtTheDevicePageAndHoldsTheNeedleAfte
   ASSERT_TRUE(until([&] { return asks("fit for an attempt"); })) << trainee.now();
   trainee.keep_picture();
 
-  trainee.screen().press("Escape");
+  trainee.press("Escape");
   ASSERT_TRUE(trainee.reaches("log_in")) << "back where one was";
   trainee.say_who("mona", kPassword);
   ASSERT_TRUE(trainee.reaches("ready")) << "the case of this workstation";
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
-  trainee.screen().press("y");
+  trainee.press("y");
   ASSERT_TRUE(until([&] { return arms_are(trainee, {"ok", "ok"}); })) << trainee.now();
-  trainee.screen().press("F10");
+  trainee.press("F10");
   ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(20.0));
   EXPECT_GT(trainee.now().value("inserted_mm", 0.0), 12.0) << "the mouse leads the arm, the arm the needle";
   trainee.keep_picture();
@@ -235,7 +235,7 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   const auto both_are = [&](const char* state) { return arms_are(trainee, Json::array({state, state})); };
   ASSERT_TRUE(until([&] { return both_are("ok"); })) << trainee.now();
-  trainee.screen().press("y");
+  trainee.press("y");
   // Both go round circles of 20 mm.
   EXPECT_GT(way_mm(trainee, "needle_lps_mm", 4.0), 25.0);
   EXPECT_GT(way_mm(trainee, "probe_lps_mm", 4.0), 25.0);
@@ -253,7 +253,7 @@ TEST(TrainDevice, ToolsFollowTheArmsStayWithoutThemAndFollowAgain) {
   // Keys hold what no arm does.
   const glm::dvec3 stayed = place(trainee.now(), "needle_lps_mm");
   ASSERT_EQ(trainee.now().value("held", ""), "needle");
-  for (int i = 0; i < 8; ++i) trainee.screen().press("Page_Up");
+  for (int i = 0; i < 8; ++i) trainee.press("Page_Up");
   EXPECT_TRUE(until([&] { return glm::length(place(trainee.now(), "needle_lps_mm") - stayed) > 0.5; }));
 
   service = std::make_unique<Service>(library.folder(), port);

@@ -57,7 +57,7 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   ASSERT_TRUE(mentor_->reaches("editor"));
   ASSERT_TRUE(check_is("failing", "lesion_present")) << mentor_->now();
   mentor_->keep_picture();
-  screen.press("l");
+  mentor_->press("l");
   click_axial(kOutside);
   ASSERT_TRUE(check_is("failing", "lesion_inside_body")) << mentor_->now();
   mentor_->keep_picture();
@@ -70,10 +70,10 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   screen.drag(x_px + static_cast<int>(std::lround(grip_px)), y_px, x_px + 22, y_px, 1, 0.8);
   ASSERT_TRUE(fixtures::until([&] { return shown()["lesions"][0]["radius_mm"].get<double>() > before_mm + 1.0; }))
       << "the rim was dragged";
-  screen.press("e");
+  mentor_->press("e");
   click_axial(kFlank);
   ASSERT_TRUE(check_is("holding", "entry_on_skin")) << mentor_->now();
-  screen.press("ctrl+z");
+  mentor_->press("ctrl+z");
   ASSERT_TRUE(fixtures::until([&] { return !editor().value("entry", true); })) << "taken back";
   click_axial(kFlank);
   ASSERT_TRUE(fixtures::until([&] { return editor().value("entry", false) && !editor().value("checking", true); }));
@@ -85,10 +85,10 @@ TEST_F(TrainEditorTest, AMentorPlacesChecksAndPublishesAndATraineeFindsIt) {
   mentor_->click("Try it");
   ASSERT_TRUE(mentor_->reaches("ready")) << mentor_->now();
   ASSERT_NO_FATAL_FAILURE(mentor_->enter_room());
-  screen.press("y");
-  screen.press("F9");
+  mentor_->press("y");
+  mentor_->press("F9");
   ASSERT_TRUE(mentor_->reaches("debrief"));
-  screen.press("Escape");
+  mentor_->press("Escape");
   ASSERT_TRUE(mentor_->reaches("editor"));
   const Json attempts = library_.ask("attempt list");
   for (const Json& attempt : attempts["attempts"])

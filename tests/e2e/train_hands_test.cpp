@@ -46,7 +46,7 @@ void enter(fixtures::Trainee& trainee) {
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
-  trainee.screen().press("y");
+  trainee.press("y");
   ASSERT_TRUE(holds(trainee, "needle"));
 }
 

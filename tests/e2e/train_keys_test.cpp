@@ -31,7 +31,7 @@ class TrainKeysTest : public testing::Test {
                                                   std::vector<std::string>{"--words", words_.string(), "--mute"});
     ASSERT_FALSE(HasFailure());
   }
-  void press(const std::string& key) const { person_->screen().press(key); }
+  void press(const std::string& key) const { person_->press(key); }
   std::string focus() const { return person_->now().value("focus", ""); }
   bool focuses(const std::string& name) const {
     return fixtures::until([&] { return focus() == name; });

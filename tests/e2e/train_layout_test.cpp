@@ -65,7 +65,7 @@ class TrainLayoutTest : public testing::Test {
     ASSERT_NO_FATAL_FAILURE(expect_in_sight(look, {"Back", "Enter the room (Enter)"}));
     ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
     ASSERT_NO_FATAL_FAILURE(expect_in_sight(look, {"room", "picture", "Proceed (Y)", "Defer (N)"}));
-    trainee_->screen().press("y");
+    trainee_->press("y");
     std::vector<std::string> buttons = {"room",         "picture",         "F1  Probe checked",
                                         "F3  Aspirate", "F4  Anaesthetic", "F9  Sign out and finish"};
     // With the largest letters in the smallest window these two are keys, and their buttons a scroll away.
@@ -81,13 +81,13 @@ class TrainLayoutTest : public testing::Test {
     const auto room_larger = [&] {
       return area_of(trainee_->place_of("room")) > area_of(trainee_->place_of("picture"));
     };
-    trainee_->screen().press("Return");
+    trainee_->press("Return");
     EXPECT_TRUE(fixtures::until(room_larger)) << trainee_->now();
     keep("room");
-    trainee_->screen().press("Return");
+    trainee_->press("Return");
     EXPECT_TRUE(fixtures::until([&] { return !room_larger(); })) << trainee_->now();
     const bool open = trainee_->shows("knob");
-    trainee_->screen().press("Home");
+    trainee_->press("Home");
     EXPECT_TRUE(fixtures::until([&] { return trainee_->shows("knob") != open; })) << trainee_->now();
     keep(open ? "folded" : "console");
     trainee_->sign_out();
@@ -119,7 +119,7 @@ TEST_F(TrainLayoutTest, ItsSizeIsAsItWasWhenItWasClosed) {
   open("remembered", {"--mute"});
   const auto wide = [&] { return fixtures::read_png(trainee_->keep_picture()).width_px; };
   EXPECT_EQ(wide(), 900);
-  trainee_->screen().with_key("alt", [&] { trainee_->screen().press("Return"); });
+  trainee_->screen().with_key("alt", [&] { trainee_->press("Return"); });
   EXPECT_EQ(wide(), 1280) << "the whole screen";
   close();
   const auto kept = app::read_window_size(app::window_size_file());

@@ -61,7 +61,7 @@ class TrainPlanTest : public testing::Test {
     trainee_->click("Enter the room (Enter)");
     ASSERT_TRUE(trainee_->reaches("attempt")) << now();
     ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 0.5; })) << now();
-    if (patient) trainee_->screen().press("y");
+    if (patient) trainee_->press("y");
   }
 
   void plan(const WindowLook& look) {
@@ -80,26 +80,26 @@ class TrainPlanTest : public testing::Test {
     const double proposed_mm = number_in(says("Your way: "), "Your way: ");
     EXPECT_GT(proposed_mm, 10.0);
     // A click beside the axial picture's middle is another tip, further in than the entry's own plane.
-    trainee_->screen().press("2");
+    trainee_->press("2");
     trainee_->click("Axial", 0.55, 0.6);
     ASSERT_TRUE(fixtures::until([&] {
       return std::abs(number_in(says("Your way: "), "Your way: ") - proposed_mm) > 1.0;
     })) << now();
-    trainee_->screen().press("BackSpace");
+    trainee_->press("BackSpace");
     ASSERT_TRUE(comes("No way is planned yet")) << now();
-    trainee_->screen().press("3");
+    trainee_->press("3");
     ASSERT_TRUE(fixtures::until([&] { return number_in(says("Your way: "), "Your way: ") == proposed_mm; }))
         << now();
     keep("planned");
     planned_mm_ = proposed_mm;
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     ASSERT_TRUE(comes("Your plan (P)")) << now();
     keep("briefing");
   }
 
   void do_and_compare(double pushed_mm) {
     ASSERT_NO_FATAL_FAILURE(enter_and_decide(true));
-    trainee_->screen().press("F2");
+    trainee_->press("F2");
     ASSERT_TRUE(comes("Entry noted, and the needle is planned to go in by ")) << now();
     EXPECT_NEAR(number_in(says("Entry noted"), "planned to go in by "), planned_mm_, 1.01);
     ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(pushed_mm));
@@ -128,7 +128,7 @@ class TrainPlanTest : public testing::Test {
     trainee_->click("4 ×");
     EXPECT_TRUE(comes("Caption: Over: this is the moment in which it was fired.")) << now();
     keep("replay_over");
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief")) << now();
   }
 
@@ -161,7 +161,7 @@ TEST_F(TrainPlanTest, AWayIsPlannedKeptAndComparedWithWhatWasDone) {
 
 TEST_F(TrainPlanTest, ADrillIsWatchedBesideAnExpertsAndAttemptsFollowOnEachOther) {
   const fixtures::CommandLibrary library(fixtures::fresh_folder("train_after"));
-  library.done("demo --drills");
+  library.demo("--drills");
   library.done("user add tina --role trainee");
   for (const WindowLook& look : fixtures::window_looks()) {
     SCOPED_TRACE(look.name());
@@ -171,7 +171,7 @@ TEST_F(TrainPlanTest, ADrillIsWatchedBesideAnExpertsAndAttemptsFollowOnEachOther
     ASSERT_NO_FATAL_FAILURE(enter_and_decide(false));
     ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(15.0));
     ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
-    trainee_->screen().press("F5");
+    trainee_->press("F5");
     ASSERT_TRUE(trainee_->reaches("attempt")) << now();
     ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 0.5; })) << now();
     ASSERT_NO_FATAL_FAILURE(trainee_->sign_out());
@@ -186,7 +186,7 @@ TEST_F(TrainPlanTest, ADrillIsWatchedBesideAnExpertsAndAttemptsFollowOnEachOther
         {"Yours", "Simulated expert", "picture", "picture#2", "room", "room#2", "time", "Back (Esc)"}));
     EXPECT_TRUE(comes("Simulated expert: ")) << "captions: " << now();
     keep("beside");
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief")) << now();
     close();
   }

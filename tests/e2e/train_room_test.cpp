@@ -48,7 +48,7 @@ class TrainRoomTest : public testing::Test {
   }
   void TearDown() override { leave(); }
   Json now() const { return trainee_->now(); }
-  void press(const std::string& key) { trainee_->screen().press(key); }
+  void press(const std::string& key) { trainee_->press(key); }
   // The first item in the newest line whose name has these words in it; empty: none.
   std::string says(const std::string& words) const {
     const Json items = now().value("items", Json::object());

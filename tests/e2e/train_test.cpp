@@ -71,19 +71,19 @@ class TrainTest : public testing::Test {
     trainee_->click("Skin punctures");
     EXPECT_TRUE(shows("Definition of Skin punctures")) << now();
     look();
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     EXPECT_TRUE(fixtures::until([&] { return !trainee_->shows("Definition of Skin punctures"); }));
     EXPECT_EQ(now()["screen"], "debrief") << "Escape closes the definition first";
     trainee_->click("Sentence 1");
     EXPECT_TRUE(shows("Back to the steps (Esc)"));
-    trainee_->screen().press("a");
+    trainee_->press("a");
     EXPECT_TRUE(shows("To pass (A)"));
     EXPECT_FALSE(trainee_->shows("Back to the steps (Esc)"));
     look();
-    for (std::size_t i = 0; i < 4; ++i) trainee_->screen().press("Down");  // past the sentences
+    for (std::size_t i = 0; i < 4; ++i) trainee_->press("Down");  // past the sentences
     EXPECT_TRUE(shows("Definition of Target hit")) << now();
     look();
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     trainee_->click("To pass (A)");
     EXPECT_TRUE(shows("All values (A)"));
   }
@@ -94,12 +94,12 @@ class TrainTest : public testing::Test {
     trainee_->click("Place the probe on the skin at the entry");
     EXPECT_TRUE(shows("Definition of Place the probe on the skin at the entry")) << now();
     look();
-    trainee_->screen().press("Up");
+    trainee_->press("Up");
     EXPECT_TRUE(shows("Definition of Choose the probe and check its orientation: move it and look")) << now();
-    trainee_->screen().press("Escape");
+    trainee_->press("Escape");
     EXPECT_TRUE(shows("Legend of the steps"));
     EXPECT_EQ(now()["screen"], "debrief");
-    trainee_->screen().press("Up");
+    trainee_->press("Up");
     EXPECT_TRUE(shows("Definition of Sign out")) << "the last: " << now();
     trainee_->click("Back to the steps (Esc)");
     EXPECT_TRUE(shows("Legend of the steps"));
@@ -150,11 +150,11 @@ TEST_F(TrainTest, AWholeAttemptWithMouseAndKeysIsStoredAndGraded) {
   EXPECT_TRUE(trainee_->shows("Next: once more (Enter)")) << "the only case there is";
   ASSERT_NO_FATAL_FAILURE(ask_what_was_measured());
   ASSERT_NO_FATAL_FAILURE(ask_what_a_step_is());
-  trainee_->screen().press("w");
+  trainee_->press("w");
   ASSERT_TRUE(trainee_->reaches("watch"));
   const auto again = trainee_->place_of("picture");
   EXPECT_TRUE(fixtures::until([&] { return share(look(), again, grey) > 0.05; })) << "the attempt is shown again";
-  trainee_->screen().press("Escape");
+  trainee_->press("Escape");
   ASSERT_TRUE(trainee_->reaches("debrief"));
 
   const std::string mine = library_->persons_attempt();
@@ -180,7 +180,7 @@ TEST_F(TrainTest, WhatWentWrongSaysWhenAndPlaysIt) {
   ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
   look();
   ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
-  trainee_->screen().press("y");
+  trainee_->press("y");
   ASSERT_TRUE(trainee_->passes(6.0));
   ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(12.0));
   ASSERT_NO_FATAL_FAILURE(trainee_->fire());
@@ -195,18 +195,18 @@ TEST_F(TrainTest, WhatWentWrongSaysWhenAndPlaysIt) {
   ASSERT_TRUE(fixtures::until([&] { return now().value("watched_s", 0.0) > 0.0; })) << now();
   EXPECT_GT(now().value("watched_s", 0.0), fired_s - 3.5);
   look();
-  trainee_->screen().press("Escape");
+  trainee_->press("Escape");
   ASSERT_TRUE(trainee_->reaches("debrief"));
   trainee_->click("Play Insert the needle, through skin that is numb");
   ASSERT_TRUE(trainee_->reaches("watch"));
   ASSERT_TRUE(fixtures::until([&] { return now().value("watched_s", 0.0) > 0.0; })) << now();
-  trainee_->screen().press("Escape");
+  trainee_->press("Escape");
   ASSERT_TRUE(trainee_->reaches("debrief"));
   // The same by keys alone: through the sentences to the first criterion, and P.
-  for (int i = 0; i < 4; ++i) trainee_->screen().press("Down");
+  for (int i = 0; i < 4; ++i) trainee_->press("Down");
   ASSERT_TRUE(fixtures::until([&] { return trainee_->shows("Definition of Target hit"); })) << now();
   look();
-  trainee_->screen().press("p");
+  trainee_->press("p");
   ASSERT_TRUE(trainee_->reaches("watch"));
 }
 
@@ -223,11 +223,11 @@ TEST_F(TrainTest, RestartPauseAndAClosedWindowLoseNothing) {
   ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
   ASSERT_NO_FATAL_FAILURE(trainee_->enter_room());
   ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.5; }));
-  trainee_->screen().press("F5");
+  trainee_->press("F5");
   ASSERT_TRUE(fixtures::until(
       [&] { return now().value("screen", "") == "attempt" && now().value("attempt_s", 9.0) < 1.0; }));
   ASSERT_TRUE(fixtures::until([&] { return now().value("attempt_s", 0.0) > 1.0; }));
-  trainee_->screen().press("Escape");
+  trainee_->press("Escape");
   EXPECT_TRUE(trainee_->stands_still("attempt_s", 0.02, 1.5)) << now();
   look();
   trainee_->program().signal(SIGTERM);

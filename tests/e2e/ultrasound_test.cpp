@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "tests/fixtures/answers.h"
+#include "tests/fixtures/demo_library.h"
 #include "tests/fixtures/process.h"
 #include "tests/fixtures/shared_data.h"
 

@@ -7,7 +7,7 @@ namespace {
 
 TEST(Gaming, PassesNoDrillAndNoGradedCaseOfTheTorso) {
   const fixtures::CommandLibrary made(fixtures::fresh_folder("gaming"));
-  ASSERT_EQ(made.ask("demo --cases").at("cases").size(), 3U);
+  ASSERT_EQ(made.demo("--cases").at("cases").size(), 3U);
   auto library = casedb::Library::open(made.path());
   ASSERT_TRUE(library.has_value()) << library.error().text;
   const auto all = all_played(*library);

@@ -47,6 +47,7 @@ struct TraceLine {
   std::optional<EditorTrace> editor{};
   std::vector<std::string> arms;  // left, right: "ok", "late", "lost"; empty: none are used
   std::string asks;               // what the device page asks its user for
+  int keys = 0;                   // pressed since the window opened, of which the screen shows what they did
   std::string focus;              // the item that the keyboard is on; empty: one without a name, or none
   std::vector<ShownItem> items;   // what can be pressed
 };

@@ -6,7 +6,8 @@
 namespace seldinger::app {
 
 std::string json_of(const TraceLine& line) {
-  nlohmann::ordered_json json = {{"t_s", line.t_s}, {"screen", line.screen}, {"frames_s", line.frames_s}};
+  nlohmann::ordered_json json = {
+      {"t_s", line.t_s}, {"screen", line.screen}, {"frames_s", line.frames_s}, {"keys", line.keys}};
   if (!line.held.empty())
     json.update({{"pictures_s", line.pictures_s},
                  {"method", line.method},

@@ -96,6 +96,7 @@ struct Window::Parts {
   Keys between;  // as poll found them
   std::vector<int> down;
   std::vector<int> pressed;  // since the frame began
+  int heard = 0;             // that went down since the window opened
   bool shifted = false;      // one of them with Shift, which may be up again
   std::optional<gpu::Context> context;
   float screen = 1.0F, letters = 1.0F;  // of the screen's dots; what is asked for
@@ -194,6 +195,7 @@ Window::Window(const Settings& settings) : parts_(std::make_unique<Parts>()) {
     if (key == GLFW_KEY_TAB && action == GLFW_PRESS) parts->tab_back = (modifiers & GLFW_MOD_SHIFT) != 0;
     if (action == GLFW_PRESS) {
       parts->pressed.push_back(key);
+      ++parts->heard;
       parts->shifted = parts->shifted || (modifiers & GLFW_MOD_SHIFT) != 0;
       down.push_back(key);
     } else if (action == GLFW_RELEASE) {
@@ -307,6 +309,11 @@ void Window::begin_frame(bool walks) {
 
 void Window::end_frame() {
   ImGui::Render();
+}
+
+std::optional<int> Window::keys_heard() const noexcept {
+  if (parts_->typed.waits() || parts_->given) return std::nullopt;
+  return parts_->heard;
 }
 
 const Keys& Window::poll() {

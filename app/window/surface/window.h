@@ -87,6 +87,8 @@ class Window {
   void begin_frame(bool walks = false);
   void end_frame();
   const Keys& keys() const noexcept;  // of this frame
+  // Since the window opened; nothing while what was typed waits for a later frame.
+  std::optional<int> keys_heard() const noexcept;
   // Draws what was said, and is back when that is on the screen, as far as a program can tell. `pixels`: what it
   // shows, red, green, blue, row by row from the upper left.
   void show(std::vector<unsigned char>* pixels = nullptr);
