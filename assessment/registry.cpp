@@ -39,7 +39,7 @@ std::string needs_of(const MetricInfo& info) {
 }
 
 constexpr std::pair<Law, const char*> kLaws[] = {
-    {kAtAnySpeed, "the same way in half to twice the time"},
+    {kAtAnySpeed, "the same path in half to twice the time"},
     {kInAnyFrame, "case and attempt, turned and shifted"},
     {kMirrored, "left for right"},
     {kInAnyBreath, "breath on or off, the hands at rest relative to tissue"},
@@ -151,7 +151,8 @@ bool applies(const MetricValue& metric, const Manner& manner) {
 std::string metrics_markdown() {
   std::string text =
       "# Metrics\n\nMade from the tables in `assessment/metrics/` by `seldinger help --metrics`; a test compares.\n"
-      "Lengths in mm, coordinates in LPS. A metric that cannot be given is null with a reason, never 0. The way to "
+      "Lengths in mm, coordinates in LPS. A metric that cannot be given is null with a reason, never 0. The path "
+      "to "
       "the\n"
       "endpoint counts; time and distance in tracking gaps do not.\n\n"
       "| id | version | unit | better | needs | definition | source |\n|---|---|---|---|---|---|---|\n";

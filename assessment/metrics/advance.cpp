@@ -174,7 +174,8 @@ constexpr const char* kByTissueGuided =
 constexpr MetricInfo kAdvanceMetrics[] = {
     {"advance_visible_share", 4, "share", "Advance visible", Group::picture, Direction::higher_is_better,
      kUnderProbe | kInPlane,
-     "Share of the way that the hand advanced the tip in tissue while a live picture showed it; to and fro by "
+     "Share of the length by which the hand advanced the tip in tissue while a live picture showed it; to and fro "
+     "by "
      "under 1 mm is no advance, nor is breath that slides past a hand at rest (as withdrawals_partial). A "
      "frozen picture shows nothing. Null: under_1_mm_of_advance.",
      "share of needle advancement in plane, BMC Anesthesiol. 2014, PMC4384236", &advance_visible_share,
@@ -195,9 +196,10 @@ constexpr MetricInfo kAdvanceMetrics[] = {
      true},
     {"plane_angle_mean", 3, "deg", "Mean angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand,
-     "Angle between needle and picture plane, averaged over the way that the hand advanced the tip in tissue. "
+     "Angle between needle and picture plane, averaged over the length by which the hand advanced the tip in "
+     "tissue. "
      "Null: under_1_mm_of_advance, no_picture_plane.",
-     "NeedlePlaneAngle of TrainUS (Ebatinca), over way instead of time", &plane_angle_mean, kMedianInterval,
+     "NeedlePlaneAngle of TrainUS (Ebatinca), over length instead of time", &plane_angle_mean, kMedianInterval,
      kSame | kNothingIsNothing, kByTissueGuided},
     {"plane_angle_max", 3, "deg", "Largest angle to plane", Group::picture, Direction::lower_is_better,
      kUnderProbe | kInPlane | kMotion | kFreehand, "As plane_angle_mean, the largest. Null: as plane_angle_mean.",

@@ -83,15 +83,16 @@ constexpr const char* kSource = "thesis, appendix A, steps 11 and 12; docs/clini
 constexpr MetricInfo kBreathMetrics[] = {
     {"advance_breath_held_share", 2, "share", "Advance with breath held", Group::procedure,
      Direction::higher_is_better, kHeld | kSkin | kTarget | kMotion,
-     "Share of the way that the hand pushed the tip on inside the target's organ (where none is marked, at most 20 "
+     "Share of the length by which the hand pushed the tip on inside the target's organ (where none is marked, at "
+     "most 20 "
      "mm from the target's edge) while the breath was held; to and fro by under 1 mm is no advance, nor is what "
      "breath moves. Null: under_1_mm_of_advance.",
      kSource, &advance_held_share, kMedianShare,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kNothingIsNothing, kInTheRoom},
     {"advance_in_breath", 2, "mm", "Advance in moving breath", Group::procedure, Direction::lower_is_better,
      kHeld | kSkin | kTarget | kMotion,
-     "The length of that way, as advance_breath_held_share counts it, that was gone while breath moved.", kSource,
-     &advance_in_breath, kMedianRatio,
+     "The part of that length, as advance_breath_held_share counts it, that was covered while breath moved.",
+     kSource, &advance_in_breath, kMedianRatio,
      kAnyPlace | kOneDarkFrame | kIdleBefore | kIdleAfter | kAtAnySpeed | kLostSamples, kInTheRoom},
     {"fired_breath_held", 1, "bool", "Fired with breath held", Group::procedure, Direction::higher_is_better,
      kHeld | kEndpoint, "1 or 0: whether the breath was held when the trigger fell.", kSource, &fired_breath_held,

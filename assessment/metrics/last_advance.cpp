@@ -83,9 +83,10 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      Direction::higher_is_better,
      kPicturePlane | kInPlane | kTarget | kSkin | kPictures | kMotion | kTissue | kEndpoint,
      "Share of the last 20 mm of depth before the endpoint through which the tip was pushed while a live picture "
-     "showed tip and target at once. Of a depth that was passed more than once the last time counts; a shorter way "
+     "showed tip and target at once. Of a depth that was passed more than once the last time counts; a shorter "
+     "path "
      "counts whole. Waiting in view adds nothing. A frozen picture shows nothing. Null: under_1_mm_of_advance.",
-     "by way instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
+     "by length instead of time as advance_visible_share, PMC4384236; 20 mm: judgement",
      &joint_visible_last,
      {Scale::share, WithoutEndpoint::failure, Aggregation::median},
      kAtAnySpeed | kInAnyFrame | kMirrored | kIdleBefore | kNothingIsNothing,
@@ -93,7 +94,8 @@ constexpr MetricInfo kLastAdvanceMetrics[] = {
      true},
     {"longest_advance_between_sights", 3, "mm", "Advance between sights", Group::picture,
      Direction::lower_is_better, kPicturePlane | kOutOfPlane | kSkin | kPictures | kMotion | kTissue,
-     "Longest way that the tip was pushed in tissue from one live picture that showed it to the next, from the "
+     "Greatest length by which the tip was pushed in tissue from one live picture that showed it to the next, from "
+     "the "
      "skin "
      "to the first, or from the last to the endpoint: out of plane the tip is seen in passing, each time the probe "
      "goes ahead and the needle follows. Null: under_1_mm_of_advance.",

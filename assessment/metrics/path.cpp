@@ -196,13 +196,13 @@ constexpr std::uint32_t kOfPath = kAnyPlace | kIdleBefore | kIdleAfter | kOneDar
 
 constexpr MetricInfo kPathMetrics[] = {
     {"path_tip", 3, "mm", "Tip path", Group::path, Direction::lower_is_better, kMotion,
-     "Length of the tip's way, however slowly it went: resampled to 100 Hz, low-passed at 10 Hz (zero-phase "
+     "Length of the tip's path, however slowly it went: resampled to 100 Hz, low-passed at 10 Hz (zero-phase "
      "4th-order Butterworth), through points at least 0.25 mm apart, so that what trembles on one spot goes "
-     "nowhere. The way is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle "
+     "nowhere. The path is the tissue's at rest; breath that moves tissue under a hand at rest, or a needle "
      "along with the tissue, is none. Gaps over 0.25 s are not bridged. One pose: 0.",
      kJohnson, &path_tip, kMedianRatio, kOfPath,
-     "1: the filtered way as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 "
-     "s, so that a slow way was none, and in the room's frame."},
+     "1: the filtered path as it was, tremor at rest included; 2: only where it went at 3 mm/s or more for 0.2 "
+     "s, so that a slow path was none, and in the room's frame."},
     {"path_in_tissue", 2, "mm", "Tip path in tissue", Group::path, Direction::lower_is_better, kMotion | kSkin,
      "The part of path_tip below the skin; what goes through the skin is clipped at it.", "Perk Tutor's TissuePath",
      &path_in_tissue, kMedianRatio, kOfPath, "1: the part of path_tip's version 2."},

@@ -149,11 +149,11 @@ constexpr MetricInfo kProbeMetrics[] = {
      "drift, nor is a probe at rest on a patient who breathes or one that goes along with the skin: what "
      "counts is what both the room and the tissue at the tip say. Null: no_picture_plane.",
      kSites, &measured<&Probe::drift_mm>, kMedianRatio, kProbeLaws,
-     "1: the way of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
+     "1: the path of the middle of the probe's face in the room, so that no tilt counted, while the needle went "
      "at more than 2 mm/s, also under a needle guide."},
     {"probe_shift_advancing", 1, "mm", "Probe shift advancing", Group::picture, Direction::lower_is_better,
      kOfProbe,
-     "The part of probe_drift_advancing's motion that slides: way of the middle of the probe's face over the "
+     "The part of probe_drift_advancing's motion that slides: path of the middle of the probe's face over the "
      "skin, in any direction, while the needle in tissue advanced; counted as that is. Null: no_picture_plane.",
      kSites, &measured<&Probe::shift_mm>, kMedianRatio, kProbeLaws},
     {"probe_turn_advancing", 1, "deg", "Probe turn advancing", Group::picture, Direction::lower_is_better, kOfProbe,

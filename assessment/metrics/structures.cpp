@@ -196,23 +196,23 @@ Measured back_wall_dist(const Signals& signals) {
 constexpr const char* kClinical =
     "never-event metrics of simulators (ImaGiNe-S: Johnson et al., BJR 85, 2012, 555)";
 constexpr const char* kCapsule =
-    "each way through the capsule may bleed: SIR 2019 guidelines count liver and kidney as high risk";
+    "each pass through the capsule may bleed: SIR 2019 guidelines count liver and kidney as high risk";
 constexpr const char* kWall =
     "posterior wall puncture, the error of vascular access: Blaivas and Adhikari, Crit. Care Med. 37 (2009) 2345";
 
 constexpr MetricInfo kStructuresMetrics[] = {
     {"nogo_contacts", 1, "count", "No-go contacts", Group::safety, Direction::lower_is_better, kNoGo,
-     "Times the tip's way, a core needle's throw included, went more than 0.5 mm inside a structure to stay out "
+     "Times the tip's path, a core needle's throw included, went more than 0.5 mm inside a structure to stay out "
      "of; the "
-     "next counts after 0.5 mm outside. Steps of under 0.25 mm are no way. Where a structure comes from voxels, "
+     "next counts after 0.5 mm outside. Steps of under 0.25 mm are ignored. Where a structure comes from voxels, "
      "its "
      "surface is known to nogo_uncertainty.",
      kClinical, &nogo_contacts, kMeanCount, kOfTheTrace},
     {"clearance_min", 1, "mm", "Least clearance", Group::safety, Direction::higher_is_better,
      kNoGo | kSkin | kMotion | kTissue,
-     "Least distance of the tip in tissue, on its way and in a core needle's throw, from a structure to stay out "
+     "Least distance of the tip in tissue, on its path and in a core needle's throw, from a structure to stay out "
      "of; "
-     "negative inside, also where that is too short a way to be a contact; at most 20. Where a structure comes "
+     "negative inside, also where that is too short a path to be a contact; at most 20. Where a structure comes "
      "from "
      "voxels, its surface is known to nogo_uncertainty.",
      kClinical, &clearance_min, kMedianInterval, kOfTheTrace | kNothingIsNothing},
@@ -230,12 +230,13 @@ constexpr MetricInfo kStructuresMetrics[] = {
      kWall, &back_wall_dist, kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"must_cross_length", 1, "mm", "Way through must-cross", Group::safety, Direction::higher_is_better,
      kMustCross | kEndpoint | kSkin,
-     "At the endpoint, length of the needle from the skin to the tip inside structures through which the right way "
+     "At the endpoint, length of the needle from the skin to the tip inside structures through which the right "
+     "path "
      "leads (renal parenchyma before a calyx). Null: not_in_tissue_at_the_end.",
      "puncture through the parenchyma: Sampaio et al., J. Urol. 148 (1992) 1769", &must_cross_length,
      kMedianRatioOrFailure, kOfTheWay | kNothingIsNothing},
     {"nogo_length", 2, "mm", "Way through no-go", Group::safety, Direction::lower_is_better, kNoGo,
-     "Length of the tip's way, to and fro and a core needle's throw included, inside structures to stay out of, "
+     "Length of the tip's path, to and fro and a core needle's throw included, inside structures to stay out of, "
      "counted from the entry of each visit that nogo_contacts counts; shorter ones are 0. Where two overlap it "
      "counts "
      "once. Of voxels the surface is known to nogo_uncertainty.",

@@ -63,7 +63,7 @@ Measured way_impossible(const Signals& signals) {
 }
 
 constexpr MetricInfo kWayMetrics[] = {
-    {"way_impossible", 1, "bool", "Impossible way", Group::recording, Direction::lower_is_better, kSkin,
+    {"way_impossible", 1, "bool", "Impossible path", Group::recording, Direction::lower_is_better, kSkin,
      "1 where the tip stood for 0.1 s, or when the trigger fell, where only a side at which the CT is cut could "
      "have "
      "led it; where it left the body ahead, 5 mm and more from where it came in; or where the needle in the body "

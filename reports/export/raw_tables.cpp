@@ -120,7 +120,7 @@ const std::vector<Column<AttemptFacts>>& attempt_columns() {
        [](CsvLine& line, const Facts& f) { line.number(f.row->instrument.length_mm); }},
       {{"needle_radius_mm", "number", "mm", "", "the needle's outer radius"},
        [](CsvLine& line, const Facts& f) { line.number(f.row->instrument.radius_mm); }},
-      {{"throw_mm", "number", "mm", "no core needle", "the way the tip goes when fired"},
+      {{"throw_mm", "number", "mm", "no core needle", "how far the tip goes when fired"},
        [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.throw_mm); }},
       {{"notch_mm", "number", "mm", "no core needle", "length of the sample notch"},
        [](CsvLine& line, const Facts& f) { place(line, core(*f.row), f.row->instrument.notch_mm); }},

@@ -162,7 +162,7 @@ void add_line(Html& html, const char* kind, const glm::dvec2& from, const glm::d
 
 void add_plane(Html& html, const SheetPlane& plane, const Course& course) {
   const double side = plane.side_mm;
-  html.raw("<figure><svg role=\"img\" aria-label=\"").text(plane.name).raw(": the needle’s way\" viewBox=\"0 0 ");
+  html.raw("<figure><svg role=\"img\" aria-label=\"").text(plane.name).raw(": the needle’s path\" viewBox=\"0 0 ");
   html.text(mm(side)).raw(" ").text(mm(side)).raw("\">\n<image width=\"").text(mm(side)).raw("\" height=\"");
   html.text(mm(side)).raw("\" href=\"data:image/png;base64,").text(base64(plane.png)).raw("\"/>\n");
   add_segments(html, "skin", plane.skin, "skin");
@@ -196,7 +196,7 @@ void add_plane(Html& html, const SheetPlane& plane, const Course& course) {
 void add_planes(Html& html, const ReplaySheet& sheet) {
   if (sheet.planes.empty()) return;
   html.raw(
-      "<section aria-labelledby=\"way\"><h2 id=\"way\">The needle’s way in the body</h2>\n<div "
+      "<section aria-labelledby=\"way\"><h2 id=\"way\">The needle’s path in the body</h2>\n<div "
       "class=\"planes\">\n");
   bool planned = false;
   std::vector<std::string> names;
@@ -209,7 +209,7 @@ void add_planes(Html& html, const ReplaySheet& sheet) {
   html.raw(
       "</div>\n<p class=\"soft\"><span class=\"key\">tip seen</span> <span class=\"key no\">tip not seen</span> ");
   html.raw(
-      "The CT is cut through the target (circle); the way, and the needle as it ended (white), are projected "
+      "The CT is cut through the target (circle); the path, and the needle as it ended (white), are projected "
       "onto it. Pale line: skin.");
   if (sheet.attempt.row.picture.modality == cases::Modality::xray)
     html.raw(" Between exposures nothing is seen; to advance there, in small steps, is correct practice.");

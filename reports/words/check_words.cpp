@@ -11,7 +11,7 @@ struct Row {
 };
 constexpr Row kCheckLabels[] = {
     {"lesion_present", "Lesion"},           {"lesion_inside_body", "In the body"},
-    {"lesion_not_in_bone", "Not in bone"},  {"lesion_reachable", "Free way"},
+    {"lesion_not_in_bone", "Not in bone"},  {"lesion_reachable", "Free path"},
     {"entry_on_skin", "Entry on the skin"}, {"structure_in_volume", "Within the CT"},
     {"rule_present", "Pass rule"},          {"rule_meaningful", "Rule means something here"},
     {"rule_possible", "Rule can be met"},   {"burned_in_unchecked", "Text in the pictures"}};

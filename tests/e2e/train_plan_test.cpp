@@ -68,7 +68,7 @@ class TrainPlanTest : public testing::Test {
     ASSERT_NO_FATAL_FAILURE(trainee_->log_in("tina", kPassword));
     ASSERT_NO_FATAL_FAILURE(trainee_->open_first_case());
     trainee_->click("Look closer and plan (P)");
-    ASSERT_TRUE(comes("No way is planned yet")) << now();
+    ASSERT_TRUE(comes("No path is planned yet")) << now();
     ASSERT_TRUE(comes("in 3-D")) << now();
     keep("planning");
     ASSERT_NO_FATAL_FAILURE(
@@ -76,19 +76,19 @@ class TrainPlanTest : public testing::Test {
                                   {"Axial", "Coronal", "Sagittal", "in 3-D", "Entry (1)", "Tip (2)",
                                    "As proposed (3)", "No plan (Backspace)", "Back to the briefing (P)"}));
     trainee_->click("As proposed (3)");
-    ASSERT_TRUE(comes("Your way: ")) << now();
-    const double proposed_mm = number_in(says("Your way: "), "Your way: ");
+    ASSERT_TRUE(comes("Your path: ")) << now();
+    const double proposed_mm = number_in(says("Your path: "), "Your path: ");
     EXPECT_GT(proposed_mm, 10.0);
     // A click beside the axial picture's middle is another tip, further in than the entry's own plane.
     trainee_->press("2");
     trainee_->click("Axial", 0.55, 0.6);
     ASSERT_TRUE(fixtures::until([&] {
-      return std::abs(number_in(says("Your way: "), "Your way: ") - proposed_mm) > 1.0;
+      return std::abs(number_in(says("Your path: "), "Your path: ") - proposed_mm) > 1.0;
     })) << now();
     trainee_->press("BackSpace");
-    ASSERT_TRUE(comes("No way is planned yet")) << now();
+    ASSERT_TRUE(comes("No path is planned yet")) << now();
     trainee_->press("3");
-    ASSERT_TRUE(fixtures::until([&] { return number_in(says("Your way: "), "Your way: ") == proposed_mm; }))
+    ASSERT_TRUE(fixtures::until([&] { return number_in(says("Your path: "), "Your path: ") == proposed_mm; }))
         << now();
     keep("planned");
     planned_mm_ = proposed_mm;

@@ -121,7 +121,7 @@ TEST_F(TrainRoomTest, WhatIsSaidShowsThatItIsDoneAndWhatItDid) {
   EXPECT_TRUE(comes("no blood comes")) << now();
   EXPECT_TRUE(says("✓ F4").empty());
   press("F4");
-  EXPECT_TRUE(comes("Numb: skin and way, 15 mm about where the needle points (15 mm from its tip)")) << now();
+  EXPECT_TRUE(comes("Numb: skin and path, 15 mm about where the needle points (15 mm from its tip)")) << now();
   EXPECT_TRUE(comes("✓ F4"));
   press("F6");
   EXPECT_TRUE(comes("nicked where the needle points")) << now();

@@ -62,13 +62,13 @@ std::string numb_words(const engine::Moment& moment) {
       skin.in_body
           ? "where the needle went in"
           : "where the needle points (" + whole_mm(glm::distance(place_lps_mm, skin.tip_lps_mm)) + " from its tip)";
-  return "Numb: skin and way, " + whole_mm(engine::kNumbMm) + " about " + where + ".";
+  return "Numb: skin and path, " + whole_mm(engine::kNumbMm) + " about " + where + ".";
 }
 
 std::string guide_words(const Seen& seen, cases::Modality modality) {
   if (modality == cases::Modality::xray) return "No needle guide here: it is mounted on an ultrasound probe.";
   if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle, and leads it freely.";
-  if (seen.in_guide) return "The needle is in its guide: its way lies between the dotted lines in the picture.";
+  if (seen.in_guide) return "The needle is in its guide: its path lies between the dotted lines in the picture.";
   if (seen.guided) return "Needle guide on: the needle is brought to it; G puts it aside.";
   if (seen.inserted) return "The needle is free. It is in tissue: draw it out before G brings it to its guide.";
   return "Needle guide off: the needle is free.";

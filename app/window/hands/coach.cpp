@@ -35,7 +35,7 @@ std::string align_words(const cases::Case& scene, const Seen& seen, bool numbers
   const cases::State& state = seen.moment.state;
   const glm::dvec3& target = scene.lesions.front().center_lps_mm;
   if (!numbers || !scene.planned_entry_lps_mm)
-    return "Turn the probe until the needle’s way and the target lie in one picture, then aim the needle.";
+    return "Turn the probe until the needle’s path and the target lie in one picture, then aim the needle.";
   const glm::dvec3& entry = *scene.planned_entry_lps_mm;
   const double aside_mm = std::abs(glm::dot(target - state.probe.origin_lps_mm, state.probe.lateral));
   if (aside_mm > kMiddleMm)
@@ -74,7 +74,7 @@ std::string advance_words(const cases::Case& scene, const Seen& seen, bool numbe
   if (!seen.frame->target) return "Go on only while tip and target are both in the picture.";
   if (!numbers) return "Push on slowly while the picture shows the tip. In the target: Space.";
   if (beside_mm > kPassedShare * target.radius_mm && left_mm > target.radius_mm)
-    return told("The needle’s way passes the target’s middle by %.1f mm: draw back to the skin and aim again.",
+    return told("The needle’s path passes the target’s middle by %.1f mm: draw back to the skin and aim again.",
                 beside_mm);
   if (left_mm > kThereShare * target.radius_mm) return told("Push on: %.1f mm to the target’s middle.", left_mm);
   if (left_mm < -kThereShare * target.radius_mm) return told("Draw back: %.1f mm too deep.", -left_mm);

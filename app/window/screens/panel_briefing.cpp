@@ -95,7 +95,7 @@ void draw_plan(const session::Task& task) {
                      reports::number_text(depth_mm, 0) + " mm below the nearest skin");
   const auto way = session::planned_way(task.scene);
   if (!way) return;
-  fact("Proposed way", way_words(*way));
+  fact("Proposed path", way_words(*way));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ void DevicePanel::draw_gains(Trainer& trainer) {
     done = done || ImGui::IsItemDeactivatedAfterEdit();
     return moved;
   };
-  bool moved = slider("way of the tool", motion, static_cast<float>(devices::kLeastMotionScale),
+  bool moved = slider("travel of the tool", motion, static_cast<float>(devices::kLeastMotionScale),
                       static_cast<float>(devices::kMostMotionScale), "%.2f × the hand's");
   moved = slider("force", share, 0.0F, static_cast<float>(100.0 * devices::kMostForceShare), "%.0f %%") || moved;
   moved = slider("most force", most, 0.0F, static_cast<float>(devices::kMostForceN), "%.1f N") || moved;
@@ -86,10 +86,9 @@ void DevicePanel::draw_gains(Trainer& trainer) {
       devices::usable_share(gains, gains.motion_scale * device.calibration.template_from_device.scale);
   if (usable < gains.force_share) {
     char words[120];
-    std::snprintf(
-        words, sizeof words,
-        "So that the hand comes to rest, a way of the tool that is longer has a force of %.0f %% at most.",
-        100.0 * usable);
+    std::snprintf(words, sizeof words,
+                  "So that the hand comes to rest, a longer travel of the tool has at most %.0f %% of the force.",
+                  100.0 * usable);
     quiet(words);
   }
   if (!done || !gains_) return;

@@ -256,8 +256,8 @@ void PlanningPanel::draw_small(const Trainer& trainer, const std::shared_ptr<con
   ImGui::EndGroup();
   ImGui::PopStyleVar();
   std::string legend =
-      task->scene.planned_entry_lps_mm ? "Green: the target and the way that is proposed." : "Green: the target.";
-  if (trainer.plan()) legend += " Yellow: your own way.";
+      task->scene.planned_entry_lps_mm ? "Green: the target and the proposed path." : "Green: the target.";
+  if (trainer.plan()) legend += " Yellow: your own path.";
   if (!task->scene.structures.empty()) legend += " Red: critical structures; orange: major ones.";
   quiet(legend.c_str());
 }
@@ -313,18 +313,18 @@ void PlanningPanel::draw_words(Trainer& trainer, const session::Task& task) {
   }
   if (!way_) {
     ImGui::TextWrapped(
-        "No way is planned yet: click where the needle is to go in (1), then where its tip is to be "
+        "No path is planned yet: click where the needle is to go in (1), then where its tip is to be "
         "when it is fired (2).");
-    note_item("No way is planned yet");
+    note_item("No path is planned yet");
   } else {
-    const std::string words = "Your way: " + way_words(*way_) + ".";
+    const std::string words = "Your path: " + way_words(*way_) + ".";
     ImGui::TextWrapped("%s", words.c_str());
     note_item(words.c_str());
     std::string against;
     for (const std::string& one : warnings_of(*way_)) against += (against.empty() ? "It goes " : "; ") + one;
     ImGui::PushStyleColor(ImGuiCol_Text,
                           against.empty() ? ImVec4(0.45F, 0.85F, 0.55F, 1.0F) : ImVec4(0.96F, 0.58F, 0.40F, 1.0F));
-    against = against.empty() ? "Nothing is in its way that it has to keep out of." : against + ".";
+    against = against.empty() ? "It meets nothing that it has to keep out of." : against + ".";
     ImGui::TextWrapped("%s", against.c_str());
     ImGui::PopStyleColor();
     note_item(against.c_str());

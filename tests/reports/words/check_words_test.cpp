@@ -7,7 +7,7 @@ namespace seldinger::reports {
 namespace {
 
 TEST(CheckWordsTest, NoIdIsLeft) {
-  EXPECT_EQ(check_label("lesion_reachable"), "Free way");
+  EXPECT_EQ(check_label("lesion_reachable"), "Free path");
   EXPECT_EQ(check_label("rule_possible"), "Rule can be met");
   EXPECT_EQ(check_label("of_tomorrow"), "of tomorrow");
   EXPECT_EQ(check_words({"rule_possible", false, "contradictory: the one and the other"}), "the one and the other");

@@ -34,9 +34,9 @@ TEST(ActWords, OfAnAnaestheticTellTheNewestPlace) {
   moment.state.needle.skin.tip_lps_mm = {0.0, 0.0, 0.0};
   moment.numbed = 5;  // the fifth lies where the first did
   moment.numb_lps_mm = {glm::dvec3{0.0, 12.0, 0.0}, {0.0, 80.0, 0.0}, {0.0, 81.0, 0.0}, {0.0, 82.0, 0.0}};
-  EXPECT_EQ(numb_words(moment), "Numb: skin and way, 15 mm about where the needle points (12 mm from its tip).");
+  EXPECT_EQ(numb_words(moment), "Numb: skin and path, 15 mm about where the needle points (12 mm from its tip).");
   moment.state.needle.skin.in_body = true;
-  EXPECT_EQ(numb_words(moment), "Numb: skin and way, 15 mm about where the needle went in.");
+  EXPECT_EQ(numb_words(moment), "Numb: skin and path, 15 mm about where the needle went in.");
 }
 
 TEST(ActWords, OfAGuideSayWhyThereIsNone) {
