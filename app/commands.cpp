@@ -68,6 +68,7 @@ namespace seldinger::app {
   ROW(user_level)               \
   ROW(user_disable)             \
   ROW(user_enable)              \
+  ROW(user_unlock)              \
   ROW(user_role)                \
   ROW(user_fact)                \
   ROW(user_erase)               \

@@ -69,6 +69,7 @@ constexpr std::string_view kLines[] = {
     "user role rita --role researcher",
     "user disable intermediate",
     "user enable intermediate",
+    "user unlock novice",
     "user erase intermediate",
     "login dora --password-file password.txt",
     "logout",

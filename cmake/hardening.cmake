@@ -1,6 +1,8 @@
 # What makes a fault in memory an end instead of a way in, for what is shipped: Release, by gcc or clang. tests/repo
 # reads it back from the built programs. Sanitizers have checks of their own in the same places.
-if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT SELDINGER_SANITIZE)
+# OFF only to measure what it costs (tests/bench/hardening.sh).
+option(SELDINGER_HARDENED "Compile and link Release as it is shipped" ON)
+if(CMAKE_BUILD_TYPE STREQUAL Release AND NOT SELDINGER_SANITIZE AND SELDINGER_HARDENED)
   # FORTIFY 3: lengths of copies and formats, also where the room is known at run time only (gcc 12, glibc 2.35).
   target_compile_options(seldinger_options INTERFACE -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3 -fstack-protector-strong
                                                     -fstack-clash-protection)

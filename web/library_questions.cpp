@@ -9,6 +9,7 @@
 #include <span>
 
 #include "casedb/database/credentials.h"
+#include "casedb/people/noted_tries.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {
@@ -55,6 +56,17 @@ class LibraryQuestions final : public Questions {
   void log_out(const std::string& person_id) override {
     const std::lock_guard lock(changes_.mutex);
     casedb::log_out(changes_.library, person_id);
+  }
+
+  void let_in_again(const std::string& admin_id, const std::string& name) override {
+    const std::lock_guard lock(changes_.mutex);
+    const ActingFor admin(changes_.library, admin_id);
+    static_cast<void>(casedb::let_in_again(changes_.library, name));  // an account that has gone meanwhile
+  }
+
+  std::int64_t last_let_in_again(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::last_let_in_again(pages_.library, person_id);
   }
 
   std::optional<casedb::Account> find_account(const std::string& person_id) override {

@@ -37,6 +37,9 @@ class Questions {
 
   virtual std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) = 0;
   virtual void log_out(const std::string& person_id) = 0;  // kept in the audit log
+  // By an admin: kept in the audit log, for other programs of this library too.
+  virtual void let_in_again(const std::string& admin_id, const std::string& name) = 0;
+  virtual std::int64_t last_let_in_again(const std::string& person_id) = 0;  // as casedb does
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
 

@@ -74,14 +74,6 @@ std::string field(const Call& call, const std::string& name) {
   return found == call.form.end() ? "" : found->second;
 }
 
-// Whose name it is; empty: nobody's.
-std::string account_id(Site& site, const std::string& name) {
-  const std::string folded = casedb::folded_name(name);
-  for (const casedb::Account& one : site.questions.list_accounts())
-    if (casedb::folded_name(one.login_name) == folded) return one.person_id;
-  return {};
-}
-
 Response log_in(Site& site, const Call& call) {
   const std::string token = site.login_token(cookie(call.request, site.cookies.before_login));
   if (token.empty() || !equal_in_constant_time(field(call, "token"), token)) {
@@ -89,8 +81,8 @@ Response log_in(Site& site, const Call& call) {
   }
   const std::string name = field(call, "name");
   const std::string place = site.place_of(call.request, name);
-  if (const std::int64_t wait_s = site.delays.begin(name, place, site.surroundings.now_us()); wait_s > 0) {
-    site.security.note("log-in delayed", call.request.from, account_id(site, name));
+  if (const std::int64_t wait_s = site.wait_before_log_in_s(name, place); wait_s > 0) {
+    site.security.note("log-in delayed", call.request.from, site.account_id(name));
     Response response =
         login_form(site, call, 429, "Too many tries. Try again in " + std::to_string(wait_s) + " s.");
     response.headers.emplace_back("Retry-After", std::to_string(wait_s));
@@ -105,7 +97,7 @@ Response log_in(Site& site, const Call& call) {
     throw;
   }
   if (!account.has_value() || !account->enabled) {
-    site.security.note("log-in failed", call.request.from, account_id(site, name));
+    site.security.note("log-in failed", call.request.from, site.account_id(name));
     return login_form(site, call, 403, "Name and password do not fit.");
   }
   site.delays.forget(name, place);
@@ -456,6 +448,12 @@ Response let_in_again(Site& site, const Call& call) {
   if (!account) return refusal(404, call.reader);
   site.delays.forget(account->login_name);
   site.security.note("let in again by an admin", call.request.from, account->person_id);
+  try {
+    site.questions.let_in_again(call.reader->account.person_id, account->login_name);
+    site.delays.heed(account->login_name, site.questions.last_let_in_again(account->person_id));
+  } catch (const base::Failure& failure) {  // they are in, whatever becomes of the library
+    site.log_fault(failure.code() + ": that somebody was let in again is not in the audit log");
+  }
   return redirect("/log-ins");
 }
 
@@ -513,7 +511,7 @@ constexpr Route kRoutes[] = {
      "who is in which cohort, and what they did together", list_cohorts},
     {"GET", "/log-ins", Action::let_in_again, true, "", "who has to wait before the next try", show_log_ins},
     {"POST", "/log-ins", Action::let_in_again, true, "", "lets somebody try again at once: person, token",
-     let_in_again},
+     let_in_again, Lane::changes},
     {"GET", "/me", Action::answer_consent, true, kSelf, "consent, facts, deletion", show_me},
     {"POST", "/me/consent", Action::answer_consent, true, kSelf, "gives or withdraws: text, answer, delete, token",
      answer_consent, Lane::changes},

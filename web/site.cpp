@@ -95,6 +95,23 @@ std::string Site::place_of(const Request& request, const std::string& name) {
   return "address " + request.from;
 }
 
+std::string Site::account_id(const std::string& name) {
+  const std::string folded = casedb::folded_name(name);
+  for (const casedb::Account& one : questions.list_accounts())
+    if (casedb::folded_name(one.login_name) == folded) return one.person_id;
+  return {};
+}
+
+std::int64_t Site::wait_before_log_in_s(const std::string& name, const std::string& place) {
+  const std::int64_t now_us = surroundings.now_us();
+  const std::int64_t wait_s = delays.begin(name, place, now_us);
+  if (wait_s == 0) return 0;
+  const std::string person_id = account_id(name);
+  const std::int64_t let_in = questions.last_let_in_again(person_id);  // asked of nobody's name too
+  if (person_id.empty() || !delays.heed(name, let_in)) return wait_s;
+  return delays.begin(name, place, now_us);
+}
+
 Lane Site::lane_of(const Request& request) {
   const Lane lane = web::lane_of(request);
   if (lane == Lane::pages || lane == Lane::log_in) return lane;

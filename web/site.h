@@ -55,6 +55,9 @@ class Site {
   std::string known_browser(const std::string& name) const;
   // Where this request tries to log in from under this name.
   std::string place_of(const Request& request, const std::string& name);
+  std::string account_id(const std::string& name);  // empty: nobody has that name
+  // As LoginDelays::begin; whom a command let in again meanwhile need not wait (casedb/people/noted_tries.h).
+  std::int64_t wait_before_log_in_s(const std::string& name, const std::string& place);
   // Which threads answer it. What needs a session and has none is only refused, as pages are.
   Lane lane_of(const Request& request);
   // Logs what happened (no patient data, no names) under an id, which the page carries.

@@ -11,6 +11,7 @@
 #include "app/cli/words.h"
 #include "casedb/database/credentials.h"
 #include "casedb/people/login_session.h"
+#include "casedb/people/noted_tries.h"
 
 namespace seldinger::app {
 namespace {
@@ -36,10 +37,10 @@ base::Result<std::optional<Account>> by_password(casedb::Library& library, const
   if (!arguments.has("--password-file")) return std::optional<Account>();
   auto password = read_password_of(arguments.text("--password-file"));
   if (!password) return error_of("--password-file", arguments.text("--password-file"), password.error());
-  auto account = casedb::log_in(library, arguments.required("--by"), *password);
+  auto account = casedb::log_in_by_command(library, arguments.required("--by"), *password);
   casedb::wipe(*password);
-  if (!account) return base::Error{"bad_log_in", "name or password is not right"};
-  return account;
+  if (!account) return account.error();
+  return std::optional(std::move(*account));
 }
 
 // By a session: of the file that is named, or of the usual one where that is the session of --by. Whoever does not

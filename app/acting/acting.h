@@ -24,7 +24,7 @@ base::Result<casedb::Library> open_library(const Arguments& arguments);
 
 // The same to act in; it then acts for the person of --by who has given their password or has a session, else for
 // the operator: the operating system's account `uid` that owns the library, or root. Refused as open_library, and
-// `bad_log_in`, `no_session`, `bad_token_file`, `not_proven` (neither proof nor owner).
+// `bad_log_in`, `too_many_tries`, `no_session`, `bad_token_file`, `not_proven` (neither proof nor owner).
 base::Result<casedb::Library> open_acting(const Arguments& arguments, WhereNone where_none = WhereNone::refuse,
                                           uid_t uid = ::geteuid());
 

@@ -9,6 +9,7 @@
 #include "app/cli/command.h"
 #include "casedb/database/credentials.h"
 #include "casedb/people/login_session.h"
+#include "casedb/people/noted_tries.h"
 
 namespace seldinger::app {
 namespace {
@@ -23,9 +24,9 @@ int run_login(const Arguments& arguments) {
   if (!library) return refuse(library.error());
   auto password = read_password_of(arguments.text("--password-file", "-"));
   if (!password) return refuse(password.error());
-  const auto account = casedb::log_in(*library, arguments.positional(0), *password);
+  const auto account = casedb::log_in_by_command(*library, arguments.positional(0), *password);
   casedb::wipe(*password);
-  if (!account) return refuse({"bad_log_in", "name or password is not right"});
+  if (!account) return refuse(account.error());
   std::string token = casedb::begin_login_session(*library, *account);
   try {
     write_token(token_file(arguments, *library), token);

@@ -41,6 +41,14 @@ int run_backup(const Arguments& arguments) {
 int run_restore(const Arguments& arguments) {
   const auto copied = casedb::restore(arguments.positional(0), library_folder(arguments));
   if (!copied) return refuse(error_of("IN", arguments.positional(0), copied.error()));
+  try {
+    auto library = casedb::Library::open(library_folder(arguments));
+    if (!library) throw base::Failure("database", "the restored library cannot be opened");
+    casedb::audit_alone(*library, casedb::Act::restore);
+  } catch (...) {
+    std::filesystem::remove_all(library_folder(arguments));  // it was made just now; nothing comes back unnoted
+    throw;
+  }
   print_copied(arguments, "restored", *copied);
   return kDone;
 }

@@ -1,4 +1,4 @@
-// user add, list, passwd, level, role, disable, enable.
+// user add, list, passwd, level, role, disable, enable, unlock.
 #include <cstdio>
 
 #include "app/acting/acting.h"
@@ -6,6 +6,7 @@
 #include "app/attempts/answers_json.h"
 #include "app/cli/command.h"
 #include "casedb/database/credentials.h"
+#include "casedb/people/noted_tries.h"
 
 namespace seldinger::app {
 namespace {
@@ -101,6 +102,14 @@ int enable(const Arguments& arguments, bool enabled) {
   return done ? kDone : refuse(done.error());
 }
 
+int run_user_unlock(const Arguments& arguments) {
+  auto library = open_acting(arguments);
+  if (!library) return refuse(library.error());
+  if (const auto by = acting(*library, arguments, casedb::Action::let_in_again); !by) return refuse(by.error());
+  const auto done = casedb::let_in_again(*library, arguments.positional(0));
+  return done ? kDone : refuse(done.error());
+}
+
 constexpr Option kLevelOption{"--level", "student|trainee|consultant",
                               "who somebody is from now on: attempts of consultants set the standard"};
 
@@ -169,6 +178,19 @@ Command user_enable_command() {
           .acts = true,
           .summary = "Opens an account again.",
           .run = [](const Arguments& arguments) { return enable(arguments, true); }};
+}
+
+Command user_unlock_command() {
+  return {.name = "user unlock",
+          .positionals = "NAME",
+          .min_positionals = 1,
+          .max_positionals = 1,
+          .options = kLibraryOnly,
+          .acts = true,
+          .summary =
+              "Lets somebody log in again at once whom wrong passwords delay, here, on the dashboard and at a "
+              "window.",
+          .run = &run_user_unlock};
 }
 
 Command user_role_command() {

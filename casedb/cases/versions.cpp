@@ -53,10 +53,12 @@ void decide(Library& library, const Wish& wish, DecisionKind kind, const std::st
   audit(library, kActOf[static_cast<std::size_t>(kind)], {"case", wish.row.case_id});
 }
 
-// A refusal of the table of permissions is kept, once the transaction of what was refused is over.
+// A decision that was refused is kept, once the transaction of what was refused is over: of a case that there is,
+// by somebody who there is.
 template <typename T>
 T kept(Library& library, DecisionKind kind, const std::string& case_id, T result) {
-  if (!result && result.error().code == "not_allowed")
+  if (!result && result.error().code != "bad_note" && result.error().code != "no_user" &&
+      find_case(library, case_id))
     audit_alone(library, kActOf[static_cast<std::size_t>(kind)], {"case", case_id}, Outcome::refused);
   return result;
 }

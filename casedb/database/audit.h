@@ -26,6 +26,7 @@ enum class Act {
   set_level,
   enable_account,
   disable_account,
+  let_in_again,
   unproven,     // --by a name without a password or a session
   not_allowed,  // the table of permissions refused; the object is the action
   comment_attempt,
@@ -77,6 +78,7 @@ enum class Act {
   trust_key,
   distrust_key,
   back_up,
+  restore,
   erase_person,
   erase_attempts,
   erase_case,

@@ -275,7 +275,8 @@ std::optional<Account> log_in(Library& library, const std::string& name, const s
   const bool fits = verify_password(hash, password);
   const Object of_whom = account.person_id.empty() ? Object{} : Object{"person", account.person_id};
   if (!fits || account.person_id.empty() || !account.enabled) {
-    audit_log_in(library, Actor::nobody(), of_whom, Outcome::refused);
+    const Actor tried = library.actor().is_operator() ? library.actor() : Actor::nobody();
+    audit_log_in(library, tried, of_whom, Outcome::refused);
     return std::nullopt;
   }
   if (needs_rehash(hash)) {

@@ -49,6 +49,13 @@ bool has_respondent(Library& library, const std::string& round_id, const std::st
   return row.bind("round_id", round_id).bind("respondent", respondent).step();
 }
 
+// Whoever has a code needs no account: what they can make the library hold is bounded.
+bool is_full(Library& library, const Round& round) {
+  Statement row = question(library.database(), "sets_begun_in_round");
+  CHECK(row.bind("round_id", round.round_id).step());
+  return row.integer("begun") >= static_cast<std::int64_t>(kMostBegunOnPages);
+}
+
 const StoredForm& in_language(const std::vector<StoredForm>& forms, const std::string& language) {
   const auto found = std::find_if(forms.begin(), forms.end(),
                                   [&](const StoredForm& one) { return one.form.language == language; });
@@ -168,6 +175,8 @@ base::Result<std::string> begin_response(Library& library, const std::string& co
   const auto round = open_round_of(library, code);
   if (!round) return round.error();
   if (const auto fit = check_respondent(library, *round, respondent); !fit) return fit.error();
+  if (is_full(library, *round))
+    return base::Error{"round_full", "so many have begun to answer in this round that it takes no more"};
   const auto forms = find_forms(library, round->form_id, round->version);
   if (!forms) return forms.error();
   std::array<std::byte, 32> random{};

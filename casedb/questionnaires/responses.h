@@ -33,8 +33,11 @@ struct Respondent {
   std::string language{};  // empty, or none of the form's: the first
 };
 
+inline constexpr std::size_t kMostBegunOnPages = 2000;  // in a round, sent or not
+
 // A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`,
-// `round_closed`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or begun in this round).
+// `round_closed`, `round_full`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or begun in this
+// round).
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent);
 // `no_draft`: there is none, or it was submitted.
 base::Result<Draft> find_draft(Library& library, const std::string& secret);

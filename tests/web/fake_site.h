@@ -36,6 +36,15 @@ class FakeQuestions final : public Questions {
     const std::lock_guard lock(mutex);
     logged_out.push_back(person_id);
   }
+  void let_in_again(const std::string&, const std::string& name) override {
+    const std::lock_guard lock(mutex);
+    let_in.push_back(name);
+  }
+  std::int64_t last_let_in_again(const std::string& person_id) override {
+    const std::lock_guard lock(mutex);
+    const auto found = unlocked.find(person_id);
+    return found == unlocked.end() ? 0 : found->second;
+  }
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
     for (const casedb::Account& account : list_accounts()) {
       if (account.person_id == person_id) return account;
@@ -170,7 +179,8 @@ class FakeQuestions final : public Questions {
   casedb::Erased erased;
   reports::AboutMe about_me;
   std::string asked_about;
-  std::vector<std::string> logged_out;
+  std::vector<std::string> logged_out, let_in;
+  std::map<std::string, std::int64_t> unlocked;  // by person, as the audit log numbers it
   std::vector<std::string> done;                 // what was changed, in words
   std::vector<casedb::AttemptRow> attempts;      // newest first
   std::vector<casedb::CaseRow> cases;            // oldest first

@@ -252,8 +252,21 @@ TEST_F(LoginTest, AnAdminLetsSomebodyTryAgainAtOnce) {
   const std::string token = form_token(page, "/log-ins");
   EXPECT_EQ(admin.post("/log-ins", "person=nobody&token=" + token).status, 404);
   EXPECT_EQ(admin.post("/log-ins", "person=person-of-mentor&token=" + token).status, 303);
+  EXPECT_THAT(fake.questions.let_in, testing::ElementsAre("mentor"));
   EXPECT_EQ(browser.log_in_as(Role::mentor).status, 303);
   EXPECT_THAT(admin.get("/log-ins").body, HasSubstr("Nobody has to wait now."));
+}
+
+// Was: only this server's own page let anybody in again, and no log that stays told of it.
+TEST_F(LoginTest, WhomACommandLetsInAgainIsInOnceMore) {
+  for (int i = 0; i < 7; ++i) browser.log_in("mentor", "wrong-password");
+  fake.questions.unlocked["person-of-trainee"] = 40;
+  ASSERT_EQ(browser.log_in_as(Role::mentor).status, 429);
+  fake.questions.unlocked["person-of-mentor"] = 41;  // `seldinger user unlock`
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(browser.log_in("mentor", "wrong-password").status, 403) << i;
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 429) << "it is heeded once";
+  fake.questions.unlocked["person-of-mentor"] = 47;
+  EXPECT_EQ(browser.log_in_as(Role::mentor).status, 303);
 }
 
 // Was: no line at all of any of it.

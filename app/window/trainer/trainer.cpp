@@ -8,6 +8,7 @@
 #include "casedb/cases/changeable_case.h"
 #include "casedb/grading/expert_replay.h"
 #include "casedb/keeping/erase.h"
+#include "casedb/people/noted_tries.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {
@@ -30,7 +31,12 @@ Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
 void Trainer::log_in(const std::string& name, const std::string& password) {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-  if (const auto wait_s = delays_.begin(name, kThisStation, now_us); wait_s > 0) {
+  auto wait_s = delays_.begin(name, kThisStation, now_us);
+  if (wait_s > 0)
+    if (const auto account = casedb::open_account(library_, name);
+        account && delays_.heed(name, casedb::last_let_in_again(library_, account->person_id)))
+      wait_s = delays_.begin(name, kThisStation, now_us);
+  if (wait_s > 0) {
     refusal_ = "Too many tries. Try again in " + std::to_string(wait_s) + " s.";
     return;
   }

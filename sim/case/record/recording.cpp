@@ -166,8 +166,20 @@ bool has_its_size(const Header& header, const ChunkLayout& layout, std::size_t b
   return bytes == size_of_header(header.format) + 8 * words;
 }
 
-// Adds what a chunk holds. `first`: nothing was added before it.
-base::Result<void> add_chunk(const RecordingChunk& chunk, const std::string& where, bool first,
+// Room for all rows of a recording that goes on as its first chunk begins, so that they are not moved as they come:
+// that cost a page of an attempt a fifth of its time.
+void make_room(const Header& first, std::size_t chunks, Recording& recording) {
+  constexpr std::size_t kMostRoom = 300'000;  // rows: five minutes at 1 kHz
+  const auto room = [&](std::uint32_t rows) { return std::min(rows * chunks, kMostRoom); };
+  recording.inputs.reserve(room(first.inputs));
+  recording.hashes.reserve(room(first.inputs));
+  recording.poses.reserve(room(first.poses));
+  recording.forces.reserve(room(first.forces));
+  recording.frames.reserve(room(first.frames));
+}
+
+// Adds what a chunk of so many holds. `first`: nothing was added before it.
+base::Result<void> add_chunk(const RecordingChunk& chunk, std::size_t chunks, const std::string& where, bool first,
                              Recording& recording) {
   const auto raw = base::decompress(chunk.data, std::size_t{kMaxRows} * 8 * (kMaxInputColumns + kMaxPoseColumns));
   if (!raw) return base::Error{"damaged", where + " cannot be read"};
@@ -176,6 +188,7 @@ base::Result<void> add_chunk(const RecordingChunk& chunk, const std::string& whe
   const ChunkLayout layout = layout_of(*header);
   if (!has_its_size(*header, layout, raw->size())) return base::Error{"damaged", where + " has a wrong size"};
 
+  if (first) make_room(*header, chunks, recording);
   // What all chunks of a recording share.
   if (!first && (header->step_version != recording.step_version || header->dt_s != recording.dt_s ||
                  layout.listened != recording.events.has_value()))
@@ -255,7 +268,7 @@ base::Result<Recording> recording_from_chunks(std::span<const RecordingChunk> ch
     if (chunks[i].sequence != i) return base::Error{"incomplete", where + " is missing"};
     if (chunks[i].checksum != base::hash_bytes(chunks[i].data))
       return base::Error{"damaged", where + " does not have its checksum"};
-    const auto added = add_chunk(chunks[i], where, i == 0, recording);
+    const auto added = add_chunk(chunks[i], chunks.size(), where, i == 0, recording);
     if (!added) return added.error();
   }
   return recording;

@@ -203,6 +203,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"user role", {"trainee", "--role", "mentor"}, Action::manage_accounts},
       {"user disable", {"trainee"}, Action::manage_accounts},
       {"user enable", {"trainee"}, Action::manage_accounts},
+      {"user unlock", {"trainee"}, Action::let_in_again},
       {"user fact", {"trainee", "confidence", "4"}, Action::answer_consent, {}, true},
       {"user erase", {"trainee"}, Action::erase_person},
       // Before, a director did all of this in any programme, and so came to see anybody by name.
@@ -390,6 +391,36 @@ TEST_F(ActingTest, WhoDoesNotOwnTheLibraryNeedsAProof) {
   ASSERT_EQ(::stat((library_ / casedb::kDatabaseFile).c_str(), &about), 0);
   EXPECT_TRUE(
       open_acting(Arguments(command, {draft_, "--library", library_.string()}), WhereNone::refuse, about.st_uid));
+}
+
+// Was: a loop around `login` or --password-file tried as many passwords as are hashed.
+TEST_F(ActingTest, WrongPasswordsDelayCommandsUntilSomebodyIsLetInAgain) {
+  const std::string right = std::string(kPassword) + "\n";
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(call("login", {"mentor"}, "wrong password\n").code, "bad_log_in");
+  const std::vector<std::string> review = {draft_, "--by", "mentor", "--password-file", "-"};
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(call("case review", review, "wrong password\n").code, "bad_log_in");
+  EXPECT_EQ(call("login", {"mentor"}, right).code, "too_many_tries");
+  EXPECT_EQ(call("case review", review, right).code, "too_many_tries");
+  EXPECT_EQ(call("user unlock", {"mentor", "--by", "director"}).code, "not_allowed");
+  EXPECT_EQ(call("user unlock", {"nobody"}).code, "no_user");
+  EXPECT_EQ(call("login", {"director"}, right).exit_code, kDone) << "another name does not wait";
+  ASSERT_EQ(call("user unlock", {"mentor", "--by", "admin"}).exit_code, kDone);
+  EXPECT_EQ(last_row().act, "let_in_again");
+  EXPECT_EQ(call("login", {"mentor"}, right).exit_code, kDone);
+}
+
+// Was: a library came from a backup without a word in its log.
+TEST_F(ActingTest, ARestoreIsInTheLogOfWhatItMade) {
+  library_ = folder_ / "sound";  // the other one was changed past the program
+  static_cast<void>(casedb::open_library(library_));
+  ASSERT_EQ(call("backup", {(folder_ / "monday").string()}).exit_code, kDone);
+  library_ = folder_ / "again";
+  ASSERT_EQ(call("restore", {(folder_ / "monday").string()}).exit_code, kDone);
+  EXPECT_EQ(last_row().act, "restore");
+  EXPECT_EQ(last_row().actor, "operator");
+  EXPECT_EQ(call("check", {}).exit_code, kDone);
+  EXPECT_EQ(call("restore", {(folder_ / "monday").string()}).code, "exists");
+  EXPECT_TRUE(fs::exists(library_ / casedb::kDatabaseFile));
 }
 
 TEST_F(ActingTest, LogInKeepsATokenThatOnlyItsOwnerReads) {

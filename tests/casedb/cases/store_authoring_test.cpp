@@ -6,6 +6,7 @@
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/structure_json.h"
 #include "casedb/cases/versions.h"
+#include "casedb/database/audit.h"
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "tests/casedb/library_samples.h"
@@ -317,6 +318,30 @@ TEST_F(AuthoringTest, AnAttemptFreezesWhatItWasMadeOn) {
   refuse("UPDATE structure SET hu = 1");
   refuse("DELETE FROM structure");
   EXPECT_EQ(code(add_lesion(library_, case_id_, sample_lesion())), "none") << "another target changes none";
+}
+
+// Was: kept only when the role was the reason.
+TEST_F(AuthoringTest, EachRefusedDecisionIsKept) {
+  add_users();
+  const auto kept = [&] {
+    const auto rows = list_audit(library_);
+    return rows.back().act + " " + rows.back().object_id + " " + rows.back().result;
+  };
+  EXPECT_EQ(code(judge_case(library_, case_id_, "ben", true)), "bad_state");
+  EXPECT_EQ(kept(), "approve_case " + case_id_ + " refused");
+  EXPECT_EQ(code(retire_case(library_, case_id_, "dora")), "not_allowed");
+  EXPECT_EQ(kept(), "retire_case " + case_id_ + " refused");
+  static_cast<void>(add_lesion(library_, case_id_, sample_lesion()).value());
+  ASSERT_TRUE(submit_case(library_, case_id_, "ann"));
+  ASSERT_TRUE(judge_case(library_, case_id_, "ben", true));
+  EXPECT_EQ(code(publish("dora", false)), "burned_in_unchecked");
+  EXPECT_EQ(kept(), "publish_case " + case_id_ + " refused");
+  // Neither of a case that there is not, nor by nobody, nor what was only typed.
+  const std::size_t rows = list_audit(library_).size();
+  EXPECT_EQ(code(retire_case(library_, "no such id, but typed", "dora")), "no_case");
+  EXPECT_EQ(code(submit_case(library_, case_id_, "nobody")), "no_user");
+  EXPECT_EQ(code(submit_case(library_, case_id_, "ann", "two\nlines")), "bad_note");
+  EXPECT_EQ(list_audit(library_).size(), rows);
 }
 
 TEST_F(AuthoringTest, FromDraftToPublishedBySecondPerson) {

@@ -2,6 +2,7 @@
 // crash, never much more memory than an honest one takes.
 #include <sqlite3.h>
 
+#include "casedb/import/jail/confine.h"
 #include "casedb/import/jail/jail.h"
 #include "casedb/keeping/bundle.h"
 #include "casedb/keeping/check.h"
@@ -80,6 +81,10 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
     const double start_s = fixtures::cpu_s();
     ASSERT_LE(most_bytes(file, code), bound) << "round " << round << ", kind " << kind;
     ASSERT_LT(fixtures::cpu_s() - start_s, 20.0) << "round " << round;
+    if (kConfines) {  // a sanitizer keeps what was freed
+      ASSERT_LE(last_jail_use().peak_bytes, 2 * last_jail_use().announced_bytes + kJailSpareBytes)
+          << "round " << round << ", kind " << kind;
+    }
     outcomes.add(check_bundle(file));
     if (code != "none") {
       ASSERT_TRUE(known.contains(code)) << code;

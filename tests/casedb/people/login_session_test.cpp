@@ -71,7 +71,10 @@ TEST_F(LoginSessionTest, WhoLogsOutHasNone) {
 TEST_F(LoginSessionTest, LogInsAndFailuresAreKeptWithoutTheTypedName) {
   EXPECT_EQ(last_act(), "log_in person done");
   EXPECT_FALSE(log_in(library_, "ann", "wrong password"));
-  EXPECT_EQ(last_act(), "log_in nobody refused");
+  EXPECT_EQ(last_act(), "log_in operator refused") << "at the command line";
+  library_.act_for(Actor::nobody());
+  EXPECT_FALSE(log_in(library_, "ann", "wrong password"));
+  EXPECT_EQ(last_act(), "log_in nobody refused") << "at a server or a window";
   EXPECT_EQ(list_audit(library_).back().object_id, ann_);
   EXPECT_FALSE(log_in(library_, "zebedee quagmire", "a password"));
   EXPECT_EQ(last_act(), "log_in nobody refused");

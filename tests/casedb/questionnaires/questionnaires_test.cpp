@@ -160,6 +160,19 @@ TEST_F(QuestionnairesTest, AClosedRoundTakesNothing) {
   EXPECT_EQ(code_of(add_paper_forms(library_, round.code, {{{"P1", "", ""}, {}}})), "round_closed");
 }
 
+// Was: whoever had a code, which needs no account, could fill the disk.
+TEST_F(QuestionnairesTest, ARoundTakesTwoThousandOnPages) {
+  const Round round = open();
+  ASSERT_TRUE(begin_response(library_, round.code, {}));
+  library_.database().run(
+      "WITH RECURSIVE number(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM number WHERE n < " +
+      std::to_string(kMostBegunOnPages - 2) +
+      ") INSERT INTO response_set SELECT printf('many-%d', n), round_id, questionnaire_id, printf('many-%d', n), "
+      "group_name, source, NULL, begun_us, NULL FROM number, response_set");
+  ASSERT_TRUE(begin_response(library_, round.code, {}));
+  EXPECT_EQ(code_of(begin_response(library_, round.code, {})), "round_full");
+}
+
 TEST_F(QuestionnairesTest, PaperIsTakenWholeOrNotAtAll) {
   const Round round = open({"trainee", "expert"});
   const std::vector<PaperForm> good = {{{"P1", "expert", ""}, {{"7", "3"}, {"8a", "n/a"}}},

@@ -6,6 +6,7 @@
 #include "casedb/database/audit.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/grading/curriculum.h"
+#include "casedb/people/noted_tries.h"
 #include "tests/app/window/trainer/trainer_case.h"
 
 namespace seldinger::app {
@@ -26,6 +27,19 @@ TEST_F(TrainerTest, PasswordsAreTriedNoFasterThanOnTheDashboard) {
     trainer.log_in("mona", kPassword);
     return trainer.screen() == TrainerScreen::choose;
   }));
+}
+
+TEST_F(TrainerTest, WhomACommandLetsInAgainIsIn) {
+  Trainer trainer(open());
+  for (int i = 0; i < 5; ++i) trainer.log_in("mona", "another password");
+  trainer.log_in("mona", kPassword);
+  EXPECT_EQ(trainer.refusal(), "Too many tries. Try again in 1 s.");
+  {
+    casedb::Library library = open();
+    ASSERT_TRUE(casedb::let_in_again(library, "mona"));
+  }
+  trainer.log_in("mona", kPassword);
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose);
 }
 
 TEST_F(TrainerTest, OnlyAnAccountGetsInAndATraineeSeesNoDraft) {
