@@ -36,6 +36,18 @@ Response replay_page(Site& site, const Call& call, int status, const casedb::Rat
   return answering_response(status, reports::rating_page({site.login_token(kept), &page, typed, problems}));
 }
 
+// What is to be sent and has an item without an answer that could be "not applicable": a slip, which would cost the
+// rating its mean.
+std::map<std::string, std::string> unanswered(const assessment::questionnaire::Form& form,
+                                              const std::map<std::string, std::string>& typed) {
+  std::map<std::string, std::string> problems;
+  for (const auto& item : form.items)
+    if (const auto found = typed.find(item.id);
+        item.not_applicable && (found == typed.end() || found->second.empty()))
+      problems.emplace(item.id, "Please rate this, or say that it is not applicable.");
+  return problems;
+}
+
 // To whoever has no bench, and of a number that is none of theirs.
 Response no_replay(const base::Error& error) {
   return redirect(error.code == "no_rater" ? "/rate" : "/rate/bench");
@@ -86,6 +98,8 @@ Response keep_rating(Site& site, const Call& call) {
   auto typed = typed_of(call, items);
   if (go == "keep")
     return kept_response(site.questions.keep_rating(kept, number, fitting(page->form.form, typed), false));
+  const auto open = unanswered(page->form.form, typed);
+  if (go == "send" && !open.empty() && !page->task.sent) return replay_page(site, call, 400, *page, typed, open);
   const auto done = site.questions.keep_rating(kept, number, typed, go == "send");
   if (!done && done.error().code == "bad_answer")
     return replay_page(site, call, 400, *page, typed, problems_of(page->form.form, typed));

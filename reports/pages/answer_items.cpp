@@ -21,7 +21,7 @@ void add_options(Html& html, const questionnaire::Form& form, const Item& item, 
       add_tick(html, name, value, value, one.label, typed == value, false);
     }
   if (item.not_applicable)
-    add_tick(html, name, std::string(questionnaire::kNotApplicableWord), "", "Not applicable to me",
+    add_tick(html, name, std::string(questionnaire::kNotApplicableWord), "", "Not applicable",
              typed == questionnaire::kNotApplicableWord, true);
   // A radio button cannot be cleared; this takes an answer back.
   add_tick(html, name, "", "", "No answer", false, true);
@@ -42,7 +42,7 @@ void add_number(Html& html, const Item& item, const std::string& typed) {
       .text(field_of(item))
       .raw("-none\" value=\"yes\"");
   if (none) html.raw(" checked");
-  html.raw("> <span>Not applicable to me</span></label>\n");
+  html.raw("> <span>Not applicable</span></label>\n");
 }
 
 }  // namespace

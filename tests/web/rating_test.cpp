@@ -159,9 +159,12 @@ TEST(Rating, WhatIsTypedIsKeptAndWhatDoesNotFitIsSaid) {
   EXPECT_THAT(page, HasSubstr("name=\"item-flow\" value=\"4\" checked"));
   EXPECT_THAT(page, HasSubstr("half a sen"));
   EXPECT_THAT(page, Not(HasSubstr("\"77\"")));
-  const Response refused = world.send(browser, 2, "item-flow=6");
+  const Response refused = world.send(browser, 2, "item-flow=6", "later");
   EXPECT_EQ(refused.status, 400);
   EXPECT_THAT(refused.body, HasSubstr("Please mend this"));
+  const Response slip = world.send(browser, 2, "item-flow=5");
+  EXPECT_EQ(slip.status, 400);
+  EXPECT_THAT(slip.body, HasSubstr("Please rate this, or say that it is not applicable"));
   EXPECT_EQ(browser.post("/rate/replay", "n=2&go=keep&token=x").status, 403);
   EXPECT_EQ(world.send(browser, 99, kAllFives, "keep").status, 403) << "there is no such page, so no token";
 }
