@@ -12,6 +12,7 @@
 #include "casedb/keeping/erase.h"
 #include "casedb/people/consent.h"
 #include "casedb/people/people.h"
+#include "casedb/ratings/rated_people.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
@@ -243,7 +244,31 @@ TEST_F(RatingRoundsTest, WhoWithdrawsFromTheStudyIsRatedNoMore) {
   NewRatingRound made = six();
   made.round.study_id = study;
   const auto opened = open_rating_round(*library_, made);
+  // A rating tells its replay by the sheet's number: Zoe's are even and get 2, Tim's odd and get 4 and 5.
+  for (std::size_t r = 0; r < opened->keys.size(); ++r) {
+    const std::string secret = rater_secret(opened->keys[r]);
+    const auto bench = find_rating_bench(*library_, secret);
+    for (const RatingTask& task : bench->tasks) {
+      const int sheet = find_rating(*library_, secret, task.number)->sheet.at(16) - '0';
+      ASSERT_TRUE(keep_rating(*library_, secret, task.number,
+                              all_of(sheet % 2 == 0 ? "2"
+                                     : sheet == 1   ? "5"
+                                                    : "4"),
+                              true));
+    }
+  }
+  const auto rated = rated_people(*library_, study);
+  ASSERT_EQ(rated.size(), 1U);
+  EXPECT_EQ(rated[0].case_id, case_id_);
+  EXPECT_EQ(rated[0].ratings, 12U);
+  std::vector<double> means;
+  for (const auto& [pseudonym, mean] : rated[0].mean) means.push_back(mean);
+  std::sort(means.begin(), means.end());
+  ASSERT_EQ(means.size(), 2U);
+  EXPECT_DOUBLE_EQ(means[0], 2.0);
+  EXPECT_DOUBLE_EQ(means[1], (5.0 + 4.0 + 4.0) / 3.0);
   ASSERT_TRUE(withdraw_consent(*library_, zoe_, text_of(zoe_)));
+  EXPECT_EQ(rated_people(*library_, study)[0].mean.size(), 1U);
   std::size_t tasks = 0;
   for (const std::string& key : opened->keys)
     tasks += find_rating_bench(*library_, rater_secret(key))->tasks.size();
