@@ -90,6 +90,7 @@ namespace seldinger::app {
   ROW(study_look)               \
   ROW(study_deviate)            \
   ROW(study_simulate)           \
+  ROW(study_stations)           \
   ROW(report)                   \
   ROW(questionnaire_template)   \
   ROW(questionnaire_add)        \

@@ -103,6 +103,7 @@ constexpr std::string_view kLines[] = {
     "study show Needles",
     "study template --case 'Drill 1' --out drill-plan.json --library first-hour",
     "study simulate drill-plan.json --surrogate drill.json --shift novices=0 --shift experienced=0.8 --studies 100",
+    "study stations --station Drill --station Biopsy --station Calyx --people 6",
     "report validity --study Needles --out validity.html",
     "report workshops --out workshops.html",
     "questionnaire template workshop-2007 --out form.json",

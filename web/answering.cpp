@@ -5,6 +5,7 @@
 
 #include "casedb/database/credentials.h"
 #include "reports/pages/answer_pages.h"
+#include "reports/pages/style_sheet.h"
 #include "web/routes.h"
 
 namespace seldinger::web {
@@ -184,6 +185,10 @@ Response keep_answers(Site& site, const Call& call) {
   }
   const std::size_t next = go == "back" ? (section > 0 ? section - 1 : 0) : std::min(section + 1, sections.size());
   return redirect("/answer/form?section=" + std::to_string(next + 1));
+}
+
+Response show_answer_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::keep_typed_script())};
 }
 
 Response show_answer_thanks(Site&, const Call&) {

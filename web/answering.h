@@ -19,6 +19,7 @@ Response show_answer_start(Site& site, const Call& call);
 Response begin_answers(Site& site, const Call& call);
 Response show_answer_section(Site& site, const Call& call);
 Response keep_answers(Site& site, const Call& call);
+Response show_answer_script(Site& site, const Call& call);
 Response show_answer_thanks(Site& site, const Call& call);
 
 // What a page without a log-in and its form share, also those on which replays are rated.

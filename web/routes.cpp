@@ -56,10 +56,6 @@ Response style(Site&, const Call&) {
   return {.content_type = "text/css; charset=utf-8", .body = std::string(reports::style_sheet())};
 }
 
-Response answer_script(Site&, const Call&) {
-  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::keep_typed_script())};
-}
-
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {
   std::string before_id = cookie(call.request, site.cookies.before_login);
   const bool is_new = site.login_token(before_id).empty();
@@ -491,7 +487,7 @@ constexpr Route kRoutes[] = {
     {"POST", "/answer/form", kOpen, true, "the browser that began",
      "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
     {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
-    {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", answer_script},
+    {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", show_answer_script},
     {"GET", "/rate", kOpen, true, "", "asks for a rater's key", show_rating_start},
     {"POST", "/rate", kOpen, true, "", "opens the bench of a rater: key, token", open_rating_bench},
     {"GET", "/rate/bench", kOpen, true, "the browser of a rater", "the replays that are theirs to rate, by number",
