@@ -91,6 +91,7 @@ namespace seldinger::app {
   ROW(study_deviate)            \
   ROW(study_simulate)           \
   ROW(study_stations)           \
+  ROW(study_visits)             \
   ROW(report)                   \
   ROW(questionnaire_template)   \
   ROW(questionnaire_add)        \

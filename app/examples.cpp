@@ -98,6 +98,7 @@ constexpr std::string_view kLines[] = {
     "study plan Needles plan.json",
     "study freeze Needles",
     "study enrol Needles --user novice",
+    "study visits Needles --due",
     "study deviate Needles 'The room was moved'",
     "study look Needles",
     "study show Needles",

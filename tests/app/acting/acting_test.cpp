@@ -223,6 +223,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"study show", {"Needles"}, Action::plan_study, own_study},
       {"study freeze", {"Needles"}, Action::plan_study, own_study},
       {"study enrol", {"Needles", "--user", "trainee"}, Action::enrol_in_study, own_study},
+      {"study visits", {"Needles"}, Action::enrol_in_study, own_study},
       {"study look", {"Needles"}, Action::plan_study, own_study},
       {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
       {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
