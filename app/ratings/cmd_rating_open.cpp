@@ -137,7 +137,7 @@ int run_rating_open(const Arguments& arguments) {
     std::fputs(json_of_opened(*opened, made.replays.size(), made.calibration.size()).c_str(), stdout);
     return kDone;
   }
-  std::printf("%s: %zu replays, %zu to calibrate\n", opened->round.code.c_str(), made.replays.size(),
+  std::printf("%s: %zu to rate, %zu to calibrate\n", opened->round.code.c_str(), made.replays.size(),
               made.calibration.size());
   for (std::size_t i = 0; i < opened->keys.size(); ++i) std::printf("R%zu  %s\n", i + 1, opened->keys[i].c_str());
   std::puts("Each rater types their key at /rate where `seldinger serve` runs. The keys are not told again.");
