@@ -91,6 +91,8 @@ namespace seldinger::app {
   ROW(study_look)               \
   ROW(study_deviate)            \
   ROW(study_simulate)           \
+  ROW(study_stations)           \
+  ROW(study_visits)             \
   ROW(report)                   \
   ROW(questionnaire_template)   \
   ROW(questionnaire_add)        \
@@ -100,6 +102,9 @@ namespace seldinger::app {
   ROW(questionnaire_close)      \
   ROW(questionnaire_import)     \
   ROW(questionnaire_export)     \
+  ROW(rating_open)              \
+  ROW(rating_show)              \
+  ROW(rating_export)            \
   ROW(consent_text)             \
   ROW(consent_list)             \
   ROW(consent_give)             \
@@ -140,7 +145,7 @@ const std::vector<Group>& groups() {
       {"Attempts",
        {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
-      {"Studies", {"study", "questionnaire", "report"}},
+      {"Studies", {"study", "questionnaire", "rating", "report"}},
       {"Numbers", {"stats"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},

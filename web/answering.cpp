@@ -5,6 +5,7 @@
 
 #include "casedb/database/credentials.h"
 #include "reports/pages/answer_pages.h"
+#include "reports/pages/style_sheet.h"
 #include "web/routes.h"
 
 namespace seldinger::web {
@@ -15,11 +16,6 @@ constexpr std::string_view kTooOld = "The page was too old. Please try again.";
 
 std::string answers_cookie(const Site& site, std::string_view value) {
   return site.cookies.answers + "=" + std::string(value) + std::string(kAnswersCookieRest);
-}
-
-std::string form_field(const Call& call, const std::string& name) {
-  const auto found = call.form.find(name);
-  return found == call.form.end() ? "" : found->second;
 }
 
 // The number behind "name=" of a query or of a form; none: 1.
@@ -34,30 +30,13 @@ std::string_view query_value(const Call& call, std::string_view name) {
   return query.substr(0, name.size()) == name ? query.substr(name.size()) : std::string_view();
 }
 
-bool has_token(const Site& site, const Call& call, const std::string& kept) {
-  const std::string token = site.login_token(kept);
-  return !token.empty() && equal_in_constant_time(form_field(call, "token"), token);
-}
-
-// What the browser keeps, or something new, so that a form has a token.
-struct Kept {
-  std::string secret;
-  bool is_new = false;
-};
-Kept kept_by(Site& site, const Call& call) {
-  Kept kept{cookie(call.request, site.cookies.answers)};
-  kept.is_new = site.login_token(kept.secret).empty();
-  if (kept.is_new) kept.secret = site.surroundings.random_id();
-  return kept;
-}
-
-Response with_cookie(Site& site, const Kept& kept, Response response) {
+Response with_cookie(Site& site, const KeptForm& kept, Response response) {
   if (kept.is_new) response.headers.emplace_back("Set-Cookie", answers_cookie(site, kept.secret));
   return response;
 }
 
 Response start_page(Site& site, const Call& call, int status, std::string_view problem) {
-  const Kept kept = kept_by(site, call);
+  const KeptForm kept = form_kept(site, call, site.cookies.answers);
   const bool begun = !kept.is_new && site.questions.find_draft(kept.secret).has_value();
   return with_cookie(site, kept,
                      html_response(status, reports::answer_start_page(
@@ -66,7 +45,7 @@ Response start_page(Site& site, const Call& call, int status, std::string_view p
 
 Response who_page(Site& site, const Call& call, int status, const RoundForms& found, casedb::Respondent typed,
                   const std::string& problem) {
-  const Kept kept = kept_by(site, call);
+  const KeptForm kept = form_kept(site, call, site.cookies.answers);
   return with_cookie(site, kept,
                      html_response(status, reports::answer_who_page({site.login_token(kept.secret), problem,
                                                                      found.round, found.forms, std::move(typed)})));
@@ -84,11 +63,35 @@ Response page_of_code(Site& site, const Call& call, const std::string& code) {
 Response section_page(Site& site, const std::string& secret, int status, const casedb::Draft& draft,
                       std::size_t section, const std::map<std::string, std::string>& typed,
                       const std::map<std::string, std::string>& problems) {
-  return html_response(status,
-                       reports::answer_section_page({site.login_token(secret), &draft, section, typed, problems}));
+  return answering_response(
+      status, reports::answer_section_page({site.login_token(secret), &draft, section, typed, problems}));
 }
 
-// What the page's form holds of the items that it showed.
+}  // namespace
+
+std::string form_field(const Call& call, const std::string& name) {
+  const auto found = call.form.find(name);
+  return found == call.form.end() ? "" : found->second;
+}
+
+KeptForm form_kept(Site& site, const Call& call, const std::string& cookie_name) {
+  KeptForm kept{cookie(call.request, cookie_name)};
+  kept.is_new = site.login_token(kept.secret).empty();
+  if (kept.is_new) kept.secret = site.surroundings.random_id();
+  return kept;
+}
+
+bool has_form_token(const Site& site, const Call& call, const std::string& kept) {
+  const std::string token = site.login_token(kept);
+  return !token.empty() && equal_in_constant_time(form_field(call, "token"), token);
+}
+
+Response answering_response(int status, std::string body) {
+  Response response = html_response(status, std::move(body));
+  response.policy = Policy::answering;
+  return response;
+}
+
 std::map<std::string, std::string> typed_of(const Call& call,
                                             const std::vector<const assessment::questionnaire::Item*>& items) {
   std::map<std::string, std::string> typed;
@@ -112,7 +115,15 @@ std::map<std::string, std::string> problems_of(const assessment::questionnaire::
   return problems;
 }
 
-}  // namespace
+std::map<std::string, std::string> fitting(const assessment::questionnaire::Form& form,
+                                           std::map<std::string, std::string> typed) {
+  for (const auto& [item_id, problem] : problems_of(form, typed)) typed.erase(item_id);
+  return typed;
+}
+
+Response kept_response(const base::Result<void>& kept) {
+  return {.status = kept ? 204 : 409};
+}
 
 Response show_answer_start(Site& site, const Call& call) {
   const std::string_view code = query_value(call, "code=");
@@ -121,7 +132,7 @@ Response show_answer_start(Site& site, const Call& call) {
 
 Response begin_answers(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
-  if (!has_token(site, call, kept)) return start_page(site, call, 403, kTooOld);
+  if (!has_form_token(site, call, kept)) return start_page(site, call, 403, kTooOld);
   const std::string code = form_field(call, "code");
   if (form_field(call, "begin") != "yes") return page_of_code(site, call, code);
   const auto found = site.questions.find_round(code);
@@ -149,14 +160,17 @@ Response show_answer_section(Site& site, const Call& call) {
 
 Response keep_answers(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
-  if (!has_token(site, call, kept)) return start_page(site, call, 403, kTooOld);
+  const std::string go = form_field(call, "go");
+  if (!has_form_token(site, call, kept))
+    return go == "keep" ? Response{.status = 403} : start_page(site, call, 403, kTooOld);
   const auto draft = site.questions.find_draft(kept);
-  if (!draft) return redirect("/answer");
+  if (!draft) return go == "keep" ? Response{.status = 404} : redirect("/answer");
   const auto sections = reports::sections_of(draft->form.form);
   const std::size_t section = section_from(form_field(call, "section"), sections.size());
-  const std::string go = form_field(call, "go");
   std::map<std::string, std::string> typed;
   if (section < sections.size()) typed = typed_of(call, sections[section]);
+  if (go == "keep")
+    return kept_response(site.questions.keep_answers(kept, fitting(draft->form.form, typed), false));
   const bool send = go == "send" && section == sections.size();
   const auto done = site.questions.keep_answers(kept, typed, send);
   if (!done && done.error().code == "bad_answer")
@@ -171,6 +185,10 @@ Response keep_answers(Site& site, const Call& call) {
   }
   const std::size_t next = go == "back" ? (section > 0 ? section - 1 : 0) : std::min(section + 1, sections.size());
   return redirect("/answer/form?section=" + std::to_string(next + 1));
+}
+
+Response show_answer_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::keep_typed_script())};
 }
 
 Response show_answer_thanks(Site&, const Call&) {

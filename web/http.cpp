@@ -14,6 +14,8 @@ std::string_view status_text(int status) {
   switch (status) {
     case 200:
       return "OK";
+    case 204:
+      return "No Content";
     case 303:
       return "See Other";
     case 400:
@@ -26,6 +28,8 @@ std::string_view status_text(int status) {
       return "Not Found";
     case 405:
       return "Method Not Allowed";
+    case 409:
+      return "Conflict";
     case 408:
       return "Request Timeout";
     case 411:
@@ -112,19 +116,24 @@ void wipe(Response& response) noexcept {
   for (auto& [name, value] : response.headers) casedb::wipe(value);
 }
 
-const std::vector<std::pair<std::string_view, std::string_view>>& security_headers() {
-  static const std::vector<std::pair<std::string_view, std::string_view>> headers = {
-      {"Content-Security-Policy",
-       "default-src 'none'; style-src 'self'; img-src 'self'; form-action 'self'; base-uri 'none'; "
-       "frame-ancestors 'none'"},
-      {"X-Content-Type-Options", "nosniff"},
-      {"X-Frame-Options", "DENY"},
-      {"Referrer-Policy", "no-referrer"},
-      {"Cache-Control", "no-store"},
-      {"Cross-Origin-Opener-Policy", "same-origin"},
-      {"Cross-Origin-Resource-Policy", "same-origin"},
+const std::vector<std::pair<std::string_view, std::string_view>>& security_headers(Policy policy) {
+  using Headers = std::vector<std::pair<std::string_view, std::string_view>>;
+  static const auto with = [](std::string_view content) -> Headers {
+    return {{"Content-Security-Policy", content},
+            {"X-Content-Type-Options", "nosniff"},
+            {"X-Frame-Options", "DENY"},
+            {"Referrer-Policy", "no-referrer"},
+            {"Cache-Control", "no-store"},
+            {"Cross-Origin-Opener-Policy", "same-origin"},
+            {"Cross-Origin-Resource-Policy", "same-origin"}};
   };
-  return headers;
+  static const Headers page = with(
+      "default-src 'none'; style-src 'self'; img-src 'self'; form-action 'self'; base-uri 'none'; "
+      "frame-ancestors 'none'");
+  static const Headers answering = with(
+      "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; connect-src 'self'; "
+      "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
+  return policy == Policy::answering ? answering : page;
 }
 
 std::string bytes_of(const Response& response, bool with_body) {
@@ -139,7 +148,7 @@ std::string bytes_of(const Response& response, bool with_body) {
     CHECK(is_header_text(name) && is_header_text(value));
     out.append(name).append(": ").append(value).append("\r\n");
   };
-  for (const auto& [name, value] : security_headers()) add(name, value);
+  for (const auto& [name, value] : security_headers(response.policy)) add(name, value);
   for (const auto& [name, value] : response.headers) add(name, value);
   if (!response.body.empty()) add("Content-Type", response.content_type);
   add("Content-Length", std::to_string(response.body.size()));

@@ -21,11 +21,16 @@ struct Request {
   std::string header(const std::string& lower_case_name) const;  // empty when absent
 };
 
+// What a page may load and run: nothing but the style sheet and pictures of this server; where it is answered or
+// rated also the one script, which sends what is typed, and pictures that stand in the page itself.
+enum class Policy { page, answering };
+
 struct Response {
   int status = 200;
   std::string content_type = "text/html; charset=utf-8";
   std::string body{};
   std::vector<std::pair<std::string, std::string>> headers{};
+  Policy policy = Policy::page;
 };
 
 Response html_response(int status, std::string body);
@@ -37,7 +42,7 @@ void wipe(std::map<std::string, std::string>& form) noexcept;
 void wipe(Response& response) noexcept;
 
 // The headers every response carries: content security policy, no sniffing, no referrer, no framing, no caching.
-const std::vector<std::pair<std::string_view, std::string_view>>& security_headers();
+const std::vector<std::pair<std::string_view, std::string_view>>& security_headers(Policy policy = Policy::page);
 
 // The response as bytes, closing the connection. A line break in a header value is a programmer's mistake.
 std::string bytes_of(const Response& response, bool with_body);

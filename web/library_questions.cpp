@@ -153,6 +153,22 @@ class LibraryQuestions final : public Questions {
     return send ? casedb::submit_draft(changes_.library, secret) : base::Result<void>();
   }
 
+  base::Result<casedb::RatingBench> find_rating_bench(const std::string& secret) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::find_rating_bench(pages_.library, secret);
+  }
+
+  base::Result<casedb::RatingPage> find_rating(const std::string& secret, std::size_t number) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::find_rating(pages_.library, secret, number);
+  }
+
+  base::Result<void> keep_rating(const std::string& secret, std::size_t number,
+                                 const std::map<std::string, std::string>& typed, bool send) override {
+    const std::lock_guard lock(changes_.mutex);
+    return casedb::keep_rating(changes_.library, secret, number, typed, send);
+  }
+
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::count_attempts(pages_.library, whose);

@@ -20,6 +20,7 @@
 #include "web/answering.h"
 #include "web/json/attempt_json.h"
 #include "web/json/case_json.h"
+#include "web/rating.h"
 
 namespace seldinger::web {
 namespace {
@@ -484,6 +485,14 @@ constexpr Route kRoutes[] = {
     {"POST", "/answer/form", kOpen, true, "the browser that began",
      "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
     {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
+    {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", show_answer_script},
+    {"GET", "/rate", kOpen, true, "", "asks for a rater's key", show_rating_start},
+    {"POST", "/rate", kOpen, true, "", "opens the bench of a rater: key, token", open_rating_bench},
+    {"GET", "/rate/bench", kOpen, true, "the browser of a rater", "the replays that are theirs to rate, by number",
+     show_rating_bench},
+    {"GET", "/rate/replay", kOpen, true, "the browser of a rater", "a replay beside the form; ?n=N", show_rating},
+    {"POST", "/rate/replay", kOpen, true, "the browser of a rater",
+     "keeps a rating, or sends it: n, go, a field each item, token", keep_rating},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},

@@ -64,6 +64,7 @@ CookieNames::CookieNames(int port)
     : session("seldinger_" + std::to_string(port)),
       before_login("seldinger_before_login_" + std::to_string(port)),
       answers("seldinger_answers_" + std::to_string(port)),
+      rater("seldinger_rater_" + std::to_string(port)),
       known("seldinger_known_" + std::to_string(port)) {}
 
 Site::Site(Questions& questions_in, const Surroundings& surroundings_in)

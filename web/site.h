@@ -29,6 +29,7 @@ struct CookieNames {
   std::string session;       // "seldinger_8080"
   std::string before_login;  // of the log-in form
   std::string answers;       // of a questionnaire that is being answered
+  std::string rater;         // of a rater's bench
   std::string known;         // that this browser has logged somebody in: see casedb::LoginDelays
 };
 

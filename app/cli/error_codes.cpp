@@ -295,6 +295,23 @@ constexpr ErrorCode kQuestionnaireCodes[] = {
      "Look at the paper, and mend the rows that are named."},
     {"bad_moment", kRefuses, "A comment's moment is not within the attempt.",
      "Take a second of the attempt's course."},
+    {"rated_round", kRefuses,
+     "Under that code raters rate replays: nobody else answers, and their answers have a "
+     "command of their own.",
+     "`seldinger rating show CODE`, `seldinger rating export CODE`."},
+    {"not_rated", kRefuses, "Under that code a questionnaire is answered, not replays rated.",
+     "`seldinger questionnaire export CODE`."},
+    {"bad_design", kRefuses, "There is nothing to rate, or too much, or fewer raters than are to rate a replay.",
+     "docs/ratings.md tells what can be."},
+    {"bad_rating_form", kRefuses, "Replays are rated on scales that all go from the same to the same value.",
+     "`seldinger questionnaire template osats-grs` writes such a form."},
+    {"not_to_be_rated", kRefuses,
+     "An attempt whose replay is not tick for tick what was recorded is not shown to "
+     "raters.",
+     "`seldinger replay ATTEMPT --verify` tells whether it is; leave it out."},
+    {"no_rater", kRefuses, "Nobody rates with that key.", "Look whether it is typed right."},
+    {"no_rating", kRefuses, "There is no replay of that number on the rater's bench.", ""},
+    {"rating_sent", kRefuses, "A rating was sent, and stays as it is.", ""},
     {"no_draft", kRefuses, "There are no answers that were begun here, or they were sent.", "Begin anew."}};
 
 constexpr ErrorCode kSceneCodes[] = {{"bad_scene", kRefuses, "A scene file is not as docs/scenes/README.md has it.",

@@ -119,8 +119,8 @@ Command questionnaire_template_command() {
           .max_positionals = 1,
           .options = kTemplateFormOptions,
           .summary =
-              "Writes a questionnaire that comes with the program: workshop-2005, workshop-2006 or workshop-2007 "
-              "(docs/questionnaires.md).",
+              "Writes a form that comes with the program: workshop-2005, workshop-2006 or workshop-2007 "
+              "(docs/questionnaires.md), osats-grs or needle-checklist for raters (docs/ratings.md).",
           .run = &run_questionnaire_template};
 }
 

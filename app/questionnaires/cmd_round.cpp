@@ -3,6 +3,7 @@
 
 #include "app/acting/acting.h"
 #include "app/cli/file.h"
+#include "app/questionnaires/acting_in_round.h"
 #include "app/questionnaires/paper_csv.h"
 #include "app/questionnaires/questionnaire_json.h"
 #include "casedb/people/consent.h"
@@ -94,37 +95,17 @@ int run_questionnaire_import(const Arguments& arguments) {
   return differences.empty() ? kDone : kCheckFailed;
 }
 
-// Of a round of a study whose plan is a draft nobody who works on it gets answers by group; else it is a look.
-base::Result<void> note_export(casedb::Library& library, const casedb::Responses& responses) {
-  const auto& study = responses.round.study_id;
-  const auto& whose = library.actor().person_id;
-  const bool draft = study && casedb::has_draft(library, *study);
-  if (draft && whose && casedb::is_researcher_of(library, *study, *whose))
-    return base::Error{"blinded", "until the plan is frozen nobody who works on the study gets answers by group"};
-  casedb::audit_alone(library, casedb::Act::export_responses, {"round", responses.round.round_id});
-  if (study && casedb::has_plan(library, *study))
-    casedb::note_look(library, *study, draft ? "questionnaire export before the freeze" : "questionnaire export",
-                      responses.sets.size());
-  return {};
-}
-
 int run_questionnaire_export(const Arguments& arguments) {
   const auto out = file_of("--out", arguments.required("--out"), {".csv"});
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
-  const auto round = casedb::find_round(*library, arguments.positional(0));
-  casedb::Relation relation;
-  const auto& whose = library->actor().person_id;
-  // Asked before it is told whether there is such a round.
-  relation.own = round && whose && round->opened_by == whose;
-  relation.own_study =
-      round && whose && round->study_id && casedb::is_researcher_of(*library, *round->study_id, *whose);
-  if (const auto by = acting(*library, arguments, casedb::Action::see_responses, relation); !by)
-    return refuse(by.error());
+  const auto round = round_to_read(*library, arguments);
   if (!round) return refuse(round.error());
+  if (round->rated) return refuse({"rated_round", "what raters said is exported by `rating export`"});
   const auto responses = casedb::list_responses(*library, round->code);
   if (!responses) return refuse(responses.error());
-  if (const auto noted = note_export(*library, *responses); !noted) return refuse(noted.error());
+  if (const auto noted = note_export(*library, responses->round, responses->sets.size()); !noted)
+    return refuse(noted.error());
   write_file(out, arguments.has("--scores") ? reports::scores_csv(*responses) : reports::responses_csv(*responses));
   std::printf("%zu people's answers to %s version %d\n", responses->sets.size(), round->form_id.c_str(),
               round->version);

@@ -12,6 +12,7 @@
 #include "assessment/moments.h"
 #include "assessment/score.h"
 #include "casedb/database/disk.h"
+#include "reports/sheets/blinded_replay.h"
 #include "reports/sheets/replay_sheet.h"
 #include "session/case/case_build.h"
 #include "session/monitor/guidance_screen.h"
@@ -124,6 +125,55 @@ std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const
   return sheet.moments.size();
 }
 
+// What a rater is shown, at even times: so many, and the moment in which it was fired.
+constexpr std::size_t kMomentsToRate = 16;
+
+std::vector<reports::SheetMoment> moments_to_rate(const Scene& s, const cases::Recording& recording,
+                                                  session::GuidanceScreen& screen, session::Replay& replayed) {
+  std::vector<reports::SheetMoment> moments;
+  std::vector<session::GreyPicture> pictures;
+  const double last_s = static_cast<double>(recording.inputs.size()) * recording.dt_s;
+  const auto due_s = [&](std::size_t i) {
+    return last_s * static_cast<double>(i) / static_cast<double>(kMomentsToRate - 1);
+  };
+  const auto take = [&](double t_s, const char* words) {
+    pictures.push_back(screen.picture());
+    moments.push_back({t_s, words, {}, screen.live(), false, false});
+  };
+  std::size_t next = 0;
+  bool fired = !s.course.fired_s.has_value();
+  replayed = walk(
+      s, recording, screen,
+      [&](const cases::State& state) {
+        // What was seen when the trigger fell is the picture before, without a core needle's throw.
+        if (fired || state.t_s < *s.course.fired_s) return;
+        fired = true;
+        take(*s.course.fired_s, "fired");
+      },
+      [&](const cases::State& state) {
+        for (; next + 1 < kMomentsToRate && due_s(next) <= state.t_s; ++next) take(due_s(next), "");
+      });
+  take(last_s, "");
+  session::cut_black_edges(pictures);
+  for (std::size_t i = 0; i < pictures.size(); ++i) moments[i].png = png_of(pictures[i]);
+  return moments;
+}
+
+base::Result<Scene> scene_of(casedb::Library& library, const casedb::AttemptRow& attempt,
+                             const cases::Recording& recording) {
+  session::Needs needs = session::needs_of(attempt.picture.modality);
+  if (!recording.forces.empty() && needs == session::Needs::metrics) needs = session::Needs::touch;
+  auto built = session::build_case_of(library, attempt, needs);
+  if (!built) return built.error();
+  Scene s{std::move(*built), {}, {}, {}};
+  auto signals = assessment::signals_of(s.scene, recording);
+  if (!signals) return signals.error();
+  s.signals = std::move(*signals);
+  s.course = reports::course_of(s.signals, recording);
+  s.planes = body_planes(s.scene, s.signals);
+  return s;
+}
+
 // Calls `add` with each frame.
 template <typename Add>
 std::size_t draw_frames(const Scene& s, const cases::Recording& recording, session::GuidanceScreen& screen,
@@ -144,22 +194,34 @@ std::size_t draw_frames(const Scene& s, const cases::Recording& recording, sessi
 
 }  // namespace
 
+base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb::AttemptRow& attempt,
+                                         const cases::Recording& recording) {
+  const base::Error cannot{"not_to_be_rated",
+                           "an attempt whose replay is not tick for tick what was recorded is not shown to raters"};
+  if (recording.step_version != engine::kStepVersion) return cannot;
+  const auto s = scene_of(library, attempt, recording);
+  if (!s) return s.error();
+  reports::ReplaySheet sheet;
+  sheet.attempt.row.picture = attempt.picture;
+  sheet.attempt.row.instrument = attempt.instrument;
+  sheet.course = s->course;
+  for (const BodyPlane& plane : s->planes) sheet.planes.push_back(row_of(*s, plane));
+  session::GuidanceScreen screen(s->scene, recording.hashes.empty() ? 0 : recording.hashes.back());
+  session::Replay replayed;
+  sheet.moments = moments_to_rate(*s, recording, screen, replayed);
+  if (!replayed.same) return cannot;
+  return reports::blinded_replay(std::move(sheet));
+}
+
 base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb::AttemptRow& attempt,
                                          const cases::Recording& recording, const fs::path& out, double rate_hz) {
   const auto began = std::chrono::steady_clock::now();
   const bool sheet = out.extension() == ".html", film = out.extension() == ".mp4";
   const bool there = casedb::without_paths([&] { return fs::exists(fs::symlink_status(out)); });
   if (!sheet && !film && there) return base::Error{"exists", "there is already something of that name"};
-  session::Needs needs = session::needs_of(attempt.picture.modality);
-  if (!recording.forces.empty() && needs == session::Needs::metrics) needs = session::Needs::touch;
-  auto built = session::build_case_of(library, attempt, needs);
+  const auto built = scene_of(library, attempt, recording);
   if (!built) return built.error();
-  Scene s{std::move(*built), {}, {}, {}};
-  auto signals = assessment::signals_of(s.scene, recording);
-  if (!signals) return signals.error();
-  s.signals = std::move(*signals);
-  s.course = reports::course_of(s.signals, recording);
-  s.planes = body_planes(s.scene, s.signals);
+  const Scene& s = *built;
   session::GuidanceScreen screen(s.scene, recording.hashes.empty() ? 0 : recording.hashes.back());
   const bool comparable = recording.step_version == engine::kStepVersion;
   const std::string note =

@@ -1,8 +1,9 @@
-// A replay to look at: frames in a folder, a film, or a sheet.
+// A replay to look at: frames in a folder, a film, a sheet, or what raters see.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "casedb/attempts/attempts.h"
 #include "session/attempt/replayed_attempt.h"
@@ -23,5 +24,10 @@ struct ReplayWritten {
 base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb::AttemptRow& attempt,
                                          const cases::Recording& recording, const std::filesystem::path& out,
                                          double rate_hz);
+
+// The attempt as raters see it: reports/sheets/blinded_replay.h. Refused: `not_to_be_rated` (another step version
+// recorded it, or its replay differs), and as build_case_of and make_signals.
+base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb::AttemptRow& attempt,
+                                         const cases::Recording& recording);
 
 }  // namespace seldinger::app

@@ -113,6 +113,34 @@ std::optional<double> scored(const Form& form, const Item& item, const ItemAnswe
   return item.reverse ? scale.low() + scale.high() - *answer.value : *answer.value;
 }
 
+bool has_one_measure(const Form& form) {
+  const Scale* first = nullptr;
+  for (const Item& item : form.items) {
+    if (item.kind != ItemKind::scale) continue;
+    const Scale* scale = form.find_scale(item.scale);
+    if (scale == nullptr) return false;
+    if (first == nullptr) first = scale;
+    if (scale->low() != first->low() || scale->high() != first->high()) return false;
+  }
+  return first != nullptr;
+}
+
+std::optional<double> mean_score(const Form& form, const std::map<std::string, ItemAnswer>& answers) {
+  if (!has_one_measure(form)) return std::nullopt;
+  double sum = 0.0, count = 0.0;
+  for (const Item& item : form.items) {
+    if (item.kind != ItemKind::scale) continue;
+    const auto found = answers.find(item.id);
+    if (found == answers.end() || found->second.state == AnswerState::missing) return std::nullopt;
+    const auto counts = scored(form, item, found->second);
+    if (!counts) continue;
+    sum += *counts;
+    count += 1.0;
+  }
+  if (count == 0.0) return std::nullopt;
+  return sum / count;
+}
+
 std::string label_of(const Form& form, const Item& item, const ItemAnswer& answer) {
   if (answer.state != AnswerState::answered || !answer.value) return {};
   if (item.kind == ItemKind::choice) return text_of(item, answer);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -90,6 +91,11 @@ std::string text_of(const Item& item, const ItemAnswer& answer);
 
 // The value as it counts: of a reverse item mirrored on its scale; none where there is no position on a scale.
 std::optional<double> scored(const Form& form, const Item& item, const ItemAnswer& answer);
+// Whether it can be summed up: it has items on scales, all from the same lowest to the same highest value.
+bool has_one_measure(const Form& form);
+// The mean of what counts among the items on scales; what is not applicable is left out. None where one is missing,
+// where nothing counts, and of a form without one measure.
+std::optional<double> mean_score(const Form& form, const std::map<std::string, ItemAnswer>& answers);
 // The words of a scale's point or of a choice; empty where it has none.
 std::string label_of(const Form& form, const Item& item, const ItemAnswer& answer);
 

@@ -1,5 +1,5 @@
-// The questionnaires that come with the program: those of the thesis' three workshops (Vidal, appendix C), the
-// first mended as its table 6.1 tells.
+// The forms that come with the program: the questionnaires of the thesis' three workshops (Vidal, appendix C), the
+// first mended as its table 6.1 tells, and a global rating scale and a checklist for raters (Martin, 1997).
 #pragma once
 
 #include <string>

@@ -76,12 +76,9 @@ class Erasing {
   }
   void attempt(const std::string& attempt_id, const std::string& case_id) {
     mark(attempt_id);
-    for (const std::string& column : columns_of(database_, "attempt"))
-      if (column.ends_with("_sha256")) {
-        Statement rows = database_.prepare(
-            "SELECT " + column + " AS name FROM attempt WHERE attempt_id = :id AND " + column + " IS NOT NULL");
-        for (rows.bind("id", attempt_id); rows.step();) assets_.insert(rows.text("name"));
-      }
+    note_assets("attempt", "attempt_id", attempt_id);
+    for (const Reference& from : references_to(database_, "attempt"))
+      note_assets(from.table, from.column, attempt_id);
     remove_with_what_refers(database_, "attempt", "attempt_id", attempt_id);
     forget_digests(database_, attempt_id);  // also of what was damaged
     leave_empty_row(case_id);
@@ -121,6 +118,15 @@ class Erasing {
   Erased sum{};
 
  private:
+  // What its rows name, to be looked at when they are gone.
+  void note_assets(const std::string& table, const std::string& key, const std::string& id) {
+    for (const std::string& column : columns_of(database_, table)) {
+      if (!column.ends_with("_sha256")) continue;
+      Statement rows = database_.prepare("SELECT " + column + " AS name FROM " + table + " WHERE " + key +
+                                         " = :id AND " + column + " IS NOT NULL");
+      for (rows.bind("id", id); rows.step();) assets_.insert(rows.text("name"));
+    }
+  }
   void leave_empty_row(const std::string& case_id) {
     question(database_, "add_erased_attempt")
         .bind("erasure_id", erasure_id_)

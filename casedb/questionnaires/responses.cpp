@@ -9,6 +9,7 @@
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
+#include "casedb/questionnaires/drawn_word.h"
 #include "sim/base/check.h"
 #include "sim/base/hex.h"
 
@@ -20,23 +21,6 @@ using questionnaire::AnswerState;
 using questionnaire::ItemAnswer;
 
 constexpr std::size_t kMostRespondent = 16, kDrawnLength = 6;
-constexpr std::string_view kRespondentLetters = "23456789abcdefghjkmnpqrstuvwxyz";
-
-std::string key_of(const std::string& secret) {
-  return sha256_hex(std::as_bytes(std::span(secret)));
-}
-
-std::string drawn_respondent() {
-  std::string code;
-  while (code.size() < kDrawnLength) {
-    std::array<std::byte, 1> random{};
-    fill_random(random);
-    const auto value = std::to_integer<std::size_t>(random[0]);
-    if (value < 256 - 256 % kRespondentLetters.size())
-      code += kRespondentLetters[value % kRespondentLetters.size()];
-  }
-  return code;
-}
 
 bool is_respondent(std::string_view code) {
   return !code.empty() && code.size() <= kMostRespondent && std::all_of(code.begin(), code.end(), [](char c) {
@@ -77,6 +61,8 @@ base::Result<void> check_respondent(Library& library, const Round& round, const 
 
 base::Result<Round> open_round_of(Library& library, const std::string& code) {
   auto round = find_round(library, code);
+  if (round && round->rated)
+    return base::Error{"rated_round", "under that code raters rate replays, each with a key of their own"};
   if (round && !round->is_open())
     return base::Error{"round_closed", "the round is closed: nobody answers any more"};
   return round;
@@ -86,7 +72,7 @@ std::string add_set(Library& library, const Round& round, const StoredForm& form
                     const char* source, const std::optional<std::string>& draft_key) {
   std::string code = respondent.code;
   while (code.empty() || (respondent.code.empty() && has_respondent(library, round.round_id, code)))
-    code = drawn_respondent();
+    code = drawn_word(kSmallLetters, kDrawnLength);
   std::string response_id = new_uuid();
   question(library.database(), "add_response_set")
       .bind("response_id", response_id)
@@ -110,20 +96,6 @@ void put_answer(Library& library, const std::string& response_id, const std::str
       .bind("value", answer.value)
       .bind("body", answer.text)
       .run();
-}
-
-ItemAnswers answers_of(Library& library, const std::string& response_id) {
-  ItemAnswers answers;
-  Statement rows = question(library.database(), "responses_of_set");
-  for (rows.bind("response_id", response_id); rows.step();) {
-    ItemAnswer one;
-    one.state =
-        base::from_name(questionnaire::kAnswerStateNames, rows.view("state")).value_or(AnswerState::missing);
-    if (!rows.is_null("value")) one.value = rows.real("value");
-    one.text = rows.text("body");
-    answers.emplace(rows.text("item_id"), std::move(one));
-  }
-  return answers;
 }
 
 ResponseSet set_from(Library& library, const Statement& row) {
@@ -170,6 +142,24 @@ ItemAnswers read_typed(const questionnaire::Form& form, const std::map<std::stri
 
 }  // namespace
 
+std::string draft_key(const std::string& secret) {
+  return sha256_hex(std::as_bytes(std::span(secret)));
+}
+
+ItemAnswers answers_of(Library& library, const std::string& response_id) {
+  ItemAnswers answers;
+  Statement rows = question(library.database(), "responses_of_set");
+  for (rows.bind("response_id", response_id); rows.step();) {
+    ItemAnswer one;
+    one.state =
+        base::from_name(questionnaire::kAnswerStateNames, rows.view("state")).value_or(AnswerState::missing);
+    if (!rows.is_null("value")) one.value = rows.real("value");
+    one.text = rows.text("body");
+    answers.emplace(rows.text("item_id"), std::move(one));
+  }
+  return answers;
+}
+
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent) {
   Transaction transaction(library.database());
   const auto round = open_round_of(library, code);
@@ -182,7 +172,7 @@ base::Result<std::string> begin_response(Library& library, const std::string& co
   std::array<std::byte, 32> random{};
   fill_random(random);
   std::string secret = base::hex_from_bytes(random);
-  add_set(library, *round, in_language(*forms, respondent.language), respondent, "page", key_of(secret));
+  add_set(library, *round, in_language(*forms, respondent.language), respondent, "page", draft_key(secret));
   transaction.commit();
   return secret;
 }
@@ -190,7 +180,7 @@ base::Result<std::string> begin_response(Library& library, const std::string& co
 base::Result<Draft> find_draft(Library& library, const std::string& secret) {
   const base::Error none{"no_draft", "there are no answers that were begun here"};
   Statement row = question(library.database(), "response_set_of_draft");
-  if (!row.bind("draft_key", key_of(secret)).step()) return none;
+  if (!row.bind("draft_key", draft_key(secret)).step()) return none;
   Draft draft;
   draft.set = set_from(library, row);
   const auto round = find_round(library, row.text("round_id"));

@@ -21,6 +21,9 @@ struct ResponseSet {
   ItemAnswers answers;
 };
 
+// As far as they are kept.
+ItemAnswers answers_of(Library& library, const std::string& response_id);
+
 struct Draft {
   Round round;
   StoredForm form;
@@ -35,7 +38,9 @@ struct Respondent {
 
 inline constexpr std::size_t kMostBegunOnPages = 2000;  // in a round, sent or not
 
-// A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`,
+// A draft's secret as the library keeps it.
+std::string draft_key(const std::string& secret);
+// A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`, `rated_round`,
 // `round_closed`, `round_full`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or begun in this
 // round).
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent);
@@ -49,7 +54,7 @@ base::Result<void> save_draft(Library& library, const std::string& secret,
 base::Result<void> submit_draft(Library& library, const std::string& secret);
 
 // From paper: all or none. Items that a row does not name are missing. `bad_answers` with every place, `no_round`,
-// `round_closed`.
+// `rated_round`, `round_closed`.
 struct PaperForm {
   Respondent respondent;
   std::map<std::string, std::string> typed;  // by item

@@ -1,15 +1,14 @@
 #include "casedb/questionnaires/rounds.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "casedb/database/audit.h"
-#include "casedb/database/credentials.h"
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "casedb/people/cohorts.h"
+#include "casedb/questionnaires/drawn_word.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -17,17 +16,6 @@ namespace {
 // Letters and digits that are not mistaken for each other when they are read aloud or copied.
 constexpr std::string_view kCodeLetters = "ACDEFGHJKLMNPQRTUVWXY34679";
 constexpr std::size_t kCodeLength = 6, kMostGroups = 6;
-
-std::string drawn_code() {
-  std::string code;
-  while (code.size() < kCodeLength) {
-    std::array<std::byte, 1> random{};
-    fill_random(random);
-    const auto value = std::to_integer<std::size_t>(random[0]);
-    if (value < 256 - 256 % kCodeLetters.size()) code += kCodeLetters[value % kCodeLetters.size()];
-  }
-  return code;
-}
 
 base::Result<void> check_groups(const std::vector<std::string>& groups) {
   const base::Error bad{"bad_group", "a round has no groups, or two to six with different names"};
@@ -62,6 +50,7 @@ std::vector<Round> list_rounds(Library& library) {
     if (!rows.is_null("closed_us")) one.closed_us = rows.integer("closed_us");
     one.drafts = rows.small_integer("drafts");
     one.submitted = rows.small_integer("submitted");
+    one.rated = rows.small_integer("rated") != 0;
     one.groups = groups_of(library, one.round_id);
   }
   return rounds;
@@ -76,15 +65,14 @@ base::Result<Round> find_round(Library& library, std::string_view code) {
   return base::Error{"no_round", "no questionnaire is answered under that code"};
 }
 
-base::Result<Round> open_round(Library& library, const NewRound& made) {
+base::Result<Round> add_round(Library& library, const NewRound& made) {
   if (const auto fit = check_title(made.title); !fit) return fit.error();
   if (const auto fit = check_groups(made.groups); !fit) return fit.error();
-  Transaction transaction(library.database());
   const auto forms = find_forms(library, made.form_id, made.version);
   if (!forms) return forms.error();
   const std::string round_id = new_uuid();
-  std::string code = drawn_code();
-  while (find_round(library, code)) code = drawn_code();
+  std::string code = drawn_word(kCodeLetters, kCodeLength);
+  while (find_round(library, code)) code = drawn_word(kCodeLetters, kCodeLength);
   question(library.database(), "add_questionnaire_round")
       .bind("round_id", round_id)
       .bind("code", code)
@@ -103,8 +91,14 @@ base::Result<Round> open_round(Library& library, const NewRound& made) {
         .run();
   }
   audit(library, Act::open_round, {"round", round_id});
-  transaction.commit();
   return find_round(library, code);
+}
+
+base::Result<Round> open_round(Library& library, const NewRound& made) {
+  Transaction transaction(library.database());
+  auto round = add_round(library, made);
+  if (round) transaction.commit();
+  return round;
 }
 
 base::Result<void> close_round(Library& library, const std::string& round_id) {

@@ -22,6 +22,7 @@ struct Round {
   std::optional<std::int64_t> closed_us;
   std::vector<std::string> groups;  // that a respondent chooses from; none: nobody is asked
   int drafts = 0, submitted = 0;
+  bool rated = false;  // by raters (casedb/ratings): nobody else answers
   bool is_open() const noexcept { return !closed_us.has_value(); }
 };
 
@@ -33,6 +34,8 @@ struct NewRound {
 };
 // `bad_title`, `bad_group`, `no_form`.
 base::Result<Round> open_round(Library& library, const NewRound& made);
+// The same, within a transaction of the caller's.
+base::Result<Round> add_round(Library& library, const NewRound& made);
 // Nobody begins or goes on from now on: `no_round`, `round_closed`.
 base::Result<void> close_round(Library& library, const std::string& round_id);
 std::vector<Round> list_rounds(Library& library);  // newest first

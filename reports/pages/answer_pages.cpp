@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reports/pages/answer_items.h"
 #include "reports/pages/page.h"
 
 namespace seldinger::reports {
@@ -11,92 +12,15 @@ namespace questionnaire = assessment::questionnaire;
 using questionnaire::Item;
 using questionnaire::ItemKind;
 
-std::string whole_text(double value) {
-  return std::to_string(static_cast<long long>(value));
+// As it was refused, else as it is kept.
+std::string typed_of(const AnswerSection& view, const Item& item) {
+  if (const auto refused = view.typed.find(item.id); refused != view.typed.end()) return refused->second;
+  const auto kept = view.draft->set.answers.find(item.id);
+  return kept == view.draft->set.answers.end() ? std::string() : questionnaire::text_of(item, kept->second);
 }
 
 void add_token(Html& html, std::string_view token) {
   html.raw("<input type=\"hidden\" name=\"token\" value=\"").text(token).raw("\">\n");
-}
-
-void add_problem(Html& html, std::string_view problem) {
-  if (!problem.empty()) html.raw("<p class=\"problem\" role=\"alert\">").text(problem).raw("</p>\n");
-}
-
-// One thing to tick.
-void add_tick(Html& html, const std::string& name, const std::string& value, std::string_view mark,
-              std::string_view label, bool ticked, bool quiet) {
-  if (quiet)
-    html.raw("<label class=\"option quiet\">");
-  else
-    html.raw("<label class=\"option\">");
-  html.raw("<input type=\"radio\" name=\"").text(name).raw("\" value=\"").text(value);
-  if (ticked)
-    html.raw("\" checked> ");
-  else
-    html.raw("\"> ");
-  if (!mark.empty()) html.raw("<span class=\"mark-of\">").text(mark).raw("</span> ");
-  html.raw("<span>").text(label).raw("</span></label>\n");
-}
-
-void add_options(Html& html, const questionnaire::Form& form, const Item& item, const std::string& typed) {
-  const std::string name = field_of(item);
-  if (item.kind == ItemKind::choice)
-    for (const std::string& one : item.choices) add_tick(html, name, one, "", one, typed == one, false);
-  if (const questionnaire::Scale* scale = form.find_scale(item.scale))
-    for (const questionnaire::ScalePoint& one : scale->points) {
-      const std::string value = std::to_string(one.value);
-      add_tick(html, name, value, value, one.label, typed == value, false);
-    }
-  if (item.not_applicable)
-    add_tick(html, name, std::string(questionnaire::kNotApplicableWord), "", "Not applicable to me",
-             typed == questionnaire::kNotApplicableWord, true);
-  // A radio button cannot be cleared; this takes an answer back.
-  add_tick(html, name, "", "", "No answer", false, true);
-}
-
-void add_number(Html& html, const Item& item, const std::string& typed) {
-  const bool none = typed == questionnaire::kNotApplicableWord;
-  html.raw("<p class=\"number-field\"><input id=\"").text(field_of(item)).raw("\" name=\"").text(field_of(item));
-  html.raw("\" inputmode=\"").text(item.whole ? "numeric" : "decimal").raw("\" autocomplete=\"off\" value=\"");
-  html.text(none ? "" : typed)
-      .raw("\"> <span class=\"why\">")
-      .text(item.unit)
-      .raw("</span></p>\n<p class=\"why\">");
-  html.text(item.whole ? "A whole number from " : "From ").text(whole_text(item.least)).raw(" to ");
-  html.text(whole_text(item.most)).raw(".</p>\n");
-  if (!item.not_applicable) return;
-  html.raw("<label class=\"option quiet\"><input type=\"checkbox\" name=\"")
-      .text(field_of(item))
-      .raw("-none\" value=\"yes\"");
-  if (none) html.raw(" checked");
-  html.raw("> <span>Not applicable to me</span></label>\n");
-}
-
-void add_item(Html& html, const AnswerSection& view, const Item& item) {
-  const questionnaire::Form& form = view.draft->form.form;
-  const auto kept = view.draft->set.answers.find(item.id);
-  std::string typed = kept == view.draft->set.answers.end() ? "" : questionnaire::text_of(item, kept->second);
-  if (const auto refused = view.typed.find(item.id); refused != view.typed.end()) typed = refused->second;
-  const auto problem = view.problems.find(item.id);
-  if (item.kind == ItemKind::scale || item.kind == ItemKind::choice) {
-    html.raw("<fieldset class=\"item\">\n<legend>").text(item.text).raw("</legend>\n");
-    if (problem != view.problems.end()) add_problem(html, problem->second);
-    html.raw("<div class=\"options\">\n");
-    add_options(html, form, item, typed);
-    html.raw("</div>\n</fieldset>\n");
-    return;
-  }
-  html.raw("<div class=\"item\">\n<label for=\"").text(field_of(item)).raw("\">").text(item.text).raw("</label>\n");
-  if (problem != view.problems.end()) add_problem(html, problem->second);
-  if (item.kind == ItemKind::number) {
-    add_number(html, item, typed);
-  } else {
-    html.raw("<textarea id=\"").text(field_of(item)).raw("\" name=\"").text(field_of(item));
-    html.raw("\" rows=\"4\" maxlength=\"").text(std::to_string(questionnaire::kMostCommentBytes / 4)).raw("\">\n");
-    html.text(typed).raw("</textarea>\n<p class=\"why\">Please name no patient and no colleague.</p>\n");
-  }
-  html.raw("</div>\n");
 }
 
 // What is there and what is not, before it is sent.
@@ -124,10 +48,6 @@ void add_last_look(Html& html, const AnswerSection& view) {
 }
 
 }  // namespace
-
-std::string field_of(const Item& item) {
-  return "item-" + item.id;
-}
 
 std::vector<std::vector<const Item*>> sections_of(const questionnaire::Form& form) {
   std::vector<std::vector<const Item*>> sections;
@@ -207,13 +127,19 @@ std::string answer_section_page(const AnswerSection& view) {
   else
     html.text(sections[view.section].front()->section.empty() ? form.title
                                                               : sections[view.section].front()->section);
-  html.raw("</h1>\n<form method=\"post\" action=\"/answer/form\">\n");
+  html.raw("</h1>\n<form method=\"post\" action=\"/answer/form\"");
+  if (!last) html.raw(" data-keeps");
+  html.raw(">\n");
   add_token(html, view.token);
   html.raw("<input type=\"hidden\" name=\"section\" value=\"").text(std::to_string(view.section + 1)).raw("\">\n");
   if (last)
     add_last_look(html, view);
   else
-    for (const Item* item : sections[view.section]) add_item(html, view, *item);
+    for (const Item* item : sections[view.section]) {
+      const auto problem = view.problems.find(item->id);
+      html.add(
+          answer_item(form, *item, typed_of(view, *item), problem == view.problems.end() ? "" : problem->second));
+    }
   html.raw("<p class=\"steps\">");
   // The first button of a form is what Enter presses.
   if (last)
@@ -222,7 +148,8 @@ std::string answer_section_page(const AnswerSection& view) {
     html.raw("<button name=\"go\" value=\"next\">Next</button>");
   if (view.section > 0) html.raw(" <button class=\"quiet\" name=\"go\" value=\"back\">Back</button>");
   html.raw("</p>\n</form>\n<p class=\"why\">Your participant code: <strong>").text(view.draft->set.respondent);
-  html.raw("</strong>. What you send with Next is kept, should this page be closed.</p>\n</div>\n");
+  html.raw("</strong>. ").add(kept_words("What you send with Next is kept, should this page be closed."));
+  html.raw("</p>\n</div>\n<script src=\"/answer.js\" defer></script>\n");
   return page(form.title, {}, html);
 }
 

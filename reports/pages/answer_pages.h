@@ -1,5 +1,6 @@
 // The pages on which a questionnaire is answered, at a workshop's kiosk or on a phone: the code, who answers,
-// section after section, and thanks. Nobody is logged in, and no script runs: each section is kept when it is sent.
+// section after section, and thanks. Nobody is logged in. What is typed is kept a moment later by the one script
+// that there is (keep_typed.js); without it each section is kept when it is sent.
 #pragma once
 
 #include <map>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "casedb/questionnaires/responses.h"
-#include "reports/markup/html.h"
+#include "reports/pages/answer_items.h"
 
 namespace seldinger::reports {
 
@@ -30,8 +31,6 @@ std::string answer_who_page(const AnswerWho& who);
 // Which items stand on which page: those of one heading. At least one.
 std::vector<std::vector<const assessment::questionnaire::Item*>> sections_of(
     const assessment::questionnaire::Form& form);
-// The field of an item in the form of a page.
-std::string field_of(const assessment::questionnaire::Item& item);
 
 struct AnswerSection {
   std::string token;

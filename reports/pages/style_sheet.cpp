@@ -11,10 +11,22 @@ std::span<const base::EmbeddedFile> page_files();
 
 namespace seldinger::reports {
 
-std::string_view style_sheet() {
+namespace {
+
+std::string_view page_file(std::string_view name) {
   for (const base::EmbeddedFile& file : embedded::page_files())
-    if (file.name == "style.css") return file.content;
+    if (file.name == name) return file.content;
   CHECK(false);
+}
+
+}  // namespace
+
+std::string_view style_sheet() {
+  return page_file("style.css");
+}
+
+std::string_view keep_typed_script() {
+  return page_file("keep_typed.js");
 }
 
 }  // namespace seldinger::reports

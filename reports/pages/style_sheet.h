@@ -1,4 +1,5 @@
-// The one style sheet of all pages: served by the dashboard, and put into pages that are files of their own.
+// The one style sheet of all pages: served by the dashboard, and put into pages that are files of their own. And
+// the one script, of pages that keep what is typed.
 #pragma once
 
 #include <string_view>
@@ -6,5 +7,6 @@
 namespace seldinger::reports {
 
 std::string_view style_sheet();
+std::string_view keep_typed_script();
 
 }  // namespace seldinger::reports

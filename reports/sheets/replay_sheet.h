@@ -45,6 +45,7 @@ struct ReplaySheet {
   std::vector<SheetMoment> moments;
   std::vector<SheetPlane> planes;
   Course course;
+  bool blinded = false;  // for raters: see blinded_replay.h
 };
 
 std::string replay_sheet(const ReplaySheet& sheet);

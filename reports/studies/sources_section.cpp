@@ -1,9 +1,11 @@
 #include <set>
 
 #include "assessment/registry.h"
+#include "assessment/statistics/relations/correlation.h"
 #include "reports/studies/outcome_table.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
+#include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
 namespace {
@@ -58,6 +60,48 @@ Html response_panel(const ValidityReport& report) {
   return html.raw("</ul>\n</article>\n");
 }
 
+// The people of both groups who have a value and were rated at the outcome's case.
+assessment::statistics::Answer with_ratings(const study::Compared& outcome, const casedb::RatedPeople& rated) {
+  assessment::statistics::DataTable table;
+  table.values.emplace_back();
+  for (const study::PersonValue& person : outcome.people) {
+    const auto found = rated.mean.find(person.name);
+    if (person.standing != study::Standing::value || found == rated.mean.end()) continue;
+    table.values.front().values.push_back(person.value);
+    table.x.push_back(found->second);
+  }
+  table.rows = table.x.size();
+  return assessment::statistics::settled(assessment::statistics::spearman(table, {}));
+}
+
+Html ratings_panel(const ValidityReport& report) {
+  Html html = panel("Relations to other variables", "What raters saw who were not told whose it was");
+  html.raw(
+      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Form</th><th scope=\"col\">Persons</th>"
+      "<th scope=\"col\">Spearman’s ρ with the mean rating</th></tr></thead><tbody>\n");
+  for (const study::Compared& one : report.result.primary)
+    for (const casedb::RatedPeople& rated : report.ratings) {
+      if (rated.case_id != one.outcome.case_id) continue;
+      const auto answer = with_ratings(one, rated);
+      html.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
+      html.raw("</th><td>").text(rated.form_title + ", version " + std::to_string(rated.version) + ", ");
+      html.text(std::to_string(rated.ratings)).raw(" ratings</td><td>").text(std::to_string(answer.n));
+      html.raw("</td><td>");
+      if (!answer.estimate) {
+        html.raw("not estimated: too few, or all alike");
+      } else {
+        html.text(number_text(*answer.estimate, 2));
+        if (answer.ci95)
+          html.raw(" [")
+              .text(number_text(answer.ci95->low, 2) + " to " + number_text(answer.ci95->high, 2))
+              .raw("]");
+      }
+      html.raw("</td></tr>\n");
+    }
+  return html.raw(
+      "</tbody></table>\n<p class=\"note\">How far raters agree: <code>rating show</code>.</p>\n</article>\n");
+}
+
 Html none_yet(std::string_view source, std::string_view title, std::string_view what) {
   Html html = panel(source, title);
   return html.raw("<p><strong>None yet.</strong> ").text(what).raw("</p>\n</article>\n");
@@ -83,6 +127,7 @@ Html sources_section(const ValidityReport& report) {
                            "Effects with intervals; no p, no verdict"))
         .raw("</article>\n");
   }
+  if (!report.ratings.empty()) html.add(ratings_panel(report));
   html.add(none_yet("Consequences", "What is decided by the numbers, and for whom",
                     "No pass mark is part of this plan, so no false passes or failures can be told."));
   return html.raw("</section>\n");

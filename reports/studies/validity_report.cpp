@@ -19,6 +19,7 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
     report.result = assessment::study::analyse(report.plan.plan, data.people);
     casedb::add_analysed(report.result, data.flow);
     report.flow = std::move(data.flow);
+    report.ratings = casedb::rated_people(library, study.study_id);
     report.data_hash = casedb::data_hash(report.result);
     casedb::note_look(library, plan.study_id, query, casedb::people_with_outcome(report.result));
   }

@@ -9,6 +9,7 @@
 
 #include "assessment/study/analysis.h"
 #include "casedb/people/consent.h"
+#include "casedb/ratings/rated_people.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
 
@@ -25,6 +26,7 @@ struct ValidityReport {
   casedb::ParticipantFlow flow;
   assessment::study::StudyResult result;
   std::string data_hash;
+  std::vector<casedb::RatedPeople> ratings;
   std::vector<casedb::StudyNote> looks, deviations;
 };
 

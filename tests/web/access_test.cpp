@@ -120,14 +120,16 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
   for (const Route& route : routes())
     if (!route.who.action) without.insert(route.pattern);
   EXPECT_EQ(without, (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts",
-                                                 "/metrics", "/answer", "/answer/form", "/answer/thanks"}))
+                                                 "/metrics", "/answer", "/answer/form", "/answer/thanks",
+                                                 "/answer.js", "/rate", "/rate/bench", "/rate/replay"}))
       << "a new route names its action";
 }
 
 TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
   FakeSite fake;
   FakeBrowser browser(*fake.site);
-  const std::set<std::string_view> open = {"/healthz", "/style.css", "/login", "/answer", "/answer/thanks"};
+  const std::set<std::string_view> open = {"/healthz",       "/style.css", "/login", "/answer",
+                                           "/answer/thanks", "/answer.js", "/rate"};
   for (const Route& route : routes()) {
     if (route.method != "GET") continue;
     for (const std::string& id : {kOwnAttempt, kMissingAttempt}) {
@@ -137,7 +139,10 @@ TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
         EXPECT_EQ(response.status, 200) << route.pattern;
       } else if (route.is_page) {
         EXPECT_EQ(response.status, 303) << route.pattern;
-        EXPECT_EQ(header_of(response, "Location"), route.pattern == "/answer/form" ? "/answer" : "/login");
+        const std::string pattern(route.pattern);
+        EXPECT_EQ(header_of(response, "Location"), pattern == "/answer/form"       ? "/answer"
+                                                   : pattern.starts_with("/rate/") ? "/rate"
+                                                                                   : "/login");
       } else {
         EXPECT_EQ(response.status, 401) << route.pattern;
       }

@@ -147,6 +147,25 @@ TEST_F(AnsweringTest, ABrowserThatDiesGoesOnWhereItWas) {
   EXPECT_EQ(stored().sets[0].second.answers.at("3").value, 44.0);
 }
 
+// As the page's script sends it, in the middle of a section and of a word.
+TEST_F(AnsweringTest, WhatIsTypedIsKeptBeforeASectionIsFinished) {
+  FakeBrowser browser(*site_);
+  ASSERT_EQ(begin(browser, "A1").status, 303);
+  EXPECT_THAT(browser.get("/answer/form").body, HasSubstr("data-keeps"));
+  EXPECT_EQ(keep(browser, 1, "item-1=consultant&item-3=44", "keep").status, 204);
+  EXPECT_EQ(keep(browser, 1, "item-1=consultant&item-3=4000", "keep").status, 204) << "what does not fit waits";
+  FakeBrowser again(*site_);  // the first one died
+  again.cookies = browser.cookies;
+  const std::string page = again.get("/answer/form").body;
+  EXPECT_THAT(page, HasSubstr("value=\"consultant\" checked"));
+  EXPECT_THAT(page, HasSubstr("value=\"44\""));
+  EXPECT_EQ(browser.post("/answer/form", "section=1&go=keep&token=x").status, 403);
+  EXPECT_TRUE(stored().sets.empty()) << "nothing is sent by that";
+  EXPECT_EQ(keep(again, 8, "", "send").status, 303);
+  EXPECT_EQ(stored().sets[0].second.answers.at("3").value, 44.0);
+  EXPECT_EQ(browser.post("/answer/form", "section=1&go=keep&token=x").status, 403);
+}
+
 TEST_F(AnsweringTest, TheNextPersonAtAKioskSeesNothingOfTheLast) {
   FakeBrowser browser(*site_);
   ASSERT_EQ(begin(browser, "A1").status, 303);

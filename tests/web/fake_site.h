@@ -108,6 +108,16 @@ class FakeQuestions final : public Questions {
   base::Result<void> keep_answers(const std::string&, const std::map<std::string, std::string>&, bool) override {
     return base::Error{"no_draft", "there are no answers that were begun here"};
   }
+  base::Result<casedb::RatingBench> find_rating_bench(const std::string&) override {
+    return base::Error{"no_rater", "nobody rates with that key"};
+  }
+  base::Result<casedb::RatingPage> find_rating(const std::string&, std::size_t) override {
+    return base::Error{"no_rater", "nobody rates with that key"};
+  }
+  base::Result<void> keep_rating(const std::string&, std::size_t, const std::map<std::string, std::string>&,
+                                 bool) override {
+    return base::Error{"no_rater", "nobody rates with that key"};
+  }
   std::size_t count_attempts(const casedb::WhoseAttempts& whose) override { return seen(whose).size(); }
   std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,
                                                 std::size_t count) override {

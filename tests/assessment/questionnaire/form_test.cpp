@@ -164,7 +164,7 @@ TEST(Form, ScoresReverseItemsMirroredAndNoOpinionNotAtAll) {
 
 // Appendix C of the thesis, as far as it is words that can be counted.
 TEST(ShippedForms, AreThoseOfTheThreeWorkshops) {
-  ASSERT_EQ(shipped_forms().size(), 3U);
+  ASSERT_EQ(shipped_forms().size(), 5U) << "and two for raters";
   const Form& first = find_shipped_form("workshop-2005")->form;
   EXPECT_EQ(first.items.size(), 6U);
   EXPECT_EQ(first.scales.at(0).points.size(), 7U);
@@ -182,6 +182,22 @@ TEST(ShippedForms, AreThoseOfTheThreeWorkshops) {
   EXPECT_EQ(find_shipped_form("workshop-2007")->form.find_item("8a")->text,
             "US visual elements were of high quality");
   EXPECT_EQ(find_shipped_form("workshop-2008"), nullptr);
+}
+
+TEST(ShippedForms, OfRatersHaveOneMeasure) {
+  for (const ShippedForm& one : shipped_forms())
+    EXPECT_EQ(has_one_measure(one.form),
+              one.form.id == "osats-grs" || one.form.id == "needle-checklist" || one.form.id == "workshop-2005")
+        << one.form.id;
+  const Form& grs = find_shipped_form("osats-grs")->form;
+  std::map<std::string, ItemAnswer> answers;
+  for (const Item& item : grs.items) answers[item.id] = *answer_from_text(grs, item, "4");
+  EXPECT_EQ(mean_score(grs, answers), 4.0) << "a comment has no part in it";
+  answers["flow"] = *answer_from_text(grs, *grs.find_item("flow"), "1");
+  answers["time"] = *answer_from_text(grs, *grs.find_item("time"), "n/a");
+  EXPECT_DOUBLE_EQ(mean_score(grs, answers).value(), (4 * 4 + 1) / 5.0);
+  answers["flow"] = {};
+  EXPECT_EQ(mean_score(grs, answers), std::nullopt);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "casedb/people/simulated_people.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
+#include "casedb/studies/visits.h"
 #include "tests/assessment/study/sample_plan.h"
 #include "tests/casedb/library_samples.h"
 
@@ -255,6 +256,35 @@ TEST_F(StudiesTest, TheAnalysisIsOfWhoTakesPartAndStillConsents) {
   EXPECT_EQ(erased.unknown, 1U);
   EXPECT_EQ(erased.ever_enrolled, 6U);
   EXPECT_TRUE(damaged_values(library_.database()).empty());
+}
+
+// Windows in days since the enrolment; an attempt counts on the first and the last of them.
+TEST_F(StudiesTest, VisitsAreAheadDueMissedOrMade) {
+  freeze(study::sample_plan_json());
+  const auto plan = find_plan(library_, study_id_);
+  ASSERT_FALSE(plan->plan.visits.empty());
+  const study::Visit& visit = plan->plan.visits.front();
+  const std::string nina = somebody("nina", {{"years_in_radiology", "1"}, {"handedness", "right"}});
+  const auto enrolled = enrol_in_study(library_, study_id_, nina);
+  ASSERT_TRUE(enrolled) << enrolled.error().text;
+  const auto at = [&](double day) { return enrolled->enrolled_us + static_cast<std::int64_t>(day * 86'400e6); };
+  const auto state_at = [&](double day) {
+    for (const PersonVisit& one : list_visits(library_, *plan, at(day)))
+      if (one.visit == visit.name) return std::string(base::name_of(kVisitStateNames, one.state));
+    return std::string("none");
+  };
+  EXPECT_EQ(list_visits(library_, *plan, at(0)).size(), plan->plan.visits.size());
+  EXPECT_EQ(state_at(visit.from_day - 0.1), "ahead");
+  EXPECT_EQ(state_at(visit.from_day + 0.1), "due");
+  EXPECT_EQ(state_at(visit.to_day + 0.1), "missed");
+  started_us_ = at(visit.to_day + 0.5);
+  attempt(nina, 3.0);
+  EXPECT_EQ(state_at(visit.to_day + 1.0), "missed") << "too late is another day";
+  started_us_ = at((visit.from_day + visit.to_day) / 2.0);
+  attempt(nina, 3.0);
+  EXPECT_EQ(state_at(visit.to_day + 1.0), "made");
+  ASSERT_TRUE(withdraw_consent(library_, nina, text_id_));
+  EXPECT_TRUE(list_visits(library_, *plan, at(0)).empty());
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+#include "casedb/questionnaires/drawn_word.h"
+
+#include <array>
+
+#include "casedb/database/credentials.h"
+
+namespace seldinger::casedb {
+
+std::string drawn_word(std::string_view letters, std::size_t length) {
+  std::string word;
+  while (word.size() < length) {
+    std::array<std::byte, 1> random{};
+    fill_random(random);
+    const auto value = std::to_integer<std::size_t>(random[0]);
+    if (value < 256 - 256 % letters.size()) word += letters[value % letters.size()];
+  }
+  return word;
+}
+
+}  // namespace seldinger::casedb

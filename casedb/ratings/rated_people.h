@@ -1,0 +1,22 @@
+// What raters made of a study's people: for the report, beside what was measured.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "casedb/ratings/rating_rounds.h"
+
+namespace seldinger::casedb {
+
+// By one version of one form, at one case. Another version is another entry: they are never pooled.
+struct RatedPeople {
+  std::string form_id, form_title;
+  int version = 1;
+  std::string case_id;
+  std::size_t ratings = 0;             // without calibration and repeats, with a mean
+  std::map<std::string, double> mean;  // by pseudonym: of the person's replays, each the mean of its ratings
+};
+std::vector<RatedPeople> rated_people(Library& library, const std::string& study_id);
+
+}  // namespace seldinger::casedb

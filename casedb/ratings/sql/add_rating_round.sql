@@ -1,0 +1,2 @@
+-- A round of ratings.
+INSERT INTO rating_round (round_id, each, seed) VALUES (:round_id, :each, :seed)
