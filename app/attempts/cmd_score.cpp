@@ -20,6 +20,8 @@
 #include "session/guidance/ultrasound_sight.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
+#include "sim/imaging/ultrasound/view/organs.h"
 
 namespace seldinger::app {
 namespace {
@@ -55,11 +57,13 @@ void add_frames(const Scene& scene, const XrayView& view, const volume::Volume& 
 base::Result<void> add_frames(const Scene& scene, const UltrasoundSceneView& of_scene, const volume::Volume& volume,
                               const cases::MeshIndex& skin, const std::string& library,
                               cases::Recording& recording) {
-  const auto classes = classes_of(scene, volume, library);
+  auto classes = classes_of(scene, volume, library);
   if (!classes) return classes.error();
-  const std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
+  std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume, *classes);
+  imaging::show_organs(volume, *classes, echogenicity);
   imaging::UltrasoundView view = of_scene.view;
   imaging::Inserted inserted = scene.inserted;
+  imaging::settle_lesions(volume, *classes, echogenicity, inserted.lesions);
   if (!inserted.needle) inserted.needle = imaging::needle_pose(scene.instrument, {}, {0.0, 0.0, 1.0});
   for (const cases::PoseSample& pose : recording.poses) {
     view.origin_lps_mm = pose.probe_origin_lps_mm;

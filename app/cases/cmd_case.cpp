@@ -62,9 +62,9 @@ int run_case_show(const Arguments& arguments) {
   if (parts->received) std::fputs(received_text(*parts->received).c_str(), stdout);
   for (const casedb::LesionRow& lesion : parts->lesions) {
     const cases::LesionForm& form = lesion.form;
-    std::printf("lesion   %s at %.1f,%.1f,%.1f mm, %s, radius %.1f mm, %s%.0f HU\n", lesion.lesion_id.c_str(),
-                form.center_lps_mm.x, form.center_lps_mm.y, form.center_lps_mm.z,
-                base::name_of(cases::kLesionKindNames, form.kind).data(), lesion.lesion.radius_mm,
+    std::printf("lesion   %s at %.1f,%.1f,%.1f mm, %s, %s, radius %.1f mm, %s%.0f HU\n", lesion.lesion_id.c_str(),
+                form.center_lps_mm.x, form.center_lps_mm.y, form.center_lps_mm.z, cases::about(form.kind).words,
+                base::name_of(cases::kLesionOutlineNames, form.outline).data(), lesion.lesion.radius_mm,
                 form.adds ? "tissue + " : "", form.hu);
   }
   for (const casedb::StructureRow& one : parts->structures)
@@ -76,6 +76,14 @@ int run_case_show(const Arguments& arguments) {
     std::printf("%s by %s%s%s\n", casedb::name_of(one.kind).c_str(), one.who().c_str(),
                 one.note.empty() ? "" : ": ", one.note.c_str());
   return kDone;
+}
+
+cases::LesionKind lesion_kind_of(const std::string& name) {
+  if (const auto kind = base::from_name(cases::kLesionKindNames, name)) return *kind;
+  std::string all;
+  for (const cases::LesionKindRow& row : cases::lesion_kinds())
+    all += (all.empty() ? "" : ", ") + std::string(base::name_of(cases::kLesionKindNames, row.kind));
+  throw UsageError("--kind is one of " + all);
 }
 
 int run_case_lesion(const Arguments& arguments) {
@@ -92,21 +100,28 @@ int run_case_lesion(const Arguments& arguments) {
   if (arguments.has("--radii-mm")) {
     if (arguments.has("--radius-mm") || arguments.has("--irregular"))
       throw UsageError("--radii-mm takes no other radius beside it");
-    form.kind = cases::LesionKind::ellipsoid;
+    form.outline = cases::LesionOutline::ellipsoid;
     form.radii_mm = point_of("--radii-mm", arguments.text("--radii-mm"));
   } else {
     arguments.required("--radius-mm");
     form.radii_mm = glm::dvec3(arguments.number("--radius-mm", 0.0));
   }
   if (arguments.has("--irregular")) {
-    form.kind = cases::LesionKind::irregular;
+    form.outline = cases::LesionOutline::irregular;
     form.roughness = arguments.number("--irregular", 0.0);
     form.seed = static_cast<std::uint64_t>(arguments.whole("--seed", 1, 0, 9'007'199'254'740'992));
   }
+  if (arguments.has("--kind")) form.kind = lesion_kind_of(arguments.text("--kind"));
   form.adds = arguments.has("--contrast-hu");
   if (form.adds && arguments.has("--hu")) throw UsageError("either --hu or --contrast-hu");
-  arguments.required(form.adds ? "--contrast-hu" : "--hu");
-  form.hu = arguments.number(form.adds ? "--contrast-hu" : "--hu", 0.0);
+  if (form.kind != cases::LesionKind::by_hu && !form.adds && !arguments.has("--hu")) {
+    const cases::LesionHu& ct = cases::about(form.kind).ct;
+    form.hu = ct.hu;
+    form.adds = ct.adds;
+  } else {
+    arguments.required(form.adds ? "--contrast-hu" : "--hu");
+    form.hu = arguments.number(form.adds ? "--contrast-hu" : "--hu", 0.0);
+  }
   form.edge_mm = arguments.number("--edge-mm", 0.0);
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
@@ -127,7 +142,11 @@ constexpr Option kLesionOptions[] = {
     {"--radii-mm", "A,B,C", "an ellipsoid's, along LPS"},
     {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
     {"--seed", "N", "which irregular one; default 1"},
-    {"--hu", "H", "its HU"},
+    {"--kind", "KIND",
+     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, a tissue as its "
+     "HU "
+     "says"},
+    {"--hu", "H", "its HU; default the kind's"},
     {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
     {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},
     {"--remove", "LESION", "takes one away again"},

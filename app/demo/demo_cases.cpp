@@ -33,6 +33,13 @@ cases::LesionForm sphere(const glm::dvec3& center_lps_mm, double radius_mm, doub
   return form;
 }
 
+// A tumour, as the pictures draw it.
+cases::LesionForm solid(cases::LesionKind kind, const glm::dvec3& center_lps_mm, double radius_mm, double hu) {
+  cases::LesionForm form = sphere(center_lps_mm, radius_mm, hu);
+  form.kind = kind;
+  return form;
+}
+
 DemoStructure drawn(const char* name, StructureRule rule, TissueClass tissue, cases::Shape shape,
                     std::optional<double> hu) {
   DemoStructure made;
@@ -147,7 +154,7 @@ DemoCase torso_liver() {
   made.setting.rule = rule({"core_in_target >= 10", "capsule_punctures <= 1", "skin_punctures <= 1",
                             "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                            {"nogo_length_critical <= 0"});
-  made.lesions = {sphere({-90.0, -28.0, -18.0}, 12.5, 12.0)};
+  made.lesions = {solid(cases::LesionKind::metastasis, {-90.0, -28.0, -18.0}, 12.5, 40.0)};
   made.structures = {
       labelled("liver", StructureRule::organ), labelled("gallbladder", StructureRule::critical),
       labelled("stomach", StructureRule::critical), labelled("colon", StructureRule::critical),
@@ -170,7 +177,7 @@ DemoCase contrast_liver() {
   made.setting.rule = rule({"core_in_target >= 8", "capsule_punctures <= 1", "skin_punctures <= 1",
                             "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                            {"nogo_length_critical <= 0"});
-  made.lesions = {sphere({-115.0, -5.0, -98.0}, 7.5, 12.0)};
+  made.lesions = {solid(cases::LesionKind::hcc, {-115.0, -5.0, -98.0}, 7.5, 80.0)};
   made.structures = {
       of_class("lung", StructureRule::critical, TissueClass::lung),
       // Potential spaces and a bundle that this CT does not show: along the ribs that it does.
@@ -194,7 +201,7 @@ DemoCase kidney_cortex() {
                             "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                            {"nogo_length_critical <= 0"});
   cases::LesionForm cortex;  // no lesion: where the sample comes from, as the CT shows it
-  cortex.kind = cases::LesionKind::ellipsoid;
+  cortex.outline = cases::LesionOutline::ellipsoid;
   cortex.center_lps_mm = {66.0, 79.0, -624.0};
   cortex.radii_mm = {12.0, 7.0, 9.0};
   cortex.adds = true;
@@ -270,7 +277,7 @@ DemoCase beside_a_vein() {
   made.setting.rule = rule({"core_in_target >= 6", "capsule_punctures <= 2", "skin_punctures <= 1",
                             "advance_visible_share >= 0.8", "blind_advance_max <= 5"},
                            {"nogo_length_critical <= 0"});
-  made.lesions = {sphere({-79.0, -34.0, -84.0}, 5.0, 12.0)};
+  made.lesions = {solid(cases::LesionKind::metastasis, {-79.0, -34.0, -84.0}, 5.0, 70.0)};
   made.structures = {
       drawn("hepatic_vein", StructureRule::critical, TissueClass::vessel,
             cases::Tube{{{-74, -46, -84}, {-70, -36, -80}, {-60, -8, -74}, {-46, 22, -66}}, 3.0}, 150.0),

@@ -245,8 +245,14 @@ base::Result<Scene> scene_from_json(const std::string& text, const std::filesyst
     } else {
       for (std::size_t i = 0; i < lesions.size(); ++i) {
         SceneReader reader(lesions[i], "lesions[" + std::to_string(i) + "]", error);
-        scene.inserted.lesions.push_back({reader.point("center_mm"), reader.number("radius_mm", 1e-6, 500.0),
-                                          reader.number("hu", -1024.0, 32767.0)});
+        cases::Lesion lesion;
+        lesion.center_lps_mm = reader.point("center_mm");
+        lesion.radius_mm = reader.number("radius_mm", 1e-6, 500.0);
+        lesion.hu = reader.number("hu", -1024.0, 32767.0);
+        constexpr auto& kKinds = base::kNamesOf<cases::kLesionKindNames>;
+        lesion.kind = *base::from_name(cases::kLesionKindNames,
+                                       reader.choice("kind", {kKinds.begin(), kKinds.end()}, "by_hu"));
+        scene.inserted.lesions.push_back(std::move(lesion));
         reader.unused(unused);
       }
     }

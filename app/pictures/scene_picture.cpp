@@ -13,6 +13,8 @@
 #include "sim/imaging/ultrasound/console.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
+#include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/picture.h"
 #include "sim/imaging/xray/projection/coarse.h"
@@ -195,6 +197,7 @@ base::Result<void> ScenePainter::find_tissue(const Scene& scene) {
   auto classes = classes_of(scene, volume_, library_);
   if (!classes) return classes.error();
   std::vector<std::uint8_t> echogenicity = imaging::echogenicity(volume_, *classes);
+  imaging::show_organs(volume_, *classes, echogenicity);
   auto skin = casedb::skin_surface(volume_);  // without a body all elements stand in air
   std::optional<tissue::BreathRegion> trunk;
   cases::MeshIndex index;
@@ -246,7 +249,9 @@ base::Result<ScenePicture> ScenePainter::paint(const Scene& scene, const std::st
   } else if (const auto* xray = std::get_if<XrayView>(&*scene.view)) {
     render_xray(volume_, *xray, scene.inserted, picture);
   } else {
-    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), scene.inserted, displacement_of(scene), picture);
+    imaging::Inserted inserted = scene.inserted;
+    imaging::settle_lesions(volume_, tissue_->classes, tissue_->echogenicity, inserted.lesions);
+    paint_ultrasound(std::get<UltrasoundSceneView>(*scene.view), inserted, displacement_of(scene), picture);
   }
   return picture;
 }

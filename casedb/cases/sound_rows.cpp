@@ -155,7 +155,7 @@ bool is_sound_lesion(const CaseRow& row, const cases::LesionForm& form) {
 }
 
 double radius_of(const cases::LesionForm& form) {
-  if (form.kind != cases::LesionKind::ellipsoid) return form.radii_mm.x;
+  if (form.outline != cases::LesionOutline::ellipsoid) return form.radii_mm.x;
   return std::cbrt(form.radii_mm.x * form.radii_mm.y * form.radii_mm.z);
 }
 

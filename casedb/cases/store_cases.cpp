@@ -149,7 +149,7 @@ base::Result<void> check_lesion(Library& library, const std::string& case_id, co
 
 void insert_lesion(Sqlite& database, const LesionRow& lesion) {
   const cases::LesionForm& form = lesion.form;
-  const bool ellipsoid = form.kind == cases::LesionKind::ellipsoid;
+  const bool ellipsoid = form.outline == cases::LesionOutline::ellipsoid;
   question(database, "add_lesion")
       .bind("lesion_id", lesion.lesion_id)
       .bind("case_id", lesion.case_id)
@@ -158,6 +158,7 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
       .bind("center_z_lps_mm", form.center_lps_mm.z)
       .bind("radius_mm", radius_of(form))
       .bind("hu", form.hu)
+      .bind("outline", base::name_of(cases::kLesionOutlineNames, form.outline))
       .bind("kind", base::name_of(cases::kLesionKindNames, form.kind))
       .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
       .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
@@ -332,6 +333,7 @@ base::Result<std::string> add_lesion(Library& library, const std::string& case_i
   form.center_lps_mm = lesion.center_lps_mm;
   form.radii_mm = glm::dvec3(lesion.radius_mm);
   form.hu = lesion.hu;
+  form.kind = lesion.kind;
   return add_lesion(library, case_id, form);
 }
 
@@ -380,10 +382,12 @@ std::vector<LesionRow> read_lesions(Sqlite& database, const std::optional<std::s
     row.lesion.hu = lesions.real("hu");
     row.created_us = lesions.integer("created_us");
     cases::LesionForm& form = row.form;
-    form.kind = *base::from_name(cases::kLesionKindNames, lesions.view("kind"));  // the schema takes no others
+    // The schema takes no others.
+    form.outline = *base::from_name(cases::kLesionOutlineNames, lesions.view("outline"));
+    form.kind = row.lesion.kind = *base::from_name(cases::kLesionKindNames, lesions.view("kind"));
     form.center_lps_mm = row.lesion.center_lps_mm;
     form.radii_mm = glm::dvec3(row.lesion.radius_mm);
-    if (form.kind == cases::LesionKind::ellipsoid)
+    if (form.outline == cases::LesionOutline::ellipsoid)
       form.radii_mm = {lesions.real("radius_x_mm"), lesions.real("radius_y_mm"), lesions.real("radius_z_mm")};
     form.hu = row.lesion.hu;
     form.roughness = lesions.real("roughness");

@@ -79,10 +79,11 @@ Json json_of_lesion(const LesionRow& lesion) {
                {"radius_mm", lesion.lesion.radius_mm},
                {"hu", form.hu},
                {"kind", base::name_of(cases::kLesionKindNames, form.kind)},
+               {"outline", base::name_of(cases::kLesionOutlineNames, form.outline)},
                {"adds", form.adds},
                {"edge_mm", form.edge_mm}};
-  if (form.kind == cases::LesionKind::ellipsoid) json["radii_mm"] = point(form.radii_mm);
-  if (form.kind == cases::LesionKind::irregular) {
+  if (form.outline == cases::LesionOutline::ellipsoid) json["radii_mm"] = point(form.radii_mm);
+  if (form.outline == cases::LesionOutline::irregular) {
     json["roughness"] = form.roughness;
     json["seed"] = form.seed;
   }

@@ -48,7 +48,8 @@ std::string bound_text(const assessment::Criterion& criterion) {
 
 std::string lesion_text(const casedb::LesionRow& lesion) {
   const cases::LesionForm& form = lesion.form;
-  return std::string(base::name_of(cases::kLesionKindNames, form.kind)) + ", " +
+  return std::string(cases::about(form.kind).words) + ", " +
+         std::string(base::name_of(cases::kLesionOutlineNames, form.outline)) + ", " +
          reports::lesion_text(lesion.lesion) + ", " + (form.adds ? "tissue plus " : "") + number_text(form.hu, 0) +
          " HU";
 }

@@ -6,6 +6,8 @@
 #include "casedb/cases/authoring.h"
 #include "sim/case/paint.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
+#include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/ultrasound/view/tissue.h"
 #include "sim/volume/tissue/find_tissue.h"
 
@@ -68,7 +70,13 @@ void take_setting(const casedb::CaseSetting& setting, cases::Case& scene) {
 
 // Of all that was painted.
 void finish(Needs needs, cases::Case& scene) {
-  if (needs == Needs::ultrasound) scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
+  if (needs == Needs::ultrasound) {
+    scene.echogenicity = imaging::echogenicity(scene.volume, scene.classes);
+    // Cases of before decision 0061 keep the levels that their classes have.
+    if (scene.sight_law == cases::SightLaw::echo)
+      imaging::show_organs(scene.volume, scene.classes, scene.echogenicity);
+    imaging::settle_lesions(scene.volume, scene.classes, scene.echogenicity, scene.lesions);
+  }
   // The table is set so that the machine turns about the middle of what there is.
   const glm::dvec4 middle(glm::dvec3(scene.volume.size_voxels - 1) / 2.0, 1.0);
   scene.fluoroscope.start.isocentre_lps_mm = glm::dvec3(scene.volume.lps_from_voxel * middle);
@@ -85,7 +93,7 @@ void add_lesion(const cases::LesionForm& form, cases::Case& scene) {
       lesion.around_hu = painted.before_hu;
     }
     if (!scene.classes.empty())
-      cases::paint_class(*lesion.shape, imaging::tissue_of_lesion(lesion.hu), scene.volume, scene.classes);
+      cases::paint_class(*lesion.shape, cases::tissue_of_lesion(lesion.hu), scene.volume, scene.classes);
   }
   scene.lesions.push_back(std::move(lesion));
 }

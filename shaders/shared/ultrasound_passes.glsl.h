@@ -15,6 +15,7 @@ struct UsTissue {
   vec4 amplitude[16];                    // x: of each class
   vec4 lesion_sphere_mm[kUsMaxLesions];  // xyz: centre; w: radius
   vec4 lesion_amplitude[kUsMaxLesions];  // x; y: class
+  vec4 lesion_rim[kUsMaxLesions];        // x, y: the same of its rim; z: radius at which that begins
   int lesion_count;
   int size_x;  // of the volume, voxels
   int size_y;

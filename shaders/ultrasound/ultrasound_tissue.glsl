@@ -7,7 +7,9 @@ uint class_at(ivec3 voxel, vec3 from_origin_mm) {
   for (int i = tissue.lesion_count - 1; i >= 0; --i) {
     vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
     float radius = tissue.lesion_sphere_mm[i].w;
-    found = dot(off, off) <= radius * radius ? uint(tissue.lesion_amplitude[i].y) : found;
+    float inner = tissue.lesion_rim[i].z;
+    float part = dot(off, off) <= inner * inner ? tissue.lesion_amplitude[i].y : tissue.lesion_rim[i].y;
+    found = dot(off, off) <= radius * radius ? uint(part) : found;
   }
   return found;
 }
@@ -24,7 +26,9 @@ float speckle_amplitude(vec3 index, vec3 from_origin_mm) {
   for (int i = tissue.lesion_count - 1; i >= 0; --i) {
     vec3 off = from_origin_mm - tissue.lesion_sphere_mm[i].xyz;
     float radius = tissue.lesion_sphere_mm[i].w;
-    amplitude = dot(off, off) <= radius * radius ? tissue.lesion_amplitude[i].x : amplitude;
+    float inner = tissue.lesion_rim[i].z;
+    float part = dot(off, off) <= inner * inner ? tissue.lesion_amplitude[i].x : tissue.lesion_rim[i].x;
+    amplitude = dot(off, off) <= radius * radius ? part : amplitude;
   }
   return amplitude;
 }

@@ -13,6 +13,7 @@
 #include "sim/case/fluoroscope.h"
 #include "sim/case/form/mesh.h"
 #include "sim/case/form/mesh_index.h"
+#include "sim/case/lesion_kind.h"
 #include "sim/case/patient_position.h"
 #include "sim/case/structure.h"
 #include "sim/case/subject.h"
@@ -37,6 +38,14 @@ struct Instrument {
   double dead_tip_mm = 4.0;  // core only: from the notch's end to the tip
 };
 
+// A lesion to sound, once it is known what lies about it (sim/imaging/ultrasound/view/lesion_echo.h). dB: mean
+// square echo above liver's speckle.
+struct LesionEcho {
+  volume::TissueClass inside = volume::TissueClass::soft_tissue, rim = volume::TissueClass::soft_tissue;
+  double inside_db = 0.0, rim_db = 0.0;
+  double rim_mm = 0.0;  // of its own outside
+};
+
 // A sphere of one HU is drawn by the pictures. Any other (sim/case/lesion_form.h) has a shape and lies in the
 // volume: pictures do not draw it, and for what they show it counts as the ball of its volume.
 struct Lesion {
@@ -45,6 +54,8 @@ struct Lesion {
   double hu = 0.0;                       // of one in the volume: its mean, once it lies there
   std::shared_ptr<const Shape> shape{};  // null: the sphere
   double around_hu = 0.0;                // of one in the volume: mean of what was there
+  LesionKind kind = LesionKind::by_hu;
+  std::optional<LesionEcho> echo{};  // nothing: what its HU say
   bool in_volume() const noexcept { return shape != nullptr; }
 };
 

@@ -84,12 +84,12 @@ double irregular_radius_mm(const LesionForm& form, const glm::dvec3& direction) 
 }
 
 Shape shape_of(const LesionForm& form) {
-  switch (form.kind) {
-    case LesionKind::ellipsoid:
+  switch (form.outline) {
+    case LesionOutline::ellipsoid:
       return Ellipsoid{form.center_lps_mm, form.radii_mm};
-    case LesionKind::irregular:
+    case LesionOutline::irregular:
       return voxels_of(form);
-    case LesionKind::sphere:
+    case LesionOutline::sphere:
       break;
   }
   return Sphere{form.center_lps_mm, form.radii_mm.x};
@@ -100,9 +100,10 @@ Lesion lesion_of(const LesionForm& form) {
   lesion.center_lps_mm = form.center_lps_mm;
   lesion.radius_mm = form.radii_mm.x;
   lesion.hu = form.hu;
+  lesion.kind = form.kind;
   if (is_plain(form)) return lesion;
   lesion.shape = std::make_shared<const Shape>(shape_of(form));
-  if (form.kind != LesionKind::sphere)
+  if (form.outline != LesionOutline::sphere)
     lesion.radius_mm = std::cbrt(volume_mm3(*lesion.shape) * 3.0 / (4.0 * std::numbers::pi));
   return lesion;
 }

@@ -13,12 +13,14 @@
 
 namespace seldinger::cases {
 
-enum class LesionKind { sphere, ellipsoid, irregular };
-inline constexpr auto kLesionKindNames = base::names<LesionKind>(
-    {{LesionKind::sphere, "sphere"}, {LesionKind::ellipsoid, "ellipsoid"}, {LesionKind::irregular, "irregular"}});
+enum class LesionOutline { sphere, ellipsoid, irregular };
+inline constexpr auto kLesionOutlineNames = base::names<LesionOutline>({{LesionOutline::sphere, "sphere"},
+                                                                        {LesionOutline::ellipsoid, "ellipsoid"},
+                                                                        {LesionOutline::irregular, "irregular"}});
 
 struct LesionForm {
-  LesionKind kind = LesionKind::sphere;
+  LesionKind kind = LesionKind::by_hu;
+  LesionOutline outline = LesionOutline::sphere;
   glm::dvec3 center_lps_mm{0.0};
   glm::dvec3 radii_mm{0.0};  // an ellipsoid's, along LPS; of the others all three are the (mean) radius
   double roughness = 0.0;    // irregular: standard deviation of the radius as a share of it, 0 to kMostRoughness
@@ -41,7 +43,7 @@ Lesion lesion_of(const LesionForm& form);
 
 // Whether pictures draw it themselves.
 inline bool is_plain(const LesionForm& form) noexcept {
-  return form.kind == LesionKind::sphere && !form.adds && form.edge_mm == 0.0;
+  return form.outline == LesionOutline::sphere && !form.adds && form.edge_mm == 0.0;
 }
 
 // Mean of what lies about a drawn target, 2 mm from its surface; nothing where that is outside the volume. What it

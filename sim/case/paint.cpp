@@ -105,4 +105,14 @@ void paint_class(const Shape& shape, volume::TissueClass tissue, const volume::V
            });
 }
 
+void over_voxels_in(const Shape& shape, const volume::Volume& volume, double deepest_mm,
+                    const std::function<void(std::size_t voxel, double depth_mm)>& tell) {
+  const double limit_mm = std::max(deepest_mm, kTouchMm);
+  over_box(voxels_around(shape, kTouchMm, volume, volume::voxel_from_lps(volume)), volume,
+           [&](int i, int j, int k, const glm::dvec3& center) {
+             const double distance_mm = signed_distance_mm(shape, center, limit_mm);
+             if (distance_mm <= 0.0) tell(static_cast<std::size_t>(volume.index(i, j, k)), -distance_mm);
+           });
+}
+
 }  // namespace seldinger::cases

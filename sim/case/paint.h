@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,5 +29,9 @@ Painted paint(const Shape& shape, const Brush& brush, volume::Volume& volume);
 // The voxels whose centre is inside become `tissue`. One class per voxel (CHECK).
 void paint_class(const Shape& shape, volume::TissueClass tissue, const volume::Volume& volume,
                  std::span<volume::TissueClass> classes);
+
+// tell(voxel, depth) of the voxels whose centre is inside: how deep below the surface, at most `deepest_mm`.
+void over_voxels_in(const Shape& shape, const volume::Volume& volume, double deepest_mm,
+                    const std::function<void(std::size_t voxel, double depth_mm)>& tell);
 
 }  // namespace seldinger::cases

@@ -19,7 +19,7 @@ bool usable(const TickState& now) noexcept {
     if (hand.delay_ticks < 0 || hand.delay_ticks > haptics::kMostDelayTicks) return false;
     if (static_cast<int>(hand.tool) < 0 || static_cast<int>(hand.tool) >= haptics::kTools) return false;
     for (const volume::TissueClass tissue : path.tissues)
-      if (static_cast<std::size_t>(tissue) >= volume::kTissueClasses) return false;
+      if (static_cast<std::size_t>(tissue) >= volume::kTissueClasses + haptics::kMostFeltLesions) return false;
   }
   for (const cases::EventKind kind : now.patient.waiting)
     if (!known(kind)) return false;

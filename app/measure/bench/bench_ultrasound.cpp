@@ -15,6 +15,7 @@
 #include "sim/base/failure.h"
 #include "sim/imaging/ultrasound/ultrasound_gpu.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/organs.h"
 #include "sim/imaging/ultrasound/visible.h"
 #include "sim/volume/phantom.h"
 #include "sim/volume/tissue/find_tissue.h"
@@ -275,6 +276,7 @@ class UltrasoundStage {
 Patient patient_of(std::string name, const volume::Volume& volume, const volume::LabelMap* labels) {
   Patient patient{std::move(name), &volume, volume::tissue_classes(volume, labels), {}};
   patient.echogenicity = imaging::echogenicity(volume, patient.classes);
+  imaging::show_organs(volume, patient.classes, patient.echogenicity);
   return patient;
 }
 

@@ -93,7 +93,7 @@ void drag(const Grip& grip, const PlaneKind& plane, const glm::dvec3& to_lps_mm,
   Round round{form.center_lps_mm, form.radii_mm};
   if (grip.part == GripPart::middle)
     form.center_lps_mm = moved(plane, form.center_lps_mm, to_lps_mm);
-  else if (form.kind == cases::LesionKind::ellipsoid) {
+  else if (form.outline == cases::LesionOutline::ellipsoid) {
     drag_ellipsoid_rim(plane, to_lps_mm, round);
     form.radii_mm = round.radii;
   } else {

@@ -104,6 +104,7 @@ class EditorPanel {
   void draw_lesion(CaseEditor& editor);
   void draw_structure(CaseEditor& editor);
   void choose_structure(CaseEditor& editor);
+  bool draw_lesion_kind();        // true: changed, and with it what CT shows
   bool draw_structure_meaning();  // name, rule, tissue; true: changed
   bool draw_drawn_structure();    // size and HU; true: changed
   void draw_entry(CaseEditor& editor);

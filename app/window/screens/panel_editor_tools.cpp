@@ -69,8 +69,8 @@ bool choice(const char* label, Value& value, const std::array<Value, n>& all, co
   return changed;
 }
 
-constexpr std::array<cases::LesionKind, 3> kLesionKinds = {cases::LesionKind::sphere, cases::LesionKind::ellipsoid,
-                                                           cases::LesionKind::irregular};
+constexpr std::array<cases::LesionOutline, 3> kLesionOutlines = {
+    cases::LesionOutline::sphere, cases::LesionOutline::ellipsoid, cases::LesionOutline::irregular};
 constexpr std::array<cases::StructureRule, 6> kRules = {
     cases::StructureRule::critical,   cases::StructureRule::major, cases::StructureRule::advisory,
     cases::StructureRule::must_cross, cases::StructureRule::organ, cases::StructureRule::target};
@@ -151,6 +151,23 @@ std::string metric_words(const std::string& id) {
 
 }  // namespace
 
+bool EditorPanel::draw_lesion_kind() {
+  ImGui::SetNextItemWidth(scaled(kFieldPx));
+  if (!begin_choice("kind", cases::about(form_.kind).words)) return false;
+  bool changed = false;
+  for (const cases::LesionKindRow& row : cases::lesion_kinds())
+    if (ImGui::Selectable(row.words, row.kind == form_.kind)) {
+      form_.kind = row.kind;
+      if (row.kind != cases::LesionKind::by_hu) {
+        form_.hu = row.ct.hu;
+        form_.adds = row.ct.adds;
+      }
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
 void EditorPanel::draw_lesion(CaseEditor& editor) {
   heading(editor.lesion < editor.lesions().size() ? "Lesion" : "A new lesion: click its middle in a plane");
   for (std::size_t i = 0; i < editor.lesions().size(); ++i) {
@@ -166,11 +183,13 @@ void EditorPanel::draw_lesion(CaseEditor& editor) {
   const bool there = editor.lesion < editor.lesions().size();
   if (!form_in_hand_) form_ = there ? editor.shown_lesions()[editor.lesion] : editor.new_lesion;
   form_in_hand_ = false;
-  bool changed = choice("form", form_.kind, kLesionKinds,
-                        [](cases::LesionKind kind) { return base::name_of(cases::kLesionKindNames, kind); });
-  if (changed && form_.kind != cases::LesionKind::irregular) form_.roughness = 0.0;
-  if (changed && form_.kind == cases::LesionKind::irregular) form_.roughness = 0.12;
-  if (form_.kind == cases::LesionKind::ellipsoid) {
+  bool changed = draw_lesion_kind();
+  const bool other_form = choice("form", form_.outline, kLesionOutlines, [](cases::LesionOutline kind) {
+    return base::name_of(cases::kLesionOutlineNames, kind);
+  });
+  if (other_form) form_.roughness = form_.outline == cases::LesionOutline::irregular ? 0.12 : 0.0;
+  changed = other_form || changed;
+  if (form_.outline == cases::LesionOutline::ellipsoid) {
     changed = number("radius x mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
     changed = number("radius y mm", form_.radii_mm.y, 0.5, "%.1f", form_in_hand_) || changed;
     changed = number("radius z mm", form_.radii_mm.z, 0.5, "%.1f", form_in_hand_) || changed;
@@ -178,7 +197,7 @@ void EditorPanel::draw_lesion(CaseEditor& editor) {
     changed = number("radius mm", form_.radii_mm.x, 0.5, "%.1f", form_in_hand_) || changed;
     form_.radii_mm = glm::dvec3(form_.radii_mm.x);
   }
-  if (form_.kind == cases::LesionKind::irregular)
+  if (form_.outline == cases::LesionOutline::irregular)
     changed = number("roughness", form_.roughness, 0.02, "%.2f", form_in_hand_) || changed;
   changed = number(form_.adds ? "HU added" : "HU", form_.hu, 5.0, "%.0f", form_in_hand_) || changed;
   ImGui::SameLine();

@@ -50,8 +50,20 @@ void interrupt(HeldNeedleState& state) noexcept {
   state.side.damper_n = {};
 }
 
+namespace {
+
+// Cases of before decision 0061 had plain spheres that no needle felt.
+std::span<const cases::Lesion> felt_lesions(const cases::Case& scene) {
+  if (scene.sight_law == cases::SightLaw::half_slice) return {};
+  return scene.lesions;
+}
+
+}  // namespace
+
 HeldNeedle::HeldNeedle(const cases::Case& scene)
-    : scene_(&scene), gauge_(gauge_of(scene.instrument)), tissue_(scene.volume, scene.classes, gauge_) {}
+    : scene_(&scene),
+      gauge_(gauge_of(scene.instrument)),
+      tissue_(scene.volume, scene.classes, gauge_, felt_lesions(scene)) {}
 
 // Along the needle from the undeformed skin to the tip. Continuous: no ray's miss makes it jump.
 double HeldNeedle::below_skin_mm(const cases::ToolPose& pose, const cases::SkinPassage& skin) const noexcept {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vector_relational.hpp>
 
 #include "sim/base/check.h"
 
@@ -15,18 +16,48 @@ constexpr double kStepMm = 0.5;
 constexpr double kSkinMm = 2.0;
 // What is thinner is a voxel's fleck or partial volume, with no capsule of its own (design: about two voxels).
 constexpr double kThinnestMm = 2.0;
+constexpr double kInsideMm = 1e-6;  // of distances, of which the sign alone is asked
+
+bool is_lesion(TissueClass tissue) {
+  return static_cast<std::size_t>(tissue) >= volume::kTissueClasses;
+}
 
 }  // namespace
 
 TissueAlongNeedle::TissueAlongNeedle(const volume::Volume& volume, std::span<const TissueClass> classes,
-                                     const cases::Gauge& gauge)
+                                     const cases::Gauge& gauge, std::span<const cases::Lesion> lesions)
     : volume_(&volume), classes_(classes), voxel_from_lps_(volume::voxel_from_lps(volume)), gauge_(gauge) {
   CHECK(classes.size() == volume.hu.size());
   for (const NeedleTissueRow& row : needle_tissues())
     rows_[static_cast<std::size_t>(row.tissue)] = at_gauge(row.needle, gauge);
+  for (std::size_t i = 0; i < lesions.size(); ++i) {
+    const cases::Lesion& lesion = lesions[i];
+    const bool by_hu = lesion.kind == cases::LesionKind::by_hu;
+    if ((by_hu && lesion.in_volume()) || !(lesion.radius_mm > 0.0)) continue;
+    const cases::Shape shape = cases::shape_of(lesion);
+    lesions_.push_back({static_cast<TissueClass>(volume::kTissueClasses + i), shape, cases::bounds_of(shape),
+                        at_gauge(needle_tissue(lesion), gauge), lesion.hu});
+  }
+}
+
+const TissueAlongNeedle::Felt* TissueAlongNeedle::lesion_at(const glm::dvec3& p_lps_mm) const noexcept {
+  for (const Felt& felt : lesions_)
+    if (glm::all(glm::greaterThanEqual(p_lps_mm, felt.bounds.low_lps_mm)) &&
+        glm::all(glm::lessThanEqual(p_lps_mm, felt.bounds.high_lps_mm)) &&
+        cases::signed_distance_mm(felt.shape, p_lps_mm, kInsideMm) <= 0.0)
+      return &felt;
+  return nullptr;
+}
+
+const NeedleTissue& TissueAlongNeedle::row(TissueClass tissue) const noexcept {
+  for (const Felt& felt : lesions_)
+    if (felt.as == tissue) return felt.tissue;
+  const auto at = static_cast<std::size_t>(tissue);
+  return rows_[at < rows_.size() ? at : 0];
 }
 
 TissueAlongNeedle::Sample TissueAlongNeedle::at(const glm::dvec3& p_lps_mm) const noexcept {
+  if (const Felt* felt = lesion_at(p_lps_mm)) return {felt->as, felt->hu};
   const glm::dvec3 index(voxel_from_lps_ * glm::dvec4(p_lps_mm, 1.0));
   if (!volume::inside(*volume_, index)) return {TissueClass::air, volume::kAirHu};
   const auto nearest = [](double value, int size) {
@@ -40,8 +71,15 @@ TissueAlongNeedle::Sample TissueAlongNeedle::at(const glm::dvec3& p_lps_mm) cons
 
 void TissueAlongNeedle::add(double start_mm, TissueClass tissue, NeedlePath& path) const noexcept {
   if (path.count == kMostNeedleLayers || (path.count > 0 && path.tissues[path.count - 1] == tissue)) return;
+  NeedleTissue next = row(tissue);
+  // What lies about a lesion has no capsule there: its edge is the lesion's on the way out as on the way in.
+  if (path.count > 0 && is_lesion(path.tissues[path.count - 1]) && !next.impenetrable) {
+    const NeedleTissue& lesion = path.layers[path.count - 1].tissue;
+    next.rupture_n = lesion.rupture_n;
+    next.dent_mm = lesion.dent_mm;
+  }
   path.tissues[path.count] = tissue;
-  path.layers[path.count++] = {start_mm, rows_[static_cast<std::size_t>(tissue)]};
+  path.layers[path.count++] = {start_mm, next};
 }
 
 void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& direction, double length_mm,
@@ -68,7 +106,7 @@ void TissueAlongNeedle::look(const glm::dvec3& entry_lps_mm, const glm::dvec3& d
     }
     sum_hu += sample.hu;
     n += 1.0;
-    const bool hard = rows_[static_cast<std::size_t>(run)].impenetrable;
+    const bool hard = row(run).impenetrable;
     if (hard || along_mm - run_mm >= kThinnestMm) add(run_mm, run, path);
     if (run == TissueClass::soft_tissue && path.count > fixed && path.tissues[path.count - 1] == run)
       path.layers[path.count - 1].tissue = at_gauge(soft_tissue_of_hu(sum_hu / n), gauge_);

@@ -71,6 +71,19 @@ const NeedleTissue& needle_tissue(volume::TissueClass tissue) noexcept {
   return kTissues[at < kTissues.size() ? at : 0].needle;
 }
 
+NeedleTissue needle_tissue(const cases::Lesion& lesion) noexcept {
+  if (lesion.kind != cases::LesionKind::by_hu) {
+    const cases::LesionTouch& touch = cases::about(lesion.kind).touch;
+    return {.slope_n_mm = touch.slope_n_mm,
+            .intercept_n = touch.cutting_n,
+            .tip_stiffness_n_mm = touch.tip_stiffness_n_mm,
+            .rupture_n = touch.edge_n,
+            .dent_mm = touch.dent_mm};
+  }
+  const TissueClass tissue = cases::tissue_of_lesion(lesion.hu);
+  return tissue == TissueClass::soft_tissue ? soft_tissue_of_hu(lesion.hu) : needle_tissue(tissue);
+}
+
 NeedleTissue soft_tissue_of_hu(double hu) noexcept {
   constexpr double kFatHu = -100.0, kTissueHu = 40.0;
   const double share = std::clamp((hu - kFatHu) / (kTissueHu - kFatHu), 0.0, 1.0);

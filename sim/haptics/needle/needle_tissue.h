@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "sim/case/case.h"
 #include "sim/case/gauge.h"
 #include "sim/volume/classes.h"
 
@@ -38,6 +39,9 @@ const NeedleTissue& needle_tissue(volume::TissueClass tissue) noexcept;
 // Where HU alone must tell (soft_tissue): between fat's row at -100 HU and the class's own from 40 HU on, as HU
 // lies (Prokop's HU, as classes.h; that forces follow them in a straight line is design).
 NeedleTissue soft_tissue_of_hu(double hu) noexcept;
+
+// Of a lesion: its kind's row, or that of the class its HU tell (what HU cannot tell apart: as HU lie).
+NeedleTissue needle_tissue(const cases::Lesion& lesion) noexcept;
 
 // The row for another gauge: forces grow in proportion to the outer diameter (design; Jiang, J Biomech 2014,
 // reports strong growth from 0.7 to 3.2 mm, and friction acts on the circumference).

@@ -11,6 +11,7 @@
 #include "sim/imaging/ultrasound/speckle/phase.h"
 #include "sim/imaging/ultrasound/speckle/pulse.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
 namespace seldinger::imaging {
@@ -26,7 +27,7 @@ using shaders::UsPulseParameters;
 using shaders::UsScatterParameters;
 using shaders::UsTile;
 using shaders::UsTissue;
-static_assert(sizeof(UsTissue) == 800 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
+static_assert(sizeof(UsTissue) == 1056 && sizeof(UsScatterParameters) == 64 && sizeof(UsTile) == 320 &&
               sizeof(shaders::UsMotion) == 80);
 static_assert(sizeof(UsLatticeParameters) == 128 && sizeof(UsLatticeDepth) == 48);
 static_assert(sizeof(UsPulseParameters) == 64 && sizeof(UsGreyParameters) == 64);
@@ -75,8 +76,11 @@ UsTissue tissue_block(const TissueVolume& tissue, const UltrasoundView& view, co
   for (const cases::Lesion& lesion : inserted.lesions) {
     if (!is_shown(lesion)) continue;
     t.lesion_sphere_mm[t.lesion_count] = vec4_from(lesion.center_lps_mm - view.origin_lps_mm, lesion.radius_mm);
-    const auto of = static_cast<std::size_t>(tissue_of_lesion(lesion.hu));
-    t.lesion_amplitude[t.lesion_count] = {amplitude[of], static_cast<float>(of), 0.0F, 0.0F};
+    const cases::LesionEcho echo = echo_of(lesion);
+    t.lesion_amplitude[t.lesion_count] = {speckle_amplitude(echo.inside_db), static_cast<float>(echo.inside), 0.0F,
+                                          0.0F};
+    t.lesion_rim[t.lesion_count] = {speckle_amplitude(echo.rim_db), static_cast<float>(echo.rim),
+                                    static_cast<float>(inner_radius_mm(lesion, echo)), 0.0F};
     ++t.lesion_count;
   }
   t.size_x = tissue.volume->size_voxels.x;

@@ -10,6 +10,7 @@
 #include "sim/imaging/ultrasound/line.h"
 #include "sim/imaging/ultrasound/needle_echo.h"
 #include "sim/imaging/ultrasound/view/fan.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
 #include "sim/imaging/ultrasound/view/motion.h"
 #include "sim/imaging/ultrasound/view/view.h"
 
@@ -168,14 +169,21 @@ class Sight {
     return seen * step_mm;
   }
 
-  // Cells of speckle in the target's largest section in the slice. A cell is the integral of the intensity's
+  // Cells of speckle in a ball's largest section in the slice. A cell is the integral of the intensity's
   // correlation, exp(−x²/2σ²) for a beam of exp(−x²/2σ²): √(2π)·σ each way (Wagner, Smith, Sandrik and Lopez, IEEE
   // Trans. Sonics Ultrason. 30 (1983) 156).
-  double cells_of(const cases::Lesion& target, const Place& at) const {
+  double cells_of(double radius_mm, const Place& at) const {
     const BeamWidth width = beam_width(view_.probe, frequency_mhz_, view_.focus_mm, std::max(0.5, at.depth_mm));
     const double beyond_mm = std::max(0.0, std::abs(at.off_plane_mm) - 0.5 * slice_mm(at.depth_mm));
-    const double section_mm2 = std::max(0.0, target.radius_mm * target.radius_mm - beyond_mm * beyond_mm);
-    return std::clamp(section_mm2 / (2.0 * width.lateral_sigma_mm * width.axial_sigma_mm), 1.0, kMostCellsSeen);
+    const double section_mm2 = std::max(0.0, radius_mm * radius_mm - beyond_mm * beyond_mm);
+    return section_mm2 / (2.0 * width.lateral_sigma_mm * width.axial_sigma_mm);
+  }
+  static double seen_cells(double cells) { return std::clamp(cells, 1.0, kMostCellsSeen); }
+
+  // How much of what the slice shows there is a ball's: speckle's power is weighted by exp(−(y/σ)²).
+  double share_of_slice(double radius_mm, const Place& at) const {
+    const double sigma_mm = slice_sigma_mm(at.depth_mm), y_mm = at.off_plane_mm;
+    return 0.5 * (std::erf((y_mm + radius_mm) / sigma_mm) - std::erf((y_mm - radius_mm) / sigma_mm));
   }
 
   // Decisions 0013 and 0057.
@@ -198,19 +206,33 @@ class Sight {
       beside_lossless += 0.5 * mean;
       beside += 0.5 * mean * power(-loss_db(beam, z_mm));
     }
-    // The slice, thicker than the target or beside it, fills it with the tissue around: speckle's power is weighted
-    // by exp(−(y/σ)²).
-    const double sigma_mm = slice_sigma_mm(z_mm), y_mm = at.off_plane_mm;
-    const double share = 0.5 * (std::erf((y_mm + r_mm) / sigma_mm) - std::erf((y_mm - r_mm) / sigma_mm));
-    const double own = power(table_[static_cast<std::size_t>(tissue_of_lesion(target.hu))].scatter_db);
-    const double noise = power(kReceiverNoiseDb);
-    if (view_.sight_law == cases::SightLaw::echo) {
-      level.cells = cells_of(target, at);
-      level.least_cnr = kLeastCnrBySize;
-    }
-    level.contrast_db =
-        decibels(through * (share * own + (1.0 - share) * beside_lossless) + noise) - decibels(beside + noise);
+    // The slice, thicker than the target or beside it, fills it with the tissue around.
+    const cases::LesionEcho echo = echo_of(target);
+    const double inner_mm = inner_radius_mm(target, echo);
+    const double whole = share_of_slice(r_mm, at), core = inner_mm > 0.0 ? share_of_slice(inner_mm, at) : 0.0;
+    const double noise = power(kReceiverNoiseDb), besides_db = decibels(beside + noise);
+    const double inside = core * power(echo.inside_db) + (whole - core) * power(echo.rim_db);
+    level.contrast_db = decibels(through * (inside + (1.0 - whole) * beside_lossless) + noise) - besides_db;
+    if (view_.sight_law != cases::SightLaw::echo) return level;
+    level.least_cnr = kLeastCnrBySize;
+    level.cells = seen_cells(cells_of(inner_mm > 0.0 ? inner_mm : r_mm, at));
+    if (echo.rim_mm > 0.0 && inner_mm > 0.0)
+      look_at_rim(target, echo, at, through, beside_lossless, besides_db, level);
     return level;
+  }
+
+  // A halo shows what its lesion alone may not: the ring in the plane, as much of it as the slice holds there.
+  void look_at_rim(const cases::Lesion& target, const cases::LesionEcho& echo, const Place& at, double through,
+                   double beside_lossless, double besides_db, TargetLevel& level) const {
+    const double r_mm = target.radius_mm, inner_mm = inner_radius_mm(target, echo);
+    const double middle_mm = 0.5 * (r_mm + inner_mm);
+    const double behind_mm = std::sqrt(std::max(0.0, r_mm * r_mm - middle_mm * middle_mm));
+    const double share = share_of_slice(behind_mm, at), noise = power(kReceiverNoiseDb);
+    TargetLevel rim = level;
+    rim.contrast_db =
+        decibels(through * (share * power(echo.rim_db) + (1.0 - share) * beside_lossless) + noise) - besides_db;
+    rim.cells = seen_cells(cells_of(r_mm, at) - cells_of(inner_mm, at));
+    if (rim.cnr() > level.cnr()) level = rim;
   }
 
  private:

@@ -58,26 +58,31 @@ std::string code(const base::Result<std::string>& result) {
 
 TEST_F(AuthoringTest, LesionsOfEveryShapeComeBack) {
   cases::LesionForm form;
-  form.kind = cases::LesionKind::ellipsoid;
+  form.outline = cases::LesionOutline::ellipsoid;
   form.center_lps_mm = middle();
   form.radii_mm = {0.5, 0.75, 1.25};
   form.hu = -12.5;
+  form.kind = cases::LesionKind::haemangioma;
   form.adds = true;
   form.edge_mm = 0.3;
   static_cast<void>(add_lesion(library_, case_id_, form).value());
-  form.kind = cases::LesionKind::irregular;
+  form.outline = cases::LesionOutline::irregular;
   form.radii_mm = glm::dvec3(0.9);
+  form.kind = cases::LesionKind::by_hu;
   form.roughness = 0.11;
   form.seed = 0xfedcba9876543210ULL;
   static_cast<void>(add_lesion(library_, case_id_, form).value());
   const auto rows = list_lesions(library_, case_id_);
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].form.kind, cases::LesionKind::ellipsoid);
+  EXPECT_EQ(rows[0].form.outline, cases::LesionOutline::ellipsoid);
   EXPECT_TRUE(same_bits(rows[0].form.radii_mm, {0.5, 0.75, 1.25}));
   EXPECT_NEAR(rows[0].lesion.radius_mm, std::cbrt(0.5 * 0.75 * 1.25), 1e-15);
   EXPECT_TRUE(rows[0].form.adds);
+  EXPECT_EQ(rows[0].form.kind, cases::LesionKind::haemangioma);
+  EXPECT_EQ(rows[0].lesion.kind, cases::LesionKind::haemangioma);
+  EXPECT_EQ(rows[1].form.kind, cases::LesionKind::by_hu);
   EXPECT_EQ(rows[0].form.edge_mm, 0.3);
-  EXPECT_EQ(rows[1].form.kind, cases::LesionKind::irregular);
+  EXPECT_EQ(rows[1].form.outline, cases::LesionOutline::irregular);
   EXPECT_EQ(rows[1].form.roughness, 0.11);
   EXPECT_EQ(rows[1].form.seed, 0xfedcba9876543210ULL);
   for (const auto& [roughness, edge_mm] : {std::pair{0.4, 0.0}, {-0.1, 0.0}, {0.0, 9.0}, {0.0, -1.0}}) {

@@ -86,12 +86,12 @@ class BundledValues : public testing::Test {
   }
   void add_authored(const fixtures::Ball& ball) {
     for (const auto kind :
-         {cases::LesionKind::sphere, cases::LesionKind::ellipsoid, cases::LesionKind::irregular}) {
+         {cases::LesionOutline::sphere, cases::LesionOutline::ellipsoid, cases::LesionOutline::irregular}) {
       cases::LesionForm form;
-      form.kind = kind;
+      form.outline = kind;
       form.center_lps_mm = {0.0, -20.0, 0.0};
-      form.radii_mm = kind == cases::LesionKind::ellipsoid ? glm::dvec3(6, 7, 8) : glm::dvec3(6);
-      form.roughness = kind == cases::LesionKind::irregular ? 0.1 : 0.0;
+      form.radii_mm = kind == cases::LesionOutline::ellipsoid ? glm::dvec3(6, 7, 8) : glm::dvec3(6);
+      form.roughness = kind == cases::LesionOutline::irregular ? 0.1 : 0.0;
       ASSERT_TRUE(casedb::add_lesion(home_, case_id_, form).has_value());
     }
     volume::LabelMap labels{std::vector<std::uint8_t>(20 * 20 * 20, 0), {"none", "kidney"}};

@@ -10,6 +10,8 @@
 
 #include "casedb/cases/authoring.h"
 #include "sim/imaging/mpr/mpr.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/tissue.h"
 #include "sim/imaging/xray/exposure.h"
 #include "sim/imaging/xray/instruments.h"
 #include "sim/imaging/xray/visibility.h"
@@ -50,7 +52,7 @@ class CaseBuild : public testing::Test {
 
 cases::LesionForm ellipsoid() {
   cases::LesionForm form;
-  form.kind = cases::LesionKind::ellipsoid;
+  form.outline = cases::LesionOutline::ellipsoid;
   form.radii_mm = {16, 6, 6};
   form.hu = 200.0;
   return form;
@@ -73,6 +75,33 @@ TEST_F(CaseBuild, WhatIsDrawnOverridesHuAndClassInItsOrder) {
   EXPECT_EQ(scene.echogenicity.size(), scene.volume.hu.size());
   ASSERT_EQ(scene.structures.size(), 3U);
   EXPECT_EQ(scene.structures[1].name, "vessel");
+}
+
+// Level over liver's speckle at a place, in dB.
+double echo_db(const cases::Case& scene, std::size_t voxel) {
+  return imaging::acoustic_table()[static_cast<std::size_t>(scene.classes[voxel])].scatter_db +
+         imaging::echo_offset_db(scene.echogenicity[voxel]);
+}
+
+TEST_F(CaseBuild, ALesionOfAKindIsAsMuchBrighterAsItsRowSays) {
+  cases::LesionForm form = ellipsoid();
+  form.hu = 50.0;  // CT shows nothing
+  form.kind = cases::LesionKind::haemangioma;
+  const cases::Case scene = build(form, Needs::ultrasound);
+  ASSERT_TRUE(scene.lesions[0].echo.has_value());
+  EXPECT_EQ(scene.classes[at(scene, {1, 1, 1})], cases::about(form.kind).look.sound);
+  EXPECT_NEAR(echo_db(scene, at(scene, {1, 1, 1})), scene.lesions[0].echo->inside_db, imaging::kEchoStepDb);
+  EXPECT_NEAR(scene.lesions[0].echo->inside_db - echo_db(scene, at(scene, {1, 1, 11})),
+              cases::about(form.kind).look.inside_db, 1.0);
+}
+
+// A case of before decision 0061 keeps every level it had, and one of after it has layers.
+TEST_F(CaseBuild, OrgansAreShownByTheCasesLawOfSight) {
+  const cases::Case newer = build({}, Needs::ultrasound);
+  EXPECT_NE(newer.echogenicity, imaging::echogenicity(newer.volume, newer.classes));
+  library_.database().run("UPDATE training_case SET sight_law = 'half_slice'");
+  const cases::Case older = build({}, Needs::ultrasound);
+  EXPECT_EQ(older.echogenicity, imaging::echogenicity(older.volume, older.classes));
 }
 
 TEST_F(CaseBuild, OnlyWhatIsNeededIsBuilt) {

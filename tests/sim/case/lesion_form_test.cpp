@@ -14,7 +14,7 @@ namespace {
 
 LesionForm irregular(double radius_mm, double roughness, std::uint64_t seed) {
   LesionForm form;
-  form.kind = LesionKind::irregular;
+  form.outline = LesionOutline::irregular;
   form.center_lps_mm = {10, -20, 30};
   form.radii_mm = glm::dvec3(radius_mm);
   form.roughness = roughness;
@@ -43,7 +43,7 @@ TEST(LesionFormTest, APlainSphereIsDrawnAllOthersLieInTheVolume) {
 
 TEST(LesionFormTest, AnEllipsoidCountsAsTheBallOfItsVolume) {
   LesionForm form;
-  form.kind = LesionKind::ellipsoid;
+  form.outline = LesionOutline::ellipsoid;
   form.radii_mm = {4, 6, 9};
   const Lesion lesion = lesion_of(form);
   EXPECT_NEAR(lesion.radius_mm, 6.0, 1e-12);

@@ -9,6 +9,7 @@
 #include "sim/base/exact_math.h"
 #include "sim/base/vectors.h"
 #include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
 
 namespace seldinger::imaging {
 
@@ -58,8 +59,15 @@ TissueAt::TissueAt(const TissueVolume& tissue, const Inserted& inserted) {
   CHECK(tissue.volume != nullptr && tissue.classes.size() == tissue.volume->hu.size());
   CHECK(inserted.lesions.size() <= kMaxLesions);
   for (const cases::Lesion& lesion : inserted.lesions)
-    if (is_shown(lesion))
-      lesions_.push_back({lesion.center_lps_mm, lesion.radius_mm * lesion.radius_mm, tissue_of_lesion(lesion.hu)});
+    if (is_shown(lesion)) {
+      const cases::LesionEcho echo = echo_of(lesion);
+      const double inner_mm = inner_radius_mm(lesion, echo);
+      lesions_.push_back({lesion.center_lps_mm,
+                          lesion.radius_mm * lesion.radius_mm,
+                          inner_mm * inner_mm,
+                          {echo.inside, speckle_amplitude(echo.inside_db)},
+                          {echo.rim, speckle_amplitude(echo.rim_db)}});
+    }
   const glm::dmat4 m = volume::voxel_from_lps(*tissue.volume);
   a_ = m[0], b_ = m[1], c_ = m[2], d_ = glm::dvec3(m[3]) + 0.5;
   const glm::ivec3 n = tissue.volume->size_voxels;

@@ -33,13 +33,13 @@ class TissueAt {
  public:
   TissueAt(const TissueVolume& tissue, const Inserted& inserted);
   volume::TissueClass operator()(const glm::dvec3& p_lps_mm) const noexcept {
-    if (const Sphere* s = lesion_at(p_lps_mm)) return s->tissue;
+    if (const Part* part = lesion_at(p_lps_mm)) return part->tissue;
     const std::int64_t at = voxel_at(p_lps_mm);
     return at < 0 ? volume::TissueClass::air : classes_[at];
   }
   // Amplitude of the speckle, 1 for liver.
   float speckle(const glm::dvec3& p_lps_mm) const noexcept {
-    if (const Sphere* s = lesion_at(p_lps_mm)) return amplitude_[static_cast<std::size_t>(s->tissue)];
+    if (const Part* part = lesion_at(p_lps_mm)) return part->amplitude;
     const std::int64_t at = voxel_at(p_lps_mm);
     if (at < 0) return amplitude_[static_cast<std::size_t>(volume::TissueClass::air)];
     const float of_class = amplitude_[static_cast<std::size_t>(classes_[at])];
@@ -47,15 +47,20 @@ class TissueAt {
   }
 
  private:
+  struct Part {
+    volume::TissueClass tissue;
+    float amplitude;
+  };
   struct Sphere {
     glm::dvec3 center_lps_mm;
-    double radius_2;
-    volume::TissueClass tissue;
+    double radius_2, inner_2;
+    Part inside, rim;
   };
-  const Sphere* lesion_at(const glm::dvec3& p_lps_mm) const noexcept {
+  const Part* lesion_at(const glm::dvec3& p_lps_mm) const noexcept {
     for (const Sphere& s : lesions_) {
       const glm::dvec3 d = p_lps_mm - s.center_lps_mm;
-      if (d.x * d.x + d.y * d.y + d.z * d.z <= s.radius_2) return &s;
+      const double away_2 = d.x * d.x + d.y * d.y + d.z * d.z;
+      if (away_2 <= s.radius_2) return away_2 <= s.inner_2 ? &s.inside : &s.rim;
     }
     return nullptr;
   }

@@ -50,22 +50,15 @@ AcousticTable acoustic_table(std::optional<double> soft_attenuation_db_cm_mhz) {
   return table;
 }
 
-std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept {
-  std::array<float, volume::kTissueClasses> amplitude{};
-  for (std::size_t i = 0; i < amplitude.size(); ++i) {
-    const double db = acoustic_table()[i].scatter_db;
-    amplitude[i] = db > kNoScatterDb ? static_cast<float>(std::pow(10.0, db / 20.0)) : 0.0F;
-  }
-  return amplitude;
+float speckle_amplitude(double level_db) noexcept {
+  return level_db > kNoScatterDb ? static_cast<float>(std::pow(10.0, level_db / 20.0)) : 0.0F;
 }
 
-volume::TissueClass tissue_of_lesion(double hu) noexcept {
-  using enum volume::TissueClass;
-  if (!(hu >= -500.0)) return gas;  // also NaN
-  if (hu < -30.0) return fat;
-  if (hu < 18.0) return fluid;
-  if (hu < 300.0) return soft_tissue;
-  return hu < 2500.0 ? bone : metal;
+std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept {
+  std::array<float, volume::kTissueClasses> amplitude{};
+  for (std::size_t i = 0; i < amplitude.size(); ++i)
+    amplitude[i] = speckle_amplitude(acoustic_table()[i].scatter_db);
+  return amplitude;
 }
 
 }  // namespace seldinger::imaging

@@ -24,10 +24,10 @@ const AcousticTable& acoustic_table() noexcept;
 // The table with every soft class's coefficient replaced and its exponent 1; finite, ≥ 0.
 AcousticTable acoustic_table(std::optional<double> soft_attenuation_db_cm_mhz);
 
+// Of speckle at a level above the liver's; kNoScatterDb: 0.
+float speckle_amplitude(double level_db) noexcept;
+
 // Amplitude of each class's speckle; liver's is 1.
 std::array<float, volume::kTissueClasses> speckle_amplitudes() noexcept;
-
-// What an inserted lesion of this HU is to sound.
-volume::TissueClass tissue_of_lesion(double hu) noexcept;
 
 }  // namespace seldinger::imaging

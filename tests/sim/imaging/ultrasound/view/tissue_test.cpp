@@ -67,13 +67,13 @@ TEST(AcousticTable, TheOverrideIsOfSoftClassesOnly) {
 }
 
 TEST(AcousticTable, LesionsByHu) {
-  EXPECT_EQ(tissue_of_lesion(-100.0), TissueClass::fat);
-  EXPECT_EQ(tissue_of_lesion(5.0), TissueClass::fluid);
-  EXPECT_EQ(tissue_of_lesion(60.0), TissueClass::soft_tissue);
-  EXPECT_EQ(tissue_of_lesion(-1000.0), TissueClass::gas);
-  EXPECT_EQ(tissue_of_lesion(700.0), TissueClass::bone);
-  EXPECT_EQ(tissue_of_lesion(3000.0), TissueClass::metal);
-  EXPECT_EQ(tissue_of_lesion(std::nan("")), TissueClass::gas);
+  EXPECT_EQ(cases::tissue_of_lesion(-100.0), TissueClass::fat);
+  EXPECT_EQ(cases::tissue_of_lesion(5.0), TissueClass::fluid);
+  EXPECT_EQ(cases::tissue_of_lesion(60.0), TissueClass::soft_tissue);
+  EXPECT_EQ(cases::tissue_of_lesion(-1000.0), TissueClass::gas);
+  EXPECT_EQ(cases::tissue_of_lesion(700.0), TissueClass::bone);
+  EXPECT_EQ(cases::tissue_of_lesion(3000.0), TissueClass::metal);
+  EXPECT_EQ(cases::tissue_of_lesion(std::nan("")), TissueClass::gas);
 }
 
 }  // namespace

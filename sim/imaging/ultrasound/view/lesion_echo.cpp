@@ -1,0 +1,102 @@
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "sim/base/check.h"
+#include "sim/case/paint.h"
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+
+namespace seldinger::imaging {
+namespace {
+
+using volume::TissueClass;
+
+// What speckles and lets sound through.
+bool is_tissue(TissueClass tissue) {
+  return acoustic_table()[static_cast<std::size_t>(tissue)].soft;
+}
+
+// The offset of a voxel of this class that makes it speckle at the level.
+std::uint8_t offset_of(double level_db, TissueClass tissue) {
+  const double db = level_db - acoustic_table()[static_cast<std::size_t>(tissue)].scatter_db;
+  return static_cast<std::uint8_t>(std::clamp(std::lround(db / kEchoStepDb) + long{kNoEchoOffset}, 0L, 255L));
+}
+
+void put_in_volume(const cases::Lesion& lesion, const volume::Volume& volume, std::span<TissueClass> classes,
+                   std::span<std::uint8_t> echogenicity) {
+  const cases::LesionEcho& echo = *lesion.echo;
+  cases::over_voxels_in(*lesion.shape, volume, echo.rim_mm, [&](std::size_t at, double depth_mm) {
+    const bool rim = depth_mm < echo.rim_mm;
+    classes[at] = rim ? echo.rim : echo.inside;
+    echogenicity[at] = offset_of(rim ? echo.rim_db : echo.inside_db, classes[at]);
+  });
+}
+
+}  // namespace
+
+cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& lesion) {
+  CHECK(lesion.kind != cases::LesionKind::by_hu);
+  const cases::LesionLook& look = cases::about(lesion.kind).look;
+  const TissueAt tissue_at(tissue, {});
+  const cases::Shape shape = cases::shape_of(lesion);
+  const cases::Bounds bounds = cases::bounds_of(shape);
+  double power = 0.0;
+  int count = 0;
+  std::array<int, volume::kTissueClasses> of_class{};
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const glm::dvec3 direction = glm::normalize(glm::dvec3(x, y, z));
+        const glm::dvec3 half = 0.5 * (bounds.high_lps_mm - bounds.low_lps_mm);
+        // The ellipsoid in the shape's box is its surface, or lies beyond it.
+        const double surface_mm = 1.0 / glm::length(direction / glm::max(half, glm::dvec3(1e-6)));
+        const glm::dvec3 p =
+            0.5 * (bounds.low_lps_mm + bounds.high_lps_mm) + (surface_mm + kAboutLesionMm) * direction;
+        const TissueClass here = tissue_at(p);
+        if (!is_tissue(here)) continue;
+        const double amplitude = static_cast<double>(tissue_at.speckle(p));
+        power += amplitude * amplitude;
+        ++count;
+        ++of_class[static_cast<std::size_t>(here)];
+      }
+  const double about_db = count > 0 ? 10.0 * std::log10(std::max(power / count, 1e-20)) : 0.0;
+  const auto most = std::max_element(of_class.begin(), of_class.end());
+  const TissueClass about = count > 0 ? static_cast<TissueClass>(most - of_class.begin()) : TissueClass::liver;
+
+  cases::LesionEcho echo;
+  echo.rim = about;
+  echo.inside = look.sound == TissueClass::soft_tissue ? about : look.sound;
+  echo.inside_db = look.speckled ? about_db + look.inside_db
+                                 : acoustic_table()[static_cast<std::size_t>(echo.inside)].scatter_db;
+  echo.rim_db = about_db + look.rim_db;
+  echo.rim_mm = look.rim_mm;
+  return echo;
+}
+
+cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept {
+  if (lesion.echo) return *lesion.echo;
+  cases::LesionEcho echo;
+  echo.inside = echo.rim = cases::tissue_of_lesion(lesion.hu);
+  echo.inside_db = echo.rim_db = acoustic_table()[static_cast<std::size_t>(echo.inside)].scatter_db;
+  return echo;
+}
+
+double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept {
+  return std::max(0.0, lesion.radius_mm - echo.rim_mm);
+}
+
+void settle_lesions(const volume::Volume& volume, std::span<TissueClass> classes,
+                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions) {
+  for (cases::Lesion& lesion : lesions) {
+    if (lesion.kind == cases::LesionKind::by_hu) continue;
+    lesion.echo = lesion_echo({&volume, classes, echogenicity}, lesion);
+    if (lesion.in_volume() && !echogenicity.empty()) put_in_volume(lesion, volume, classes, echogenicity);
+  }
+}
+
+}  // namespace seldinger::imaging

@@ -1,0 +1,27 @@
+// What a lesion is to sound in the tissue it lies in: its kind's row (sim/case/lesion_kind.h) is relative to that.
+#pragma once
+
+#include <span>
+
+#include "sim/case/case.h"
+#include "sim/imaging/ultrasound/view/ultrasound.h"
+
+namespace seldinger::imaging {
+
+// Of a lesion of any kind but by_hu, from the mean square echo of the tissue kAboutLesionMm off its surface
+// (outside the volume and in gas or bone there is none; nothing all around: liver). `tissue`: without the lesion,
+// or with it painted.
+constexpr double kAboutLesionMm = 3.0;
+cases::LesionEcho lesion_echo(const TissueVolume& tissue, const cases::Lesion& lesion);
+
+// What a lesion's parts are to sound; by_hu, or not settled yet: the tissue of its HU, without a rim.
+cases::LesionEcho echo_of(const cases::Lesion& lesion) noexcept;
+// Where the rim of a sphere begins; ≥ 0.
+double inner_radius_mm(const cases::Lesion& lesion, const cases::LesionEcho& echo) noexcept;
+
+// Settles every lesion whose kind has a look of its own, and puts those that lie in the volume into it: their
+// voxels take class and level, which replace what HU told.
+void settle_lesions(const volume::Volume& volume, std::span<volume::TissueClass> classes,
+                    std::span<std::uint8_t> echogenicity, std::span<cases::Lesion> lesions);
+
+}  // namespace seldinger::imaging

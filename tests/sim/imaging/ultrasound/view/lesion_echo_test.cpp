@@ -1,0 +1,108 @@
+// What a lesion of a kind is to sound in the tissue it lies in, drawn by the picture or written into the volume.
+#include "sim/imaging/ultrasound/view/lesion_echo.h"
+
+#include <memory>
+
+#include "sim/imaging/ultrasound/view/echogenicity.h"
+#include "sim/imaging/ultrasound/view/fan.h"
+#include "tests/sim/imaging/ultrasound/ultrasound_scene.h"
+
+namespace seldinger::imaging {
+namespace {
+
+cases::Lesion in_the_middle(cases::LesionKind kind, double radius_mm = 12.0) {
+  cases::Lesion lesion;
+  lesion.center_lps_mm = {0.0, 60.0, 0.0};
+  lesion.radius_mm = radius_mm;
+  lesion.hu = 40.0;
+  lesion.kind = kind;
+  return lesion;
+}
+
+double level_at(const TissueAt& tissue_at, const glm::dvec3& p) {
+  return 20.0 * std::log10(static_cast<double>(tissue_at.speckle(p)));
+}
+
+TEST(LesionEcho, IsRelativeToWhatLiesAboutIt) {
+  for (const TissueClass about : {TissueClass::liver, TissueClass::kidney, TissueClass::muscle}) {
+    const double about_db = acoustic_table()[static_cast<std::size_t>(about)].scatter_db;
+    const Scene s = all_of(about);
+    for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
+      if (kind.kind == cases::LesionKind::by_hu || !kind.look.speckled) continue;
+      const cases::LesionEcho echo = lesion_echo(s.tissue(), in_the_middle(kind.kind));
+      EXPECT_NEAR(echo.inside_db, about_db + kind.look.inside_db, 1e-4) << kind.words;
+      EXPECT_NEAR(echo.rim_db, about_db + kind.look.rim_db, 1e-4) << kind.words;
+      EXPECT_EQ(echo.rim, about) << kind.words;
+    }
+  }
+}
+
+TEST(LesionEcho, ACystIsBlackWhereverItLies) {
+  const cases::LesionEcho echo =
+      lesion_echo(all_of(TissueClass::kidney).tissue(), in_the_middle(cases::LesionKind::cyst));
+  EXPECT_EQ(echo.inside, TissueClass::fluid);
+  EXPECT_LE(echo.inside_db, -50.0);
+}
+
+// Before there were kinds, and by HU still: the class's level, no rim.
+TEST(LesionEcho, ByHuIsItsTissueAlone) {
+  const cases::Lesion lesion = in_the_middle(cases::LesionKind::by_hu);
+  const cases::LesionEcho echo = echo_of(lesion);
+  EXPECT_EQ(echo.inside, cases::tissue_of_lesion(lesion.hu));
+  EXPECT_EQ(inner_radius_mm(lesion, echo), lesion.radius_mm);
+  const Scene s = all_of(TissueClass::liver);
+  Inserted inserted;
+  inserted.lesions.push_back(lesion);
+  EXPECT_EQ(TissueAt(s.tissue(), inserted).speckle(lesion.center_lps_mm),
+            speckle_amplitudes()[static_cast<std::size_t>(echo.inside)]);
+}
+
+TEST(LesionEcho, WrittenIntoTheVolumeItIsWhatThePictureWouldDraw) {
+  for (const cases::LesionKindRow& kind : cases::lesion_kinds()) {
+    if (kind.kind == cases::LesionKind::by_hu) continue;
+    Scene s = all_of(TissueClass::liver);
+    std::vector<std::uint8_t> levels(s.classes.size(), kNoEchoOffset);
+    std::vector<cases::Lesion> drawn = {in_the_middle(kind.kind)};
+    settle_lesions(s.volume, s.classes, levels, drawn);
+    EXPECT_EQ(std::count(levels.begin(), levels.end(), kNoEchoOffset), std::ssize(levels)) << "only settled";
+    const TissueVolume before{&s.volume, s.classes, levels};
+    Inserted inserted;
+    inserted.lesions = drawn;
+    const TissueAt as_drawn(before, inserted);
+
+    std::vector<TissueClass> classes = s.classes;
+    std::vector<cases::Lesion> painted = {in_the_middle(kind.kind)};
+    painted[0].shape = std::make_shared<const cases::Shape>(cases::shape_of(painted[0]));
+    settle_lesions(s.volume, classes, levels, painted);
+    const TissueVolume after{&s.volume, classes, levels};
+    inserted.lesions = painted;
+    const TissueAt as_painted(after, inserted);
+    for (const double along_mm : {0.0, 5.0, 20.0}) {
+      const glm::dvec3 p = painted[0].center_lps_mm + glm::dvec3(along_mm, 0.0, 0.0);
+      EXPECT_NEAR(level_at(as_drawn, p), level_at(as_painted, p), 0.5 * kEchoStepDb + 1e-3)
+          << kind.words << " at " << along_mm;
+      EXPECT_EQ(as_drawn(p), as_painted(p)) << kind.words << " at " << along_mm;
+    }
+  }
+}
+
+TEST(LesionEcho, ARimLiesWithinTheLesion) {
+  const Scene s = all_of(TissueClass::liver);
+  std::vector<cases::Lesion> lesions = {in_the_middle(cases::LesionKind::metastasis)};
+  lesions[0].echo = lesion_echo(s.tissue(), lesions[0]);
+  Inserted inserted;
+  inserted.lesions = lesions;
+  const TissueAt tissue_at(s.tissue(), inserted);
+  const cases::LesionLook& look = cases::about(cases::LesionKind::metastasis).look;
+  const auto level = [&](double along_mm) {
+    return level_at(tissue_at, lesions[0].center_lps_mm + glm::dvec3(along_mm, 0.0, 0.0));
+  };
+  EXPECT_NEAR(level(0.0), look.inside_db, 1e-3);
+  EXPECT_NEAR(level(12.0 - look.rim_mm - 0.1), look.inside_db, 1e-3);
+  EXPECT_NEAR(level(12.0 - look.rim_mm + 0.1), look.rim_db, 1e-3);
+  EXPECT_NEAR(level(11.9), look.rim_db, 1e-3);
+  EXPECT_NEAR(level(12.1), 0.0, 1e-3);
+}
+
+}  // namespace
+}  // namespace seldinger::imaging
