@@ -247,9 +247,9 @@ CREATE TABLE lesion (
   center_z_lps_mm REAL NOT NULL,
   radius_mm REAL NOT NULL CHECK (radius_mm > 0),
   hu REAL NOT NULL,
-  created_us INTEGER NOT NULL, outline TEXT NOT NULL DEFAULT 'sphere'
-  CHECK (outline IN ('sphere', 'ellipsoid', 'irregular')), radius_x_mm REAL CHECK ((outline = 'ellipsoid') = (coalesce(radius_x_mm, 0) > 0)), radius_y_mm REAL CHECK ((outline = 'ellipsoid') = (coalesce(radius_y_mm, 0) > 0)), radius_z_mm REAL CHECK ((outline = 'ellipsoid') = (coalesce(radius_z_mm, 0) > 0)), roughness REAL NOT NULL DEFAULT 0.0 CHECK (roughness >= 0), seed INTEGER NOT NULL DEFAULT 1, adds INTEGER NOT NULL DEFAULT 0 CHECK (adds IN (0, 1)), edge_mm REAL NOT NULL DEFAULT 0.0 CHECK (edge_mm >= 0), kind TEXT NOT NULL DEFAULT 'by_hu'
-  CHECK (kind IN ('by_hu', 'cyst', 'hcc', 'metastasis', 'haemangioma', 'abscess', 'node', 'isoechoic')),
+  created_us INTEGER NOT NULL, kind TEXT NOT NULL DEFAULT 'sphere'
+  CHECK (kind IN ('sphere', 'ellipsoid', 'irregular')), radius_x_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_x_mm, 0) > 0)), radius_y_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_y_mm, 0) > 0)), radius_z_mm REAL CHECK ((kind = 'ellipsoid') = (coalesce(radius_z_mm, 0) > 0)), roughness REAL NOT NULL DEFAULT 0.0 CHECK (roughness >= 0), seed INTEGER NOT NULL DEFAULT 1, adds INTEGER NOT NULL DEFAULT 0 CHECK (adds IN (0, 1)), edge_mm REAL NOT NULL DEFAULT 0.0 CHECK (edge_mm >= 0), lesion_kind TEXT NOT NULL DEFAULT 'by_hu'
+  CHECK (lesion_kind IN ('by_hu', 'cyst', 'hcc', 'metastasis', 'haemangioma', 'abscess', 'node', 'isoechoic')),
   UNIQUE (lesion_id, case_id) -- so that an attempt's lesion is one of its case
 ) STRICT;
 

@@ -158,8 +158,8 @@ void insert_lesion(Sqlite& database, const LesionRow& lesion) {
       .bind("center_z_lps_mm", form.center_lps_mm.z)
       .bind("radius_mm", radius_of(form))
       .bind("hu", form.hu)
-      .bind("outline", base::name_of(cases::kLesionOutlineNames, form.outline))
-      .bind("kind", base::name_of(cases::kLesionKindNames, form.kind))
+      .bind("kind", base::name_of(cases::kLesionOutlineNames, form.outline))
+      .bind("lesion_kind", base::name_of(cases::kLesionKindNames, form.kind))
       .bind("radius_x_mm", ellipsoid ? std::optional(form.radii_mm.x) : std::nullopt)
       .bind("radius_y_mm", ellipsoid ? std::optional(form.radii_mm.y) : std::nullopt)
       .bind("radius_z_mm", ellipsoid ? std::optional(form.radii_mm.z) : std::nullopt)
@@ -383,8 +383,8 @@ std::vector<LesionRow> read_lesions(Sqlite& database, const std::optional<std::s
     row.created_us = lesions.integer("created_us");
     cases::LesionForm& form = row.form;
     // The schema takes no others.
-    form.outline = *base::from_name(cases::kLesionOutlineNames, lesions.view("outline"));
-    form.kind = row.lesion.kind = *base::from_name(cases::kLesionKindNames, lesions.view("kind"));
+    form.outline = *base::from_name(cases::kLesionOutlineNames, lesions.view("kind"));
+    form.kind = row.lesion.kind = *base::from_name(cases::kLesionKindNames, lesions.view("lesion_kind"));
     form.center_lps_mm = row.lesion.center_lps_mm;
     form.radii_mm = glm::dvec3(row.lesion.radius_mm);
     if (form.outline == cases::LesionOutline::ellipsoid)

@@ -260,8 +260,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
     Sqlite old(folder_ / kDatabaseFile);
     old.run("DROP TRIGGER training_case_keeps_its_sight_law");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
-    old.run("ALTER TABLE lesion DROP COLUMN kind");
-    old.run("ALTER TABLE lesion RENAME COLUMN outline TO kind");
+    old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
     for (const char* later :
          {"DROP VIEW consenting", "DROP TRIGGER person_kind_is_immutable",
           "DROP TRIGGER simulated_people_have_no_account", "DROP TRIGGER simulated_people_make_simulated_attempts",
