@@ -40,9 +40,9 @@ inline constexpr std::size_t kMostBegunOnPages = 2000;  // in a round, sent or n
 
 // A draft's secret as the library keeps it.
 std::string draft_key(const std::string& secret);
-// A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`, `rated_round`,
-// `round_closed`, `round_full`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or begun in this
-// round).
+// A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`,
+// `rated_round`, `round_closed`, `round_full`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or
+// begun in this round).
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent);
 // `no_draft`: there is none, or it was submitted.
 base::Result<Draft> find_draft(Library& library, const std::string& secret);
