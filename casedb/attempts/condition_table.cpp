@@ -85,7 +85,7 @@ constexpr const char* kHands =
     "feedback) or simulated; changes are events";
 constexpr const char* kArm = "no arm led it, or not recorded";
 constexpr const char* kOfWindow = "a simulated operator's attempt, or not recorded";
-constexpr const char* kNoPlan = "no way was planned before the room, or not recorded";
+constexpr const char* kNoPlan = "no path was planned before the room, or not recorded";
 constexpr const char* kNotByPictures = "a simulated operator's attempt, no live picture was shown, or not recorded";
 
 constexpr ConditionRow kRows[] = {

@@ -103,7 +103,7 @@ void check_lesion(const cases::Case& scene, const casedb::CaseRow& row, const ca
   limits.max_depth_mm = scene.instrument.length_mm;
   const auto plan = assessment::plan_puncture(scene.volume, scene.skin_index, lesion.lesion.center_lps_mm, limits);
   checks.push_back({"lesion_reachable", plan.has_value(),
-                    which + ": " + (plan ? "a free way of " + mm(plan->depth_mm) : plan.error().text),
+                    which + ": " + (plan ? "a free path of " + mm(plan->depth_mm) : plan.error().text),
                     plan ? plan->entry_lps_mm : lesion.form.center_lps_mm});
 }
 
