@@ -143,9 +143,8 @@ constexpr Option kLesionOptions[] = {
     {"--irregular", "SHARE", "standard deviation of the radius, as a share of it: 0 to 0.3"},
     {"--seed", "N", "which irregular one; default 1"},
     {"--kind", "KIND",
-     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, a tissue as its "
-     "HU "
-     "says"},
+     "what it is: cyst, hcc, metastasis, haemangioma, abscess, node or isoechoic; default by_hu, the "
+     "tissue of its HU"},
     {"--hu", "H", "its HU; default the kind's"},
     {"--contrast-hu", "D", "in place of --hu: added to the tissue there"},
     {"--edge-mm", "W", "width of its edge, from all to nothing; default 0"},

@@ -66,6 +66,7 @@ int run_rating_show(const Arguments& arguments) {
   }
   std::printf("%s  %s version %d: %zu of %zu ratings sent\n", ratings->round.code.c_str(),
               ratings->round.form_id.c_str(), ratings->round.version, ratings->ratings.size(), ratings->asked);
+  if (ratings->ratings.empty()) return kDone;  // nothing to agree on yet
   for (const auto& [item_id, agreement] : agreements) print_agreement(item_id, agreement);
   return kDone;
 }

@@ -114,7 +114,8 @@ std::string rating_bench_page(const casedb::RatingBench& bench) {
   html.raw(" of ").text(std::to_string(bench.tasks.size())).raw(" sent.</p>\n");
   if (!bench.introduction.empty()) html.raw("<p>").text(bench.introduction).raw("</p>\n");
   html.raw(
-      "<p class=\"note\">You are not told whose a replay is, and numbers say nothing: each rater has an order of "
+      "<p class=\"note\">You are not told whose a replay is, and its number tells nothing: each rater has an order "
+      "of "
       "their own. You may meet a replay twice. Please rate in this order, and speak with nobody about it until all "
       "have "
       "finished.</p>\n");

@@ -12,7 +12,7 @@ using volume::TissueClass;
 // few have measured it. HU: plain CT, recalled. Forces: no needle was measured in human lesions by kind; their
 // order follows elastography (metastases and HCC stiffer than liver, haemangioma not much), amounts are design.
 constexpr std::array<LesionKindRow, kLesionKinds> kKindRows{{
-    {LesionKind::by_hu, "as its HU says", {}, {}, {}, "", ""},
+    {LesionKind::by_hu, "by its HU", {}, {}, {}, "", ""},
     {LesionKind::cyst,
      "cyst",
      {.speckled = false, .sound = TissueClass::fluid},
