@@ -55,18 +55,21 @@ TEST_F(Gallery, Ultrasound) {
   keep(trainee, "log-in");
   ASSERT_NO_FATAL_FAILURE(trainee.log_in("mona", kPassword));
   ASSERT_NO_FATAL_FAILURE(trainee.open_first_case());
+  ASSERT_TRUE(fixtures::until([&] { return trainee.shows("Axial"); })) << "the planning CT is prepared";
   keep(trainee, "briefing");
   ASSERT_NO_FATAL_FAILURE(trainee.enter_room());
   trainee.prepare();
   ASSERT_NO_FATAL_FAILURE(trainee.press_probe_on());
-  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(45.0));
+  ASSERT_NO_FATAL_FAILURE(trainee.take("needle"));
+  trainee.press("g");  // into its guide: in the picture's plane
+  ASSERT_NO_FATAL_FAILURE(trainee.push_needle_to(55.0));
   keep(trainee, "ultrasound");
-  trainee.screen().press("Return");
+  trainee.press("Return");
   keep(trainee, "room");
-  trainee.screen().press("Return");
-  trainee.screen().press("F11");
+  trainee.press("Return");
+  trainee.press("F11");
   keep(trainee, "stereo");
-  trainee.screen().press("F11");
+  trainee.press("F11");
   ASSERT_NO_FATAL_FAILURE(trainee.fire());
   ASSERT_NO_FATAL_FAILURE(trainee.sign_out());
   keep(trainee, "debrief");
@@ -75,9 +78,9 @@ TEST_F(Gallery, Ultrasound) {
 TEST_F(Gallery, Devices) {
   const std::string made = library("mpr");
   fixtures::Trainee trainee(program, made, scratch_, with({"--device", "virtual"}));
-  trainee.screen().press("F10");
+  trainee.press("F10");
   ASSERT_TRUE(trainee.reaches("devices", 10.0));
-  trainee.screen().press("t");
+  trainee.press("t");
   const auto asks = [&](const char* words) {
     return trainee.now().value("asks", std::string()).find(words) != std::string::npos;
   };
@@ -124,7 +127,7 @@ TEST_F(Gallery, CaseEditor) {
         return editor.contains("checking") && !editor["checking"].get<bool>() && !editor["holding"].empty();
       },
       60.0));
-  trainee.screen().press("e");
+  trainee.press("e");
   trainee.place_of("room");  // it is made
   keep(trainee, "case-editor");
 }

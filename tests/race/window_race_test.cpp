@@ -30,23 +30,23 @@ class WindowRace : public testing::Test {
   void begin(int line) {
     trainee_->open_case(line);
     trainee_->enter_room();
-    screen().press("y");
+    trainee_->press("y");
     wait(1.0);
-    screen().press("F4");
+    trainee_->press("F4");
     trainee_->point_at_room();
   }
   void begin_again() {
-    screen().press("F5");
+    trainee_->press("F5");
     ASSERT_TRUE(until([&] { return trainee_->now().value("attempt_s", 9.0) < 2.0; }, 120.0)) << trainee_->now();
-    screen().press("y");
+    trainee_->press("y");
   }
   void sign_out_and_watch() {
-    screen().press("F9");
+    trainee_->press("F9");
     ASSERT_TRUE(trainee_->reaches("debrief", 120.0)) << trainee_->now();
-    screen().press("w");
+    trainee_->press("w");
     ASSERT_TRUE(trainee_->reaches("watch", 60.0)) << trainee_->now();
     wait(4.0);
-    screen().press("Escape");
+    trainee_->press("Escape");
     ASSERT_TRUE(trainee_->reaches("debrief", 60.0)) << trainee_->now();
   }
 
@@ -60,26 +60,26 @@ TEST_F(WindowRace, AMinuteByUltrasoundAndFluoroscopyHasNone) {
   ASSERT_NO_FATAL_FAILURE(begin(0));
   screen().wheel(6, 100);  // the needle, pushed
   wait(2.0);
-  screen().press("Tab");
+  trainee_->press("Tab");
   screen().wheel(12, 50);
   const auto [x, y] = trainee_->place_of("room").at(0.5, 0.5);
   screen().drag(x, y, x + 30, y + 20);
-  screen().press("f");  // frozen; knobs, and live again
+  trainee_->press("f");  // frozen; knobs, and live again
   wait(2.0);
   const auto knob = trainee_->place_of("knob");
   screen().drag(knob.at(0.3, 0.5).first, knob.at(0.3, 0.5).second, knob.at(0.7, 0.5).first,
                 knob.at(0.7, 0.5).second);
-  screen().press("f");
-  screen().press("m");
+  trainee_->press("f");
+  trainee_->press("m");
   wait(2.0);
   ASSERT_NO_FATAL_FAILURE(begin_again());
   trainee_->point_at_room();
   screen().wheel(10, 100);
-  screen().press("Escape");  // a pause
+  trainee_->press("Escape");  // a pause
   wait(2.0);
-  screen().press("Escape");
+  trainee_->press("Escape");
   wait(8.0);
-  screen().press("space");
+  trainee_->press("space");
   wait(5.0);
   ASSERT_NO_FATAL_FAILURE(sign_out_and_watch());
   ASSERT_NO_FATAL_FAILURE(trainee_->leave_debrief());
@@ -92,7 +92,7 @@ TEST_F(WindowRace, AMinuteByUltrasoundAndFluoroscopyHasNone) {
   ASSERT_NO_FATAL_FAILURE(begin_again());
   screen().hold("p", 5.0);
   ASSERT_NO_FATAL_FAILURE(sign_out_and_watch());
-  screen().press("F5");
+  trainee_->press("F5");
   ASSERT_TRUE(trainee_->reaches("attempt", 60.0)) << trainee_->now();
   wait(4.0);
   EXPECT_GT(trainee_->now().value("t_s", 0.0), 60.0);
