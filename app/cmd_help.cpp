@@ -12,7 +12,7 @@
 #include "assessment/procedure/steps.h"
 #include "assessment/registry.h"
 #include "casedb/import/dicom/allow_list.h"
-#include "web/routes.h"
+#include "web/routes/routes.h"
 
 namespace seldinger::app {
 namespace {

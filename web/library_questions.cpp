@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <span>
 
 #include "casedb/database/credentials.h"
+#include "casedb/database/uuid.h"
 #include "casedb/people/noted_tries.h"
+#include "casedb/people/simulated_people.h"
+#include "reports/words/grade_words.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {
@@ -94,6 +98,30 @@ class LibraryQuestions final : public Questions {
   casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::relation_to_cohort(pages_.library, reader_id, cohort.cohort_id, cohort.programme);
+  }
+
+  LearnerRecords records_of(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);  // one learner at a time, so that other pages come between
+    const std::string mark = casedb::records_mark(pages_.library, person_id);
+    Kept& kept = records_[person_id];
+    if (kept.mark != mark) {
+      kept.learner.simulated = casedb::is_simulated(pages_.library, person_id);
+      kept.learner.records = std::make_shared<const std::vector<casedb::CurriculumRecord>>(
+          casedb::records_of(pages_.library, person_id));
+      kept.mark = mark;
+    }
+    return kept.learner;
+  }
+
+  reports::StandardTexts standard_texts(const reports::Records& records) override {
+    const std::lock_guard lock(pages_.mutex);
+    reports::StandardTexts texts;
+    for (const casedb::CurriculumRecord& record : *records)
+      for (const casedb::ItemState& item : record.items) {
+        const auto standards = casedb::list_standards(pages_.library, item.case_id);
+        if (!standards.empty()) texts.emplace(item.case_id, reports::experts_text(standards.front().set));
+      }
+    return texts;
   }
 
   reports::AboutMe about(const std::string& person_id) override {
@@ -274,6 +302,11 @@ class LibraryQuestions final : public Questions {
   Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
   Handle first_, second_;      // a password is long to hash
   Handle changes_;             // a change may wait for another program's
+  struct Kept {
+    std::string mark;
+    LearnerRecords learner;
+  };
+  std::map<std::string, Kept> records_;  // by person, under pages_.mutex
   CaseChecker check_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
@@ -307,6 +340,7 @@ base::Result<Server> open_server(casedb::Library library, const ServeOptions& op
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::int64_t{std::chrono::duration_cast<std::chrono::microseconds>(now).count()};
   };
+  surroundings.utc_us = [] { return casedb::now_us(); };
   surroundings.random_id = [] {
     std::array<std::byte, 32> bytes{};
     casedb::fill_random(bytes);

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "casedb/database/library.h"
-#include "web/questions.h"
 #include "web/server.h"
+#include "web/site/questions.h"
 
 namespace seldinger::web {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-#include "web/http.h"
+#include "web/site/http.h"
 
 namespace seldinger::web {
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "web/connections.h"
-#include "web/routes.h"
-#include "web/site.h"
+#include "web/routes/routes.h"
+#include "web/site/site.h"
 #include "web/workers.h"
 
 namespace seldinger::web {
@@ -54,7 +54,7 @@ struct Server::Parts {
       : questions(std::move(questions_in)),
         surroundings(std::move(surroundings_in)),
         listener(std::move(listener_in)),
-        site(*questions, surroundings),
+        site(*questions, surroundings, routes()),
         connections(listener->file(),
                     {[this](const Request& request) { return site.lane_of(request); },
                      [this](std::uint64_t id, Lane lane, Request request) {

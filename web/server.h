@@ -6,8 +6,8 @@
 #include <string>
 
 #include "sim/base/result.h"
-#include "web/questions.h"
-#include "web/surroundings.h"
+#include "web/site/questions.h"
+#include "web/site/surroundings.h"
 
 namespace seldinger::web {
 

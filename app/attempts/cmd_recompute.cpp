@@ -99,6 +99,8 @@ int run_recompute(const Arguments& arguments) {
       progress.one_done();
     }
   }
+  // Once more, now that it is done: whoever keeps grades (casedb/grading/standings.h) asks whether it was.
+  if (sum.added > 0) casedb::audit_alone(*library, casedb::Act::recompute);
   if (arguments.has("--json")) {
     std::fputs(json_of_recompute(sum).c_str(), stdout);
   } else {

@@ -37,9 +37,9 @@ std::vector<double> session_days(const Arguments& arguments) {
   for (bool more = true; more;) {
     const std::size_t comma = rest.find(',');
     more = comma != rest.npos;
-    const double day = parse_number(rest.substr(0, comma)).value_or(-1.0);
-    if (!(day >= 0.0 && day <= 3650.0) || (!days.empty() && !(day > days.back())))
-      throw UsageError("--days is rising numbers of days, 0 to 3650, with commas between: 0,7,28");
+    const double day = parse_number(rest.substr(0, comma)).value_or(NAN);
+    if (!(std::abs(day) <= 3650.0) || (!days.empty() && !(day > days.back())))
+      throw UsageError("--days is rising numbers of days, −3650 to 3650, with commas between: 0,7,28");
     days.push_back(day);
     rest = more ? rest.substr(comma + 1) : "";
   }

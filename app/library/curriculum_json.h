@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "casedb/grading/curriculum.h"
+#include "casedb/grading/learner_records.h"
 
 namespace seldinger::app {
 

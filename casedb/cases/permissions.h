@@ -44,7 +44,7 @@ enum class Action {
   hand_out_case,  // as a bundle
   // Curricula.
   see_curriculum,
-  see_own_progress,  // in a curriculum; how far others are, nobody sees
+  see_progress,  // how far somebody is in a curriculum
   make_curriculum,
   release_curriculum,  // publishes it
   remove_draft_curriculum,
@@ -270,7 +270,12 @@ inline constexpr Permission kPermissions[] = {
        {CurriculumState::draft, CurriculumState::published, CurriculumState::retired}},
       {{Role::researcher}, {CurriculumState::published, CurriculumState::retired}},
       {{Role::trainee}, {CurriculumState::published}}}},
-    {Action::see_own_progress, "see_own_progress", "a trainee sees how far they are", {{{Role::trainee}}}},
+    {Action::see_progress,
+     "see_progress",
+     "a trainee sees how far they are, a mentor how far the own cohort is, a director the own programmes",
+     {{{Role::trainee}, {}, Whose::own},
+      {{Role::mentor}, {}, Whose::own_cohorts},
+      {{Role::director}, {}, Whose::own_programmes}}},
     {Action::make_curriculum, "make_curriculum", "a mentor makes a curriculum", {{{Role::mentor}}}},
     {Action::release_curriculum, "publish_curriculum", "a director publishes a curriculum", {{{Role::director}}}},
     {Action::remove_draft_curriculum, "remove_draft_curriculum", "a mentor takes a draft away", {{{Role::mentor}}}},

@@ -5,8 +5,8 @@
 
 #include "casedb/cases/changeable_case.h"
 #include "casedb/cases/permissions.h"
-#include "casedb/grading/curriculum.h"
 #include "casedb/grading/grading.h"
+#include "casedb/grading/learner_records.h"
 
 namespace seldinger::casedb {
 namespace {

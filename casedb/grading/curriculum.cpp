@@ -7,9 +7,7 @@
 #include "casedb/database/question.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
-#include "casedb/grading/grading.h"
 #include "casedb/people/cohorts.h"
-#include "sim/base/check.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -48,70 +46,6 @@ void set_state(Sqlite& database, const std::string& curriculum_id, CurriculumSta
 
 base::Error not_a_draft() {
   return {"not_a_draft", "a published curriculum is not changed: make another"};
-}
-
-struct Version {
-  std::string case_id, title;
-  CaseState state = CaseState::draft;
-  int version = 0;
-  bool own_cohort_only = false;
-};
-std::vector<Version> versions_of(Library& library, const std::string& family_id) {
-  std::vector<Version> versions;
-  Statement rows = question(library.database(), "versions_of_family");
-  for (rows.bind("family_id", family_id); rows.step();)
-    versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
-                        rows.small_integer("version"), rows.view("audience") == "own_cohort"});
-  return versions;
-}
-
-std::vector<ItemState> states(Library& library, const Curriculum& curriculum,
-                              const std::optional<std::string>& person_id) {
-  std::vector<AttemptRow> attempts;
-  if (person_id) attempts = list_attempts_of(library, *person_id);
-  std::reverse(attempts.begin(), attempts.end());  // oldest first
-  Grader grader(library);
-  std::vector<ItemState> all;
-  std::vector<assessment::ItemPast> pasts;
-  for (const CurriculumItem& item : curriculum.items) {
-    ItemState& state = all.emplace_back();
-    assessment::ItemPast& past = pasts.emplace_back();
-    past.gates = item.gates;
-    past.limit = item.attempt_limit;
-    past.available = false;
-    const std::vector<Version> versions = versions_of(library, item.family_id);
-    for (const Version& version : versions) {
-      // Of a version for another cohort this person is not even told the title.
-      if (person_id && version.own_cohort_only && !reaches_own_cohort(library, version.case_id, *person_id))
-        continue;
-      if (state.title.empty()) state.title = version.title;
-      if (past.available || version.state != CaseState::published) continue;
-      past.available = true;
-      state.case_id = version.case_id;
-      state.title = version.title;
-      state.version = version.version;
-      const auto row = find_case(library, version.case_id);
-      CHECK(row.has_value());
-      if (!past.limit) past.limit = row->attempt_limit;
-    }
-    if (state.title.empty()) state.title = "Not published for you";
-    for (const AttemptRow& attempt : attempts) {
-      const bool of_item = std::any_of(versions.begin(), versions.end(),
-                                       [&](const Version& version) { return version.case_id == attempt.case_id; });
-      if (!of_item || !by_a_person(attempt)) continue;
-      past.verdicts.push_back(grader.grade(attempt).verdict);
-      ++state.attempts;
-      state.passes += past.verdicts.back() == assessment::Verdict::passed ? 1 : 0;
-    }
-    if (person_id && past.available) {
-      Statement begun = question(library.database(), "attempts_begun");
-      CHECK(begun.bind("case_id", state.case_id).bind("person_id", *person_id).step());
-      past.begun = begun.small_integer("begun");
-    }
-  }
-  const auto progress = assessment::progress_of(pasts);
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].progress = progress[i];
-  return all;
 }
 
 }  // namespace
@@ -187,7 +121,7 @@ base::Result<void> publish_curriculum(Library& library, const std::string& curri
   if (curriculum->state != CurriculumState::draft) return not_a_draft();
   if (curriculum->items.empty()) return base::Error{"no_items", "the curriculum has no item"};
   for (const CurriculumItem& item : curriculum->items) {
-    const std::vector<Version> versions = versions_of(library, item.family_id);
+    const std::vector<FamilyVersion> versions = versions_of(library, item.family_id);
     if (std::none_of(versions.begin(), versions.end(),
                      [](const auto& one) { return one.state == CaseState::published; }))
       return base::Error{"not_published", "a case of the curriculum was retired since"};
@@ -217,6 +151,15 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
   return {};
 }
 
+std::vector<FamilyVersion> versions_of(Library& library, const std::string& family_id) {
+  std::vector<FamilyVersion> versions;
+  Statement rows = question(library.database(), "versions_of_family");
+  for (rows.bind("family_id", family_id); rows.step();)
+    versions.push_back({rows.text("case_id"), rows.text("title"), *case_state_from(rows.view("state")),
+                        rows.small_integer("version"), rows.view("audience") == "own_cohort"});
+  return versions;
+}
+
 std::vector<Curriculum> list_curricula(Library& library) {
   std::vector<Curriculum> all;
   for (Statement rows = question(library.database(), "curricula"); rows.step();)
@@ -228,14 +171,6 @@ base::Result<Curriculum> find_curriculum(Library& library, const std::string& cu
   for (Curriculum& one : list_curricula(library))
     if (one.curriculum_id == curriculum_id) return std::move(one);
   return base::Error{"no_curriculum", "there is no such curriculum in the library"};
-}
-
-std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum, const std::string& person_id) {
-  return states(library, curriculum, person_id);
-}
-
-std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum) {
-  return states(library, curriculum, std::nullopt);
 }
 
 }  // namespace seldinger::casedb

@@ -43,18 +43,13 @@ base::Result<void> remove_curriculum(Library& library, const std::string& curric
 std::vector<Curriculum> list_curricula(Library& library);                                      // oldest first
 base::Result<Curriculum> find_curriculum(Library& library, const std::string& curriculum_id);  // `no_curriculum`
 
-struct ItemState {
-  // The version that is published now, of those that reach the person; empty id: none is, the title is the last
-  // one's or says that none ever reached them.
+// An item's case, in every version.
+struct FamilyVersion {
   std::string case_id, title;
+  CaseState state = CaseState::draft;
   int version = 0;
-  int attempts = 0, passes = 0;  // over all versions
-  assessment::ItemProgress progress;
+  bool own_cohort_only = false;
 };
-// In the items' order. Only what a person did counts, each attempt by the rule of its own version: passes carry
-// over to a new version of the case, attempts used up do not.
-std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum, const std::string& person_id);
-// Nobody's: which cases the items are.
-std::vector<ItemState> states_of(Library& library, const Curriculum& curriculum);
+std::vector<FamilyVersion> versions_of(Library& library, const std::string& family_id);  // newest first
 
 }  // namespace seldinger::casedb

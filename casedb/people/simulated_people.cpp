@@ -81,6 +81,10 @@ std::string simulated_person(Library& library, const population::Person& person,
   return person_id;
 }
 
+bool is_simulated(Library& library, const std::string& person_id) {
+  return question(library.database(), "simulated_person").bind("person_id", person_id).step();
+}
+
 std::vector<SimulatedTruth> list_simulated_truths(Library& library) {
   std::vector<SimulatedTruth> truths;
   for (Statement rows = question(library.database(), "simulated_truths"); rows.step();) {

@@ -23,6 +23,7 @@ struct SimulatedTruth {
 // Whoever that seed, group and number make; the same in every library, and added where there is none yet, with the
 // facts that such a person tells (casedb/people/facts.h). Answers the person's id.
 std::string simulated_person(Library& library, const assessment::population::Person& person, std::uint64_t seed);
+bool is_simulated(Library& library, const std::string& person_id);
 std::vector<SimulatedTruth> list_simulated_truths(Library& library);  // by group, seed and number
 
 }  // namespace seldinger::casedb

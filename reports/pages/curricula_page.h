@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "casedb/grading/curriculum.h"
+#include "casedb/grading/learner_records.h"
 #include "reports/pages/page.h"
 
 namespace seldinger::reports {

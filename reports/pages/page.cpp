@@ -14,10 +14,13 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
           "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n"
           "<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n");
   if (!visitor.name.empty()) {
-    html.raw("<nav aria-label=\"Main\"><a href=\"/attempts\">Attempts</a>");
+    const bool answers_for_others = visitor.role == "mentor" || visitor.role == "director";
+    html.raw("<nav aria-label=\"Main\">");
+    if (visitor.role == "trainee" || answers_for_others) html.raw("<a href=\"/progress\">Progress</a> ");
+    html.raw("<a href=\"/attempts\">Attempts</a>");
     if (visitor.role != "admin") html.raw(" <a href=\"/curricula\">Curriculum</a>");
     if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
-    if (visitor.role == "mentor" || visitor.role == "director") html.raw(" <a href=\"/cohorts\">Cohorts</a>");
+    if (answers_for_others) html.raw(" <a href=\"/cohorts\">Cohorts</a>");
     if (visitor.role == "admin") html.raw(" <a href=\"/log-ins\">Log-ins</a>");
     html.raw(" <a href=\"/me\">About you</a>");
     html.raw(" <a href=\"/metrics\">Metrics</a>");

@@ -18,7 +18,7 @@
 #include "casedb/import/dicom/allow_list.h"
 #include "tests/fixtures/files.h"
 #include "tests/fixtures/places.h"
-#include "web/routes.h"
+#include "web/routes/routes.h"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // A questionnaire answered on pages, over a real library: by many at once, on a shared device, by a browser that
 // dies, and by whoever types what is wrong.
-#include "web/answering.h"
+#include "web/routes/answering.h"
 
 #include <gmock/gmock.h>
 
@@ -40,7 +40,7 @@ class AnsweringTest : public testing::Test {
     ASSERT_TRUE(casedb::store_form(library, std::string(questionnaire::find_shipped_form("workshop-2007")->json)));
     code_ = casedb::open_round(library, {"Study <day>", "workshop-2007", 0, {}, {"trainee", "expert"}})->code;
     questions_ = std::move(questions_of(std::move(library)).value());
-    site_.emplace(*questions_, world_.surroundings);
+    site_.emplace(*questions_, world_.surroundings, routes());
   }
   Response begin(FakeBrowser& browser, const std::string& respondent, const std::string& group = "expert") {
     const std::string token = form_token(browser.get("/answer?code=" + code_).body, "/answer");
@@ -135,7 +135,7 @@ TEST_F(AnsweringTest, ABrowserThatDiesGoesOnWhereItWas) {
   ASSERT_EQ(begin(browser, "A1").status, 303);
   ASSERT_EQ(keep(browser, 1, "item-1=consultant&item-3=44").status, 303);
   // The server starts anew as well: its tokens are others, the draft is there.
-  site_.emplace(*questions_, world_.surroundings);
+  site_.emplace(*questions_, world_.surroundings, routes());
   FakeBrowser again(*site_);
   again.cookies = browser.cookies;
   EXPECT_THAT(again.get("/answer").body, HasSubstr("begun on this device"));

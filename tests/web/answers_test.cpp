@@ -1,5 +1,5 @@
 // Heavy answers: made once, one at a time, kept within a bound.
-#include "web/answers.h"
+#include "web/site/answers.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "reports/words/attempt_words.h"
 #include "tests/web/fake_site.h"
-#include "web/access.h"
+#include "web/site/access.h"
 
 namespace seldinger::web {
 namespace {

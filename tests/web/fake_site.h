@@ -14,8 +14,9 @@
 
 #include "sim/base/failure.h"
 #include "sim/base/hash.h"
-#include "web/questions.h"
-#include "web/site.h"
+#include "web/routes/routes.h"
+#include "web/site/questions.h"
+#include "web/site/site.h"
 
 namespace seldinger::web {
 
@@ -70,6 +71,13 @@ class FakeQuestions final : public Questions {
     const auto found = known->second.find(cohort.cohort_id);
     return found == known->second.end() ? casedb::Relation{} : found->second;
   }
+  LearnerRecords records_of(const std::string& person_id) override {
+    const auto found = records.find(person_id);
+    return {simulated.contains(person_id),
+            std::make_shared<const std::vector<casedb::CurriculumRecord>>(
+                found == records.end() ? std::vector<casedb::CurriculumRecord>() : found->second)};
+  }
+  reports::StandardTexts standard_texts(const reports::Records&) override { return {}; }
   reports::AboutMe about(const std::string& person_id) override {
     const std::lock_guard lock(mutex);
     asked_about = person_id;
@@ -186,6 +194,8 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::unordered_map<std::string, casedb::Relation>> relations;  // by reader
   std::vector<casedb::Cohort> cohorts;
   std::map<std::string, std::map<std::string, casedb::Relation>> cohort_relations;  // by reader and cohort
+  std::map<std::string, std::vector<casedb::CurriculumRecord>> records;             // by person
+  std::set<std::string> simulated;
   casedb::Erased erased;
   reports::AboutMe about_me;
   std::string asked_about;
@@ -224,6 +234,7 @@ inline constexpr const char* kPassword = "correct horse battery";
 inline const std::string kOwnAttempt = "0190a1b2-0000-7000-8000-0000000000a1";
 inline const std::string kOthersAttempt = "0190a1b2-0000-7000-8000-0000000000a2";
 inline const std::string kNobodysAttempt = "0190a1b2-0000-7000-8000-0000000000a3";
+inline const std::string kSomebody = "0190a1b2-0000-7000-8000-0000000000b1";  // a person, to whoever is given one
 inline const std::string kMissingAttempt = "0190a1b2-0000-7000-8000-0000000000ff";
 
 // Of each state: the number's last digit.
@@ -295,6 +306,7 @@ struct FakeSite {
   FakeSite() {
     fill(questions);
     surroundings.now_us = [this] { return now_us.load(); };
+    surroundings.utc_us = [] { return std::int64_t{1'772'373'909'123'456}; };  // 2026-03-01 14:05:09
     surroundings.random_id = [this] { return fake_hash("random " + std::to_string(++ids)); };
     surroundings.sha256_hex = fake_hash;
     surroundings.log = [this](const std::string& line) {
@@ -303,7 +315,7 @@ struct FakeSite {
     };
     surroundings.program_version = "9.8.7";
     surroundings.port = 8080;
-    site.emplace(questions, surroundings);
+    site.emplace(questions, surroundings, routes());
   }
   FakeSite(const FakeSite&) = delete;
   FakeSite& operator=(const FakeSite&) = delete;
@@ -323,6 +335,7 @@ inline void give(FakeSite& fake, casedb::Role role, const casedb::Relation& rela
   const std::string other = "person-of-other-zzz999";
   fake.questions.relations.clear();
   fake.questions.relations[reader][relation.own ? reader : other] = relation;
+  if (!relation.nobodys) fake.questions.relations[reader][kSomebody] = relation;
   fake.questions.attempts = {attempt_row(
       kOwnAttempt, relation.nobodys ? std::nullopt : std::optional<std::string>(relation.own ? reader : other))};
 }

@@ -1,5 +1,5 @@
 // Forms, cookies, hosts and origins: what is read from outside, and the headers of every answer.
-#include "web/http.h"
+#include "web/site/http.h"
 
 #include <gmock/gmock.h>
 

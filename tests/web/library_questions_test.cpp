@@ -76,7 +76,7 @@ struct RealSite {
   explicit RealSite(casedb::Library library) : questions(std::move(questions_of(std::move(library)).value())) {}
   FakeSite world;
   std::unique_ptr<Questions> questions;
-  Site site{*questions, world.surroundings};
+  Site site{*questions, world.surroundings, routes()};
 };
 
 TEST(LibraryQuestions, ATraineeSeesOwnGradesAndTheCaseThatIsDue) {

@@ -10,7 +10,7 @@
 #include "tests/fixtures/folders.h"
 #include "tests/web/fake_site.h"
 #include "web/library_questions.h"
-#include "web/routes.h"
+#include "web/routes/routes.h"
 
 namespace seldinger::web {
 namespace {
@@ -123,7 +123,7 @@ TEST_F(PeopleMatrix, EveryRouteOfAnAttemptAnswersAsTheTableSays) {
   const std::string simulated = attempt_of(std::nullopt), own_of_trainee = attempt_of(readers_[Role::trainee]);
   FakeSite world;
   const auto questions = std::move(questions_of(std::move(library_)).value());
-  Site site{*questions, world.surroundings};
+  Site site{*questions, world.surroundings, routes()};
   int checks = 0, allowed = 0;
   for (const Role role : casedb::kAllRoles) {
     FakeBrowser browser(site);
@@ -161,6 +161,43 @@ TEST_F(PeopleMatrix, EveryRouteOfAnAttemptAnswersAsTheTableSays) {
       << "own; the mentor's and the director's six; two consents in four cohorts; simulated for two roles";
 }
 
+// How far somebody is, their mentor and their director read by name, themselves too, and nobody else; the list
+// holds exactly those whose page opens.
+TEST_F(PeopleMatrix, HowFarSomebodyIsAnswersAsTheTableSays) {
+  const auto readers = readers_;
+  FakeSite world;
+  const auto questions = std::move(questions_of(std::move(library_)).value());
+  Site site{*questions, world.surroundings, routes()};
+  int checks = 0, allowed = 0;
+  for (const Role role : casedb::kAllRoles) {
+    FakeBrowser browser(site);
+    ASSERT_EQ(browser.log_in_as(role).status, 303);
+    const Response list = browser.get("/progress");
+    EXPECT_EQ(list.status, casedb::roles_that_may(Action::see_progress).has(role) ? 200 : 404);
+    const auto look = [&](const std::string& person_id, const Relation& relation, const std::string& name) {
+      const bool may = casedb::may(role, Action::see_progress, relation);
+      for (const char* end : {"", "/record"}) {
+        const Response response = browser.get("/progress/" + person_id + end);
+        EXPECT_EQ(response.status, may ? 200 : 404) << casedb::name_of(role) << " " << name << end;
+        EXPECT_EQ(response.body.find(name) != std::string::npos, may) << casedb::name_of(role) << " " << name;
+        ++checks;
+        allowed += may ? 1 : 0;
+      }
+      EXPECT_EQ(list.body.find("/progress/" + person_id) != std::string::npos, may && !relation.own)
+          << casedb::name_of(role) << " " << name;
+      if (!may) {
+        EXPECT_EQ(list.body.find(name), std::string::npos) << casedb::name_of(role) << " " << name;
+      }
+    };
+    for (const Subject& subject : subjects_) look(subject.person_id, to(role, subject), subject.name);
+    Relation own;
+    own.own = role == Role::trainee;
+    if (role == Role::trainee) look(readers.at(role), own, "<bdi>trainee</bdi>");
+  }
+  EXPECT_EQ(checks, (5 * 4 * 6 + 1) * 2);
+  EXPECT_EQ(allowed, (6 + 6 + 1) * 2) << "the mentor's and the director's six, and the trainee";
+}
+
 // A cohort is named to its mentor and to the director of its programme, whoever its learners are; other directors
 // read counts, and of a cohort of one nothing.
 TEST_F(PeopleMatrix, ACohortIsNamedByWhoseItIsNotByWhoIsInIt) {
@@ -172,7 +209,7 @@ TEST_F(PeopleMatrix, ACohortIsNamedByWhoseItIsNotByWhoIsInIt) {
   ASSERT_TRUE(casedb::enrol(library_, empty, readers_[Role::mentor], casedb::Post::mentor).has_value());
   FakeSite world;
   const auto questions = std::move(questions_of(std::move(library_)).value());
-  Site site{*questions, world.surroundings};
+  Site site{*questions, world.surroundings, routes()};
   for (const Role role : casedb::kAllRoles) {
     FakeBrowser browser(site);
     ASSERT_EQ(browser.log_in_as(role).status, 303);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tests/web/fake_site.h"
-#include "web/access.h"
+#include "web/site/access.h"
 
 namespace seldinger::web {
 namespace {

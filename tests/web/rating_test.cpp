@@ -1,6 +1,5 @@
 // Replays rated on pages, over a real library: what a rater can fetch tells nothing of who made what, and what is
 // typed is kept.
-#include "web/rating.h"
 
 #include <gmock/gmock.h>
 
@@ -55,7 +54,7 @@ struct World {
     keys = opened->keys;
     secrets.insert(secrets.end(), {case_id, lesion_id, "Spleen", code, "2023-11-14", "17000000"});
     questions = std::move(questions_of(std::move(library)).value());
-    site.emplace(*questions, fake.surroundings);
+    site.emplace(*questions, fake.surroundings, routes());
   }
   // Logged in with a rater's key.
   FakeBrowser rater(std::size_t i) {

@@ -1,7 +1,7 @@
 // What every route says of itself; that docs/routes.md says the same is a matter of docs_test.
 #include <gtest/gtest.h>
 
-#include "web/routes.h"
+#include "web/routes/routes.h"
 
 namespace seldinger::web {
 namespace {

@@ -1,5 +1,5 @@
 // Sessions: they end by idleness, age and log-out, and their ids are not kept.
-#include "web/sessions.h"
+#include "web/site/sessions.h"
 
 #include <gtest/gtest.h>
 

@@ -48,7 +48,7 @@ constexpr Row kMatrix[] = {
     {"add_case",                  "",          "all",                 "",                 "",          "all"},
     {"hand_out_case",             "",          "all",                 "",                 "all",       "all"},
     {"see_curriculum",            "P:all",     "DPX:all",             "PX:all",           "DPX:all",   ""},
-    {"see_own_progress",          "all",       "",                    "",                 "",          ""},
+    {"see_progress",              "own",       "cohort",              "",                 "programme", ""},
     {"make_curriculum",           "",          "all",                 "",                 "",          ""},
     {"publish_curriculum",        "",          "",                    "",                 "all",       ""},
     {"remove_draft_curriculum",   "",          "all",                 "",                 "",          ""},

@@ -1,5 +1,5 @@
 // Curricula: who makes, publishes and retires one; what of it never changes; how far somebody is.
-#include "casedb/grading/curriculum.h"
+#include "casedb/grading/learner_records.h"
 
 #include "casedb/cases/versions.h"
 #include "tests/casedb/graded_library.h"

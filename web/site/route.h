@@ -1,16 +1,19 @@
-// Every route, and who may ask it. A route that is not in the registry does not exist.
+// A row of the registry: what is asked, by whom, and who answers.
 #pragma once
 
-#include <span>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "casedb/cases/permissions.h"
-#include "web/http.h"
-#include "web/site.h"
-#include "web/workers.h"
+#include "web/site/http.h"
+#include "web/site/lane.h"
 
 namespace seldinger::web {
+
+class Site;
+struct Reader;
 
 using casedb::kEveryRole;
 using casedb::Roles;
@@ -32,6 +35,8 @@ struct Call {
   const Reader* reader = nullptr;             // null: not logged in
   std::string id{};                           // of the pattern
   std::map<std::string, std::string> form{};  // of a POST
+
+  std::string field(const std::string& name) const;  // of the form; empty where it has none
 };
 
 struct Route {
@@ -45,15 +50,7 @@ struct Route {
   Lane lane = Lane::pages;
 };
 
-std::span<const Route> routes();
-
-// Of its route; what is no route is a page.
-Lane lane_of(const Request& request);
-
 // Whether `path` fits; fills the pattern's id.
 bool matches(std::string_view pattern, std::string_view path, std::string& id);
-
-// docs/routes.md
-std::string routes_markdown();
 
 }  // namespace seldinger::web

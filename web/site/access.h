@@ -9,7 +9,7 @@
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
-#include "casedb/grading/curriculum.h"
+#include "casedb/grading/learner_records.h"
 #include "casedb/json/case_json.h"
 #include "casedb/people/people.h"
 

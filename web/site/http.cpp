@@ -1,4 +1,4 @@
-#include "web/http.h"
+#include "web/site/http.h"
 
 #include <arpa/inet.h>
 

@@ -1,4 +1,4 @@
-#include "web/access.h"
+#include "web/site/access.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
-#include "web/rating.h"
-
+// Replays rated by whoever has a rater's key: nobody is logged in, and nothing tells whose a replay is. What the
+// browser keeps is the key's hash, which the library knows only as a hash of its own.
 #include <charconv>
 
 #include "reports/pages/rating_pages.h"
-#include "web/answering.h"
-#include "web/routes.h"
+#include "web/routes/answering.h"
+#include "web/routes/shelves.h"
+#include "web/site/site.h"
 
 namespace seldinger::web {
 namespace {
@@ -63,7 +64,7 @@ Response show_rating_start(Site& site, const Call& call) {
 Response open_rating_bench(Site& site, const Call& call) {
   if (!has_form_token(site, call, cookie(call.request, site.cookies.rater)))
     return rating_start(site, call, 403, "The page was too old. Please try again.");
-  const std::string secret = casedb::rater_secret(form_field(call, "key"));
+  const std::string secret = casedb::rater_secret(call.field("key"));
   if (!site.questions.find_rating_bench(secret))
     return rating_start(site, call, 404, "Nobody rates with that key. Is it typed right?");
   Response response = redirect("/rate/bench");
@@ -87,10 +88,10 @@ Response show_rating(Site& site, const Call& call) {
 
 Response keep_rating(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.rater);
-  const std::string go = form_field(call, "go");
+  const std::string go = call.field("go");
   if (!has_form_token(site, call, kept))
     return go == "keep" ? Response{.status = 403} : rating_start(site, call, 403, "The page was too old.");
-  const std::size_t number = number_in(form_field(call, "n"));
+  const std::size_t number = number_in(call.field("n"));
   const auto page = site.questions.find_rating(kept, number);
   if (!page) return go == "keep" ? Response{.status = 404} : no_replay(page.error());
   std::vector<const assessment::questionnaire::Item*> items;
@@ -106,6 +107,24 @@ Response keep_rating(Site& site, const Call& call) {
   // What was sent meanwhile, and a round that was closed, say so there.
   const bool look = !done || (go == "send" && page->task.part == assessment::rating::Part::calibration);
   return redirect(look ? "/rate/replay?n=" + std::to_string(number) : "/rate/bench");
+}
+
+namespace {
+
+constexpr Route kRatingRoutes[] = {
+    {"GET", "/rate", kOpen, true, "", "asks for a rater's key", show_rating_start},
+    {"POST", "/rate", kOpen, true, "", "opens the bench of a rater: key, token", open_rating_bench},
+    {"GET", "/rate/bench", kOpen, true, "the browser of a rater", "the replays that are theirs to rate, by number",
+     show_rating_bench},
+    {"GET", "/rate/replay", kOpen, true, "the browser of a rater", "a replay beside the form; ?n=N", show_rating},
+    {"POST", "/rate/replay", kOpen, true, "the browser of a rater",
+     "keeps a rating, or sends it: n, go, a field each item, token", keep_rating},
+};
+
+}  // namespace
+
+std::span<const Route> rating_routes() {
+  return kRatingRoutes;
 }
 
 }  // namespace seldinger::web

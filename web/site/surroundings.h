@@ -10,6 +10,7 @@ namespace seldinger::web {
 
 struct Surroundings {
   std::function<std::int64_t()> now_us;                     // monotonic: sessions outlive no change of the clock
+  std::function<std::int64_t()> utc_us;                     // since 1970: how long ago something was
   std::function<std::string()> random_id;                   // 256 random bits as 64 hex digits
   std::function<std::string(std::string_view)> sha256_hex;  // 64 hex digits
   std::function<void(const std::string&)> log;              // one line; no patient data, no names

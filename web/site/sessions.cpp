@@ -1,4 +1,4 @@
-#include "web/sessions.h"
+#include "web/site/sessions.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,10 +1,9 @@
-#include "web/site.h"
+#include "web/site/site.h"
 
 #include <exception>
 
 #include "casedb/database/credentials.h"
 #include "sim/base/failure.h"
-#include "web/routes.h"
 
 namespace seldinger::web {
 namespace {
@@ -67,12 +66,13 @@ CookieNames::CookieNames(int port)
       rater("seldinger_rater_" + std::to_string(port)),
       known("seldinger_known_" + std::to_string(port)) {}
 
-Site::Site(Questions& questions_in, const Surroundings& surroundings_in)
+Site::Site(Questions& questions_in, const Surroundings& surroundings_in, std::span<const Route> routes)
     : questions(questions_in),
       surroundings(surroundings_in),
       cookies(surroundings_in.port),
       sessions(surroundings_in),
       security(surroundings_in),
+      routes_(routes),
       secret_(surroundings_in.random_id()) {}
 
 std::string Site::login_token(const std::string& before_login_id) const {
@@ -114,7 +114,12 @@ std::int64_t Site::wait_before_log_in_s(const std::string& name, const std::stri
 }
 
 Lane Site::lane_of(const Request& request) {
-  const Lane lane = web::lane_of(request);
+  Lane lane = Lane::pages;
+  std::string id_in_path;
+  for (const Route& route : routes_)
+    if (route.method == (request.method == "HEAD" ? "GET" : request.method) &&
+        matches(route.pattern, request.path, id_in_path))
+      lane = route.lane;
   if (lane == Lane::pages || lane == Lane::log_in) return lane;
   const casedb::Secret id{cookie(request, cookies.session)};
   return sessions.find(id.text) ? lane : Lane::pages;
@@ -151,7 +156,7 @@ Response Site::route(const Request& request) {
 
   const Route* found = nullptr;
   std::string allowed, id;
-  for (const Route& candidate : routes()) {
+  for (const Route& candidate : routes_) {
     if (!matches(candidate.pattern, request.path, id)) continue;
     if (!allowed.empty()) allowed += ", ";
     allowed += candidate.method == "GET" ? "GET, HEAD" : candidate.method;

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "web/surroundings.h"
+#include "web/site/surroundings.h"
 
 namespace seldinger::web {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "web/surroundings.h"
+#include "web/site/surroundings.h"
 
 namespace seldinger::web {
 

@@ -1,4 +1,4 @@
-#include "web/answering.h"
+#include "web/routes/answering.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,8 @@
 #include "casedb/database/credentials.h"
 #include "reports/pages/answer_pages.h"
 #include "reports/pages/style_sheet.h"
-#include "web/routes.h"
+#include "web/routes/shelves.h"
+#include "web/site/site.h"
 
 namespace seldinger::web {
 namespace {
@@ -69,11 +70,6 @@ Response section_page(Site& site, const std::string& secret, int status, const c
 
 }  // namespace
 
-std::string form_field(const Call& call, const std::string& name) {
-  const auto found = call.form.find(name);
-  return found == call.form.end() ? "" : found->second;
-}
-
 KeptForm form_kept(Site& site, const Call& call, const std::string& cookie_name) {
   KeptForm kept{cookie(call.request, cookie_name)};
   kept.is_new = site.login_token(kept.secret).empty();
@@ -83,7 +79,7 @@ KeptForm form_kept(Site& site, const Call& call, const std::string& cookie_name)
 
 bool has_form_token(const Site& site, const Call& call, const std::string& kept) {
   const std::string token = site.login_token(kept);
-  return !token.empty() && equal_in_constant_time(form_field(call, "token"), token);
+  return !token.empty() && equal_in_constant_time(call.field("token"), token);
 }
 
 Response answering_response(int status, std::string body) {
@@ -97,8 +93,8 @@ std::map<std::string, std::string> typed_of(const Call& call,
   std::map<std::string, std::string> typed;
   for (const auto* item : items) {
     const std::string name = reports::field_of(*item);
-    const bool none = form_field(call, name + "-none") == "yes" && form_field(call, name).empty();
-    typed[item->id] = none ? std::string(assessment::questionnaire::kNotApplicableWord) : form_field(call, name);
+    const bool none = call.field(name + "-none") == "yes" && call.field(name).empty();
+    typed[item->id] = none ? std::string(assessment::questionnaire::kNotApplicableWord) : call.field(name);
   }
   return typed;
 }
@@ -133,12 +129,11 @@ Response show_answer_start(Site& site, const Call& call) {
 Response begin_answers(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
   if (!has_form_token(site, call, kept)) return start_page(site, call, 403, kTooOld);
-  const std::string code = form_field(call, "code");
-  if (form_field(call, "begin") != "yes") return page_of_code(site, call, code);
+  const std::string code = call.field("code");
+  if (call.field("begin") != "yes") return page_of_code(site, call, code);
   const auto found = site.questions.find_round(code);
   if (!found) return page_of_code(site, call, code);
-  const casedb::Respondent respondent{form_field(call, "respondent"), form_field(call, "group"),
-                                      form_field(call, "language")};
+  const casedb::Respondent respondent{call.field("respondent"), call.field("group"), call.field("language")};
   const auto secret = site.questions.begin_response(code, respondent);
   if (!secret) {
     const bool group = secret.error().code == "bad_group";
@@ -160,13 +155,13 @@ Response show_answer_section(Site& site, const Call& call) {
 
 Response keep_answers(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
-  const std::string go = form_field(call, "go");
+  const std::string go = call.field("go");
   if (!has_form_token(site, call, kept))
     return go == "keep" ? Response{.status = 403} : start_page(site, call, 403, kTooOld);
   const auto draft = site.questions.find_draft(kept);
   if (!draft) return go == "keep" ? Response{.status = 404} : redirect("/answer");
   const auto sections = reports::sections_of(draft->form.form);
-  const std::size_t section = section_from(form_field(call, "section"), sections.size());
+  const std::size_t section = section_from(call.field("section"), sections.size());
   std::map<std::string, std::string> typed;
   if (section < sections.size()) typed = typed_of(call, sections[section]);
   if (go == "keep")
@@ -193,6 +188,26 @@ Response show_answer_script(Site&, const Call&) {
 
 Response show_answer_thanks(Site&, const Call&) {
   return html_response(200, reports::answer_thanks_page());
+}
+
+namespace {
+
+constexpr Route kAnsweringRoutes[] = {
+    {"GET", "/answer", kOpen, true, "", "a questionnaire's code, or who answers it; ?code=CODE", show_answer_start},
+    {"POST", "/answer", kOpen, true, "", "begins to answer: code, group, respondent, language, begin, token",
+     begin_answers},
+    {"GET", "/answer/form", kOpen, true, "the browser that began",
+     "a section of the questionnaire that is being answered; ?section=N", show_answer_section},
+    {"POST", "/answer/form", kOpen, true, "the browser that began",
+     "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
+    {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
+    {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", show_answer_script},
+};
+
+}  // namespace
+
+std::span<const Route> answering_routes() {
+  return kAnsweringRoutes;
 }
 
 }  // namespace seldinger::web

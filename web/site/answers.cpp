@@ -1,4 +1,4 @@
-#include "web/answers.h"
+#include "web/site/answers.h"
 
 #include <algorithm>
 

@@ -23,6 +23,7 @@
 #include "casedb/ratings/rating_rounds.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
+#include "reports/pages/people/learner_page.h"
 
 namespace seldinger::web {
 
@@ -30,6 +31,11 @@ namespace seldinger::web {
 struct RoundForms {
   casedb::Round round;
   std::vector<casedb::StoredForm> forms;
+};
+
+struct LearnerRecords {
+  bool simulated = false;
+  reports::Records records;
 };
 
 class Questions {
@@ -48,6 +54,12 @@ class Questions {
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
   virtual std::vector<casedb::Cohort> list_cohorts() = 0;  // by programme and title
   virtual casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) = 0;
+
+  // How far somebody is in each published curriculum, and whether they are a simulated person. Kept until
+  // casedb::records_mark changes.
+  virtual LearnerRecords records_of(const std::string& person_id) = 0;
+  // How the standard of each case that they learn is called, by case id.
+  virtual reports::StandardTexts standard_texts(const reports::Records& records) = 0;
 
   virtual reports::AboutMe about(const std::string& person_id) = 0;
   // All of them or none: as casedb::give_facts refuses.

@@ -2,17 +2,18 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "casedb/people/login_delays.h"
 #include "reports/pages/page.h"
-#include "web/answers.h"
-#include "web/http.h"
-#include "web/questions.h"
-#include "web/security_log.h"
-#include "web/sessions.h"
-#include "web/surroundings.h"
-#include "web/workers.h"
+#include "web/site/answers.h"
+#include "web/site/http.h"
+#include "web/site/questions.h"
+#include "web/site/route.h"
+#include "web/site/security_log.h"
+#include "web/site/sessions.h"
+#include "web/site/surroundings.h"
 
 namespace seldinger::web {
 
@@ -37,8 +38,8 @@ struct CookieNames {
 // a word about the inside, but for an id that stands in the log as well.
 class Site {
  public:
-  // Both outlive the site.
-  Site(Questions& questions, const Surroundings& surroundings);
+  // All outlive the site.
+  Site(Questions& questions, const Surroundings& surroundings, std::span<const Route> routes);
 
   Response answer(const Request& request) noexcept;
 
@@ -69,6 +70,7 @@ class Site {
   Response route(const Request& request);
   std::optional<Reader> reader_of(const Request& request);
 
+  const std::span<const Route> routes_;
   std::string secret_;
 };
 

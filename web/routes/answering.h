@@ -8,22 +8,14 @@
 
 #include "assessment/questionnaire/form.h"
 #include "sim/base/result.h"
-#include "web/http.h"
+#include "web/site/http.h"
 
 namespace seldinger::web {
 
 class Site;
 struct Call;
 
-Response show_answer_start(Site& site, const Call& call);
-Response begin_answers(Site& site, const Call& call);
-Response show_answer_section(Site& site, const Call& call);
-Response keep_answers(Site& site, const Call& call);
-Response show_answer_script(Site& site, const Call& call);
-Response show_answer_thanks(Site& site, const Call& call);
-
 // What a page without a log-in and its form share, also those on which replays are rated.
-std::string form_field(const Call& call, const std::string& name);
 // What the browser keeps under that name, or something new, so that a form has a token.
 struct KeptForm {
   std::string secret;

@@ -1,4 +1,4 @@
-#include "web/security_log.h"
+#include "web/site/security_log.h"
 
 namespace seldinger::web {
 namespace {

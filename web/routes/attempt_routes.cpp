@@ -1,0 +1,174 @@
+// Attempts: the list, one of them, what is said of it.
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <map>
+
+#include "reports/pages/attempt_page.h"
+#include "reports/pages/attempts_page.h"
+#include "web/json/attempt_json.h"
+#include "web/routes/shelves.h"
+#include "web/site/access.h"
+#include "web/site/site.h"
+
+namespace seldinger::web {
+namespace {
+
+using casedb::Action;
+
+constexpr std::size_t kRowsOfAPage = 50;
+constexpr std::string_view kSeen =
+    "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: consenting people of "
+    "own studies as pseudonyms, simulated";
+constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says so";
+
+std::size_t wanted_page(const Request& request, std::size_t pages) {
+  std::size_t page = 1;
+  const std::string_view query = request.query;
+  constexpr std::string_view kName = "page=";
+  if (query.substr(0, kName.size()) == kName) {
+    const std::string_view digits = query.substr(kName.size());
+    std::from_chars(digits.data(), digits.data() + digits.size(), page);
+  }
+  return std::clamp<std::size_t>(page, 1, pages);
+}
+
+Response list_attempts(Site& site, const Call& call) {
+  const casedb::Account& account = call.reader->account;
+  if (!casedb::roles_that_may(casedb::Action::see_attempt).has(account.role))
+    return html_response(200, reports::no_attempts_page(call.reader->visitor()));
+  const Relations relations = site.questions.relations_of(account.person_id);
+  const casedb::WhoseAttempts seen = attempts_seen(account.role, relations);
+  const std::size_t total = site.questions.count_attempts(seen);
+  const std::size_t pages = std::max<std::size_t>(1, (total + kRowsOfAPage - 1) / kRowsOfAPage);
+  const std::size_t page = wanted_page(call.request, pages);
+  auto rows = site.questions.list_attempts(seen, (page - 1) * kRowsOfAPage, kRowsOfAPage);
+
+  std::map<std::string, casedb::Account> accounts;
+  for (casedb::Account& one : site.questions.list_accounts()) accounts.emplace(one.person_id, one);
+  const AccountOf account_of = [&](const std::string& person_id) {
+    const auto found = accounts.find(person_id);
+    return found == accounts.end() ? std::nullopt : std::optional(found->second);
+  };
+  // The question was right already; this holds it to the table.
+  std::erase_if(rows,
+                [&](const casedb::AttemptRow& row) { return !may_see_attempt(account.role, relations, row); });
+  std::vector<reports::AttemptView> views;
+  for (const casedb::AttemptRow& row : rows) {
+    casedb::AttemptRow told = row;
+    withhold(account.role, told);
+    std::string label = operator_label(account.role, relations, told, account_of);
+    views.push_back({std::move(told), std::move(label)});
+  }
+  const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
+  const reports::ListPart part{page, pages, total, account.role == casedb::Role::trainee};
+  return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
+}
+
+// The attempt when it exists and this reader may see it. Both are asked before either is answered.
+std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) {
+  auto row = site.questions.find_attempt(call.id);
+  const Relations relations = site.questions.relations_of(call.reader->account.person_id);
+  if (!row.has_value() || !may_see_attempt(call.reader->account.role, relations, *row)) return std::nullopt;
+  return std::move(*row);
+}
+
+std::vector<reports::CommentView> comments_of(Site& site, const std::string& attempt_id) {
+  std::vector<reports::CommentView> comments;
+  for (casedb::AttemptComment& one : site.questions.list_comments(attempt_id)) {
+    const auto author = one.person_id ? site.questions.find_account(*one.person_id) : std::nullopt;
+    std::string name = author          ? author->login_name
+                       : one.person_id ? reports::person_text(*one.person_id)
+                                       : "Operator";
+    comments.push_back({std::move(one), std::move(name)});
+  }
+  return comments;
+}
+
+Response show_attempt(Site& site, const Call& call) {
+  auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  const casedb::Role role = call.reader->account.role;
+  const casedb::AttemptGrade grade = site.questions.look_at(*row);
+  withhold(role, *row);
+  const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
+  const auto recording = site.questions.load_recording(row->attempt_id);
+  const Relations relations = site.questions.relations_of(call.reader->account.person_id);
+  reports::AttemptView view{*row, operator_label(role, relations, *row, account_of), grade,
+                            site.questions.list_steps(row->attempt_id)};
+  if (casedb::may(role, casedb::Action::see_free_text)) view.comments = comments_of(site, row->attempt_id);
+  view.may_comment = casedb::may(role, casedb::Action::comment_attempt, relation_to(relations, row->person_id));
+  return html_response(200, reports::attempt_page(call.reader->visitor(), view,
+                                                  recording.has_value() ? &recording.value() : nullptr));
+}
+
+Response comment_attempt(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  const casedb::Account& account = call.reader->account;
+  const Relations relations = site.questions.relations_of(account.person_id);
+  if (!row || !casedb::may(account.role, casedb::Action::comment_attempt, relation_to(relations, row->person_id)))
+    return refusal(404, call.reader);
+  const std::string at = call.field("at");
+  double at_s = 0.0;
+  const auto read = std::from_chars(at.data(), at.data() + at.size(), at_s, std::chars_format::fixed);
+  if (!at.empty() && (read.ec != std::errc() || read.ptr != at.data() + at.size()))
+    return refusal(400, call.reader);
+  const auto said = site.questions.add_comment(account.person_id, row->attempt_id, at_s, call.field("text"));
+  return said ? redirect("/attempts/" + row->attempt_id + "#comments") : refusal(400, call.reader);
+}
+
+bool is_png(const std::vector<std::byte>& bytes) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  return bytes.size() > kSignature.size() && std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) == 0;
+}
+
+Response show_picture(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value() || row->picture_sha256.empty()) return refusal(404, call.reader);
+  const auto picture = site.questions.load_picture(*row);
+  if (!picture.has_value() || !is_png(*picture)) {
+    const std::string code = picture.has_value() ? "not_png" : picture.error().code;
+    return site.fault(500, call.reader, code + ": a stored picture cannot be shown");
+  }
+  Response response{.content_type = "image/png"};
+  response.body.resize(picture->size());
+  std::memcpy(response.body.data(), picture->data(), picture->size());
+  return response;
+}
+
+Response show_metrics(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json", .body = metrics_json(*row)};
+}
+
+Response show_grade(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json",
+          .body = grade_json(*row, site.questions.look_at(*row), may_see_experts(call.reader->account.role))};
+}
+
+constexpr Route kAttemptRoutes[] = {
+    {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
+    {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
+     "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
+    {"GET", "/attempts/{attempt_id}/picture.png", Action::see_attempt, false, kSeen,
+     "the picture at the moment of firing", show_picture},
+    {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
+     "its metrics as `score` prints them", show_metrics},
+    {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,
+     "its grade, score and sentences as `score` prints them; of experts to others than mentors only rounded bands",
+     show_grade},
+    {"POST", "/attempts/{attempt_id}/comments", Action::comment_attempt, true, "mentor: own cohort",
+     "says something of a moment of it: at, text, token", comment_attempt, Lane::changes},
+};
+
+}  // namespace
+
+std::span<const Route> attempt_routes() {
+  return kAttemptRoutes;
+}
+
+}  // namespace seldinger::web
