@@ -140,7 +140,7 @@ std::string answer_section_page(const AnswerSection& view) {
       html.add(
           answer_item(form, *item, typed_of(view, *item), problem == view.problems.end() ? "" : problem->second));
     }
-  html.raw("<p class=\"steps\">");
+  html.raw("<p class=\"turns\">");
   // The first button of a form is what Enter presses.
   if (last)
     html.raw("<button name=\"go\" value=\"send\">Send</button>");

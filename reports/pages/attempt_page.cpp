@@ -174,6 +174,39 @@ void add_drawn(Html& html, const casedb::AttemptRow& row) {
   html.raw("</div>\n");
 }
 
+// Filled by replay.js, which hides it where there is nothing to show; without a script it is not there.
+void add_replay(Html& html, const casedb::AttemptRow& row) {
+  html.raw("<div class=\"replay3d\" data-replay=\"/attempts/").text(row.attempt_id);
+  html.raw(
+      "/replay.json\" hidden>\n<canvas tabindex=\"0\" role=\"img\" aria-label=\"Needle, probe and target in three "
+      "dimensions; arrow keys turn them. What is shown is told below.\"></canvas>\n"
+      "<p class=\"told\" data-told></p>\n<div class=\"controls\"><button type=\"button\" data-play>Play</button>\n"
+      "<label>Time <input type=\"range\" min=\"0\" max=\"1\" value=\"0\"></label>\n"
+      "<label>Speed <select><option value=\"0.25\">¼</option><option value=\"1\" selected>1</option><option "
+      "value=\"4\">4</option></select></label>\n<span><button type=\"button\" class=\"quiet\" "
+      "data-view=\"front\">From the front</button> <button type=\"button\" class=\"quiet\" data-view=\"side\">From "
+      "the "
+      "left</button> <button type=\"button\" class=\"quiet\" data-view=\"slice\">As a CT slice</button> <button "
+      "type=\"button\" class=\"quiet\" data-zoom=\"1.5\">Larger</button> <button type=\"button\" class=\"quiet\" "
+      "data-zoom=\"0.667\">Smaller</button></span></div>\n<p class=\"note\">Blue: the picture showed the tip. "
+      "Dashed: it "
+      "did not. R right, A front, H head.</p>\n</div>\n<script src=\"/replay.js\" defer></script>\n");
+}
+
+void add_course(Html& html, const casedb::AttemptRow& row, const cases::Recording* recording) {
+  html.raw("<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
+  const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
+  if (chart.empty()) {
+    html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");
+  } else {
+    add_replay(html, row);
+    html.add(chart);
+    html.add(beam_table(*recording));
+    add_drawn(html, row);
+  }
+  html.raw("</section>\n");
+}
+
 void add_detail(Html& html, std::string_view name, std::string_view value) {
   html.raw("<div><dt>").text(name).raw("</dt><dd>").name(value).raw("</dd></div>\n");
 }
@@ -242,22 +275,13 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
       .raw("</time></p>\n");
   html.add(grade_section(attempt.grade));
   add_outcome(html, row);
+  add_course(html, row, recording);
   html.add(comment_section(attempt, attempt.may_comment ? visitor.form_token : std::string()));
   html.raw("<div class=\"columns\">\n");
   add_metrics(html, attempt);
   html.raw("<div>\n");
   add_picture(html, row, recording);
-  html.add(step_section(attempt.steps))
-      .raw("</div>\n</div>\n<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
-  const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
-  if (chart.empty()) {
-    html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");
-  } else {
-    html.add(chart);
-    html.add(beam_table(*recording));
-    add_drawn(html, row);
-  }
-  html.raw("</section>\n");
+  html.add(step_section(attempt.steps)).raw("</div>\n</div>\n");
   add_details(html, attempt);
   return page("Attempt of " + attempt.operator_label, visitor, html);
 }

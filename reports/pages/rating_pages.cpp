@@ -43,7 +43,7 @@ void add_form(Html& html, const RatingView& view) {
     html.add(answer_item(form, item, typed, problem == view.problems.end() ? "" : problem->second));
   }
   html.raw(
-      "<p class=\"steps\"><button name=\"go\" value=\"send\">Send</button> <button class=\"quiet\" name=\"go\" "
+      "<p class=\"turns\"><button name=\"go\" value=\"send\">Send</button> <button class=\"quiet\" name=\"go\" "
       "value=\"later\">Later</button></p>\n</form>\n<p class=\"why\">Once sent, a rating cannot be changed. ");
   html.add(kept_words("With Later it is kept as it is.")).raw("</p>\n<script src=\"/answer.js\" defer></script>\n");
 }

@@ -29,4 +29,8 @@ std::string_view keep_typed_script() {
   return page_file("keep_typed.js");
 }
 
+std::string_view replay_script() {
+  return page_file("replay.js");
+}
+
 }  // namespace seldinger::reports

@@ -8,5 +8,6 @@ namespace seldinger::reports {
 
 std::string_view style_sheet();
 std::string_view keep_typed_script();
+std::string_view replay_script();
 
 }  // namespace seldinger::reports

@@ -113,7 +113,7 @@ TEST(AccessMatrix, EveryRouteAnswersEveryRoleAndRelationAsTheTableSays) {
       checks += 2;
     }
   }
-  EXPECT_EQ(checks, 5 * 17 * (12 * 2 + 5 + 2));
+  EXPECT_EQ(checks, 5 * 17 * (13 * 2 + 5 + 2));
   EXPECT_GT(allowed, 300) << "a site that answers nobody would pass an empty table";
 }
 
@@ -123,7 +123,7 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
     if (!route.who.action) without.insert(route.pattern);
   EXPECT_EQ(without, (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts",
                                                  "/metrics", "/answer", "/answer/form", "/answer/thanks",
-                                                 "/answer.js", "/rate", "/rate/bench", "/rate/replay"}))
+                                                 "/answer.js", "/rate", "/rate/bench", "/rate/replay", "/replay.js"}))
       << "a new route names its action";
 }
 
@@ -131,7 +131,7 @@ TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
   FakeSite fake;
   FakeBrowser browser(*fake.site);
   const std::set<std::string_view> open = {"/healthz",       "/style.css", "/login", "/answer",
-                                           "/answer/thanks", "/answer.js", "/rate"};
+                                           "/answer/thanks", "/answer.js", "/rate", "/replay.js"};
   for (const Route& route : routes()) {
     if (route.method != "GET") continue;
     for (const std::string& id : {kOwnAttempt, kMissingAttempt}) {
@@ -160,7 +160,7 @@ TEST(AccessMatrix, AForbiddenAttemptIsByteForByteAMissingOne) {
     FakeBrowser browser(*fake.site);
     fake.questions.relations.clear();
     browser.log_in_as(role);
-    for (const char* end : {"", "/picture.png", "/metrics.json", "/grade.json"}) {
+    for (const char* end : {"", "/picture.png", "/replay.json", "/metrics.json", "/grade.json"}) {
       const Response forbidden = browser.get("/attempts/" + kOthersAttempt + end);
       const Response missing = browser.get("/attempts/" + kMissingAttempt + end);
       EXPECT_EQ(bytes_of(forbidden, true), bytes_of(missing, true));

@@ -182,6 +182,7 @@ class FakeQuestions final : public Questions {
   }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
   base::Result<cases::Recording> load_recording(const std::string&) override {
+    if (recording) return *recording;
     return base::Error{"damaged", "the recording is damaged"};
   }
 
@@ -205,6 +206,7 @@ class FakeQuestions final : public Questions {
   std::vector<casedb::AttemptRow> attempts;      // newest first
   std::vector<casedb::CaseRow> cases;            // oldest first
   casedb::AttemptGrade grade;                    // of every attempt
+  std::optional<cases::Recording> recording;     // of every attempt; none: it is damaged
   std::vector<casedb::AttemptComment> comments;  // of every attempt
   std::vector<reports::CurriculumView> curricula;
   std::optional<std::string> curricula_asked_for;
@@ -336,6 +338,7 @@ inline void give(FakeSite& fake, casedb::Role role, const casedb::Relation& rela
   fake.questions.relations.clear();
   fake.questions.relations[reader][relation.own ? reader : other] = relation;
   if (!relation.nobodys) fake.questions.relations[reader][kSomebody] = relation;
+  fake.questions.recording.emplace().poses.resize(2);
   fake.questions.attempts = {attempt_row(
       kOwnAttempt, relation.nobodys ? std::nullopt : std::optional<std::string>(relation.own ? reader : other))};
 }

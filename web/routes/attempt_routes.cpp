@@ -6,7 +6,9 @@
 
 #include "reports/pages/attempt_page.h"
 #include "reports/pages/attempts_page.h"
+#include "reports/pages/style_sheet.h"
 #include "web/json/attempt_json.h"
+#include "web/json/replay_json.h"
 #include "web/routes/shelves.h"
 #include "web/site/access.h"
 #include "web/site/site.h"
@@ -99,8 +101,11 @@ Response show_attempt(Site& site, const Call& call) {
                             site.questions.list_steps(row->attempt_id)};
   if (casedb::may(role, casedb::Action::see_free_text)) view.comments = comments_of(site, row->attempt_id);
   view.may_comment = casedb::may(role, casedb::Action::comment_attempt, relation_to(relations, row->person_id));
-  return html_response(200, reports::attempt_page(call.reader->visitor(), view,
-                                                  recording.has_value() ? &recording.value() : nullptr));
+  Response response = html_response(
+      200,
+      reports::attempt_page(call.reader->visitor(), view, recording.has_value() ? &recording.value() : nullptr));
+  response.policy = Policy::replay;
+  return response;
 }
 
 Response comment_attempt(Site& site, const Call& call) {
@@ -137,6 +142,18 @@ Response show_picture(Site& site, const Call& call) {
   return response;
 }
 
+Response show_replay(Site& site, const Call& call) {
+  const auto row = visible_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  const auto recording = site.questions.load_recording(row->attempt_id);
+  if (!recording.has_value()) return refusal(404, call.reader);
+  return {.content_type = "application/json", .body = replay_json(*row, *recording)};
+}
+
+Response show_replay_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::replay_script())};
+}
+
 Response show_metrics(Site& site, const Call& call) {
   const auto row = visible_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
@@ -151,11 +168,14 @@ Response show_grade(Site& site, const Call& call) {
 }
 
 constexpr Route kAttemptRoutes[] = {
+    {"GET", "/replay.js", kOpen, false, "", "the script that draws the replay", show_replay_script},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
     {"GET", "/attempts/{attempt_id}/picture.png", Action::see_attempt, false, kSeen,
      "the picture at the moment of firing", show_picture},
+    {"GET", "/attempts/{attempt_id}/replay.json", Action::see_attempt, false, kSeen,
+     "its course for the replay: poses in LPS, target, what the pictures showed of the tip", show_replay},
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,

@@ -133,7 +133,18 @@ const std::vector<std::pair<std::string_view, std::string_view>>& security_heade
   static const Headers answering = with(
       "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; connect-src 'self'; "
       "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
-  return policy == Policy::answering ? answering : page;
+  static const Headers replay = with(
+      "default-src 'none'; style-src 'self'; img-src 'self'; script-src 'self'; connect-src 'self'; "
+      "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
+  switch (policy) {
+    case Policy::replay:
+      return replay;
+    case Policy::answering:
+      return answering;
+    case Policy::page:
+      break;
+  }
+  return page;
 }
 
 std::string bytes_of(const Response& response, bool with_body) {

@@ -11,7 +11,8 @@ Html comment_section(const AttemptView& attempt, const std::string& form_token) 
   if (attempt.comments.empty()) html.raw("<p class=\"note\">Nobody has said anything of it yet.</p>\n");
   if (!attempt.comments.empty()) html.raw("<dl class=\"definitions\">\n");
   for (const CommentView& one : attempt.comments) {
-    html.raw("<dt>At ").text(number_text(one.comment.at_s, 1)).raw(" s</dt><dd>").text(one.comment.body);
+    html.raw("<dt data-at-s=\"").text(number_text(one.comment.at_s, 1)).raw("\">At ");
+    html.text(number_text(one.comment.at_s, 1)).raw(" s</dt><dd>").text(one.comment.body);
     html.raw(" <span class=\"why\">").name(one.author).raw(", ").text(utc_text(one.comment.written_us));
     html.raw("</span></dd>\n");
   }

@@ -20,8 +20,18 @@ const char* class_of(StepState state) {
 void add_row(Html& html, const StepResult& step) {
   const StepMark& mark = step_mark(step);
   html.raw("<tr><th scope=\"row\">").add(step_details(step.id, step.version)).raw("</th><td class=\"number\">");
-  html.text(step.t_s ? number_text(*step.t_s, 1) + " s" : "–").raw("</td><td><span class=\"");
-  html.text(class_of(step.state)).raw("\">").text(std::string(mark.sign) + " " + mark.words);
+  if (step.t_s)
+    html.raw("<span data-at-s=\"")
+        .text(number_text(*step.t_s, 1))
+        .raw("\">")
+        .text(number_text(*step.t_s, 1))
+        .raw(" s</span>");
+  else
+    html.raw("–");
+  html.raw("</td><td><span class=\"")
+      .text(class_of(step.state))
+      .raw("\">")
+      .text(std::string(mark.sign) + " " + mark.words);
   html.raw("</span></td></tr>\n");
 }
 
