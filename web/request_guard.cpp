@@ -15,8 +15,8 @@ constexpr std::string_view kPathCharacters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefgh
 constexpr std::string_view kTokenCharacters =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789!#$%&'*+-.^_`|~";
 
-constexpr std::array<std::string_view, 7> kKept = {"host",   "content-type",   "content-length", "cookie",
-                                                   "origin", "sec-fetch-site", "accept"};
+constexpr std::array<std::string_view, 8> kKept = {"host",   "x-forwarded-for", "content-type",   "content-length",
+                                                   "cookie", "origin",          "sec-fetch-site", "accept"};
 
 bool is_token(std::string_view text) {
   return !text.empty() && text.find_first_not_of(kTokenCharacters) == text.npos;

@@ -58,9 +58,18 @@ struct Server::Parts {
         connections(listener->file(),
                     {[this](const Request& request) { return site.lane_of(request); },
                      [this](std::uint64_t id, Lane lane, Request request) {
+                       request.from = asker_of(request, surroundings.public_authority);
                        workers->add(lane, {id, std::move(request)});
                      },
-                     [this](const std::string& address) { site.security.note("connection dropped", address); }}) {}
+                     [this](const std::string& address) { site.security.note("connection dropped", address); }},
+                    limits_behind(this->surroundings)) {}
+
+  // All of a proxy's connections are of one address; it holds back requests that have not come whole.
+  static ConnectionLimits limits_behind(const Surroundings& where) {
+    ConnectionLimits limits;
+    if (!where.public_authority.empty()) limits.most_waiting_of_address = limits.most;
+    return limits;
+  }
 
   void answer(Job job) noexcept {
     std::string bytes;
@@ -101,6 +110,9 @@ base::Result<int> listen(Listener& listener, const ServeOptions& options) {
   if (!is_loopback_address(options.host)) {
     return base::Error{"not_loopback", "the server listens on this machine only: 127.0.0.1, ::1 or localhost"};
   }
+  if (!options.behind.empty() && !authority_of_https(options.behind))
+    return base::Error{"bad_origin",
+                       "what a proxy serves is https:// and a name in small letters, with a port or without"};
   if (options.port < 0 || options.port > 65535) return base::Error{"bad_port", "a port is 0 to 65535"};
   const auto port = listener.listen_at(address_of(options), options.port);
   if (!port) return base::Error{"port_taken", "cannot listen on port " + std::to_string(options.port)};
@@ -124,6 +136,7 @@ base::Result<Server> Server::open(std::unique_ptr<Questions> questions, Surround
   const auto port = listen(*listener, options);
   if (!port) return port.error();
   surroundings.port = *port;
+  if (!options.behind.empty()) surroundings.public_authority = *authority_of_https(options.behind);
   auto parts = std::make_unique<Parts>(std::move(questions), std::move(surroundings), std::move(listener));
   const std::string shown = address == "::1" ? "[::1]" : address;
   parts->url = "http://" + shown + ":" + std::to_string(*port);

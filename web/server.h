@@ -14,11 +14,15 @@ namespace seldinger::web {
 struct ServeOptions {
   std::string host = "127.0.0.1";  // loopback only: there is no TLS
   int port = 8080;                 // 0: any free port
+  // "https://sim.example.org": what a reverse proxy on this machine serves these pages as. It writes
+  // X-Forwarded-For anew with each request; who asked is taken from there. Empty: there is no proxy, and that
+  // header counts nothing.
+  std::string behind{};
 };
 
 class Server {
  public:
-  // Listens when it returns. Refused: `not_loopback`, `bad_port`, `port_taken`.
+  // Listens when it returns. Refused: `not_loopback`, `bad_port`, `port_taken`, `bad_origin`.
   static base::Result<Server> open(std::unique_ptr<Questions> questions, Surroundings surroundings,
                                    const ServeOptions& options);
   // Whether it would, now: nothing of `host` and `port` is held when this returns. Refused as `open`.

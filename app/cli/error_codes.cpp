@@ -490,6 +490,8 @@ constexpr ErrorCode kEnvironmentCodes[] = {
     {"not_loopback", kRefuses, "The server listens on this machine only.",
      "`--host` is 127.0.0.1, ::1 or localhost."},
     {"bad_port", kRefuses, "A port is 0 to 65535.", "Give such a port."},
+    {"bad_origin", kRefuses, "What a reverse proxy serves is an address like https://sim.example.org.",
+     "Give `--behind` the name as browsers write it, without a path."},
     {"port_taken", kRefuses, "Cannot listen on the port, most often because another program does.",
      "Give another `--port`; 0 takes any free one."},
     {"disk", kFails, "The disk is full, or a file or folder cannot be made, read or written.",

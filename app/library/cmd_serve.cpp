@@ -12,17 +12,22 @@ int run_serve(const Arguments& arguments) {
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
   auto library = open_library(arguments);
   if (!library) return refuse(library.error());
-  const auto served = serve_until_stopped(std::move(*library), {arguments.text("--host", "127.0.0.1"), port},
-                                          [](const std::string& url) {
-                                            std::printf("%s\n", url.c_str());
-                                            std::fflush(stdout);
-                                          });
+  const auto served = serve_until_stopped(
+      std::move(*library), {arguments.text("--host", "127.0.0.1"), port, false, arguments.text("--behind", "")},
+      [](const std::string& url) {
+        std::printf("%s\n", url.c_str());
+        std::fflush(stdout);
+      });
   return served ? kDone : refuse(served.error());
 }
 
-constexpr Option kServeOptions[] = {kLibrary,
-                                    {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},
-                                    {"--port", "N", "default 8080; 0 takes any free one"}};
+constexpr Option kServeOptions[] = {
+    kLibrary,
+    {"--host", "ADDRESS", "default 127.0.0.1; only loopback for now"},
+    {"--port", "N", "default 8080; 0 takes any free one"},
+    {"--behind", "https://NAME",
+     "a reverse proxy on this machine serves the pages under that name and adds TLS "
+     "(docs/serving.md)"}};
 
 }  // namespace
 

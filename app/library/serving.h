@@ -14,6 +14,7 @@ struct ServeAt {
   std::string host = "127.0.0.1";
   int port = 8080;  // 0: any free one
   bool any_port_if_taken = false;
+  std::string behind{};  // as web::ServeOptions
 };
 
 // No picture of this process's memory is written when it dies, nor may another process of this user look into it:

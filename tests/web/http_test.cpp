@@ -35,6 +35,32 @@ TEST(Cookies, AreFoundByTheirWholeNameAndRefusedWhenGivenTwice) {
   EXPECT_EQ(cookie(request, "a"), "");
 }
 
+TEST(Proxies, AnHttpsOriginIsANameWithOrWithoutAPort) {
+  EXPECT_EQ(authority_of_https("https://sim.example.org"), "sim.example.org");
+  EXPECT_EQ(authority_of_https("https://sim.example.org:8443"), "sim.example.org:8443");
+  for (const char* bad :
+       {"", "https://", "http://sim.example.org", "https://sim.example.org/", "https://Sim.example.org",
+        "https://sim.example.org:", "https://sim.example.org:123456", "https://.org", "https://a b",
+        "https://user@sim.example.org", "https://sim.example.org:80a"})
+    EXPECT_FALSE(authority_of_https(bad).has_value()) << bad;
+}
+
+TEST(Proxies, WhoAskedIsTheLastWordAndAnAddress) {
+  Request request;
+  request.from = "127.0.0.1";
+  const auto from = [&](const std::string& header) {
+    request.headers["x-forwarded-for"] = header;
+    return asker_of(request, "sim.example.org");
+  };
+  EXPECT_EQ(from("10.1.2.3"), "10.1.2.3");
+  EXPECT_EQ(from("6.6.6.6, 10.1.2.3 "), "10.1.2.3") << "what a browser sent before it is not believed";
+  EXPECT_EQ(from("fd00::1"), "fd00::1");
+  for (const char* bad : {"", " ", ",", "10.1.2.3,", "unknown", "10.1.2.3:80", "10.1.2"})
+    EXPECT_EQ(from(bad), "127.0.0.1") << bad;
+  request.headers["x-forwarded-for"] = "10.1.2.3";
+  EXPECT_EQ(asker_of(request, ""), "127.0.0.1") << "without a proxy nobody is believed";
+}
+
 TEST(Hosts, OnlyTheLoopbackCounts) {
   for (const char* good :
        {"127.0.0.1", "127.0.0.1:8080", "127.8.9.10:1", "localhost", "localhost:65535", "[::1]", "[::1]:80"}) {

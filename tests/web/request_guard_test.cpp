@@ -23,7 +23,7 @@ std::string post(const std::string& more) {
 TEST(Guard, APlainRequestPassesWithItsParts) {
   const auto parsed = parse_head(
       "GET /attempts?page=2&x=%41 HTTP/1.1\r\nHost: localhost:1\r\nCOOKIE:\t a=b \r\nREMOTE_ADDR: 6.6.6.6\r\n"
-      "X-Forwarded-For: 6.6.6.6\r\nRange: bytes=0-1\r\n\r\n");
+      "X-Real-Ip: 6.6.6.6\r\nRange: bytes=0-1\r\n\r\n");
   const Head* head = std::get_if<Head>(&parsed);
   ASSERT_NE(head, nullptr);
   EXPECT_EQ(head->request.method, "GET");

@@ -231,12 +231,41 @@ bool is_loopback_host_header(std::string_view value) {
   return port_is_sound && is_loopback_address(value);
 }
 
-bool is_same_origin(const Request& request) {
+bool is_same_origin(const Request& request, std::string_view public_authority) {
   const std::string origin = request.header("origin");
   const std::string site = request.header("sec-fetch-site");
-  const bool origin_fits = origin == "http://" + request.header("host");
+  const std::string host = request.header("host");
+  const bool proxied = !public_authority.empty() && host == public_authority;
+  const bool origin_fits = origin == (proxied ? "https://" : "http://") + host;
   if (!origin.empty() && origin != "null" && !origin_fits) return false;
   return site.empty() ? origin_fits : site == "same-origin";
+}
+
+std::optional<std::string> authority_of_https(std::string_view origin) {
+  constexpr std::string_view kScheme = "https://";
+  if (!origin.starts_with(kScheme)) return std::nullopt;
+  const std::string_view authority = origin.substr(kScheme.size());
+  const std::size_t colon = std::min(authority.find(':'), authority.size());
+  const std::string_view name = authority.substr(0, colon), port = authority.substr(colon);
+  constexpr std::string_view kOfName = "abcdefghijklmnopqrstuvwxyz0123456789-.";
+  const bool name_fits = !name.empty() && name.size() <= 253 && name.find_first_not_of(kOfName) == name.npos &&
+                         name.front() != '.' && name.front() != '-';
+  const bool port_fits = port.empty() || (port.size() >= 2 && port.size() <= 6 &&
+                                          port.find_first_not_of("0123456789", 1) == port.npos);
+  if (!name_fits || !port_fits) return std::nullopt;
+  return std::string(authority);
+}
+
+std::string asker_of(const Request& request, std::string_view public_authority) {
+  if (public_authority.empty()) return request.from;
+  std::string all = request.header("x-forwarded-for");
+  std::string last = all.substr(all.rfind(',') + 1);  // npos + 1: from the start
+  const std::size_t from = last.find_first_not_of(' ');
+  last = from == last.npos ? "" : last.substr(from, last.find_last_not_of(' ') - from + 1);
+  in6_addr any{};
+  if (last.find('\0') != last.npos) return request.from;
+  const bool is_one = inet_pton(AF_INET, last.c_str(), &any) == 1 || inet_pton(AF_INET6, last.c_str(), &any) == 1;
+  return is_one ? last : request.from;
 }
 
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept {

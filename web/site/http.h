@@ -58,8 +58,16 @@ bool is_loopback_address(std::string_view address);
 bool is_loopback_host_header(std::string_view value);
 
 // Whether a browser sent this from a page of this server. Our own policy `no-referrer` makes browsers send
-// `Origin: null` with forms, so Sec-Fetch-Site decides where it is sent; else Origin must name this very host.
-bool is_same_origin(const Request& request);
+// `Origin: null` with forms, so Sec-Fetch-Site decides where it is sent; else Origin must name this very host, by
+// https under the name that a reverse proxy serves (empty: there is none), by http under any other.
+bool is_same_origin(const Request& request, std::string_view public_authority = {});
+
+// "sim.example.org" of "https://sim.example.org", with a port where it has one; none: it is no such origin.
+std::optional<std::string> authority_of_https(std::string_view origin);
+
+// Who asked: the address that sent the request, or behind a proxy the one that asked that, by the last word of
+// X-Forwarded-For, which the proxy itself has written.
+std::string asker_of(const Request& request, std::string_view public_authority);
 
 // Compares without telling by its time where two texts of one length differ.
 bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;

@@ -29,7 +29,7 @@ Words words_for(int status) {
     case 415:
       return {"Not understood", "Only forms are accepted here."};
     case 421:
-      return {"Refused", "This server answers under the name of this machine only."};
+      return {"Refused", "This server does not answer under that name."};
     case 503:
       return {"Not available", "The library cannot be read right now. Try again later."};
     default:
@@ -151,7 +151,9 @@ std::optional<Reader> Site::reader_of(const Request& request) {
 }
 
 Response Site::route(const Request& request) {
-  if (!is_loopback_host_header(request.header("host"))) return refusal(421, nullptr);
+  const std::string host = request.header("host");
+  const bool proxied = !surroundings.public_authority.empty() && host == surroundings.public_authority;
+  if (!proxied && !is_loopback_host_header(host)) return refusal(421, nullptr);
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
 
   const Route* found = nullptr;
@@ -163,7 +165,8 @@ Response Site::route(const Request& request) {
     if (candidate.method == method) found = &candidate;
   }
   const bool is_change = method == "POST";
-  if (found != nullptr && is_change && !is_same_origin(request)) return refusal(403, nullptr);
+  if (found != nullptr && is_change && !is_same_origin(request, surroundings.public_authority))
+    return refusal(403, nullptr);
 
   const auto reader = reader_of(request);
   const Reader* who = reader.has_value() ? &*reader : nullptr;
@@ -194,7 +197,12 @@ Response Site::route(const Request& request) {
 Response Site::answer(const Request& request) noexcept {
   try {
     try {
-      return route(request);
+      Response response = route(request);
+      // A browser that came by TLS sends its cookies by TLS alone.
+      if (!surroundings.public_authority.empty() && request.header("host") == surroundings.public_authority)
+        for (auto& [name, value] : response.headers)
+          if (name == "Set-Cookie") value += "; Secure";
+      return response;
     } catch (const base::Failure& failure) {
       return fault(503, nullptr, failure.code() + ": " + failure.what());
     } catch (const std::exception&) {

@@ -15,6 +15,8 @@ struct Surroundings {
   std::function<std::string(std::string_view)> sha256_hex;  // 64 hex digits
   std::function<void(const std::string&)> log;              // one line; no patient data, no names
   std::string program_version;
+  // Under which name a reverse proxy that adds TLS serves these pages, "sim.example.org"; empty: there is none.
+  std::string public_authority;
   int port = 0;  // cookies know no ports: their names tell ours from another program's on this machine
 };
 

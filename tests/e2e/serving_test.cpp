@@ -1,0 +1,162 @@
+// The pages behind a reverse proxy: nginx as docs/serving.md has it, with a certificate made here.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <regex>
+#include <thread>
+
+#include "tests/fixtures/files.h"
+#include "tests/fixtures/folders.h"
+#include "tests/fixtures/places.h"
+#include "tests/fixtures/process.h"
+
+namespace seldinger {
+namespace {
+
+using fixtures::kProgram;
+using fixtures::run;
+
+// The block of the page that begins with ```nginx.
+std::string example_of_page() {
+  const std::string page = fixtures::whole_file(fixtures::source_dir() / "docs/serving.md");
+  const std::string begin = "```nginx\n";
+  const std::size_t from = page.find(begin);
+  EXPECT_NE(from, page.npos);
+  return page.substr(from + begin.size(), page.find("```", from + begin.size()) - from - begin.size());
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  EXPECT_NE(text.find(what), text.npos) << "the example has no " << what;
+  for (std::size_t at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
+}
+
+// A program that runs beside the test until it is over.
+class Beside {
+ public:
+  Beside(const std::string& command, const std::filesystem::path& out) {
+    pid_ = ::fork();
+    if (pid_ == 0) {
+      const std::string line = "exec " + command + " > '" + out.string() + "' 2> '" + out.string() + ".err'";
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+  }
+  Beside(const Beside&) = delete;
+  Beside& operator=(const Beside&) = delete;
+  ~Beside() {
+    ::kill(pid_, SIGTERM);
+    ::waitpid(pid_, nullptr, 0);
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+// Until `holds`, for a minute at most.
+template <typename Holds>
+bool wait_until(Holds holds) {
+  for (int i = 0; i < 600; ++i) {
+    if (holds()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return false;
+}
+
+class ServingTest : public testing::Test {
+ protected:
+  std::string curl(const std::string& words) {
+    return run("curl -sk -i --max-time 20 --resolve sim.example.org:" + port_ + ":127.0.0.1 -b '" + jar() +
+                   "' -c '" + jar() + "' " + words,
+               scratch_)
+        .out;
+  }
+  std::string jar() const { return (scratch_ / "jar").string(); }
+  std::string page(const std::string& path) { return curl("https://sim.example.org:" + port_ + path); }
+  std::string post(const std::string& path, const std::string& form, const std::string& origin) {
+    return curl("-H 'Origin: " + origin + "' --data '" + form + "' https://sim.example.org:" + port_ + path);
+  }
+  static std::string token_in(const std::string& html) {
+    std::smatch found;
+    return std::regex_search(html, found, std::regex("name=\"token\" value=\"([^\"]+)\"")) ? found.str(1) : "";
+  }
+
+  const std::filesystem::path scratch_ = fixtures::fresh_folder("serving");
+  std::string port_;
+};
+
+TEST_F(ServingTest, TheExampleOfThePageServesOverTls) {
+  const std::string library = (scratch_ / "library").string();
+  const auto added = run("printf 'a long password\\n' | " + kProgram +
+                             " user add ann --role trainee --new-library --library '" + library + "'",
+                         scratch_);
+  ASSERT_EQ(added.exit_code, 0) << added.err;
+  ASSERT_EQ(run("openssl req -x509 -newkey rsa:2048 -nodes -days 2 -subj /CN=sim.example.org -keyout '" +
+                    (scratch_ / "key.pem").string() + "' -out '" + (scratch_ / "cert.pem").string() + "'",
+                scratch_)
+                .exit_code,
+            0);
+  // The proxy's port is one that was free a moment ago: the name that browsers use holds it.
+  port_ = std::to_string(20'000 + ::getpid() % 20'000);
+  Beside server(kProgram + " serve --library '" + library + "' --port 0 --behind https://sim.example.org:" + port_,
+                scratch_ / "serve.out");
+  std::string url;
+  ASSERT_TRUE(wait_until([&] {
+    url = fixtures::whole_file(scratch_ / "serve.out");
+    return url.ends_with("\n");
+  })) << fixtures::whole_file(scratch_ / "serve.out.err");
+  url.pop_back();
+
+  std::string site = example_of_page();
+  site = replaced(site, "443", port_);
+  site = replaced(site, "http://127.0.0.1:8080", url);
+  site = replaced(site, "/etc/ssl/sim.example.org.crt", (scratch_ / "cert.pem").string());
+  site = replaced(site, "/etc/ssl/sim.example.org.key", (scratch_ / "key.pem").string());
+  std::ofstream(scratch_ / "nginx.conf")
+      << "daemon off; pid nginx.pid; error_log nginx.log; worker_processes 1;\nevents {}\nhttp {\naccess_log off;\n"
+      << "client_body_temp_path t1; proxy_temp_path t2; fastcgi_temp_path t3; uwsgi_temp_path t4; scgi_temp_path "
+         "t5;\n"
+      << site << "}\n";
+  Beside proxy("/usr/sbin/nginx -p '" + scratch_.string() + "' -c nginx.conf", scratch_ / "nginx.out");
+  ASSERT_TRUE(wait_until([&] { return page("/healthz").find("\"ok\"") != std::string::npos; }))
+      << fixtures::whole_file(scratch_ / "nginx.out.err") << page("/healthz");
+
+  const std::string form = page("/login");
+  EXPECT_NE(form.find("; Secure"), form.npos) << form;
+  EXPECT_NE(form.find("Strict-Transport-Security"), form.npos);
+  const std::string here = "https://sim.example.org:" + port_;
+  const std::string fields = "name=ann&password=a+long+password&token=" + token_in(form);
+  EXPECT_EQ(post("/login", fields, "https://evil.example.org").rfind("HTTP/1.1 403", 0), 0U);
+  EXPECT_EQ(post("/login", fields, "http://sim.example.org:" + port_).rfind("HTTP/1.1 403", 0), 0U)
+      << "not by http";
+  const std::string in = post("/login", fields, here);
+  EXPECT_EQ(in.rfind("HTTP/1.1 303", 0), 0U) << in;
+  EXPECT_NE(page("/attempts").find("HTTP/1.1 200"), std::string::npos);
+  // Under another name it answers nobody, whatever the proxy lets through.
+  EXPECT_EQ(
+      curl("-H 'Host: other.example.org' https://sim.example.org:" + port_ + "/login").rfind("HTTP/1.1 421", 0),
+      0U);
+}
+
+TEST(Serving, ANameThatIsNoOriginIsRefused) {
+  const auto scratch = fixtures::fresh_folder("serving");
+  const std::string library = (scratch / "library").string();
+  ASSERT_EQ(run("printf 'a long password\\n' | " + kProgram +
+                    " user add ann --role trainee --new-library --library '" + library + "'",
+                scratch)
+                .exit_code,
+            0);
+  for (const char* bad :
+       {"http://sim.example.org", "https://", "https://sim.example.org/pages", "sim.example.org"}) {
+    const auto ran = run(kProgram + " serve --library '" + library + "' --behind " + bad, scratch);
+    EXPECT_NE(ran.exit_code, 0) << bad;
+    EXPECT_NE(ran.err.find("bad_origin"), std::string::npos) << bad << ran.err;
+  }
+}
+
+}  // namespace
+}  // namespace seldinger
