@@ -1,6 +1,8 @@
 // The pages behind a reverse proxy: nginx as docs/serving.md has it, with a certificate made here.
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -67,6 +69,18 @@ bool wait_until(Holds holds) {
   return false;
 }
 
+int free_port() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in any{};
+  any.sin_family = AF_INET;
+  any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof any;
+  EXPECT_EQ(::bind(socket, reinterpret_cast<sockaddr*>(&any), size), 0);
+  EXPECT_EQ(::getsockname(socket, reinterpret_cast<sockaddr*>(&any), &size), 0);
+  ::close(socket);
+  return ntohs(any.sin_port);
+}
+
 class ServingTest : public testing::Test {
  protected:
   std::string curl(const std::string& words) {
@@ -100,8 +114,7 @@ TEST_F(ServingTest, TheExampleOfThePageServesOverTls) {
                 scratch_)
                 .exit_code,
             0);
-  // The proxy's port is one that was free a moment ago: the name that browsers use holds it.
-  port_ = std::to_string(20'000 + ::getpid() % 20'000);
+  port_ = std::to_string(free_port());  // told to the server before the proxy takes it
   Beside server(kProgram + " serve --library '" + library + "' --port 0 --behind https://sim.example.org:" + port_,
                 scratch_ / "serve.out");
   std::string url;
@@ -123,7 +136,8 @@ TEST_F(ServingTest, TheExampleOfThePageServesOverTls) {
       << site << "}\n";
   Beside proxy("/usr/sbin/nginx -p '" + scratch_.string() + "' -c nginx.conf", scratch_ / "nginx.out");
   ASSERT_TRUE(wait_until([&] { return page("/healthz").find("\"ok\"") != std::string::npos; }))
-      << fixtures::whole_file(scratch_ / "nginx.out.err") << page("/healthz");
+      << fixtures::whole_file(scratch_ / "nginx.out.err") << fixtures::whole_file(scratch_ / "nginx.log")
+      << page("/healthz");
 
   const std::string form = page("/login");
   EXPECT_NE(form.find("; Secure"), form.npos) << form;
