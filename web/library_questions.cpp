@@ -124,6 +124,24 @@ class LibraryQuestions final : public Questions {
     return texts;
   }
 
+  reports::AuditView audit_of(int days) override {
+    constexpr std::size_t kMostRows = 500;
+    constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
+    const std::lock_guard lock(recordings_.mutex);  // long to read where the log is: no page waits
+    casedb::Library& library = recordings_.library;
+    reports::AuditView view;
+    view.days = days;
+    view.rows = casedb::list_audit(library, casedb::now_us() - days * kDay_us);
+    std::reverse(view.rows.begin(), view.rows.end());
+    view.more = view.rows.size() > kMostRows;
+    if (view.more) view.rows.resize(kMostRows);
+    view.count = casedb::audit_head(library).count;
+    for (const base::Problem& one : casedb::problems_of_audit(library)) view.problems.push_back(one.text);
+    for (const casedb::Account& one : casedb::list_users(library))
+      view.names.emplace(one.person_id, one.login_name);
+    return view;
+  }
+
   reports::AboutMe about(const std::string& person_id) override {
     const std::lock_guard lock(pages_.mutex);
     return {casedb::list_facts(pages_.library, person_id), casedb::list_consents(pages_.library, person_id)};

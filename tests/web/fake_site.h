@@ -77,6 +77,11 @@ class FakeQuestions final : public Questions {
             std::make_shared<const std::vector<casedb::CurriculumRecord>>(
                 found == records.end() ? std::vector<casedb::CurriculumRecord>() : found->second)};
   }
+  reports::AuditView audit_of(int days) override {
+    reports::AuditView view = audit;
+    view.days = days;
+    return view;
+  }
   reports::StandardTexts standard_texts(const reports::Records&) override { return {}; }
   reports::AboutMe about(const std::string& person_id) override {
     const std::lock_guard lock(mutex);
@@ -197,6 +202,7 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::map<std::string, casedb::Relation>> cohort_relations;  // by reader and cohort
   std::map<std::string, std::vector<casedb::CurriculumRecord>> records;             // by person
   std::set<std::string> simulated;
+  reports::AuditView audit;
   casedb::Erased erased;
   reports::AboutMe about_me;
   std::string asked_about;

@@ -15,5 +15,6 @@ std::span<const Route> case_routes();
 std::span<const Route> learner_routes();
 std::span<const Route> people_routes();
 std::span<const Route> me_routes();
+std::span<const Route> server_routes();
 
 }  // namespace seldinger::web

@@ -23,6 +23,7 @@
 #include "casedb/ratings/rating_rounds.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
+#include "reports/pages/people/audit_page.h"
 #include "reports/pages/people/learner_page.h"
 
 namespace seldinger::web {
@@ -60,6 +61,10 @@ class Questions {
   virtual LearnerRecords records_of(const std::string& person_id) = 0;
   // How the standard of each case that they learn is called, by case id.
   virtual reports::StandardTexts standard_texts(const reports::Records& records) = 0;
+
+  // The last `days` of the audit log, newest first and 500 at most, and whether the whole log stands. Takes
+  // milliseconds for each thousand rows of it.
+  virtual reports::AuditView audit_of(int days) = 0;
 
   virtual reports::AboutMe about(const std::string& person_id) = 0;
   // All of them or none: as casedb::give_facts refuses.
