@@ -16,6 +16,7 @@
 #include "app/demo/demo_case.h"
 #include "app/demo/demo_cases.h"
 #include "app/demo/demo_library.h"
+#include "app/demo/demo_programme.h"
 #include "app/library/serving.h"
 #include "assessment/operators/lesion_site.h"
 #include "assessment/registry.h"
@@ -113,6 +114,10 @@ int run_demo(const Arguments& arguments) {
   if (arguments.has(kFace.name) && !arguments.has("--ct")) throw UsageError("--face goes with --ct");
   if (arguments.has(kSeries.name) && (!arguments.has("--ct") || arguments.all("--ct").size() > 1))
     throw UsageError("--series goes with one --ct");
+  if (arguments.has("--programme")) {
+    if (arguments.has("--json")) throw UsageError("--json does not go with --programme");
+    return run_demo_programme(arguments);
+  }
   if (arguments.has("--cases") || arguments.has("--drills")) return run_demo_cases(arguments);
   if (arguments.all("--ct").size() > 1) throw UsageError("more than one --ct goes with --cases only");
   const int port = static_cast<int>(arguments.whole("--port", 8080, 0, 65535));
@@ -168,6 +173,10 @@ constexpr Option kDemoOptions[] = {
      "replay is to be watched, and the curriculum that leads through them; takes seconds"},
     {"--cases", nullptr,
      "the drills, then the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; likewise"},
+    {"--programme", nullptr,
+     "the drills, and a programme of sixty simulated people in three cohorts who have practised them, for the "
+     "pages of "
+     "mentors and directors; takes minutes"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},
