@@ -92,7 +92,7 @@ struct AtTheEntry {
 
 // However an arm is lost while its needle is in tissue: its force is gone, its tool stays, the attempt goes on, and
 // when it is back the tool goes on from where it is, and pushes back again.
-TEST(TrainDevice, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemptGoesOn) {
+TEST(ArmFaults, WhateverHappensToAnArmWhoseNeedleIsInTissueForcesEndAndTheAttemptGoesOn) {
   const auto library = fixtures::library_to_try("train_device_faults", "mpr");
   AtTheEntry desk;
   app::HaplySimulation& service = desk.led->service();
