@@ -205,6 +205,12 @@ CREATE TABLE curriculum_item (
   UNIQUE (curriculum_id, family_id)
 ) STRICT;
 
+CREATE TABLE desk_response (
+  response_id TEXT NOT NULL PRIMARY KEY REFERENCES response_set (response_id) DEFERRABLE INITIALLY DEFERRED,
+  round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
+  person_id TEXT NOT NULL REFERENCES person (person_id)
+) STRICT;
+
 CREATE TABLE digest (
   of_table TEXT NOT NULL,
   of_id TEXT NOT NULL, -- the first column of the rows; of what an attempt has many of, the first two
@@ -372,7 +378,7 @@ CREATE TABLE questionnaire_round (
   opened_us INTEGER NOT NULL,
   opened_by TEXT REFERENCES person (person_id), -- null: the operator
   closed_us INTEGER -- null: open
-) STRICT;
+, at_desk INTEGER NOT NULL DEFAULT 0 CHECK (at_desk IN (0, 1))) STRICT;
 
 CREATE TABLE rating (
   response_id TEXT NOT NULL PRIMARY KEY REFERENCES response_set (response_id) DEFERRABLE INITIALLY DEFERRED,
@@ -666,6 +672,10 @@ CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE wi
 
 CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
 
+CREATE INDEX desk_response_by_person ON desk_response (person_id);
+
+CREATE UNIQUE INDEX desk_response_by_round ON desk_response (round_id, person_id);
+
 CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
 CREATE INDEX lesion_by_case ON lesion (case_id);
@@ -884,6 +894,24 @@ END;
 CREATE TRIGGER curriculum_published_keeps_its_title BEFORE UPDATE OF title ON curriculum WHEN OLD.state <> 'draft'
 BEGIN
   SELECT RAISE(ABORT, 'a published curriculum is not changed: make another');
+END;
+
+CREATE TRIGGER desk_response_goes_with_its_answers BEFORE DELETE ON desk_response
+WHEN OLD.person_id IN (SELECT id FROM erasing)
+BEGIN
+  DELETE FROM response WHERE response_id = OLD.response_id;
+  DELETE FROM response_set WHERE response_id = OLD.response_id;
+END;
+
+CREATE TRIGGER desk_response_is_immutable BEFORE UPDATE ON desk_response
+BEGIN
+  SELECT RAISE(ABORT, 'whose answers these are is not changed');
+END;
+
+CREATE TRIGGER desk_response_is_kept BEFORE DELETE ON desk_response
+WHEN OLD.person_id NOT IN (SELECT id FROM erasing)
+BEGIN
+  SELECT RAISE(ABORT, 'answers cannot be deleted');
 END;
 
 CREATE TRIGGER erased_attempt_is_immutable BEFORE UPDATE ON erased_attempt

@@ -154,7 +154,7 @@ Response show_answer_section(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
   const auto draft = site.questions.find_draft(kept);
   if (!draft) return redirect("/answer");
-  const std::size_t sections = reports::sections_of(draft->form.form).size();
+  const std::size_t sections = assessment::questionnaire::sections_of(draft->form.form).size();
   return section_page(site, kept, 200, *draft, section_from(query_value(call, "section="), sections), {}, {});
 }
 
@@ -165,7 +165,7 @@ Response keep_answers(Site& site, const Call& call) {
     return go == "keep" ? Response{.status = 403} : start_page(site, call, 403, kTooOld);
   const auto draft = site.questions.find_draft(kept);
   if (!draft) return go == "keep" ? Response{.status = 404} : redirect("/answer");
-  const auto sections = reports::sections_of(draft->form.form);
+  const auto sections = assessment::questionnaire::sections_of(draft->form.form);
   const std::size_t section = section_from(form_field(call, "section"), sections.size());
   std::map<std::string, std::string> typed;
   if (section < sections.size()) typed = typed_of(call, sections[section]);

@@ -51,6 +51,7 @@ std::vector<Round> list_rounds(Library& library) {
     one.drafts = rows.small_integer("drafts");
     one.submitted = rows.small_integer("submitted");
     one.rated = rows.small_integer("rated") != 0;
+    one.at_desk = rows.small_integer("at_desk") != 0;
     one.groups = groups_of(library, one.round_id);
   }
   return rounds;
@@ -68,6 +69,8 @@ base::Result<Round> find_round(Library& library, std::string_view code) {
 base::Result<Round> add_round(Library& library, const NewRound& made) {
   if (const auto fit = check_title(made.title); !fit) return fit.error();
   if (const auto fit = check_groups(made.groups); !fit) return fit.error();
+  if (made.at_desk && !made.groups.empty())
+    return base::Error{"bad_group", "at the workstation nobody is asked for a group: who answers is logged in"};
   const auto forms = find_forms(library, made.form_id, made.version);
   if (!forms) return forms.error();
   const std::string round_id = new_uuid();
@@ -82,6 +85,7 @@ base::Result<Round> add_round(Library& library, const NewRound& made) {
       .bind("study_id", made.study_id)
       .bind("now_us", now_us())
       .bind("opened_by", library.actor().person_id)
+      .bind("at_desk", std::int64_t{made.at_desk ? 1 : 0})
       .run();
   Statement group = question(library.database(), "add_questionnaire_group");
   for (std::size_t i = 0; i < made.groups.size(); ++i) {

@@ -28,10 +28,6 @@ struct AnswerWho {
 };
 std::string answer_who_page(const AnswerWho& who);
 
-// Which items stand on which page: those of one heading. At least one.
-std::vector<std::vector<const assessment::questionnaire::Item*>> sections_of(
-    const assessment::questionnaire::Form& form);
-
 struct AnswerSection {
   std::string token;
   const casedb::Draft* draft = nullptr;
