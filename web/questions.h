@@ -21,6 +21,7 @@
 #include "casedb/people/relations.h"
 #include "casedb/questionnaires/responses.h"
 #include "casedb/ratings/rating_rounds.h"
+#include "casedb/workshops/workshops.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
 
@@ -30,6 +31,12 @@ namespace seldinger::web {
 struct RoundForms {
   casedb::Round round;
   std::vector<casedb::StoredForm> forms;
+};
+
+// A workshop's day, and who came.
+struct Board {
+  casedb::Workshop workshop;
+  std::vector<casedb::Participant> participants;
 };
 
 class Questions {
@@ -72,6 +79,8 @@ class Questions {
   virtual base::Result<casedb::RatingPage> find_rating(const std::string& secret, std::size_t number) = 0;
   virtual base::Result<void> keep_rating(const std::string& secret, std::size_t number,
                                          const std::map<std::string, std::string>& typed, bool send) = 0;
+
+  virtual base::Result<Board> find_board(const std::string& code) = 0;  // `no_workshop`
 
   virtual std::size_t count_attempts(const casedb::WhoseAttempts& whose) = 0;
   virtual std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,

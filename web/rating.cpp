@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "reports/pages/rating_pages.h"
+#include "reports/pages/style_sheet.h"
 #include "web/answering.h"
 #include "web/routes.h"
 
@@ -54,6 +55,10 @@ Response no_replay(const base::Error& error) {
 }
 
 }  // namespace
+
+Response show_film_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::film_script())};
+}
 
 Response show_rating_start(Site& site, const Call& call) {
   if (site.questions.find_rating_bench(cookie(call.request, site.cookies.rater))) return redirect("/rate/bench");

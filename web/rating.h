@@ -9,6 +9,7 @@ namespace seldinger::web {
 class Site;
 struct Call;
 
+Response show_film_script(Site& site, const Call& call);
 Response show_rating_start(Site& site, const Call& call);
 Response open_rating_bench(Site& site, const Call& call);
 Response show_rating_bench(Site& site, const Call& call);

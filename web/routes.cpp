@@ -18,6 +18,7 @@
 #include "sim/base/failure.h"
 #include "web/access.h"
 #include "web/answering.h"
+#include "web/board.h"
 #include "web/json/attempt_json.h"
 #include "web/json/case_json.h"
 #include "web/rating.h"
@@ -486,6 +487,7 @@ constexpr Route kRoutes[] = {
      "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
     {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
     {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", show_answer_script},
+    {"GET", "/film.js", kOpen, false, "", "the script that plays a replay to rate", show_film_script},
     {"GET", "/rate", kOpen, true, "", "asks for a rater's key", show_rating_start},
     {"POST", "/rate", kOpen, true, "", "opens the bench of a rater: key, token", open_rating_bench},
     {"GET", "/rate/bench", kOpen, true, "the browser of a rater", "the replays that are theirs to rate, by number",
@@ -493,6 +495,8 @@ constexpr Route kRoutes[] = {
     {"GET", "/rate/replay", kOpen, true, "the browser of a rater", "a replay beside the form; ?n=N", show_rating},
     {"POST", "/rate/replay", kOpen, true, "the browser of a rater",
      "keeps a rating, or sends it: n, go, a field each item, token", keep_rating},
+    {"GET", "/board", kOpen, true, "", "a workshop's board, by numbers alone, or asks for its code; ?code=CODE",
+     show_board},
     {"GET", "/attempts", kAnyRole, true, kSeenOrNone, "the list, newest first; ?page=N", list_attempts},
     {"GET", "/attempts/{attempt_id}", Action::see_attempt, true, kSeen,
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},

@@ -13,9 +13,7 @@
 namespace seldinger::casedb {
 namespace {
 
-// Letters and digits that are not mistaken for each other when they are read aloud or copied.
-constexpr std::string_view kCodeLetters = "ACDEFGHJKLMNPQRTUVWXY34679";
-constexpr std::size_t kCodeLength = 6, kMostGroups = 6;
+constexpr std::size_t kMostGroups = 6;
 
 base::Result<void> check_groups(const std::vector<std::string>& groups) {
   const base::Error bad{"bad_group", "a round has no groups, or two to six with different names"};
@@ -58,9 +56,7 @@ std::vector<Round> list_rounds(Library& library) {
 }
 
 base::Result<Round> find_round(Library& library, std::string_view code) {
-  std::string capitals;
-  for (const char c : code)
-    if (c != ' ' && c != '-') capitals += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string capitals = code_from(code);
   for (Round& one : list_rounds(library))
     if (one.code == capitals || one.round_id == code) return std::move(one);
   return base::Error{"no_round", "no questionnaire is answered under that code"};
@@ -74,8 +70,8 @@ base::Result<Round> add_round(Library& library, const NewRound& made) {
   const auto forms = find_forms(library, made.form_id, made.version);
   if (!forms) return forms.error();
   const std::string round_id = new_uuid();
-  std::string code = drawn_word(kCodeLetters, kCodeLength);
-  while (find_round(library, code)) code = drawn_word(kCodeLetters, kCodeLength);
+  std::string code = drawn_code();
+  while (find_round(library, code)) code = drawn_code();
   question(library.database(), "add_questionnaire_round")
       .bind("round_id", round_id)
       .bind("code", code)

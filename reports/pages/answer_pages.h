@@ -1,6 +1,6 @@
 // The pages on which a questionnaire is answered, at a workshop's kiosk or on a phone: the code, who answers,
-// section after section, and thanks. Nobody is logged in. What is typed is kept a moment later by the one script
-// that there is (keep_typed.js); without it each section is kept when it is sent.
+// section after section, and thanks. Nobody is logged in. What is typed is kept a moment later by a script
+// (keep_typed.js); without it each section is kept when it is sent.
 #pragma once
 
 #include <map>

@@ -29,4 +29,8 @@ std::string_view keep_typed_script() {
   return page_file("keep_typed.js");
 }
 
+std::string_view film_script() {
+  return page_file("film.js");
+}
+
 }  // namespace seldinger::reports
