@@ -6,6 +6,7 @@
 #include "casedb/database/credentials.h"
 #include "reports/pages/answer_pages.h"
 #include "reports/pages/style_sheet.h"
+#include "reports/questionnaires/board_page.h"
 #include "web/routes.h"
 
 namespace seldinger::web {
@@ -193,6 +194,17 @@ Response show_answer_script(Site&, const Call&) {
 
 Response show_answer_thanks(Site&, const Call&) {
   return html_response(200, reports::answer_thanks_page());
+}
+
+Response show_board(Site& site, const Call& call) {
+  const std::string_view code = query_value(call, "code=");
+  if (code.empty()) return html_response(200, reports::board_start_page(""));
+  const auto board = site.questions.find_board(std::string(code));
+  if (!board)
+    return html_response(404, reports::board_start_page("There is no workshop of that code. Is it typed right?"));
+  Response response = html_response(200, reports::board_page(board->workshop, board->participants));
+  response.headers.emplace_back("Refresh", std::to_string(reports::kBoardEveryS));
+  return response;
 }
 
 }  // namespace seldinger::web

@@ -21,6 +21,8 @@ Response show_answer_section(Site& site, const Call& call);
 Response keep_answers(Site& site, const Call& call);
 Response show_answer_script(Site& site, const Call& call);
 Response show_answer_thanks(Site& site, const Call& call);
+// The board of a workshop's day: whoever has its code sees it.
+Response show_board(Site& site, const Call& call);
 
 // What a page without a log-in and its form share, also those on which replays are rated.
 std::string form_field(const Call& call, const std::string& name);

@@ -18,7 +18,6 @@
 #include "sim/base/failure.h"
 #include "web/access.h"
 #include "web/answering.h"
-#include "web/board.h"
 #include "web/json/attempt_json.h"
 #include "web/json/case_json.h"
 #include "web/rating.h"

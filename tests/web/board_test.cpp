@@ -1,7 +1,5 @@
 // The board of a workshop's day over a real library: what is to be seen from the back of the room, and nothing of
 // who it is.
-#include "web/board.h"
-
 #include <gmock/gmock.h>
 
 #include "casedb/people/consent.h"

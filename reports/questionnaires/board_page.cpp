@@ -1,4 +1,4 @@
-#include "reports/pages/board_page.h"
+#include "reports/questionnaires/board_page.h"
 
 #include <algorithm>
 
