@@ -94,6 +94,11 @@ namespace seldinger::app {
   ROW(study_stations)           \
   ROW(study_visits)             \
   ROW(report)                   \
+  ROW(workshop_open)            \
+  ROW(workshop_admit)           \
+  ROW(workshop_tick)            \
+  ROW(workshop_show)            \
+  ROW(workshop_close)           \
   ROW(questionnaire_template)   \
   ROW(questionnaire_add)        \
   ROW(questionnaire_list)       \
@@ -145,7 +150,7 @@ const std::vector<Group>& groups() {
       {"Attempts",
        {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
-      {"Studies", {"study", "questionnaire", "rating", "report"}},
+      {"Studies", {"study", "workshop", "questionnaire", "rating", "report"}},
       {"Numbers", {"stats"}},
       {"The library", {"backup", "restore", "check"}},
       {"Pictures", {"render", "sheet"}},

@@ -205,6 +205,12 @@ CREATE TABLE curriculum_item (
   UNIQUE (curriculum_id, family_id)
 ) STRICT;
 
+CREATE TABLE desk_response (
+  response_id TEXT NOT NULL PRIMARY KEY REFERENCES response_set (response_id) DEFERRABLE INITIALLY DEFERRED,
+  round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
+  person_id TEXT NOT NULL REFERENCES person (person_id)
+) STRICT;
+
 CREATE TABLE digest (
   of_table TEXT NOT NULL,
   of_id TEXT NOT NULL, -- the first column of the rows; of what an attempt has many of, the first two
@@ -372,7 +378,7 @@ CREATE TABLE questionnaire_round (
   opened_us INTEGER NOT NULL,
   opened_by TEXT REFERENCES person (person_id), -- null: the operator
   closed_us INTEGER -- null: open
-) STRICT;
+, at_desk INTEGER NOT NULL DEFAULT 0 CHECK (at_desk IN (0, 1))) STRICT;
 
 CREATE TABLE rating (
   response_id TEXT NOT NULL PRIMARY KEY REFERENCES response_set (response_id) DEFERRABLE INITIALLY DEFERRED,
@@ -652,6 +658,52 @@ CREATE TABLE trusted_key (
   added_us INTEGER NOT NULL
 ) STRICT;
 
+CREATE TABLE workshop (
+  workshop_id TEXT NOT NULL PRIMARY KEY,
+  code TEXT NOT NULL CHECK (length(code) = 6), -- opens the board
+  study_id TEXT NOT NULL REFERENCES study (study_id),
+  title TEXT NOT NULL CHECK (title <> ''),
+  seed INTEGER NOT NULL, -- of the orders in which people go
+  opened_us INTEGER NOT NULL,
+  opened_by TEXT REFERENCES person (person_id), -- null: the operator
+  closed_us INTEGER -- null: open
+) STRICT;
+
+CREATE TABLE workshop_group (
+  workshop_id TEXT NOT NULL REFERENCES workshop (workshop_id),
+  place INTEGER NOT NULL CHECK (place >= 0),
+  group_name TEXT NOT NULL CHECK (group_name <> ''),
+  PRIMARY KEY (workshop_id, place)
+) STRICT;
+
+CREATE TABLE workshop_participant (
+  workshop_id TEXT NOT NULL REFERENCES workshop (workshop_id),
+  number INTEGER NOT NULL CHECK (number > 0), -- what somebody is on the board
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  group_name TEXT NOT NULL, -- empty: none
+  arrival INTEGER NOT NULL CHECK (arrival >= 0), -- as which of their group they came: which order is theirs
+  came_us INTEGER NOT NULL,
+  PRIMARY KEY (workshop_id, number)
+) STRICT;
+
+CREATE TABLE workshop_station (
+  workshop_id TEXT NOT NULL REFERENCES workshop (workshop_id),
+  place INTEGER NOT NULL CHECK (place >= 0),
+  title TEXT NOT NULL CHECK (title <> ''),
+  case_id TEXT, -- done by an attempt at it; null: it is ticked. May be gone by now
+  PRIMARY KEY (workshop_id, place)
+) STRICT;
+
+CREATE TABLE workshop_tick (
+  workshop_id TEXT NOT NULL,
+  number INTEGER NOT NULL,
+  place INTEGER NOT NULL,
+  ticked_us INTEGER NOT NULL,
+  PRIMARY KEY (workshop_id, number, place),
+  FOREIGN KEY (workshop_id, number) REFERENCES workshop_participant (workshop_id, number) ON DELETE CASCADE,
+  FOREIGN KEY (workshop_id, place) REFERENCES workshop_station (workshop_id, place)
+) STRICT;
+
 CREATE INDEX attempt_by_case ON attempt (case_id);
 
 CREATE INDEX attempt_by_person ON attempt (person_id, started_us, attempt_id);
@@ -665,6 +717,10 @@ CREATE INDEX audit_by_object ON audit (object_id, act);
 CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
 
 CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
+
+CREATE INDEX desk_response_by_person ON desk_response (person_id);
+
+CREATE UNIQUE INDEX desk_response_by_round ON desk_response (round_id, person_id);
 
 CREATE INDEX enrolment_by_person ON enrolment (person_id);
 
@@ -701,6 +757,14 @@ CREATE INDEX study_enrolment_by_person ON study_enrolment (person_id);
 CREATE UNIQUE INDEX study_enrolment_place ON study_enrolment (study_id, stratum, position);
 
 CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
+
+CREATE UNIQUE INDEX workshop_by_code ON workshop (code);
+
+CREATE UNIQUE INDEX workshop_participant_by_person ON workshop_participant (workshop_id, person_id);
+
+CREATE INDEX workshop_participant_of_person ON workshop_participant (person_id);
+
+CREATE INDEX workshop_tick_by_station ON workshop_tick (workshop_id, place);
 
 CREATE VIEW attempt_summary AS
 SELECT attempt.*, training_case.title AS case_title, lesion.center_x_lps_mm, lesion.center_y_lps_mm,
@@ -884,6 +948,24 @@ END;
 CREATE TRIGGER curriculum_published_keeps_its_title BEFORE UPDATE OF title ON curriculum WHEN OLD.state <> 'draft'
 BEGIN
   SELECT RAISE(ABORT, 'a published curriculum is not changed: make another');
+END;
+
+CREATE TRIGGER desk_response_goes_with_its_answers BEFORE DELETE ON desk_response
+WHEN OLD.person_id IN (SELECT id FROM erasing)
+BEGIN
+  DELETE FROM response WHERE response_id = OLD.response_id;
+  DELETE FROM response_set WHERE response_id = OLD.response_id;
+END;
+
+CREATE TRIGGER desk_response_is_immutable BEFORE UPDATE ON desk_response
+BEGIN
+  SELECT RAISE(ABORT, 'whose answers these are is not changed');
+END;
+
+CREATE TRIGGER desk_response_is_kept BEFORE DELETE ON desk_response
+WHEN OLD.person_id NOT IN (SELECT id FROM erasing)
+BEGIN
+  SELECT RAISE(ABORT, 'answers cannot be deleted');
 END;
 
 CREATE TRIGGER erased_attempt_is_immutable BEFORE UPDATE ON erased_attempt
@@ -1227,4 +1309,9 @@ CREATE TRIGGER truth_is_of_simulated_people BEFORE INSERT ON simulated_truth
 WHEN (SELECT kind FROM person WHERE person_id = NEW.person_id) <> 'simulated'
 BEGIN
   SELECT RAISE(ABORT, 'nobody knows the ability of a real person');
+END;
+
+CREATE TRIGGER workshop_participant_is_immutable BEFORE UPDATE ON workshop_participant
+BEGIN
+  SELECT RAISE(ABORT, 'who came is not changed');
 END;

@@ -199,6 +199,14 @@ class LibraryQuestions final : public Questions {
     return send ? casedb::submit_draft(changes_.library, secret) : base::Result<void>();
   }
 
+  base::Result<Board> find_board(const std::string& code) override {
+    const std::lock_guard lock(pages_.mutex);
+    auto workshop = casedb::find_workshop(pages_.library, code);
+    if (!workshop) return workshop.error();
+    auto participants = casedb::list_participants(pages_.library, *workshop);
+    return Board{std::move(*workshop), std::move(participants)};
+  }
+
   base::Result<casedb::RatingBench> find_rating_bench(const std::string& secret) override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::find_rating_bench(pages_.library, secret);

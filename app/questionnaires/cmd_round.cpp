@@ -23,6 +23,7 @@ int run_questionnaire_open(const Arguments& arguments) {
   made.form_id = arguments.positional(0);
   made.version = static_cast<int>(arguments.whole("--version", 0, 1, 1'000'000));
   if (arguments.has("--group")) made.groups = arguments.all("--group");
+  made.at_desk = arguments.has("--at-desk");
   auto library = open_acting(arguments);
   if (!library) return refuse(library.error());
   const auto by = acting(*library, arguments, casedb::Action::manage_questionnaires);
@@ -36,6 +37,8 @@ int run_questionnaire_open(const Arguments& arguments) {
   if (!round) return refuse(round.error());
   if (arguments.has("--json"))
     std::fputs(json_of_round(*round).c_str(), stdout);
+  else if (round->at_desk)
+    std::printf("%s\nIt is answered in the window (`seldinger train`), after an attempt.\n", round->code.c_str());
   else
     std::printf("%s\nIt is answered where `seldinger serve` runs: /answer?code=%s\n", round->code.c_str(),
                 round->code.c_str());
@@ -112,12 +115,16 @@ int run_questionnaire_export(const Arguments& arguments) {
   return kDone;
 }
 
-constexpr Option kOpenOptions[] = {kLibrary,
-                                   {"--title", "TEXT", "what the occasion is called, as respondents read it"},
-                                   {"--version", "N", "of this version; default: the newest"},
-                                   {"--group", "NAME", "a group that respondents choose from; two to six", true},
-                                   {"--study", "STUDY", "answers are of this study: its researchers read them"},
-                                   kJson};
+constexpr Option kOpenOptions[] = {
+    kLibrary,
+    {"--title", "TEXT", "what the occasion is called, as respondents read it"},
+    {"--version", "N", "of this version; default: the newest"},
+    {"--group", "NAME", "a group that respondents choose from; two to six", true},
+    {"--study", "STUDY", "answers are of this study: its researchers read them"},
+    {"--at-desk", nullptr,
+     "asked in the window of whoever has made an attempt since, of a study those who "
+     "consent to it; once each"},
+    kJson};
 constexpr Option kExportOptionsOfRound[] = {
     kLibrary,
     {"--out", "FILE.csv", "the file"},

@@ -20,6 +20,7 @@ OrderedJson round_json(const casedb::Round& one) {
           {"version", one.version},
           {"study_id", casedb::maybe(one.study_id)},
           {"groups", one.groups},
+          {"at_desk", one.at_desk},
           {"opened_us", one.opened_us},
           {"closed_us", casedb::maybe(one.closed_us)},
           {"begun", one.drafts},

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <future>
+#include <iterator>
 
 #include "app/cli/file.h"
 #include "app/replay/body_planes.h"
@@ -125,22 +126,28 @@ std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const
   return sheet.moments.size();
 }
 
-// What a rater is shown, at even times: so many, and the moment in which it was fired.
-constexpr std::size_t kMomentsToRate = 16;
+// What a rater is shown, at even times: so many pictures, and the moment in which it was fired; and a film of so
+// many smaller ones.
+constexpr std::size_t kMomentsToRate = 16, kFramesToRate = 121;
+constexpr int kFilmWidthPx = 320;
 
-std::vector<reports::SheetMoment> moments_to_rate(const Scene& s, const cases::Recording& recording,
-                                                  session::GuidanceScreen& screen, session::Replay& replayed) {
-  std::vector<reports::SheetMoment> moments;
-  std::vector<session::GreyPicture> pictures;
+void add_pictures_to_rate(const Scene& s, const cases::Recording& recording, session::GuidanceScreen& screen,
+                          session::Replay& replayed, reports::ReplaySheet& sheet) {
+  std::vector<session::GreyPicture> pictures;  // of the moments, then of the film: cut alike
+  std::vector<session::GreyPicture> frames;
   const double last_s = static_cast<double>(recording.inputs.size()) * recording.dt_s;
-  const auto due_s = [&](std::size_t i) {
-    return last_s * static_cast<double>(i) / static_cast<double>(kMomentsToRate - 1);
+  const auto due_s = [&](std::size_t i, std::size_t all) {
+    return last_s * static_cast<double>(i) / static_cast<double>(all - 1);
   };
   const auto take = [&](double t_s, const char* words) {
     pictures.push_back(screen.picture());
-    moments.push_back({t_s, words, {}, screen.live(), false, false});
+    sheet.moments.push_back({t_s, words, {}, screen.live(), false, false});
   };
-  std::size_t next = 0;
+  const auto take_frame = [&](double t_s) {
+    frames.push_back(screen.picture());
+    sheet.film.push_back({t_s, "", {}, true, false, false});
+  };
+  std::size_t next = 0, next_frame = 0;
   bool fired = !s.course.fired_s.has_value();
   replayed = walk(
       s, recording, screen,
@@ -151,12 +158,18 @@ std::vector<reports::SheetMoment> moments_to_rate(const Scene& s, const cases::R
         take(*s.course.fired_s, "fired");
       },
       [&](const cases::State& state) {
-        for (; next + 1 < kMomentsToRate && due_s(next) <= state.t_s; ++next) take(due_s(next), "");
+        for (; next + 1 < kMomentsToRate && due_s(next, kMomentsToRate) <= state.t_s; ++next)
+          take(due_s(next, kMomentsToRate), "");
+        for (; next_frame + 1 < kFramesToRate && due_s(next_frame, kFramesToRate) <= state.t_s; ++next_frame)
+          take_frame(due_s(next_frame, kFramesToRate));
       });
   take(last_s, "");
+  take_frame(last_s);
+  pictures.insert(pictures.end(), std::make_move_iterator(frames.begin()), std::make_move_iterator(frames.end()));
   session::cut_black_edges(pictures);
-  for (std::size_t i = 0; i < pictures.size(); ++i) moments[i].png = png_of(pictures[i]);
-  return moments;
+  for (std::size_t i = 0; i < sheet.moments.size(); ++i) sheet.moments[i].png = png_of(pictures[i]);
+  for (std::size_t i = 0; i < sheet.film.size(); ++i)
+    sheet.film[i].png = png_of(session::shrunk_to(pictures[sheet.moments.size() + i], kFilmWidthPx));
 }
 
 base::Result<Scene> scene_of(casedb::Library& library, const casedb::AttemptRow& attempt,
@@ -208,7 +221,7 @@ base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb:
   for (const BodyPlane& plane : s->planes) sheet.planes.push_back(row_of(*s, plane));
   session::GuidanceScreen screen(s->scene, recording.hashes.empty() ? 0 : recording.hashes.back());
   session::Replay replayed;
-  sheet.moments = moments_to_rate(*s, recording, screen, replayed);
+  add_pictures_to_rate(*s, recording, screen, replayed, sheet);
   if (!replayed.same) return cannot;
   return reports::blinded_replay(std::move(sheet));
 }

@@ -44,6 +44,8 @@ std::string name_of(Trainer& trainer) {
       return attempt != nullptr && attempt->phase() == PersonAttempt::Phase::running ? "attempt" : "storing";
     case TrainerScreen::debrief:
       return "debrief";
+    case TrainerScreen::answer:
+      return "answer";
     case TrainerScreen::watch:
       return "watch";
     case TrainerScreen::editor:
@@ -67,6 +69,8 @@ std::string words_of(const Trainer& trainer) {
       return trainer.chosen().title;
     case TrainerScreen::debrief:
       return trainer.chosen().title + " – debrief";
+    case TrainerScreen::answer:
+      return "Questionnaire";
     case TrainerScreen::watch:
       return trainer.chosen().title + " – replay";
     case TrainerScreen::editor:
@@ -85,6 +89,7 @@ std::string words_of(const std::string& screen) {
   if (screen == "storing") return "the attempt is being stored";
   if (screen == "editor") return "the case editor";
   if (screen == "devices") return "the hands";
+  if (screen == "answer") return "a questionnaire";
   if (screen == "watch") return "a replay";
   return screen == "log_in" ? "log in" : screen;
 }
@@ -146,6 +151,9 @@ void Desk::draw_screen() {
       attempt_.end();
       watch_.end();
       debrief_.draw(trainer_, keys, &attempt_.picture_at_fire());
+      break;
+    case TrainerScreen::answer:
+      answering_.draw(trainer_, keys);
       break;
     case TrainerScreen::watch:
       watch_.draw(trainer_, keys);

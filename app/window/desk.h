@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/window/screens/answering/panel_answering.h"
 #include "app/window/screens/panel_attempt.h"
 #include "app/window/screens/panel_debrief.h"
 #include "app/window/screens/panel_device.h"
@@ -47,6 +48,7 @@ class Desk {
   BriefingPanel briefing_;
   AttemptPanel attempt_;
   DebriefPanel debrief_;
+  AnsweringPanel answering_;
   WatchPanel watch_;
   EditorPanel editor_;
   DevicePanel devices_;

@@ -24,11 +24,6 @@ std::optional<double> number_from(std::string_view typed) {
   return value;
 }
 
-std::string number_text(double value) {
-  char digits[32];
-  return {digits, std::to_chars(std::begin(digits), std::end(digits), value).ptr};
-}
-
 base::Error bad_answer(const std::string& what) {
   return {"bad_answer", what};
 }
@@ -56,6 +51,11 @@ const ScalePoint* point_of(const Form& form, const Item& item, double value) {
 
 }  // namespace
 
+std::string number_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(std::begin(digits), std::end(digits), value).ptr};
+}
+
 const Scale* Form::find_scale(std::string_view scale_id) const noexcept {
   const auto found =
       std::find_if(scales.begin(), scales.end(), [&](const Scale& one) { return one.id == scale_id; });
@@ -65,6 +65,15 @@ const Scale* Form::find_scale(std::string_view scale_id) const noexcept {
 const Item* Form::find_item(std::string_view item_id) const noexcept {
   const auto found = std::find_if(items.begin(), items.end(), [&](const Item& one) { return one.id == item_id; });
   return found == items.end() ? nullptr : &*found;
+}
+
+std::vector<std::vector<const Item*>> sections_of(const Form& form) {
+  std::vector<std::vector<const Item*>> sections;
+  for (const Item& item : form.items) {
+    if (sections.empty() || sections.back().back()->section != item.section) sections.emplace_back();
+    sections.back().push_back(&item);
+  }
+  return sections;
 }
 
 base::Result<ItemAnswer> answer_from_text(const Form& form, const Item& item, std::string_view typed) {

@@ -64,6 +64,8 @@ struct Form {
 base::Result<Form> form_from_json(const std::string& text);
 // The same form is the same text, whatever the order of fields and blanks in the file it came from.
 std::string canonical_json(const Form& form);
+// Which items are answered together: those of one heading that follow each other. At least one.
+std::vector<std::vector<const Item*>> sections_of(const Form& form);
 // What does not depend on the language: items, kinds, scales, limits. Translations of one version have the same.
 std::string structure_of(const Form& form);
 
@@ -86,6 +88,8 @@ inline constexpr std::size_t kMostCommentBytes = 2'000;
 // What was typed or ticked for an item; nothing is missing. `bad_answer`, in words that go on from the item's name:
 // "takes a whole number from 0 to 70".
 base::Result<ItemAnswer> answer_from_text(const Form& form, const Item& item, std::string_view typed);
+// Without needless digits: "4", "7.5".
+std::string number_text(double value);
 // As answer_from_text reads it again: "", "n/a", "4", a choice's word, a comment.
 std::string text_of(const Item& item, const ItemAnswer& answer);
 

@@ -18,6 +18,22 @@ std::vector<std::size_t> drawn_order(std::size_t n, base::Rng& rng) {
   return order;
 }
 
+// Squares one after the other, the rows of each as they are drawn: the first so many.
+std::vector<std::vector<std::size_t>> dealt_orders(std::size_t stations, std::size_t people, base::Rng& rng) {
+  const auto rows = williams_orders(stations);
+  const std::vector<std::size_t> names = drawn_order(stations, rng);
+  std::vector<std::vector<std::size_t>> dealt;
+  for (std::size_t square = 0; dealt.size() < people; ++square) {
+    const std::size_t from = square * stations % rows.size();
+    for (const std::size_t row : drawn_order(stations, rng)) {
+      if (dealt.size() == people) break;
+      dealt.push_back(rows[from + row]);
+      for (std::size_t& one : dealt.back()) one = names[one];
+    }
+  }
+  return dealt;
+}
+
 }  // namespace
 
 std::vector<std::vector<std::size_t>> williams_orders(std::size_t n) {
@@ -37,21 +53,16 @@ std::vector<std::vector<std::size_t>> williams_orders(std::size_t n) {
 
 std::vector<std::vector<std::size_t>> orders_of_stations(std::size_t stations, std::size_t people,
                                                          std::uint64_t seed) {
-  const auto rows = williams_orders(stations);
   base::Rng rng(seed);
-  const std::vector<std::size_t> names = drawn_order(stations, rng);
-  std::vector<std::vector<std::size_t>> dealt;
-  for (std::size_t square = 0; dealt.size() < people; ++square) {
-    const std::size_t from = square * stations % rows.size();
-    for (const std::size_t row : drawn_order(stations, rng)) {
-      if (dealt.size() == people) break;
-      dealt.push_back(rows[from + row]);
-      for (std::size_t& one : dealt.back()) one = names[one];
-    }
-  }
+  const auto dealt = dealt_orders(stations, people, rng);
   std::vector<std::vector<std::size_t>> orders;
   for (const std::size_t place : drawn_order(people, rng)) orders.push_back(dealt[place]);
   return orders;
+}
+
+std::vector<std::size_t> order_of_arrival(std::size_t stations, std::size_t arrival, std::uint64_t seed) {
+  base::Rng rng(seed);
+  return dealt_orders(stations, arrival + 1, rng).back();
 }
 
 }  // namespace seldinger::assessment::study

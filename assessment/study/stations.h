@@ -18,4 +18,8 @@ std::vector<std::vector<std::size_t>> williams_orders(std::size_t stations);
 std::vector<std::vector<std::size_t>> orders_of_stations(std::size_t stations, std::size_t people,
                                                          std::uint64_t seed);
 
+// The same where nobody knows who will come: the order of who comes as the `arrival`th, from 0. Whatever number
+// come, no station is ever more than one ahead of another at a turn.
+std::vector<std::size_t> order_of_arrival(std::size_t stations, std::size_t arrival, std::uint64_t seed);
+
 }  // namespace seldinger::assessment::study

@@ -26,7 +26,7 @@ struct Choice {
 };
 
 // A case in the making: a draft, or one in review.
-struct Draft {
+struct CaseDraft {
   std::string case_id, title;
   CaseState state = CaseState::draft;
   cases::Modality modality = cases::Modality::mpr;
@@ -35,7 +35,7 @@ struct Draft {
 
 struct Choices {
   std::vector<Choice> cases;
-  std::vector<Draft> drafts;  // empty for whoever may not work on them
+  std::vector<CaseDraft> drafts;  // empty for whoever may not work on them
 };
 
 // First the items of each published curriculum, in their order, then what is not in one: published cases with a

@@ -29,7 +29,7 @@ constexpr PersonColumn kRemoved[] = {
     {"enrolment", "person_id"},       {"login_session", "person_id"},   {"open_attempt", "person_id"},
     {"person_fact", "person_id"},     {"person_level", "person_id"},    {"programme_director", "person_id"},
     {"replay_watched", "person_id"},  {"study_enrolment", "person_id"}, {"study_researcher", "person_id"},
-    {"simulated_truth", "person_id"},
+    {"simulated_truth", "person_id"}, {"desk_response", "person_id"},   {"workshop_participant", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
     {"audit", "person_id"},           {"case_decision", "person_id"},
@@ -38,6 +38,7 @@ constexpr PersonColumn kKept[] = {
     {"erasure", "by_person_id"},      {"training_case", "burned_in_checked_by"},
     {"study_plan", "frozen_by"},      {"study_look", "person_id"},
     {"study_deviation", "person_id"}, {"questionnaire_round", "opened_by"},
+    {"workshop", "opened_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {

@@ -135,8 +135,7 @@ std::vector<Consent> list_consents(Library& library, const std::string& person_i
   return consents;
 }
 
-base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id) {
-  Transaction transaction(library.database());
+base::Result<void> add_consent(Library& library, const std::string& person_id, const std::string& text_id) {
   if (const auto known = check_person(library, person_id); !known) return known.error();
   const auto asked = list_consents(library, person_id);
   if (std::none_of(asked.begin(), asked.end(),
@@ -149,8 +148,14 @@ base::Result<void> give_consent(Library& library, const std::string& person_id, 
     }
   }
   audit(library, Act::give_consent, {"consent_text", text_id});
-  transaction.commit();
   return {};
+}
+
+base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id) {
+  Transaction transaction(library.database());
+  auto given = add_consent(library, person_id, text_id);
+  if (given) transaction.commit();
+  return given;
 }
 
 base::Result<void> withdraw_consent(Library& library, const std::string& person_id, const std::string& text_id) {

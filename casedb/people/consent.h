@@ -51,6 +51,8 @@ base::Result<int> add_consent_text(Library& library, const std::optional<std::st
 std::vector<Consent> list_consents(Library& library, const std::string& person_id);
 // `no_text`: no such one is asked of this person now; `no_person`.
 base::Result<void> give_consent(Library& library, const std::string& person_id, const std::string& text_id);
+// The same, within a transaction of the caller's.
+base::Result<void> add_consent(Library& library, const std::string& person_id, const std::string& text_id);
 // Of every version. Of a study that was never answered, but which consent to research with the library covers: from
 // now on that one does not cover it (kept as given and withdrawn at once). `no_text`, `not_given`.
 base::Result<void> withdraw_consent(Library& library, const std::string& person_id, const std::string& text_id);

@@ -17,4 +17,15 @@ std::string drawn_word(std::string_view letters, std::size_t length) {
   return word;
 }
 
+std::string drawn_code() {
+  return drawn_word("ACDEFGHJKLMNPQRTUVWXY34679", 6);
+}
+
+std::string code_from(std::string_view typed) {
+  std::string capitals;
+  for (const char c : typed)
+    if (c != ' ' && c != '-') capitals += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return capitals;
+}
+
 }  // namespace seldinger::casedb

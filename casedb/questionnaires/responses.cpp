@@ -63,6 +63,8 @@ base::Result<Round> open_round_of(Library& library, const std::string& code) {
   auto round = find_round(library, code);
   if (round && round->rated)
     return base::Error{"rated_round", "under that code raters rate replays, each with a key of their own"};
+  if (round && round->at_desk)
+    return base::Error{"desk_round", "this questionnaire is answered at the workstation, after an attempt"};
   if (round && !round->is_open())
     return base::Error{"round_closed", "the round is closed: nobody answers any more"};
   return round;
@@ -142,6 +144,12 @@ ItemAnswers read_typed(const questionnaire::Form& form, const std::map<std::stri
 
 }  // namespace
 
+std::string new_draft_secret() {
+  std::array<std::byte, 32> random{};
+  fill_random(random);
+  return base::hex_from_bytes(random);
+}
+
 std::string draft_key(const std::string& secret) {
   return sha256_hex(std::as_bytes(std::span(secret)));
 }
@@ -160,21 +168,27 @@ ItemAnswers answers_of(Library& library, const std::string& response_id) {
   return answers;
 }
 
+base::Result<BegunSet> begin_set(Library& library, const Round& round, const Respondent& respondent) {
+  if (const auto fit = check_respondent(library, round, respondent); !fit) return fit.error();
+  if (is_full(library, round))
+    return base::Error{"round_full", "so many have begun to answer in this round that it takes no more"};
+  const auto forms = find_forms(library, round.form_id, round.version);
+  if (!forms) return forms.error();
+  BegunSet begun;
+  begun.secret = new_draft_secret();
+  begun.response_id = add_set(library, round, in_language(*forms, respondent.language), respondent, "page",
+                              draft_key(begun.secret));
+  return begun;
+}
+
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent) {
   Transaction transaction(library.database());
   const auto round = open_round_of(library, code);
   if (!round) return round.error();
-  if (const auto fit = check_respondent(library, *round, respondent); !fit) return fit.error();
-  if (is_full(library, *round))
-    return base::Error{"round_full", "so many have begun to answer in this round that it takes no more"};
-  const auto forms = find_forms(library, round->form_id, round->version);
-  if (!forms) return forms.error();
-  std::array<std::byte, 32> random{};
-  fill_random(random);
-  std::string secret = base::hex_from_bytes(random);
-  add_set(library, *round, in_language(*forms, respondent.language), respondent, "page", draft_key(secret));
+  auto begun = begin_set(library, *round, respondent);
+  if (!begun) return begun.error();
   transaction.commit();
-  return secret;
+  return std::move(begun->secret);
 }
 
 base::Result<Draft> find_draft(Library& library, const std::string& secret) {
@@ -258,7 +272,7 @@ base::Result<Responses> list_responses(Library& library, const std::string& code
   if (!forms) return forms.error();
   for (StoredForm& one : *forms) all.forms.emplace(one.questionnaire_id, std::move(one));
   Statement rows = question(library.database(), "responses_of_round");
-  for (rows.bind("round_id", round->round_id); rows.step();)
+  for (rows.bind("round_id", round->round_id).bind("study_id", round->study_id); rows.step();)
     all.sets.emplace_back(rows.text("questionnaire_id"), set_from(library, rows));
   return all;
 }

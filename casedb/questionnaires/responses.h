@@ -15,7 +15,8 @@ namespace seldinger::casedb {
 using ItemAnswers = std::map<std::string, assessment::questionnaire::ItemAnswer>;  // by item
 
 struct ResponseSet {
-  std::string response_id, respondent, group, source;
+  std::string response_id, respondent, group;
+  std::string source;  // "page", "paper", "window"
   std::int64_t begun_us = 0;
   std::optional<std::int64_t> submitted_us;
   ItemAnswers answers;
@@ -38,12 +39,18 @@ struct Respondent {
 
 inline constexpr std::size_t kMostBegunOnPages = 2000;  // in a round, sent or not
 
+std::string new_draft_secret();
 // A draft's secret as the library keeps it.
 std::string draft_key(const std::string& secret);
 // A draft on a page: its secret, which the browser keeps, and the library only as a hash. `no_round`,
-// `rated_round`, `round_closed`, `round_full`, `bad_group`, `bad_respondent`, `respondent_taken` (has answered or
-// begun in this round).
+// `rated_round`, `desk_round` (answered at the workstation), `round_closed`, `round_full`, `bad_group`,
+// `bad_respondent`, `respondent_taken` (has answered or begun in this round).
 base::Result<std::string> begin_response(Library& library, const std::string& code, const Respondent& respondent);
+// The same in a round that is open, within a transaction of the caller's.
+struct BegunSet {
+  std::string response_id, secret;
+};
+base::Result<BegunSet> begin_set(Library& library, const Round& round, const Respondent& respondent);
 // `no_draft`: there is none, or it was submitted.
 base::Result<Draft> find_draft(Library& library, const std::string& secret);
 // By item what was typed; items that are not named stay as they are. All of it or nothing: `no_draft`,
@@ -54,7 +61,7 @@ base::Result<void> save_draft(Library& library, const std::string& secret,
 base::Result<void> submit_draft(Library& library, const std::string& secret);
 
 // From paper: all or none. Items that a row does not name are missing. `bad_answers` with every place, `no_round`,
-// `rated_round`, `round_closed`.
+// `rated_round`, `desk_round`, `round_closed`.
 struct PaperForm {
   Respondent respondent;
   std::map<std::string, std::string> typed;  // by item

@@ -13,9 +13,7 @@
 namespace seldinger::casedb {
 namespace {
 
-// Letters and digits that are not mistaken for each other when they are read aloud or copied.
-constexpr std::string_view kCodeLetters = "ACDEFGHJKLMNPQRTUVWXY34679";
-constexpr std::size_t kCodeLength = 6, kMostGroups = 6;
+constexpr std::size_t kMostGroups = 6;
 
 base::Result<void> check_groups(const std::vector<std::string>& groups) {
   const base::Error bad{"bad_group", "a round has no groups, or two to six with different names"};
@@ -51,15 +49,14 @@ std::vector<Round> list_rounds(Library& library) {
     one.drafts = rows.small_integer("drafts");
     one.submitted = rows.small_integer("submitted");
     one.rated = rows.small_integer("rated") != 0;
+    one.at_desk = rows.small_integer("at_desk") != 0;
     one.groups = groups_of(library, one.round_id);
   }
   return rounds;
 }
 
 base::Result<Round> find_round(Library& library, std::string_view code) {
-  std::string capitals;
-  for (const char c : code)
-    if (c != ' ' && c != '-') capitals += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string capitals = code_from(code);
   for (Round& one : list_rounds(library))
     if (one.code == capitals || one.round_id == code) return std::move(one);
   return base::Error{"no_round", "no questionnaire is answered under that code"};
@@ -68,11 +65,13 @@ base::Result<Round> find_round(Library& library, std::string_view code) {
 base::Result<Round> add_round(Library& library, const NewRound& made) {
   if (const auto fit = check_title(made.title); !fit) return fit.error();
   if (const auto fit = check_groups(made.groups); !fit) return fit.error();
+  if (made.at_desk && !made.groups.empty())
+    return base::Error{"bad_group", "at the workstation nobody is asked for a group: who answers is logged in"};
   const auto forms = find_forms(library, made.form_id, made.version);
   if (!forms) return forms.error();
   const std::string round_id = new_uuid();
-  std::string code = drawn_word(kCodeLetters, kCodeLength);
-  while (find_round(library, code)) code = drawn_word(kCodeLetters, kCodeLength);
+  std::string code = drawn_code();
+  while (find_round(library, code)) code = drawn_code();
   question(library.database(), "add_questionnaire_round")
       .bind("round_id", round_id)
       .bind("code", code)
@@ -82,6 +81,7 @@ base::Result<Round> add_round(Library& library, const NewRound& made) {
       .bind("study_id", made.study_id)
       .bind("now_us", now_us())
       .bind("opened_by", library.actor().person_id)
+      .bind("at_desk", std::int64_t{made.at_desk ? 1 : 0})
       .run();
   Statement group = question(library.database(), "add_questionnaire_group");
   for (std::size_t i = 0; i < made.groups.size(); ++i) {

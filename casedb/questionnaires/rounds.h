@@ -22,7 +22,8 @@ struct Round {
   std::optional<std::int64_t> closed_us;
   std::vector<std::string> groups;  // that a respondent chooses from; none: nobody is asked
   int drafts = 0, submitted = 0;
-  bool rated = false;  // by raters (casedb/ratings): nobody else answers
+  bool rated = false;    // by raters (casedb/ratings): nobody else answers
+  bool at_desk = false;  // at the workstation, after an attempt (desk_rounds.h), and nowhere else
   bool is_open() const noexcept { return !closed_us.has_value(); }
 };
 
@@ -31,8 +32,9 @@ struct NewRound {
   int version = 0;  // 0: the newest
   std::optional<std::string> study_id{};
   std::vector<std::string> groups{};
+  bool at_desk = false;
 };
-// `bad_title`, `bad_group`, `no_form`.
+// `bad_title`, `bad_group` (also at the desk, where nobody is asked for one), `no_form`.
 base::Result<Round> open_round(Library& library, const NewRound& made);
 // The same, within a transaction of the caller's.
 base::Result<Round> add_round(Library& library, const NewRound& made);

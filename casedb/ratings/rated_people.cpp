@@ -1,5 +1,6 @@
 #include "casedb/ratings/rated_people.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
@@ -53,6 +54,21 @@ std::vector<RatedPeople> rated_people(Library& library, const std::string& study
       rated.mean.emplace(pseudonym, over.mean());
     }
   }
+  return all;
+}
+
+std::vector<RatedRound> rated_rounds(Library& library, const std::string& study_id) {
+  const Snapshot snapshot(library.database());
+  std::vector<RatedRound> all;
+  for (const Round& round : list_rounds(library)) {
+    if (!round.rated || round.study_id != study_id) continue;
+    const auto ratings = list_ratings(library, round.code);
+    if (!ratings) continue;  // damage, which the library's check tells
+    RatedRound one{ratings->form.form.title, round.title, round.version,
+                   assessment::rating::agreement_of(scores_of(*ratings, ""), ratings->each)};
+    if (one.agreement.ratings > 0) all.push_back(std::move(one));
+  }
+  std::reverse(all.begin(), all.end());
   return all;
 }
 

@@ -19,4 +19,13 @@ struct RatedPeople {
 };
 std::vector<RatedPeople> rated_people(Library& library, const std::string& study_id);
 
+// How far raters of a round agree on the mean of its form.
+struct RatedRound {
+  std::string form_title, round_title;
+  int version = 1;
+  assessment::rating::Agreement agreement;
+};
+// Of the study, the oldest first; those in which nothing was sent are left out.
+std::vector<RatedRound> rated_rounds(Library& library, const std::string& study_id);
+
 }  // namespace seldinger::casedb

@@ -26,7 +26,7 @@ void add_token(Html& html, std::string_view token) {
 // What is there and what is not, before it is sent.
 void add_last_look(Html& html, const AnswerSection& view) {
   const questionnaire::Form& form = view.draft->form.form;
-  const auto sections = sections_of(form);
+  const auto sections = questionnaire::sections_of(form);
   Html open;
   std::size_t missing = 0;
   for (std::size_t i = 0; i < sections.size(); ++i)
@@ -48,15 +48,6 @@ void add_last_look(Html& html, const AnswerSection& view) {
 }
 
 }  // namespace
-
-std::vector<std::vector<const Item*>> sections_of(const questionnaire::Form& form) {
-  std::vector<std::vector<const Item*>> sections;
-  for (const Item& item : form.items) {
-    if (sections.empty() || sections.back().back()->section != item.section) sections.emplace_back();
-    sections.back().push_back(&item);
-  }
-  return sections;
-}
 
 std::string answer_start_page(const AnswerStart& start) {
   Html html;
@@ -112,7 +103,7 @@ std::string answer_who_page(const AnswerWho& who) {
 
 std::string answer_section_page(const AnswerSection& view) {
   const questionnaire::Form& form = view.draft->form.form;
-  const auto sections = sections_of(form);
+  const auto sections = questionnaire::sections_of(form);
   const bool last = view.section >= sections.size();
   Html html;
   html.raw("<div class=\"answering\">\n<p class=\"sub\">").text(form.title).raw(" · ");

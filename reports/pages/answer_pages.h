@@ -1,6 +1,6 @@
 // The pages on which a questionnaire is answered, at a workshop's kiosk or on a phone: the code, who answers,
-// section after section, and thanks. Nobody is logged in. What is typed is kept a moment later by the one script
-// that there is (keep_typed.js); without it each section is kept when it is sent.
+// section after section, and thanks. Nobody is logged in. What is typed is kept a moment later by a script
+// (keep_typed.js); without it each section is kept when it is sent.
 #pragma once
 
 #include <map>
@@ -27,10 +27,6 @@ struct AnswerWho {
   casedb::Respondent typed;
 };
 std::string answer_who_page(const AnswerWho& who);
-
-// Which items stand on which page: those of one heading. At least one.
-std::vector<std::vector<const assessment::questionnaire::Item*>> sections_of(
-    const assessment::questionnaire::Form& form);
 
 struct AnswerSection {
   std::string token;

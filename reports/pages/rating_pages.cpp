@@ -154,7 +154,7 @@ std::string rating_page(const RatingView& view) {
     html.raw("<p class=\"problem\" role=\"alert\">The round is closed: nothing is taken any more.</p>\n");
   else
     add_form(html, view);
-  html.raw("</div>\n</div>\n");
+  html.raw("</div>\n</div>\n<script src=\"/film.js\" defer></script>\n");
   return with_sheet(page(title_of(shown), {}, html), shown.sheet);
 }
 

@@ -33,4 +33,8 @@ std::string_view replay_script() {
   return page_file("replay.js");
 }
 
+std::string_view film_script() {
+  return page_file("film.js");
+}
+
 }  // namespace seldinger::reports

@@ -1,5 +1,5 @@
 // The one style sheet of all pages: served by the dashboard, and put into pages that are files of their own. And
-// the one script, of pages that keep what is typed.
+// the two scripts, of pages that keep what is typed and that show a film.
 #pragma once
 
 #include <string_view>
@@ -9,5 +9,6 @@ namespace seldinger::reports {
 std::string_view style_sheet();
 std::string_view keep_typed_script();
 std::string_view replay_script();
+std::string_view film_script();
 
 }  // namespace seldinger::reports

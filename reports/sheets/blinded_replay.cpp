@@ -16,7 +16,7 @@ std::string blinded_replay(ReplaySheet sheet) {
   Html html;
   html.raw("<div class=\"replay\">\n<p class=\"soft\">");
   html.text(picture_text(sheet.attempt.row.picture) + " · " + instrument_text(sheet.attempt.row.instrument));
-  html.raw("</p>\n").add(sheet_strip(sheet)).add(sheet_planes(sheet));
+  html.raw("</p>\n").add(sheet_film(sheet)).add(sheet_strip(sheet)).add(sheet_planes(sheet));
   if (const Html drawn = timeline(sheet.course, moments_s); !drawn.empty()) {
     html.raw("<section aria-labelledby=\"time\"><h2 id=\"time\">Over time</h2>\n<div class=\"scroll\">").add(drawn);
     html.raw(

@@ -43,6 +43,7 @@ struct ReplaySheet {
   AttemptView attempt;
   std::string note;  // when the replay could not be held against the recording; else empty
   std::vector<SheetMoment> moments;
+  std::vector<SheetMoment> film;  // smaller pictures at even times, for raters; none: no film
   std::vector<SheetPlane> planes;
   Course course;
   bool blinded = false;  // for raters: see blinded_replay.h

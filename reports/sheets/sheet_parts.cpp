@@ -143,6 +143,30 @@ Html sheet_strip(const ReplaySheet& sheet) {
   return html.raw("</ol></section>\n");
 }
 
+Html sheet_film(const ReplaySheet& sheet) {
+  Html html;
+  if (sheet.film.empty()) return html;
+  html.raw(
+      "<section aria-labelledby=\"film\" data-film hidden><h2 id=\"film\">The film</h2>\n<ol class=\"frames\">\n");
+  for (const SheetMoment& moment : sheet.film) {
+    html.raw("<li data-t=\"").text(number_text(moment.t_s, 2)).raw("\">");
+    if (moment.png.empty())
+      html.raw("<div class=\"empty\"></div>");
+    else
+      html.add(picture(moment.png, number_text(moment.t_s, 1) + " s"));
+    html.raw("</li>\n");
+  }
+  html.raw(
+      "</ol>\n<p class=\"film-keys\"><button type=\"button\" data-play>Play</button> <input type=\"range\" "
+      "data-moment min=\"0\" max=\"");
+  html.text(std::to_string(sheet.film.size() - 1));
+  html.raw(
+      "\" value=\"0\" aria-label=\"Moment\"> <span data-told></span> <label>Pace <select data-pace>"
+      "<option value=\"0.5\">half</option><option value=\"1\" selected>as it was</option><option "
+      "value=\"2\">twice</option><option value=\"4\">four times</option></select></label></p></section>\n");
+  return html;
+}
+
 Html sheet_planes(const ReplaySheet& sheet) {
   Html html;
   if (sheet.planes.empty()) return html;

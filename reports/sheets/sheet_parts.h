@@ -7,6 +7,8 @@
 namespace seldinger::reports {
 
 Html sheet_strip(const ReplaySheet& sheet);
+// The film, worked by reports/pages/film.js, which shows it; nothing without pictures.
+Html sheet_film(const ReplaySheet& sheet);
 Html sheet_planes(const ReplaySheet& sheet);  // nothing where there are no planes
 
 }  // namespace seldinger::reports

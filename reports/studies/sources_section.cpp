@@ -12,17 +12,8 @@ namespace {
 
 namespace study = assessment::study;
 
-Html panel(std::string_view source, std::string_view title) {
-  Html html;
-  return html.raw("<article class=\"panel\">\n<p class=\"tag\">")
-      .text(source)
-      .raw("</p>\n<h3>")
-      .text(title)
-      .raw("</h3>\n");
-}
-
 Html content_panel(const study::Plan& plan) {
-  Html html = panel("Content", "What is measured, and by which definition");
+  Html html = evidence_panel("Content", "What is measured, and by which definition");
   html.raw(
       "<table><thead><tr><th scope=\"col\">Metric</th><th scope=\"col\">Definition</th><th "
       "scope=\"col\">Source</th>"
@@ -42,7 +33,7 @@ Html content_panel(const study::Plan& plan) {
 }
 
 Html response_panel(const ValidityReport& report) {
-  Html html = panel("Response process", "Whether what was recorded is what was done");
+  Html html = evidence_panel("Response process", "Whether what was recorded is what was done");
   html.raw("<ul>");
   for (const study::Compared& one : report.result.primary) {
     std::size_t left_out = 0;
@@ -75,39 +66,59 @@ assessment::statistics::Answer with_ratings(const study::Compared& outcome, cons
 }
 
 Html ratings_panel(const ValidityReport& report) {
-  Html html = panel("Relations to other variables", "What raters saw who were not told whose it was");
-  html.raw(
-      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Form</th><th scope=\"col\">Persons</th>"
-      "<th scope=\"col\">Spearman’s ρ with the mean rating</th></tr></thead><tbody>\n");
+  Html rows;
   for (const study::Compared& one : report.result.primary)
     for (const casedb::RatedPeople& rated : report.ratings) {
       if (rated.case_id != one.outcome.case_id) continue;
       const auto answer = with_ratings(one, rated);
-      html.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
-      html.raw("</th><td>").text(rated.form_title + ", version " + std::to_string(rated.version) + ", ");
-      html.text(std::to_string(rated.ratings)).raw(" ratings</td><td>").text(std::to_string(answer.n));
-      html.raw("</td><td>");
+      const bool lower = one.outcome.better == assessment::Direction::lower_is_better;
+      rows.raw("<tr><th scope=\"row\">").text(one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand));
+      rows.raw("<span class=\"why\">")
+          .text(lower ? "lower is better: a ρ below 0 speaks for it"
+                      : "higher is better: a ρ above 0 speaks for it");
+      rows.raw("</span></th><td>").text(rated.form_title + ", version " + std::to_string(rated.version) + ", ");
+      rows.text(std::to_string(rated.ratings)).raw(" ratings</td><td>").text(std::to_string(answer.n));
+      rows.raw("</td><td>");
       if (!answer.estimate) {
-        html.raw("not estimated: too few, or all alike");
+        rows.raw("not estimated: too few, or all alike");
       } else {
-        html.text(number_text(*answer.estimate, 2));
+        rows.text(number_text(*answer.estimate, 2));
         if (answer.ci95)
-          html.raw(" [")
+          rows.raw(" [")
               .text(number_text(answer.ci95->low, 2) + " to " + number_text(answer.ci95->high, 2))
               .raw("]");
       }
-      html.raw("</td></tr>\n");
+      rows.raw("</td></tr>\n");
     }
-  return html.raw(
-      "</tbody></table>\n<p class=\"note\">How far raters agree: <code>rating show</code>.</p>\n</article>\n");
-}
-
-Html none_yet(std::string_view source, std::string_view title, std::string_view what) {
-  Html html = panel(source, title);
-  return html.raw("<p><strong>None yet.</strong> ").text(what).raw("</p>\n</article>\n");
+  constexpr std::string_view kSource = "Relations to other variables",
+                             kTitle = "What raters saw who were not told whose it was";
+  if (rows.empty()) return no_evidence_yet(kSource, kTitle, "No rated replay is of a primary outcome’s case.");
+  Html html = evidence_panel(kSource, kTitle);
+  html.raw(
+      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Form</th><th scope=\"col\">Persons</th>"
+      "<th scope=\"col\">Spearman’s ρ with the mean rating</th></tr></thead><tbody>\n");
+  return html.add(rows).raw(
+      "</tbody></table>\n<p class=\"note\">The mean rating is of all rated replays of a person at the case, "
+      "whatever "
+      "the visit. Who has failed has no value and is not among the persons. Agreement of raters limits ρ: internal "
+      "structure tells it.</p>\n</article>\n");
 }
 
 }  // namespace
+
+Html evidence_panel(std::string_view source, std::string_view title) {
+  Html html;
+  return html.raw("<article class=\"panel\">\n<p class=\"tag\">")
+      .text(source)
+      .raw("</p>\n<h3>")
+      .text(title)
+      .raw("</h3>\n");
+}
+
+Html no_evidence_yet(std::string_view source, std::string_view title, std::string_view what) {
+  Html html = evidence_panel(source, title);
+  return html.raw("<p><strong>None yet.</strong> ").text(what).raw("</p>\n</article>\n");
+}
 
 Html sources_section(const ValidityReport& report) {
   Html html;
@@ -117,19 +128,18 @@ Html sources_section(const ValidityReport& report) {
   html.add(content_panel(report.plan.plan));
   if (!report.plan.frozen()) return html.raw("</section>\n");
   html.add(response_panel(report));
-  html.add(
-      none_yet("Internal structure", "Whether repeated attempts agree", "No reliability was planned or computed."));
+  html.add(structure_panels(report));
   if (report.result.secondary.empty()) {
-    html.add(none_yet("Relations to other variables", "Secondary outcomes", "The plan names none."));
+    html.add(no_evidence_yet("Relations to other variables", "Secondary outcomes", "The plan names none."));
   } else {
-    html.add(panel("Relations to other variables", "Secondary outcomes"));
+    html.add(evidence_panel("Relations to other variables", "Secondary outcomes"));
     html.add(outcome_table(report.result.secondary, report.plan.plan.alpha, false,
                            "Effects with intervals; no p, no verdict"))
         .raw("</article>\n");
   }
   if (!report.ratings.empty()) html.add(ratings_panel(report));
-  html.add(none_yet("Consequences", "What is decided by the numbers, and for whom",
-                    "No pass mark is part of this plan, so no false passes or failures can be told."));
+  html.add(no_evidence_yet("Consequences", "What is decided by the numbers, and for whom",
+                           "No pass mark is part of this plan, so no false passes or failures can be told."));
   return html.raw("</section>\n");
 }
 

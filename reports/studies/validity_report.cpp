@@ -20,6 +20,8 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
     casedb::add_analysed(report.result, data.flow);
     report.flow = std::move(data.flow);
     report.ratings = casedb::rated_people(library, study.study_id);
+    report.rated_rounds = casedb::rated_rounds(library, study.study_id);
+    report.forms = reliability_of_study(library, study.study_id);
     report.data_hash = casedb::data_hash(report.result);
     casedb::note_look(library, plan.study_id, query, casedb::people_with_outcome(report.result));
   }

@@ -12,6 +12,7 @@
 #include "casedb/ratings/rated_people.h"
 #include "casedb/studies/looks.h"
 #include "casedb/studies/study_data.h"
+#include "reports/studies/form_reliability.h"
 
 namespace seldinger::reports {
 
@@ -27,6 +28,8 @@ struct ValidityReport {
   assessment::study::StudyResult result;
   std::string data_hash;
   std::vector<casedb::RatedPeople> ratings;
+  std::vector<casedb::RatedRound> rated_rounds;
+  std::vector<FormReliability> forms;
   std::vector<casedb::StudyNote> looks, deviations;
 };
 

@@ -6,9 +6,14 @@
 
 namespace seldinger::reports {
 
+// A panel of one source of validity, to be ended by </article>; and one that says why it has none.
+Html evidence_panel(std::string_view source, std::string_view title);
+Html no_evidence_yet(std::string_view source, std::string_view title, std::string_view what);
+
 Html argument_section(const ValidityReport& report);
 Html conclusions_section(const ValidityReport& report);
-Html sources_section(const ValidityReport& report);  // panels by Messick's sources
+Html sources_section(const ValidityReport& report);   // panels by Messick's sources
+Html structure_panels(const ValidityReport& report);  // of them: internal structure
 Html flow_section(const ValidityReport& report);
 Html limits_section(const ValidityReport& report);      // what the data cannot say
 Html reviewer_section(const ValidityReport& report);    // what a reviewer will ask

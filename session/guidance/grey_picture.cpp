@@ -36,4 +36,20 @@ void cut_black_edges(std::vector<GreyPicture>& pictures) {
   }
 }
 
+GreyPicture shrunk_to(const GreyPicture& picture, int most_width_px) {
+  const int side = std::max(1, (picture.width_px + most_width_px - 1) / most_width_px);
+  GreyPicture small{{}, picture.width_px / side, picture.height_px / side};
+  const unsigned pixels = static_cast<unsigned>(side) * static_cast<unsigned>(side);
+  for (int y = 0; y < small.height_px; ++y)
+    for (int x = 0; x < small.width_px; ++x) {
+      unsigned sum = pixels / 2;
+      for (int in_y = y * side; in_y < (y + 1) * side; ++in_y)
+        for (int in_x = x * side; in_x < (x + 1) * side; ++in_x)
+          sum += picture.grey[static_cast<std::size_t>(in_y) * static_cast<std::size_t>(picture.width_px) +
+                              static_cast<std::size_t>(in_x)];
+      small.grey.push_back(static_cast<unsigned char>(sum / pixels));
+    }
+  return small;
+}
+
 }  // namespace seldinger::session

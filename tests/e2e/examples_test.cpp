@@ -31,7 +31,7 @@ const std::map<std::string, std::string> kRefused = {
 class Examples : public testing::Test {
  protected:
   const fs::path folder_ = fixtures::fresh_folder("examples"), at_ = folder_ / "here", home_ = folder_ / "home";
-  std::string case_, text_, key_, code_, rated_;
+  std::string case_, text_, key_, code_, rated_, day_;
 
   void SetUp() override {
     for (const fs::path& one : {at_ / "ct", at_ / "docs", home_}) fs::create_directories(one);
@@ -66,6 +66,7 @@ class Examples : public testing::Test {
   std::string settled(std::string line) {
     line = with(with(with(line, " CASE", " " + case_), " TEXT", " " + text_), " KEY", " " + key_);
     line = with(with(line, " CODE", " " + code_), " RATED", " " + rated_);
+    line = with(line, " DAY", " " + day_);
     if (line.find(" ATTEMPT") == std::string::npos) return line;
     const Json listed = Json::parse(type("attempt list --json").out, nullptr, false);
     return with(line, "ATTEMPT", listed["attempts"].at(0)["attempt_id"].get<std::string>().substr(0, 30));
@@ -90,6 +91,7 @@ TEST_F(Examples, AreTypedOneAfterTheOther) {
     EXPECT_EQ(ran.exit_code, finds ? 1 : 0) << ran.out << ran.err;
     if (line.rfind("case version", 0) == 0) case_ = ran.out.substr(5, 36);
     if (line.rfind("questionnaire open", 0) == 0) code_ = ran.out.substr(0, 6);
+    if (line.rfind("workshop open", 0) == 0) day_ = ran.out.substr(0, 6);
     if (line.rfind("rating open", 0) == 0) rated_ = ran.out.substr(0, 6);
     if (line.rfind("bundle key", 0) == 0) key_ = ran.out.substr(0, 64);
     if (line.rfind("consent list", 0) == 0)

@@ -66,6 +66,9 @@ TEST_F(RatingCommands, GoFromReplaysToAgreementAndATable) {
         const auto page = casedb::find_rating(*library, secret, task.number);
         ASSERT_TRUE(page.has_value());
         EXPECT_NE(page->sheet.find("data:image/png;base64,"), std::string::npos) << "pictures are there";
+        std::size_t frames = 0;
+        for (std::size_t at = 0; (at = page->sheet.find("data-t=", at)) != std::string::npos; ++at) ++frames;
+        EXPECT_EQ(frames, 121U) << "as many in each, however long it took";
         for (const std::string& id : attempts) EXPECT_EQ(page->sheet.find(id), std::string::npos);
         for (const char* word : {"expert", "Drill", "drill", "202", "simulated"})
           EXPECT_EQ(page->sheet.substr(0, page->sheet.find("base64")).find(word), std::string::npos) << word;

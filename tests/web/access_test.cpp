@@ -124,7 +124,7 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
   EXPECT_EQ(without,
             (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts", "/metrics",
                                         "/answer", "/answer/form", "/answer/thanks", "/answer.js", "/rate",
-                                        "/rate/bench", "/rate/replay", "/replay.js", "/openapi.json"}))
+                                        "/rate/bench", "/rate/replay", "/replay.js", "/openapi.json", "/board", "/film.js"}))
       << "a new route names its action";
 }
 
@@ -133,7 +133,7 @@ TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
   FakeBrowser browser(*fake.site);
   const std::set<std::string_view> open = {"/healthz", "/style.css",     "/login",
                                            "/answer",  "/answer/thanks", "/answer.js",
-                                           "/rate",    "/replay.js",     "/openapi.json"};
+                                           "/rate",    "/replay.js",     "/openapi.json", "/board", "/film.js"};
   for (const Route& route : routes()) {
     if (route.method != "GET") continue;
     for (const std::string& id : {kOwnAttempt, kMissingAttempt}) {

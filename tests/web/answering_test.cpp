@@ -88,7 +88,7 @@ class AnsweringTest : public testing::Test {
 TEST_F(AnsweringTest, TwoHundredByTwentyBrowsersAtOnce) {
   constexpr std::size_t kBrowsers = 20, kEach = 10;
   std::atomic<int> failures = 0;
-  const auto sections = reports::sections_of(asked_form());
+  const auto sections = assessment::questionnaire::sections_of(asked_form());
   std::vector<std::thread> threads;
   for (std::size_t b = 0; b < kBrowsers; ++b)
     threads.emplace_back([&, b] {

@@ -118,6 +118,9 @@ class FakeQuestions final : public Questions {
   base::Result<casedb::Draft> find_draft(const std::string&) override {
     return base::Error{"no_draft", "there are no answers that were begun here"};
   }
+  base::Result<Board> find_board(const std::string&) override {
+    return base::Error{"no_workshop", "there is no workshop of that code"};
+  }
   base::Result<void> keep_answers(const std::string&, const std::map<std::string, std::string>&, bool) override {
     return base::Error{"no_draft", "there are no answers that were begun here"};
   }

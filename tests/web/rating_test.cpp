@@ -102,7 +102,8 @@ std::vector<std::string> everything(World& world, std::size_t rater) {
     note(world.send(browser, n, kAllFives));
     note(browser.get("/rate/replay?n=" + std::to_string(n)));
   }
-  for (const char* path : {"/answer.js", "/style.css", "/rate/replay", "/rate/replay?n=x", "/attempts", "/answer"})
+  for (const char* path :
+       {"/answer.js", "/film.js", "/style.css", "/rate/replay", "/rate/replay?n=x", "/attempts", "/answer"})
     note(browser.get(path));
   return all;
 }

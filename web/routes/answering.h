@@ -23,7 +23,7 @@ struct KeptForm {
 };
 KeptForm form_kept(Site& site, const Call& call, const std::string& cookie_name);
 bool has_form_token(const Site& site, const Call& call, const std::string& kept);
-// A page that may run the one script there is, and shows pictures that stand in it.
+// A page that may run the scripts that there are, and shows pictures that stand in it.
 Response answering_response(int status, std::string body);
 // What the form holds of the items that it showed.
 std::map<std::string, std::string> typed_of(const Call& call,

@@ -6,6 +6,7 @@
 #include "casedb/database/credentials.h"
 #include "reports/pages/answer_pages.h"
 #include "reports/pages/style_sheet.h"
+#include "reports/questionnaires/board_page.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
 
@@ -149,7 +150,7 @@ Response show_answer_section(Site& site, const Call& call) {
   const std::string kept = cookie(call.request, site.cookies.answers);
   const auto draft = site.questions.find_draft(kept);
   if (!draft) return redirect("/answer");
-  const std::size_t sections = reports::sections_of(draft->form.form).size();
+  const std::size_t sections = assessment::questionnaire::sections_of(draft->form.form).size();
   return section_page(site, kept, 200, *draft, section_from(query_value(call, "section="), sections), {}, {});
 }
 
@@ -160,7 +161,7 @@ Response keep_answers(Site& site, const Call& call) {
     return go == "keep" ? Response{.status = 403} : start_page(site, call, 403, kTooOld);
   const auto draft = site.questions.find_draft(kept);
   if (!draft) return go == "keep" ? Response{.status = 404} : redirect("/answer");
-  const auto sections = reports::sections_of(draft->form.form);
+  const auto sections = assessment::questionnaire::sections_of(draft->form.form);
   const std::size_t section = section_from(call.field("section"), sections.size());
   std::map<std::string, std::string> typed;
   if (section < sections.size()) typed = typed_of(call, sections[section]);
@@ -190,6 +191,17 @@ Response show_answer_thanks(Site&, const Call&) {
   return html_response(200, reports::answer_thanks_page());
 }
 
+Response show_board(Site& site, const Call& call) {
+  const std::string_view code = query_value(call, "code=");
+  if (code.empty()) return html_response(200, reports::board_start_page(""));
+  const auto board = site.questions.find_board(std::string(code));
+  if (!board)
+    return html_response(404, reports::board_start_page("There is no workshop of that code. Is it typed right?"));
+  Response response = html_response(200, reports::board_page(board->workshop, board->participants));
+  response.headers.emplace_back("Refresh", std::to_string(reports::kBoardEveryS));
+  return response;
+}
+
 namespace {
 
 constexpr Route kAnsweringRoutes[] = {
@@ -202,6 +214,8 @@ constexpr Route kAnsweringRoutes[] = {
      "keeps a section's answers, or sends all: section, go, a field each item, token", keep_answers},
     {"GET", "/answer/thanks", kOpen, true, "", "that the answers were sent", show_answer_thanks},
     {"GET", "/answer.js", kOpen, false, "", "the script that keeps what is typed", show_answer_script},
+    {"GET", "/board", kOpen, true, "", "a workshop's board, by numbers alone, or asks for its code; ?code=CODE",
+     show_board},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "reports/pages/rating_pages.h"
+#include "reports/pages/style_sheet.h"
 #include "web/routes/answering.h"
 #include "web/routes/shelves.h"
 #include "web/site/site.h"
@@ -55,6 +56,10 @@ Response no_replay(const base::Error& error) {
 }
 
 }  // namespace
+
+Response show_film_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::film_script())};
+}
 
 Response show_rating_start(Site& site, const Call& call) {
   if (site.questions.find_rating_bench(cookie(call.request, site.cookies.rater))) return redirect("/rate/bench");
@@ -112,6 +117,7 @@ Response keep_rating(Site& site, const Call& call) {
 namespace {
 
 constexpr Route kRatingRoutes[] = {
+    {"GET", "/film.js", kOpen, false, "", "the script that plays a replay to rate", show_film_script},
     {"GET", "/rate", kOpen, true, "", "asks for a rater's key", show_rating_start},
     {"POST", "/rate", kOpen, true, "", "opens the bench of a rater: key, token", open_rating_bench},
     {"GET", "/rate/bench", kOpen, true, "the browser of a rater", "the replays that are theirs to rate, by number",

@@ -22,7 +22,7 @@ struct Request {
 };
 
 // What a page may load and run: nothing but the style sheet and pictures of this server; where it is answered or
-// rated also the one script, which sends what is typed, and pictures that stand in the page itself.
+// rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself.
 enum class Policy { page, replay, answering };
 
 struct Response {

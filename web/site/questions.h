@@ -21,6 +21,7 @@
 #include "casedb/people/relations.h"
 #include "casedb/questionnaires/responses.h"
 #include "casedb/ratings/rating_rounds.h"
+#include "casedb/workshops/workshops.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
 #include "reports/pages/people/audit_page.h"
@@ -37,6 +38,12 @@ struct RoundForms {
 struct LearnerRecords {
   bool simulated = false;
   reports::Records records;
+};
+
+// A workshop's day, and who came.
+struct Board {
+  casedb::Workshop workshop;
+  std::vector<casedb::Participant> participants;
 };
 
 class Questions {
@@ -89,6 +96,8 @@ class Questions {
   virtual base::Result<casedb::RatingPage> find_rating(const std::string& secret, std::size_t number) = 0;
   virtual base::Result<void> keep_rating(const std::string& secret, std::size_t number,
                                          const std::map<std::string, std::string>& typed, bool send) = 0;
+
+  virtual base::Result<Board> find_board(const std::string& code) = 0;  // `no_workshop`
 
   virtual std::size_t count_attempts(const casedb::WhoseAttempts& whose) = 0;
   virtual std::vector<casedb::AttemptRow> list_attempts(const casedb::WhoseAttempts& whose, std::size_t first,

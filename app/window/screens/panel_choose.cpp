@@ -89,7 +89,7 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.4F * ImGui::GetFontSize());
   header_row();
   std::string opened;
-  for (const Draft& draft : trainer.drafts()) {
+  for (const CaseDraft& draft : trainer.drafts()) {
     ImGui::PushID(draft.case_id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
@@ -190,6 +190,9 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string&
     ImGui::TextWrapped("That did not work: %s", trainer.refusal().c_str());
     note_item("refused");
   }
+  std::string answered;
+  for (const casedb::Round& due : trainer.due_questionnaires())
+    if (noted_button(("Questionnaire: " + due.title).c_str())) answered = due.round_id;
   ImGui::Spacing();
   if (trainer.choices().empty())
     ImGui::TextWrapped(
@@ -211,6 +214,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string&
   draw_import(trainer, pressed);
   if (question_.draw(pressed)) trainer.delete_draft(to_delete_);
   if (out) trainer.log_out();
+  if (!answered.empty() && !out) trainer.answer(answered);
   if (devices && !out) trainer.show_devices();
   end_screen();
 }

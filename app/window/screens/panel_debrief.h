@@ -13,9 +13,9 @@
 
 namespace seldinger::app {
 
-// What can be done from the debrief: what comes next, once more, a replay, the list. Done after the screen is
-// drawn: what it shows goes with the debrief.
-enum class Wish { none, next, again, watch, expert, both, cases, log_out };
+// What can be done from the debrief: a questionnaire that is due, what comes next, once more, a replay, the list.
+// Done after the screen is drawn: what it shows goes with the debrief.
+enum class Wish { none, answer, next, again, watch, expert, both, cases, log_out };
 
 // What is still missing for proficient, in words; nothing where no pass counts towards it.
 void draw_missing(const Trainer& trainer);

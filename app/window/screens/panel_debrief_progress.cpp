@@ -169,6 +169,8 @@ Wish draw_debrief_buttons(Trainer& trainer, const Keys& keys, bool escapes) {
     first = false;
     if (noted_button(words.c_str()) || (key != 0 && keys.pressed(key))) wish = its;
   };
+  if (!trainer.due_questionnaires().empty())
+    button("Questionnaire: " + trainer.due_questionnaires().front().title + " (Q)", 'Q', Wish::answer);
   const Choice* next = next_of(trainer);
   if (next != nullptr && next->case_id != trainer.chosen().case_id)
     button("Next: " + next->title + " (Enter)", kEnter, Wish::next);
@@ -190,6 +192,7 @@ Wish draw_debrief_buttons(Trainer& trainer, const Keys& keys, bool escapes) {
 }
 
 void do_wish(Trainer& trainer, Wish wish) {
+  if (wish == Wish::answer) trainer.answer(std::string(trainer.due_questionnaires().front().round_id));
   if (wish == Wish::next) trainer.choose(std::string(next_of(trainer)->case_id));
   if (wish == Wish::again) trainer.again();
   if (wish == Wish::watch) trainer.watch(std::string(trainer.debrief()->attempt.attempt_id));

@@ -29,7 +29,8 @@ struct EditorTrace {
 // Since the line before.
 struct TraceLine {
   double t_s = 0.0;  // since the window opened
-  // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "watch", "editor", "devices"
+  // "log_in", "choose", "briefing", "ready", "attempt", "storing", "debrief", "answer", "watch", "editor",
+  // "devices"
   std::string screen;
   double frames_s = 0.0;                                                           // the window's
   double pictures_s = 0.0;                                                         // the guidance's

@@ -9,6 +9,8 @@
 #include "casedb/grading/expert_replay.h"
 #include "casedb/keeping/erase.h"
 #include "casedb/people/noted_tries.h"
+#include "casedb/questionnaires/desk_rounds.h"
+#include "session/monitor/monitor.h"
 #include "sim/base/failure.h"
 
 namespace seldinger::app {
@@ -154,7 +156,9 @@ void Trainer::log_out() {
   interrupted_.reset();
   trying_ = resuming_ = false;
   plan_.reset();
+  std::optional<Answering> answering = std::exchange(answering_, std::nullopt);
   choices_ = {};
+  due_.clear();
   imported_.clear();
   // First: whoever leaves is out, whatever becomes of the library.
   const std::string person_id = std::exchange(account_, {}).person_id;
@@ -163,6 +167,7 @@ void Trainer::log_out() {
   screen_ = TrainerScreen::log_in;
   if (person_id.empty()) return;
   try {
+    if (answering) static_cast<void>(answering->keep());  // what does not fit its item was shown
     casedb::log_out(library_, person_id);
   } catch (const base::Failure& failure) {
     refusal_ = std::string("Logged out, but the library could not note it: ") + failure.what();
@@ -171,6 +176,7 @@ void Trainer::log_out() {
 
 void Trainer::list_choices() {
   choices_ = casedb::choices_of(library_, account_.person_id, account_.role);
+  due_ = casedb::due_at_desk(library_, account_.person_id);
   library_.shrink();  // a workstation is on for days
 }
 
@@ -180,7 +186,7 @@ const Choice* Trainer::next() const noexcept {
 
 void Trainer::open_editor(const std::string& case_id) {
   const bool known =
-      std::any_of(drafts().begin(), drafts().end(), [&](const Draft& one) { return one.case_id == case_id; });
+      std::any_of(drafts().begin(), drafts().end(), [&](const CaseDraft& one) { return one.case_id == case_id; });
   if (!known) return;
   refusal_.clear();
   editor_.reset();  // before the next: a case is large
@@ -199,13 +205,13 @@ void Trainer::new_version(const std::string& case_id) {
   open_editor(*made);
 }
 
-bool Trainer::may_delete(const Draft& draft) const noexcept {
+bool Trainer::may_delete(const CaseDraft& draft) const noexcept {
   return casedb::may(account_.role, casedb::Action::erase_case, draft.state);
 }
 
 void Trainer::delete_draft(const std::string& case_id) {
   const auto draft =
-      std::find_if(drafts().begin(), drafts().end(), [&](const Draft& one) { return one.case_id == case_id; });
+      std::find_if(drafts().begin(), drafts().end(), [&](const CaseDraft& one) { return one.case_id == case_id; });
   if (screen_ != TrainerScreen::choose || draft == drafts().end() || !may_delete(*draft)) return;
   const auto erased = casedb::erase_case(library_, case_id, account_.person_id);
   refusal_ = erased ? "" : erased.error().text;
@@ -379,6 +385,7 @@ Debrief Trainer::debrief_of_try() {
 void Trainer::look() {
   take_import();
   look_at_watched();
+  if (answering_) answering_->look(session::clock_s());
   if (editor_ && screen_ == TrainerScreen::editor) editor_->look();
   if (!attempt_) return;
   const PersonAttempt::Phase phase = attempt_->phase();

@@ -12,6 +12,7 @@
 #include "app/window/editor/case_editor.h"
 #include "app/window/hands/device_page.h"
 #include "app/window/hands/person_attempt.h"
+#include "app/window/trainer/answering.h"
 #include "app/window/trainer/case_import.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
@@ -24,10 +25,10 @@
 
 namespace seldinger::app {
 
-enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, watch, editor, devices };
+enum class TrainerScreen { log_in, choose, briefing, attempt, debrief, answer, watch, editor, devices };
 
+using casedb::CaseDraft;
 using casedb::Choice;
-using casedb::Draft;
 
 // One of the person's own attempts at a case, as it is graded now.
 struct OwnAttempt {
@@ -85,11 +86,18 @@ class Trainer {
   int help() const noexcept { return help_; }
   void back();  // from briefing or debrief to the choice, or to the case editor whose draft was tried
 
+  // --- questionnaires that are asked after an attempt (casedb/questionnaires/desk_rounds.h) ---
+  const std::vector<casedb::Round>& due_questionnaires() const noexcept { return due_; }
+  void answer(const std::string& round_id);  // of those, from the choice or the debrief
+  Answering* answering() noexcept { return answering_ ? &*answering_ : nullptr; }
+  void send_answers();
+  void leave_answers();  // kept as a draft; back to where one came from
+
   // --- the case editor; empty, and nothing happens, for everybody else ---
-  const std::vector<Draft>& drafts() const noexcept { return choices_.drafts; }
+  const std::vector<CaseDraft>& drafts() const noexcept { return choices_.drafts; }
   void open_editor(const std::string& case_id);  // of the drafts
   // For good, unless attempts were made on it.
-  bool may_delete(const Draft& draft) const noexcept;
+  bool may_delete(const CaseDraft& draft) const noexcept;
   void delete_draft(const std::string& case_id);
   // A CT becomes a draft of theirs, in the background.
   bool may_import() const noexcept {
@@ -188,6 +196,9 @@ class Trainer {
   std::unique_ptr<session::WatchedAttempt> watched_, beside_;
   std::vector<std::string> watched_ids_;  // until it is noted that they are watched
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
+  std::vector<casedb::Round> due_;
+  std::optional<Answering> answering_;
+  TrainerScreen answered_from_ = TrainerScreen::choose;
   std::unique_ptr<CaseEditor> editor_;
   std::unique_ptr<DevicePage> device_page_;
   std::unique_ptr<CaseImport> import_;

@@ -1,5 +1,5 @@
 -- Every round, the newest first, and how many have begun and are done.
-SELECT round_id, code, title, form_id, version, study_id, opened_us, opened_by, closed_us,
+SELECT round_id, code, title, form_id, version, study_id, opened_us, opened_by, closed_us, at_desk,
   (SELECT count(*) FROM response_set WHERE response_set.round_id = questionnaire_round.round_id
     AND submitted_us IS NULL) AS drafts,
   (SELECT count(*) FROM response_set WHERE response_set.round_id = questionnaire_round.round_id

@@ -89,6 +89,19 @@ TEST(GreyPictures, LoseOnlyTheEdgesThatAllHaveBlack) {
   EXPECT_EQ(black[0].width_px, 3);
 }
 
+TEST(GreyPictures, ShrinkToMeansOfSquares) {
+  // 5 × 4, each pixel ten times its column and its row: the last column is left over.
+  session::GreyPicture picture{{}, 5, 4};
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 5; ++x) picture.grey.push_back(static_cast<unsigned char>(10 * (x + y)));
+  const session::GreyPicture small = session::shrunk_to(picture, 3);
+  EXPECT_EQ(small.width_px, 2);
+  EXPECT_EQ(small.height_px, 2);
+  EXPECT_EQ(small.grey, (std::vector<unsigned char>{10, 30, 30, 50}));
+  EXPECT_EQ(session::shrunk_to(picture, 5).grey, picture.grey) << "as it is where it fits";
+  EXPECT_EQ(session::shrunk_to({}, 3).width_px, 0);
+}
+
 assessment::Signals signals_in(const cases::Case& scene) {
   cases::Recording recording;
   for (int i = 0; i <= 200; ++i) {

@@ -53,5 +53,22 @@ TEST(OrdersOfStations, APlaceInTheListTellsNoStation) {
   for (const auto& [station, times] : first) EXPECT_NEAR(times, 1'000, 110) << station;
 }
 
+// As people come: after each the table is as even as it can be, and who came keeps their order.
+TEST(OrderOfArrival, IsEvenAfterEverybodyWhoComes) {
+  for (std::size_t stations = 2; stations <= 7; ++stations) {
+    std::vector<std::vector<std::size_t>> at(stations, std::vector<std::size_t>(stations));
+    for (std::size_t arrival = 0; arrival < 30; ++arrival) {
+      const auto order = order_of_arrival(stations, arrival, 3);
+      EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), stations);
+      for (std::size_t turn = 0; turn < stations; ++turn) {
+        ++at[turn][order[turn]];
+        const auto [least, most] = std::minmax_element(at[turn].begin(), at[turn].end());
+        EXPECT_LE(*most - *least, 1U) << stations << " stations, arrival " << arrival << ", turn " << turn;
+      }
+    }
+  }
+  EXPECT_NE(order_of_arrival(5, 3, 3), order_of_arrival(5, 3, 4));
+}
+
 }  // namespace
 }  // namespace seldinger::assessment::study

@@ -63,7 +63,7 @@ class ChoicesTest : public GradedLibrary {
   }
   static std::vector<std::string> drafts(const Choices& choices) {
     std::vector<std::string> titles;
-    for (const Draft& one : choices.drafts) titles.push_back(one.title);
+    for (const CaseDraft& one : choices.drafts) titles.push_back(one.title);
     return titles;
   }
 };

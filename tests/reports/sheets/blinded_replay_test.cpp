@@ -28,6 +28,7 @@ ReplaySheet sheet_to_rate() {
   sheet.course.bands.push_back({"Tip seen", {{5.0, 10.0}}});
   sheet.course.lanes.push_back({"Steps", {{4.0, 6.0, "step", "anaesthetic"}}});
   sheet.planes = {plane};
+  for (int i = 0; i < 3; ++i) sheet.film.push_back({5.0 * i, "", {std::byte{9}}, true, false, false});
   sheet.moments.push_back({2.0, "", {std::byte{7}}, true, false, true});
   sheet.moments.push_back({10.0, "fired", {std::byte{8}}, true, true, true});
   return sheet;
@@ -40,7 +41,13 @@ TEST(BlindedReplay, ShowsPicturesWayAndDepth) {
   EXPECT_THAT(shown, HasSubstr("2.0 s</p>"));
   EXPECT_THAT(shown, HasSubstr("<polyline"));
   EXPECT_THAT(shown, HasSubstr("class=\"timeline\""));
+  EXPECT_THAT(shown, HasSubstr("data-film hidden")) << "until its script shows it";
+  EXPECT_THAT(shown, HasSubstr("<li data-t=\"5.00\"><img"));
+  EXPECT_THAT(shown, HasSubstr("max=\"2\""));
   EXPECT_THAT(shown, Not(HasSubstr("<script")));
+  ReplaySheet still = sheet_to_rate();
+  still.film.clear();
+  EXPECT_THAT(blinded_replay(still), Not(HasSubstr("data-film")));
 }
 
 // Everything that an attempt carries of a person, a group, a day, a case, an id, or a result, changed: not a byte.
@@ -64,6 +71,7 @@ TEST(BlindedReplay, WhoseItIsAndWhatTheRecordingKnowsChangeNoByte) {
   row.away_s = 30.0;
   row.metrics.clear();
   for (CoursePoint& point : other.course.points) point.tip_seen = !point.tip_seen;
+  for (SheetMoment& moment : other.film) moment.tip_seen = moment.target_seen = true;
   for (SheetMoment& moment : other.moments) moment.tip_seen = moment.target_seen = moment.live = false;
   other.course.bands.clear();
   other.course.lanes.clear();

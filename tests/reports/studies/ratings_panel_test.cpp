@@ -6,6 +6,7 @@
 namespace seldinger::reports {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 namespace study = assessment::study;
@@ -36,6 +37,7 @@ TEST(RatingsPanel, HoldsRanksOfOutcomesAgainstRanksOfRatings) {
                                                         {"P-8", 5.0}}))
                                .str();
   EXPECT_THAT(page, HasSubstr("Global &lt;rating&gt;, version 2, 14 ratings"));
+  EXPECT_THAT(page, HasSubstr("lower is better: a ρ below 0 speaks for it"));
   EXPECT_THAT(page, HasSubstr("<td>6</td><td>−1.00")) << "a longer way, a lower rating; failures have no value";
   // By hand: ranks of ratings 1 3 2 4 6 5, so rho = 1 - 6 (1 + 1 + 1 + 1) / (6 * 35).
   const std::string other =
@@ -47,7 +49,7 @@ TEST(RatingsPanel, WhatIsTooFewOrOfAnotherCaseIsNoNumber) {
   EXPECT_THAT(sources_section(report_with({{"P-1", 4.0}})).str(),
               HasSubstr("not estimated: too few, or all alike"));
   EXPECT_THAT(sources_section(report_with({{"P-1", 4.0}, {"P-2", 2.0}, {"P-3", 3.0}}, "another")).str(),
-              Not(HasSubstr("Global")));
+              AllOf(Not(HasSubstr("Global")), HasSubstr("No rated replay is of a primary outcome")));
   EXPECT_THAT(sources_section(report_with({})).str(), Not(HasSubstr("What raters saw")));
 }
 

@@ -41,7 +41,7 @@ class TrainerRolesTest : public TrainerTest {
     return std::ranges::any_of(trainer.choices(), [&](const Choice& one) { return one.case_id == case_id_; });
   }
   bool is_draft_of(const Trainer& trainer) const {
-    return std::ranges::any_of(trainer.drafts(), [&](const Draft& one) { return one.case_id == case_id_; });
+    return std::ranges::any_of(trainer.drafts(), [&](const CaseDraft& one) { return one.case_id == case_id_; });
   }
 };
 

@@ -1,0 +1,2 @@
+-- A draft goes on under another secret.
+UPDATE response_set SET draft_key = :draft_key WHERE response_id = :response_id
