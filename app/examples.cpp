@@ -107,6 +107,8 @@ constexpr std::string_view kLines[] = {
     "study simulate drill-plan.json --surrogate drill.json --shift novices=0 --shift experienced=0.8 --studies 100",
     "study stations --station Drill --station Biopsy --station Calyx --people 6",
     "report validity --study Needles --out validity.html",
+    "report learner --user novice --out learner.html",
+    "report case --out cases.html",
     "report workshops --out workshops.html",
     "questionnaire template workshop-2007 --out form.json",
     "questionnaire add form.json",

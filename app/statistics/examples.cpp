@@ -59,6 +59,7 @@ constexpr ProcedureExample kExamples[] = {
     {"classification", COURSE "--value score --options cut=65,reliability=0.85"},
     {"lc_cusum", ATTEMPTS "--value failed --subject person --x attempt"},
     {"cusum", ATTEMPTS "--value failed --subject person --x attempt"},
+    {"proficiency", ATTEMPTS "--value hit --subject person --x attempt"},
     {"learning_curve", ATTEMPTS "--value score --subject person --x attempt --options better=higher"},
     {"mixed_model", ATTEMPTS "--value score --subject person --x attempt"},
     {"logistic_mixed", ATTEMPTS "--value hit --subject person --x attempt"},
