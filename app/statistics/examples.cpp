@@ -61,6 +61,7 @@ constexpr ProcedureExample kExamples[] = {
     {"cusum", ATTEMPTS "--value failed --subject person --x attempt"},
     {"proficiency", ATTEMPTS "--value hit --subject person --x attempt"},
     {"learning_curve", ATTEMPTS "--value score --subject person --x attempt --options better=higher"},
+    {"decay", ATTEMPTS "--value score --subject person --x occasion --options better=higher"},
     {"mixed_model", ATTEMPTS "--value score --subject person --x attempt"},
     {"logistic_mixed", ATTEMPTS "--value hit --subject person --x attempt"},
     {"rasch", COURSE "--value item1,item2,item3,item4,item5,item6,item7,item8"},

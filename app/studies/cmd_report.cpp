@@ -34,6 +34,7 @@ struct Kind {
 constexpr Kind kKinds[] = {{"validity", &validity_report},
                            {"learner", &learner_report},
                            {"case", &case_report},
+                           {"standard", &standard_report},
                            {"workshops", &workshops_report}};
 
 int run_report(const Arguments& arguments) {
@@ -55,6 +56,7 @@ constexpr Option kReportOptions[] = {
     kLibrary,
     {"--study", "STUDY", "of this study, for validity"},
     {"--user", "NAME", "of this person, for learner"},
+    {"--case", "CASE", "of this case, for standard"},
     {"--simulated", nullptr, "of simulated people, for learner and case; they never stand beside people"},
     {"--person", "GROUP-NUMBER", "which simulated person, for learner: novice-3"},
     {"--out", "FILE.html", "the file"}};
@@ -71,9 +73,8 @@ Command report_command() {
           .summary =
               "Writes a report as one file that opens offline and prints. KIND: validity, of a study "
               "(docs/studies.md), which is a look, and noted; learner, how somebody has learnt; case, how hard the "
-              "cases are, what they tell apart and how many a decision "
-              "takes (both docs/grading.md); or "
-              "workshops, the thesis' own three (docs/questionnaires.md).",
+              "cases are, what they tell apart and how many a decision takes; standard, the cuts of a case (all "
+              "three docs/grading.md); or workshops, the thesis' own three (docs/questionnaires.md).",
           .run = &run_report};
 }
 

@@ -6,6 +6,7 @@
 #include "app/cli/version.h"
 #include "reports/learning/case_report.h"
 #include "reports/learning/learner_report.h"
+#include "reports/learning/standard_report.h"
 
 namespace seldinger::app {
 namespace {
@@ -38,14 +39,14 @@ base::Result<std::string> learner_report(const Arguments& arguments) {
     if (const auto by = acting(*library, arguments, casedb::Action::see_attempt, nobodys()); !by) return by.error();
     const auto person = simulated_called(*library, called);
     if (!person) return person.error();
-    return reports::learner_page(
+    return reports::learner_report_page(
         reports::learner_report_of(*library, Learners::simulated, *person, "Simulated " + called, kVersion));
   }
   const auto account = casedb::open_account(*library, called);
   if (!account) return account.error();
   if (const auto by = acting_on(*library, arguments, casedb::Action::see_attempt, account->person_id); !by)
     return by.error();
-  return reports::learner_page(
+  return reports::learner_report_page(
       reports::learner_report_of(*library, Learners::people, account->person_id, account->login_name, kVersion));
 }
 
@@ -56,6 +57,17 @@ base::Result<std::string> case_report(const Arguments& arguments) {
   if (const auto by = acting(*library, arguments, casedb::Action::see_case, published); !by) return by.error();
   return reports::case_report_page(reports::case_report_of(
       *library, arguments.has("--simulated") ? Learners::simulated : Learners::people, kVersion));
+}
+
+base::Result<std::string> standard_report(const Arguments& arguments) {
+  arguments.required("--case");
+  auto library = open_acting(arguments);
+  if (!library) return library.error();
+  const auto row = casedb::find_case(*library, arguments.text("--case"));
+  const casedb::Subject subject(row ? row->state : casedb::CaseState::published);
+  if (const auto by = acting(*library, arguments, casedb::Action::see_case, subject); !by) return by.error();
+  if (!row) return row.error();
+  return reports::standard_report_page(reports::standard_report_of(*library, *row, kVersion));
 }
 
 }  // namespace seldinger::app

@@ -8,8 +8,9 @@
 
 namespace seldinger::app {
 
-// Pages; refused as open_acting, acting_on, and `no_user`, `no_person`.
+// Pages; refused as open_acting, acting_on, and `no_user`, `no_person`, `no_case`.
 base::Result<std::string> learner_report(const Arguments& arguments);
 base::Result<std::string> case_report(const Arguments& arguments);
+base::Result<std::string> standard_report(const Arguments& arguments);
 
 }  // namespace seldinger::app

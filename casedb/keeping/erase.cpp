@@ -38,6 +38,7 @@ constexpr PersonColumn kKept[] = {
     {"erasure", "by_person_id"},      {"training_case", "burned_in_checked_by"},
     {"study_plan", "frozen_by"},      {"study_look", "person_id"},
     {"study_deviation", "person_id"}, {"questionnaire_round", "opened_by"},
+    {"cut", "proposed_by"},           {"cut", "frozen_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {

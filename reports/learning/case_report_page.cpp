@@ -5,9 +5,9 @@
 #include "reports/charts/interval_chart.h"
 #include "reports/charts/series_chart.h"
 #include "reports/learning/case_report.h"
-#include "reports/learning/dependability_text.h"
 #include "reports/learning/learning_page.h"
 #include "reports/studies/study_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {

@@ -3,14 +3,17 @@
 #include <algorithm>
 
 #include "casedb/database/uuid.h"
+#include "casedb/grading/dependability.h"
 
 namespace seldinger::reports {
 
 LearnerReport learner_report_of(casedb::Library& library, casedb::Learners whose, const std::string& person_id,
                                 const std::string& learner, const std::string& program_version) {
-  LearnerReport report{learner, whose, casedb::now_us(), program_version, {}, {}};
+  LearnerReport report{learner, whose, casedb::now_us(), program_version, {}, {}, {}};
   std::vector<std::string> families;
-  for (casedb::LearningAttempt& one : casedb::learning_attempts(library, whose)) {
+  std::vector<casedb::LearningAttempt> attempts = casedb::learning_attempts(library, whose);
+  report.dependability = casedb::dependability(attempts);
+  for (casedb::LearningAttempt& one : attempts) {
     if (one.person_id != person_id) continue;
     const auto found = std::find(families.begin(), families.end(), one.family_id);
     const auto index = static_cast<std::size_t>(found - families.begin());

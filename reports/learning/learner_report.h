@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/statistics/answer.h"
 #include "casedb/grading/learning.h"
 #include "casedb/people/simulated_people.h"
 
@@ -23,7 +24,8 @@ struct LearnerReport {
   casedb::Learners whose = casedb::Learners::people;
   std::int64_t made_us = 0;
   std::string program_version;
-  std::vector<LearnerItem> items;  // in the order in which the learner came to them
+  std::vector<LearnerItem> items;                // in the order in which the learner came to them
+  assessment::statistics::Answer dependability;  // of passing, over everybody
   std::optional<casedb::SimulatedTruth> truth;
 };
 
@@ -32,6 +34,6 @@ LearnerReport learner_report_of(casedb::Library& library, casedb::Learners whose
                                 const std::string& learner, const std::string& program_version);
 
 // Deterministic: the same report, the same bytes.
-std::string learner_page(const LearnerReport& report);
+std::string learner_report_page(const LearnerReport& report);
 
 }  // namespace seldinger::reports

@@ -12,17 +12,8 @@ namespace {
 
 namespace study = assessment::study;
 
-Html panel(std::string_view source, std::string_view title) {
-  Html html;
-  return html.raw("<article class=\"panel\">\n<p class=\"tag\">")
-      .text(source)
-      .raw("</p>\n<h3>")
-      .text(title)
-      .raw("</h3>\n");
-}
-
 Html content_panel(const study::Plan& plan) {
-  Html html = panel("Content", "What is measured, and by which definition");
+  Html html = source_panel("Content", "What is measured, and by which definition");
   html.raw(
       "<table><thead><tr><th scope=\"col\">Metric</th><th scope=\"col\">Definition</th><th "
       "scope=\"col\">Source</th>"
@@ -42,7 +33,7 @@ Html content_panel(const study::Plan& plan) {
 }
 
 Html response_panel(const ValidityReport& report) {
-  Html html = panel("Response process", "Whether what was recorded is what was done");
+  Html html = source_panel("Response process", "Whether what was recorded is what was done");
   html.raw("<ul>");
   for (const study::Compared& one : report.result.primary) {
     std::size_t left_out = 0;
@@ -75,7 +66,7 @@ assessment::statistics::Answer with_ratings(const study::Compared& outcome, cons
 }
 
 Html ratings_panel(const ValidityReport& report) {
-  Html html = panel("Relations to other variables", "What raters saw who were not told whose it was");
+  Html html = source_panel("Relations to other variables", "What raters saw who were not told whose it was");
   html.raw(
       "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\">Form</th><th scope=\"col\">Persons</th>"
       "<th scope=\"col\">Spearman’s ρ with the mean rating</th></tr></thead><tbody>\n");
@@ -103,11 +94,20 @@ Html ratings_panel(const ValidityReport& report) {
 }
 
 Html none_yet(std::string_view source, std::string_view title, std::string_view what) {
-  Html html = panel(source, title);
+  Html html = source_panel(source, title);
   return html.raw("<p><strong>None yet.</strong> ").text(what).raw("</p>\n</article>\n");
 }
 
 }  // namespace
+
+Html source_panel(std::string_view source, std::string_view title) {
+  Html html;
+  return html.raw("<article class=\"panel\">\n<p class=\"tag\">")
+      .text(source)
+      .raw("</p>\n<h3>")
+      .text(title)
+      .raw("</h3>\n");
+}
 
 Html sources_section(const ValidityReport& report) {
   Html html;
@@ -117,19 +117,17 @@ Html sources_section(const ValidityReport& report) {
   html.add(content_panel(report.plan.plan));
   if (!report.plan.frozen()) return html.raw("</section>\n");
   html.add(response_panel(report));
-  html.add(
-      none_yet("Internal structure", "Whether repeated attempts agree", "No reliability was planned or computed."));
+  html.add(internal_structure_panel(report));
   if (report.result.secondary.empty()) {
     html.add(none_yet("Relations to other variables", "Secondary outcomes", "The plan names none."));
   } else {
-    html.add(panel("Relations to other variables", "Secondary outcomes"));
+    html.add(source_panel("Relations to other variables", "Secondary outcomes"));
     html.add(outcome_table(report.result.secondary, report.plan.plan.alpha, false,
                            "Effects with intervals; no p, no verdict"))
         .raw("</article>\n");
   }
   if (!report.ratings.empty()) html.add(ratings_panel(report));
-  html.add(none_yet("Consequences", "What is decided by the numbers, and for whom",
-                    "No pass mark is part of this plan, so no false passes or failures can be told."));
+  html.add(consequences_panel(report));
   return html.raw("</section>\n");
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "assessment/statistics/growth/cusum_chart.h"
+#include "assessment/statistics/growth/decay.h"
 #include "assessment/statistics/growth/learning_curve.h"
 #include "assessment/statistics/growth/mixed_model.h"
 #include "assessment/statistics/growth/proficiency.h"
@@ -120,6 +121,20 @@ Answer run_proficiency(const DataTable& table, const ProcedureOptions& options) 
   return proficiency(table, rule);
 }
 
+Answer run_decay(const DataTable& table, const ProcedureOptions& options) {
+  DecayOptions how;
+  const std::string better = options.text("better", "lower");
+  how.higher_is_better = better == "higher";
+  how.pause = options.number("pause", how.pause).value_or(kNoNumber);
+  if (!(how.pause > 0.0) || (better != "lower" && better != "higher"))
+    return bad_option("decay", table, "options pause and better: pause above 0, better lower or higher");
+  return decay(table, how);
+}
+
+constexpr ProcedureOption kDecayOptions[] = {
+    {"pause", "a number above 0, 1 unless given", "the least difference of x that is a pause"},
+    {"better", "lower or higher", "which values are better; lower unless given"},
+};
 constexpr ProcedureOption kLcCusumOptions[] = {
     {"adequate", "a share, 0.10 unless given", "rate of failure of who is competent"},
     {"inadequate", "a share, 0.30 unless given", "rate of failure of who is not"},
@@ -194,6 +209,9 @@ constexpr Procedure kProcedures[] = {
      &run_learning_curve,
      "power law of practice (Newell and Rosenbloom 1981), exponential (Heathcote et al. 2000), AICc",
      "R nls 1e-6"},
+    {"decay", "What is lost over a pause, and how much of it goes with a longer one.",
+     "value; subject; x: when, in days", Needs{.subject = true, .x = true}, kDecayOptions, &run_decay,
+     "Arthur et al., Hum Perform 1998;11:57, as a paired comparison", "R t.test and lm, 1e-9"},
     {"mixed_model", "How values of repeated persons change with x and differ between groups.",
      "value; subject: two persons at least with several values; x; group", kRepeated, kMixedModelOptions,
      &run_mixed_model, "REML as in Bates et al. 2015; df of Satterthwaite after Giesbrecht and Burns 1985",

@@ -38,21 +38,21 @@ LearnerReport report_of(const std::string& letters) {
 }
 
 TEST(LearnerReport, TellsTheCourseWithItsRules) {
-  const std::string page = learner_page(report_of("FFF-FPFPPPPPPPPPPP"));
+  const std::string page = learner_report_page(report_of("FFF-FPFPPPPPPPPPPP"));
   EXPECT_THAT(page, HasSubstr("tina &lt;b&gt;"));
   EXPECT_THAT(page, HasSubstr("Liver &amp; more"));
   EXPECT_THAT(page, HasSubstr("12 of 17 graded attempts passed; 1 more are not graded"));
   EXPECT_THAT(page, HasSubstr("10 of the last 10 passed"));
   EXPECT_THAT(page, HasSubstr("Levels off at 3 mm (95 % interval 2.9"));
   EXPECT_THAT(page, HasSubstr("LC-CUSUM"));
-  EXPECT_EQ(page, learner_page(report_of("FFF-FPFPPPPPPPPPPP"))) << "the same report, the same bytes";
+  EXPECT_EQ(page, learner_report_page(report_of("FFF-FPFPPPPPPPPPPP"))) << "the same report, the same bytes";
 }
 
 TEST(LearnerReport, SaysWhyThereIsNoNumber) {
-  const std::string page = learner_page(report_of("-"));
+  const std::string page = learner_report_page(report_of("-"));
   EXPECT_THAT(page, HasSubstr("Not estimated: there is no value"));
   EXPECT_THAT(page, Not(HasSubstr("nan")));
-  EXPECT_THAT(learner_page({}), HasSubstr("There is no attempt yet"));
+  EXPECT_THAT(learner_report_page({}), HasSubstr("There is no attempt yet"));
 }
 
 // What is drawn stays within the drawing, whatever the values.
@@ -60,7 +60,7 @@ TEST(LearnerReport, HasNoNumberThatIsNone) {
   LearnerReport report = report_of("FPPF");
   report.items.front().attempts[1].metrics.front().value = std::nan("");
   report.items.front().attempts[2].metrics.front().value = 1e300;
-  const std::string page = learner_page(report);
+  const std::string page = learner_report_page(report);
   for (const char* bad : {">nan", "\"nan", "-nan", "inf\"", ">inf"}) EXPECT_THAT(page, Not(HasSubstr(bad)));
 }
 

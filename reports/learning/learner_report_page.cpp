@@ -14,6 +14,7 @@
 #include "reports/learning/learner_report.h"
 #include "reports/learning/learning_page.h"
 #include "reports/studies/study_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -232,7 +233,7 @@ Html truth_section(const casedb::SimulatedTruth& truth) {
 
 }  // namespace
 
-std::string learner_page(const LearnerReport& report) {
+std::string learner_report_page(const LearnerReport& report) {
   Html html;
   html.raw("<h1>").name(report.learner).raw("</h1>\n");
   html.add(made_by(report.made_us, report.program_version, report.whose == casedb::Learners::simulated));
@@ -244,6 +245,10 @@ std::string learner_page(const LearnerReport& report) {
         "verdict: it is for the learner and the mentor to talk about.</p>\n");
   if (report.truth) html.add(truth_section(*report.truth));
   for (const LearnerItem& one : report.items) html.add(item_section(one));
+  if (!report.items.empty())
+    html.raw("<section>\n<h2>What passing one case tells</h2>\n<p>")
+        .text(dependability_text(report.dependability, report.whose))
+        .raw("</p>\n</section>\n");
   return learning_page(report.learner + " – learning", html);
 }
 
