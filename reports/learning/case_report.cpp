@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "assessment/statistics/relations/correlation.h"
 #include "assessment/statistics/relations/proportions.h"
 #include "casedb/database/uuid.h"
 #include "casedb/grading/dependability.h"
+#include "casedb/people/simulated_people.h"
 
 namespace seldinger::reports {
 namespace {
@@ -40,7 +42,7 @@ std::map<std::string, PersonsPasses> by_person(const ReportedCase& one) {
 }  // namespace
 
 CaseReport case_report_of(casedb::Library& library, casedb::Learners whose, const std::string& program_version) {
-  CaseReport report{whose, casedb::now_us(), program_version, {}, {}};
+  CaseReport report{whose, casedb::now_us(), program_version, {}, {}, {}};
   const std::vector<casedb::LearningAttempt> attempts = casedb::learning_attempts(library, whose);
   report.dependability = casedb::dependability(attempts);
   for (const casedb::CaseRow& row : casedb::list_case_heads(library)) {
@@ -55,6 +57,10 @@ CaseReport case_report_of(casedb::Library& library, casedb::Learners whose, cons
     for (ReportedCase& one : report.cases)
       if (one.family_id == attempt.family_id) one.attempts.push_back(attempt);
   std::erase_if(report.cases, [](const ReportedCase& one) { return one.attempts.empty(); });
+  if (whose == casedb::Learners::simulated)
+    for (const casedb::SimulatedTruth& one : casedb::list_simulated_truths(library))
+      report.planted[one.person_id] =
+          std::accumulate(one.ability.begin(), one.ability.end(), 0.0) / static_cast<double>(one.ability.size());
   return report;
 }
 
@@ -90,6 +96,23 @@ std::vector<CaseNumbers> case_numbers(const std::vector<ReportedCase>& cases) {
     made.discrimination = statistics::settled(statistics::pearson(table, {}));
   }
   return numbers;
+}
+
+statistics::Answer against_planted(const CaseReport& report) {
+  std::map<std::string, std::vector<double>> shares;
+  for (const ReportedCase& one : report.cases)
+    for (const auto& [person, here] : by_person(one)) shares[person].push_back(here.share());
+  statistics::DataTable table;
+  table.values.push_back({"passed", {}});
+  for (const auto& [person, own] : shares) {
+    const auto found = report.planted.find(person);
+    if (found == report.planted.end()) continue;
+    table.values.front().values.push_back(std::accumulate(own.begin(), own.end(), 0.0) /
+                                          static_cast<double>(own.size()));
+    table.x.push_back(found->second);
+    ++table.rows;
+  }
+  return statistics::settled(statistics::spearman(table, {}));
 }
 
 std::string advice_text(const CaseNumbers& numbers) {

@@ -2,6 +2,7 @@
 // about a person needs, and which to change or retire.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct CaseReport {
   std::string program_version;
   std::vector<ReportedCase> cases;  // oldest first; those that somebody attempted
   assessment::statistics::Answer dependability;
+  std::map<std::string, double> planted;  // of simulated people: the mean of the abilities before practice
 };
 CaseReport case_report_of(casedb::Library& library, casedb::Learners whose, const std::string& program_version);
 
@@ -37,6 +39,9 @@ struct CaseNumbers {
 };
 // In the order of the cases.
 std::vector<CaseNumbers> case_numbers(const std::vector<ReportedCase>& cases);
+
+// Of the persons' mean share of passes with what was planted in them, by ranks.
+assessment::statistics::Answer against_planted(const CaseReport& report);
 
 // "Change or retire: …", "Keep", "Too few to say: …"; thresholds are judgement, and told by the page.
 std::string advice_text(const CaseNumbers& numbers);

@@ -79,7 +79,8 @@ void add_charts(Html& html, const CaseReport& report, const std::vector<CaseNumb
 
 void add_table(Html& html, const CaseReport& report, const std::vector<CaseNumbers>& numbers) {
   html.raw(
-      "<h2>Case by case</h2>\n<div class=\"wide\"><table class=\"outcomes\"><thead><tr><th scope=\"col\">Case and "
+      "<h2>Case by case</h2>\n<div class=\"wide\"><table class=\"outcomes numbers\"><thead><tr><th "
+      "scope=\"col\">Case and "
       "pass rule</th><th "
       "scope=\"col\" class=\"number\">Attempts</th><th scope=\"col\">Pass at first</th><th "
       "scope=\"col\">Pass at last</th><th scope=\"col\">With the others</th><th scope=\"col\">What to do"
@@ -126,6 +127,26 @@ void add_dependability(Html& html, const CaseReport& report) {
     html.raw("<p class=\"note\">").text(note).raw("</p>\n");
 }
 
+void add_planted(Html& html, const CaseReport& report) {
+  const statistics::Answer answer = against_planted(report);
+  html.raw("<h2>Against what was planted</h2>\n<p>");
+  if (!answer.estimate) {
+    html.raw("Not estimated: ")
+        .text(answer.estimable() ? "the values do not differ"
+                                 : statistics::find_reason(answer.reason.c_str())->words);
+  } else {
+    html.raw(
+        "Persons’ share of passes goes with the abilities that were planted in them, before practice, by "
+        "Spearman’s ρ of ");
+    html.text(number_text(*answer.estimate, 2));
+    if (answer.ci95)
+      html.text(" (95 % interval " + number_text(answer.ci95->low, 2) + " to " + number_text(answer.ci95->high, 2) +
+                ")");
+    html.raw("; ").text(std::to_string(answer.n)).raw(" persons");
+  }
+  html.raw(".</p>\n");
+}
+
 }  // namespace
 
 std::string case_report_page(const CaseReport& report) {
@@ -137,6 +158,7 @@ std::string case_report_page(const CaseReport& report) {
   add_table(html, report, numbers);
   add_charts(html, report, numbers);
   add_dependability(html, report);
+  if (!report.planted.empty()) add_planted(html, report);
   return learning_page("Cases – difficulty and discrimination", html);
 }
 

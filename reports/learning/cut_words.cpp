@@ -24,7 +24,7 @@ std::string cut_method_text(const std::string& method) {
 }
 
 std::string cut_scale_text(const casedb::Cut& cut) {
-  if (cut.metric_id.empty()) return "share of items that are right";
+  if (cut.metric_id.empty()) return "Share of items that are right";
   return metric_label(cut.metric_id) + ", " + unit_of(cut);
 }
 

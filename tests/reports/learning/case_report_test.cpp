@@ -94,6 +94,23 @@ TEST(CaseReport, TellsNothingOfFourPeopleButAllOfFourSimulatedOnes) {
   EXPECT_THAT(simulated, HasSubstr("Case &lt;hard&gt;"));
 }
 
+TEST(CaseReport, HoldsPassesAgainstWhatWasPlanted) {
+  CaseReport report;
+  report.whose = casedb::Learners::simulated;
+  for (const char* family : {"one", "two"}) {
+    ReportedCase& made = report.cases.emplace_back();
+    made.family_id = family;
+    for (int person = 0; person < 6; ++person)
+      for (int i = 0; i < 6; ++i)
+        made.attempts.push_back(fixtures::planted_attempt("p" + std::to_string(person), family, i < person, i));
+  }
+  for (int person = 0; person < 6; ++person) report.planted["p" + std::to_string(person)] = 0.3 * person;
+  EXPECT_NEAR(against_planted(report).estimate.value(), 1.0, 1e-12);
+  EXPECT_THAT(case_report_page(report), HasSubstr("Spearman’s ρ of 1.00"));
+  report.planted["p5"] = -1.0;  // the last becomes the first: 1 − 6 (25 + 5) / (6 · 35)
+  EXPECT_NEAR(against_planted(report).estimate.value(), 1.0 / 7.0, 1e-12);
+}
+
 TEST(CaseReport, OfNothingIsAPage) {
   EXPECT_THAT(case_report_page({}), HasSubstr("There is no attempt yet"));
 }

@@ -44,7 +44,7 @@ TEST(StandardReport, PutsMethodsOnOneAxisAndMarksTheOneThatHolds) {
   EXPECT_THAT(page, HasSubstr("at most 5.5 mm (4.5 to 6.5), n = 12, Borderline persons</strong> holds"));
   EXPECT_THAT(page, HasSubstr("The case’s rule asks for at most 5 mm."));
   EXPECT_THAT(page, HasSubstr("frozen by P-2"));
-  EXPECT_THAT(page, HasSubstr("share of items"));
+  EXPECT_THAT(page, HasSubstr("Share of items that are right"));
   EXPECT_THAT(page, HasSubstr("&quot;&lt;b&gt;&quot;"));
   std::size_t charts = 0, marked = 0;
   for (std::size_t at = 0; (at = page.find("<svg class=\"intervals\"", at)) != page.npos; ++at) ++charts;
