@@ -56,6 +56,10 @@ namespace seldinger::app {
   ROW(attempt_delete)           \
   ROW(standard_set)             \
   ROW(standard_show)            \
+  ROW(standard_propose)         \
+  ROW(standard_freeze)          \
+  ROW(standard_cuts)            \
+  ROW(standard_dependability)   \
   ROW(curriculum_add)           \
   ROW(curriculum_item)          \
   ROW(curriculum_publish)       \

@@ -205,6 +205,30 @@ CREATE TABLE curriculum_item (
   UNIQUE (curriculum_id, family_id)
 ) STRICT;
 
+CREATE TABLE cut (
+  cut_id TEXT NOT NULL PRIMARY KEY CHECK (length(cut_id) = 36),
+  case_id TEXT NOT NULL REFERENCES training_case (case_id),
+  metric_id TEXT CHECK (metric_id <> ''), -- null: of a share of items, as judges of Angoff's method have it
+  version INTEGER CHECK (version > 0), -- of the metric
+  higher_is_better INTEGER NOT NULL CHECK (higher_is_better IN (0, 1)),
+  method TEXT NOT NULL CHECK (method IN ('contrasting_groups', 'borderline', 'angoff', 'hofstee')),
+  options TEXT NOT NULL, -- of the method: k=v,k=v
+  data TEXT NOT NULL CHECK (data <> ''), -- CSV, columns value, group, subject, rater, x as far as given
+  value REAL NOT NULL,
+  low REAL, -- both null: there is no interval
+  high REAL CHECK (high >= low),
+  n INTEGER NOT NULL CHECK (n > 0), -- persons or judges that it rests on
+  words TEXT NOT NULL CHECK (words <> ''), -- the method in words, with what was chosen
+  proposed_by TEXT NOT NULL REFERENCES person (person_id),
+  proposed_us INTEGER NOT NULL,
+  frozen_by TEXT REFERENCES person (person_id),
+  frozen_us INTEGER,
+  CHECK ((metric_id IS NULL) = (version IS NULL)),
+  CHECK ((low IS NULL) = (high IS NULL)),
+  CHECK ((frozen_by IS NULL) = (frozen_us IS NULL)),
+  CHECK (frozen_by IS NULL OR frozen_by <> proposed_by)
+) STRICT;
+
 CREATE TABLE desk_response (
   response_id TEXT NOT NULL PRIMARY KEY REFERENCES response_set (response_id) DEFERRABLE INITIALLY DEFERRED,
   round_id TEXT NOT NULL REFERENCES questionnaire_round (round_id),
@@ -718,6 +742,8 @@ CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE wi
 
 CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
 
+CREATE INDEX cut_by_case ON cut (case_id);
+
 CREATE INDEX desk_response_by_person ON desk_response (person_id);
 
 CREATE UNIQUE INDEX desk_response_by_round ON desk_response (round_id, person_id);
@@ -948,6 +974,24 @@ END;
 CREATE TRIGGER curriculum_published_keeps_its_title BEFORE UPDATE OF title ON curriculum WHEN OLD.state <> 'draft'
 BEGIN
   SELECT RAISE(ABORT, 'a published curriculum is not changed: make another');
+END;
+
+CREATE TRIGGER cut_is_immutable BEFORE UPDATE ON cut
+WHEN OLD.frozen_us IS NOT NULL OR NEW.frozen_us IS NULL OR NEW.cut_id <> OLD.cut_id OR NEW.case_id <> OLD.case_id
+  OR NEW.metric_id IS NOT OLD.metric_id OR NEW.version IS NOT OLD.version
+  OR NEW.higher_is_better <> OLD.higher_is_better OR NEW.method <> OLD.method OR NEW.options <> OLD.options
+  OR NEW.data <> OLD.data OR NEW.value <> OLD.value OR NEW.low IS NOT OLD.low OR NEW.high IS NOT OLD.high
+  OR NEW.n <> OLD.n OR NEW.words <> OLD.words OR NEW.proposed_by <> OLD.proposed_by
+  OR NEW.proposed_us <> OLD.proposed_us
+BEGIN
+  SELECT RAISE(ABORT, 'a cut is not changed: propose another');
+END;
+
+CREATE TRIGGER cut_is_kept BEFORE DELETE ON cut
+WHEN OLD.case_id NOT IN (SELECT id FROM erasing)
+  AND EXISTS (SELECT 1 FROM training_case WHERE training_case.case_id = OLD.case_id)
+BEGIN
+  SELECT RAISE(ABORT, 'a cut cannot be deleted');
 END;
 
 CREATE TRIGGER desk_response_goes_with_its_answers BEFORE DELETE ON desk_response

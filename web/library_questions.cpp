@@ -7,10 +7,13 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "casedb/database/credentials.h"
 #include "casedb/database/uuid.h"
+#include "casedb/database/sqlite.h"
+#include "casedb/grading/dependability.h"
 #include "casedb/people/noted_tries.h"
 #include "casedb/people/simulated_people.h"
 #include "reports/words/grade_words.h"
@@ -287,7 +290,9 @@ class LibraryQuestions final : public Questions {
 
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::load_parts(pages_.library, case_id);
+    auto parts = casedb::load_parts(pages_.library, case_id);
+    if (parts && !parts->row.rule.criteria.empty()) parts->dependability = dependability();
+    return parts;
   }
 
   std::string case_mark(const std::string& case_id) override {
@@ -325,6 +330,16 @@ class LibraryQuestions final : public Questions {
   }
 
  private:
+  // Of everybody's attempts: kept until somebody stores something.
+  const assessment::statistics::Answer& dependability() {
+    const auto version = pages_.library.database().integer("PRAGMA data_version");
+    if (!dependability_ || dependable_at_ != version) {
+      dependability_ = casedb::dependability(casedb::learning_attempts(pages_.library, casedb::Learners::people));
+      dependable_at_ = version;
+    }
+    return *dependability_;
+  }
+
   Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
   Handle first_, second_;      // a password is long to hash
   Handle changes_;             // a change may wait for another program's
@@ -334,6 +349,8 @@ class LibraryQuestions final : public Questions {
   };
   std::map<std::string, Kept> records_;  // by person, under pages_.mutex
   CaseChecker check_;
+  std::optional<assessment::statistics::Answer> dependability_;
+  std::int64_t dependable_at_ = 0;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
   casedb::Health health_ = casedb::Health::ok;

@@ -23,4 +23,33 @@ std::string json_of_standards(const std::vector<casedb::Standard>& standards) {
   return casedb::text({{"standards", list}});
 }
 
+std::string json_of_cut_id(const std::string& cut_id) {
+  return casedb::text({{"cut_id", cut_id}});
+}
+
+std::string json_of_cuts(const std::vector<casedb::Cut>& cuts) {
+  auto list = nlohmann::ordered_json::array();
+  for (const casedb::Cut& one : cuts) {
+    nlohmann::ordered_json interval = nullptr;
+    if (one.interval) interval = {one.interval->low, one.interval->high};
+    list.push_back(
+        {{"cut_id", one.cut_id},
+         {"metric", casedb::maybe(one.metric_id)},
+         {"version", one.metric_id.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(one.version)},
+         {"higher_is_better", one.higher_is_better},
+         {"method", one.method},
+         {"options", one.options},
+         {"value", one.value},
+         {"ci95", std::move(interval)},
+         {"n", one.n},
+         {"words", one.words},
+         {"proposed_by", one.proposed_by},
+         {"proposed_us", one.proposed_us},
+         {"frozen_by", casedb::maybe(one.frozen_by)},
+         {"frozen_us", casedb::maybe(one.frozen_us)},
+         {"data", one.data}});
+  }
+  return casedb::text({{"cuts", list}});
+}
+
 }  // namespace seldinger::app

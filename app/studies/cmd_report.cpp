@@ -1,35 +1,65 @@
 // report.
+#include <algorithm>
 #include <cstdio>
 
 #include "app/cli/file.h"
 #include "app/cli/version.h"
+#include "app/cli/words.h"
 #include "app/studies/acting_in_study.h"
+#include "app/studies/learning_reports.h"
 #include "reports/questionnaires/workshops_page.h"
 #include "reports/studies/validity_report.h"
 
 namespace seldinger::app {
 namespace {
 
-int run_report(const Arguments& arguments) {
-  const std::string kind = arguments.positional(0);
-  if (kind != "validity" && kind != "workshops") throw UsageError("KIND is validity or workshops");
-  const auto out = file_of("--out", arguments.required("--out"), {".html"});
-  if (kind == "workshops") {
-    write_file(out, reports::workshops_page());
-    return kDone;
-  }
+base::Result<std::string> validity_report(const Arguments& arguments) {
   arguments.required("--study");
   auto open = open_study(arguments, "--study", casedb::Action::plan_study);
-  if (!open) return refuse(open.error());
+  if (!open) return open.error();
   const auto plan = casedb::find_plan(open->library, open->study.study_id);
-  if (!plan) return refuse(plan.error());
-  write_file(out, reports::validity_page(
-                      reports::validity_report_of(open->library, open->study, *plan, "report validity", kVersion)));
+  if (!plan) return plan.error();
+  return reports::validity_page(
+      reports::validity_report_of(open->library, open->study, *plan, "report validity", kVersion));
+}
+
+base::Result<std::string> workshops_report(const Arguments&) {
+  return reports::workshops_page();
+}
+
+struct Kind {
+  const char* name;
+  base::Result<std::string> (*page)(const Arguments&);
+};
+constexpr Kind kKinds[] = {{"validity", &validity_report},
+                           {"learner", &learner_report},
+                           {"case", &case_report},
+                           {"standard", &standard_report},
+                           {"workshops", &workshops_report}};
+
+int run_report(const Arguments& arguments) {
+  const auto kind = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                 [&](const Kind& one) { return one.name == arguments.positional(0); });
+  if (kind == std::end(kKinds)) {
+    std::vector<std::string> names;
+    for (const Kind& one : kKinds) names.emplace_back(one.name);
+    throw UsageError("KIND is " + one_of(names) + did_you_mean(arguments.positional(0), names));
+  }
+  const auto out = file_of("--out", arguments.required("--out"), {".html"});
+  const auto page = kind->page(arguments);
+  if (!page) return refuse(page.error());
+  write_file(out, *page);
   return kDone;
 }
 
 constexpr Option kReportOptions[] = {
-    kLibrary, {"--study", "STUDY", "of this study, for validity"}, {"--out", "FILE.html", "the file"}};
+    kLibrary,
+    {"--study", "STUDY", "of this study, for validity"},
+    {"--user", "NAME", "of this person, for learner"},
+    {"--case", "CASE", "of this case, for standard"},
+    {"--simulated", nullptr, "of simulated people, for learner and case; they never stand beside people"},
+    {"--person", "GROUP-NUMBER", "which simulated person, for learner: novice-3"},
+    {"--out", "FILE.html", "the file"}};
 
 }  // namespace
 
@@ -42,8 +72,9 @@ Command report_command() {
           .acts = true,
           .summary =
               "Writes a report as one file that opens offline and prints. KIND: validity, of a study "
-              "(docs/studies.md), which is a look, and noted; or workshops, the thesis' own three "
-              "(docs/questionnaires.md).",
+              "(docs/studies.md), which is a look, and noted; learner, how somebody has learnt; case, how hard the "
+              "cases are, what they tell apart and how many a decision takes; standard, the cuts of a case (all "
+              "three docs/grading.md); or workshops, the thesis' own three (docs/questionnaires.md).",
           .run = &run_report};
 }
 

@@ -245,6 +245,7 @@ Collected collect(const Plan& plan, const Outcome& outcome, const std::vector<St
         continue;
       }
       contributions.push_back(one);
+      if (one.counted == Counted::value) value.values.push_back(one.value);
       hands.insert(led_by);
     }
     const OnePerson sum = of_one_person(*info, contributions);

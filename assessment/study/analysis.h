@@ -39,6 +39,7 @@ struct PersonValue {
   Standing standing = Standing::absent;
   double value = 0.0;  // of Standing::value
   std::size_t attempts = 0;
+  std::vector<double> values{};  // of the attempts that count and have one, oldest first
 };
 
 struct GroupSum {

@@ -52,6 +52,8 @@ enum class Action {
   // Standards. "own": one that grades oneself.
   see_standard_attempts,  // which attempts made it
   set_standard,
+  propose_cut,  // by a method of standard setting
+  freeze_cut,   // "own": proposed by oneself
   // People.
   see_cohort,             // who is in it, by name
   see_cohort_cells,       // how many are in it and what they did together, from kSmallestCell people upwards
@@ -288,6 +290,14 @@ inline constexpr Permission kPermissions[] = {
     {Action::set_standard,
      "set_standard",
      "a director sets a standard that none of their own attempts is part of",
+     {{{Role::director}, {}, Whose::anothers}}},
+    {Action::propose_cut,
+     "propose_cut",
+     "a mentor or a director proposes a cut",
+     {{{Role::mentor, Role::director}}}},
+    {Action::freeze_cut,
+     "freeze_cut",
+     "a director freezes a cut, as a second person: not the one who proposed it",
      {{{Role::director}, {}, Whose::anothers}}},
 
     {Action::see_cohort,

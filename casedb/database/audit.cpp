@@ -46,6 +46,8 @@ constexpr ActRow kActRows[] = {
     {Act::remove_curriculum, "remove_curriculum", "takes a curriculum away"},
     {Act::retire_curriculum, "retire_curriculum", "retires a curriculum"},
     {Act::set_standard, "set_standard", "sets a standard"},
+    {Act::propose_cut, "propose_cut", "proposes a cut"},
+    {Act::freeze_cut, "freeze_cut", "freezes a cut that somebody else proposed"},
     {Act::make_cohort, "make_cohort", "makes a cohort"},
     {Act::enrol, "enrol", "enrols somebody"},
     {Act::end_enrolment, "end_enrolment", "ends an enrolment"},

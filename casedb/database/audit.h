@@ -48,6 +48,8 @@ enum class Act {
   remove_curriculum,
   retire_curriculum,
   set_standard,
+  propose_cut,
+  freeze_cut,
   // Cohorts, studies, consent.
   make_cohort,
   enrol,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "assessment/statistics/answer.h"
 #include "casedb/cases/authoring.h"
 #include "casedb/cases/received.h"
 #include "casedb/cases/versions.h"
@@ -19,6 +20,8 @@ struct CaseParts {
   std::vector<Decision> decisions;
   std::optional<Received> received{};  // it came in a bundle
   bool provisional = true;             // too few consultants have set the standard
+  // Of passing cases of the library, by what people did; none: nobody asked (casedb/grading/dependability.h).
+  std::optional<assessment::statistics::Answer> dependability{};
 };
 base::Result<CaseParts> load_parts(Library& library, const std::string& case_id);  // `no_case`
 CaseParts load_parts(Library& library, CaseRow row);

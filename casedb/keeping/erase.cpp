@@ -39,6 +39,7 @@ constexpr PersonColumn kKept[] = {
     {"study_plan", "frozen_by"},      {"study_look", "person_id"},
     {"study_deviation", "person_id"}, {"questionnaire_round", "opened_by"},
     {"workshop", "opened_by"},
+    {"cut", "proposed_by"},           {"cut", "frozen_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {

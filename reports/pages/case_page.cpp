@@ -5,6 +5,7 @@
 #include "assessment/registry.h"
 #include "casedb/cases/setting_table.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -113,6 +114,8 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
            row.rule.criteria.empty() ? ""
            : parts.provisional       ? "provisional: no standard of consultants has been set"
                                      : "consultants have set the standard");
+  if (parts.dependability)
+    add_fact(html, "What it tells", dependability_text(*parts.dependability, casedb::Learners::people));
   end_table(html);
 
   add_table(html, "Decisions");

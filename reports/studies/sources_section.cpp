@@ -129,6 +129,7 @@ Html sources_section(const ValidityReport& report) {
   if (!report.plan.frozen()) return html.raw("</section>\n");
   html.add(response_panel(report));
   html.add(structure_panels(report));
+  html.add(internal_structure_panel(report));
   if (report.result.secondary.empty()) {
     html.add(no_evidence_yet("Relations to other variables", "Secondary outcomes", "The plan names none."));
   } else {
@@ -138,8 +139,7 @@ Html sources_section(const ValidityReport& report) {
         .raw("</article>\n");
   }
   if (!report.ratings.empty()) html.add(ratings_panel(report));
-  html.add(no_evidence_yet("Consequences", "What is decided by the numbers, and for whom",
-                           "No pass mark is part of this plan, so no false passes or failures can be told."));
+  html.add(consequences_panel(report));
   return html.raw("</section>\n");
 }
 

@@ -3,6 +3,7 @@
 
 #include "reports/pages/page.h"
 #include "reports/pages/style_sheet.h"
+#include "reports/studies/study_style.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
 #include "sim/base/embedded.h"
@@ -12,6 +13,10 @@ std::span<const base::EmbeddedFile> study_files();
 }
 
 namespace seldinger::reports {
+
+std::string report_style() {
+  return std::string(style_sheet()) + std::string(base::content_of(embedded::study_files(), "report.css"));
+}
 
 std::string validity_page(const ValidityReport& report) {
   const assessment::study::Plan& plan = report.plan.plan;
@@ -31,9 +36,7 @@ std::string validity_page(const ValidityReport& report) {
        {&argument_section, &conclusions_section, &sources_section, &flow_section, &limits_section,
         &reviewer_section, &provenance_section, &checklist_section, &plan_section})
     html.add(section(report));
-  const std::string style =
-      std::string(style_sheet()) + std::string(base::content_of(embedded::study_files(), "report.css"));
-  return page_with_style(plan.title + " – validity", style, html);
+  return page_with_style(plan.title + " – validity", report_style(), html);
 }
 
 }  // namespace seldinger::reports

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assessment/study/analysis.h"
+#include "casedb/grading/cuts.h"
 #include "casedb/people/consent.h"
 #include "casedb/ratings/rated_people.h"
 #include "casedb/studies/looks.h"
@@ -30,6 +31,8 @@ struct ValidityReport {
   std::vector<casedb::RatedPeople> ratings;
   std::vector<casedb::RatedRound> rated_rounds;
   std::vector<FormReliability> forms;
+  std::map<std::string, assessment::PassRule> rules;     // of the plan's cases, by id
+  std::map<std::string, std::vector<casedb::Cut>> cuts;  // the same
   std::vector<casedb::StudyNote> looks, deviations;
 };
 

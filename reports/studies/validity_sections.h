@@ -14,6 +14,9 @@ Html argument_section(const ValidityReport& report);
 Html conclusions_section(const ValidityReport& report);
 Html sources_section(const ValidityReport& report);   // panels by Messick's sources
 Html structure_panels(const ValidityReport& report);  // of them: internal structure
+// Of them, too: how far repeated attempts agree, and what pass marks do.
+Html internal_structure_panel(const ValidityReport& report);
+Html consequences_panel(const ValidityReport& report);
 Html flow_section(const ValidityReport& report);
 Html limits_section(const ValidityReport& report);      // what the data cannot say
 Html reviewer_section(const ValidityReport& report);    // what a reviewer will ask

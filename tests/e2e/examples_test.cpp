@@ -47,6 +47,7 @@ class Examples : public testing::Test {
            "0 0\n"
            "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n"
         << std::string(8, '\1');
+    std::ofstream(at_ / "meeting.csv") << "mm,rating\n9,1\n8,1\n7,2\n6.5,2\n5,3\n4,3\n3,4\n2,4\n";
     std::ofstream(at_ / "scores.csv") << "score,experience,before,after\n61,novice,50,61\n55,novice,48,55\n"
                                          "80,expert,79,80\n91,expert,83,91\n";
     for (const char* typed : {"first.csv", "second.csv"})
@@ -67,6 +68,10 @@ class Examples : public testing::Test {
     line = with(with(with(line, " CASE", " " + case_), " TEXT", " " + text_), " KEY", " " + key_);
     line = with(with(line, " CODE", " " + code_), " RATED", " " + rated_);
     line = with(line, " DAY", " " + day_);
+    if (line.find(" CUT") != std::string::npos) {
+      const Json cuts = Json::parse(type("standard cuts Built --json").out, nullptr, false);
+      line = with(line, " CUT", " " + cuts["cuts"].at(0)["cut_id"].get<std::string>());
+    }
     if (line.find(" ATTEMPT") == std::string::npos) return line;
     const Json listed = Json::parse(type("attempt list --json").out, nullptr, false);
     return with(line, "ATTEMPT", listed["attempts"].at(0)["attempt_id"].get<std::string>().substr(0, 30));

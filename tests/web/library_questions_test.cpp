@@ -13,6 +13,7 @@
 #include "casedb/database/audit.h"
 #include "casedb/database/sqlite.h"
 #include "casedb/people/consent.h"
+#include "reports/pages/case_page.h"
 #include "tests/fixtures/cohort.h"
 #include "tests/fixtures/folders.h"
 #include "tests/fixtures/sound_check.h"
@@ -283,6 +284,22 @@ TEST(OpenServer, RefusesOtherHosts) {
   const auto opened = open_server(fresh_library(), {"0.0.0.0", 0}, "", [](const std::string&) {});
   ASSERT_FALSE(opened.has_value());
   EXPECT_EQ(opened.error().code, "not_loopback");
+}
+
+// What passing tells stands on the page of each case that can be passed, and is renewed when somebody stores
+// something.
+TEST(LibraryQuestions, TellWhatPassingACaseTells) {
+  auto library = fresh_library();
+  const std::string plain = add_small_case(library).first, graded = add_small_case(library).first;
+  casedb::CaseSetting setting = casedb::find_case(library, graded).value();
+  setting.rule.criteria.push_back(assessment::criterion_from("hit >= 1").value());
+  ASSERT_TRUE(casedb::set_setting(library, graded, setting));
+  const auto questions = std::move(questions_of(std::move(library)).value());
+  EXPECT_FALSE(questions->find_case(plain)->dependability.has_value());
+  const auto parts = questions->find_case(graded);
+  ASSERT_TRUE(parts->dependability.has_value());
+  EXPECT_EQ(parts->dependability->reason, "no_data");
+  EXPECT_THAT(reports::case_page({"mona", "mentor", ""}, *parts), HasSubstr("Φ is not estimated"));
 }
 
 }  // namespace

@@ -13,7 +13,10 @@
 namespace seldinger::assessment::statistics {
 namespace {
 
-constexpr double kMostRate = 8.0;  // of the power law's exponent; of the exponential, over all of the t
+constexpr double kMostRate = 8.0;  // of the power law's exponent
+// Of the exponential, over all of the t: as many as there are different t, so that of a long course a plateau
+// reached within a few attempts is found, too.
+constexpr double kMostRates = 100.0;
 constexpr int kPlaces = 400;
 constexpr double kLeastTime = 1e-9;
 constexpr double kAlike = 1e-11;  // share of the variation below which what is left is rounding
@@ -26,6 +29,7 @@ using Eigen::VectorXd;
 // J. Numer. Anal. 10, 1973), so that one unknown is left to search, over all that it may be.
 struct Projection {
   VectorXd s, y;
+  double most_rate = kMostRate;
 
   VectorXd shape(double b) const {
     if (b == 0.0) return -s;
@@ -51,7 +55,7 @@ struct Projection {
 
 double best_rate(const Projection& of) {
   double best = 0.0, least = std::numeric_limits<double>::infinity();
-  const auto place = [](int i) { return kMostRate * (2.0 * i / kPlaces - 1.0); };
+  const auto place = [&](int i) { return of.most_rate * (2.0 * i / kPlaces - 1.0); };
   int at = 0;
   for (int i = 0; i <= kPlaces; ++i) {
     const double rss = of.at(place(i)).rss;
@@ -112,13 +116,15 @@ std::optional<LearningCurve> fit_curve(CurveKind kind, std::span<const double> t
     of.s[static_cast<Index>(i)] = kind == CurveKind::power ? std::log(t[i]) : t[i] / greatest;
     of.y[static_cast<Index>(i)] = y[i] / y_scale;
   }
+  if (kind == CurveKind::exponential)
+    of.most_rate = std::clamp(static_cast<double>(different(t)), kMostRate, kMostRates);
   const double b = best_rate(of);
   const Projection::Line line = of.at(b);
   const double total = (of.y.array() - of.y.mean()).square().sum();
   if (!std::isfinite(line.rss) || !(total > 0.0) || !std::isfinite(line.alpha)) return std::nullopt;
   LearningCurve curve;
   curve.kind = kind;
-  curve.at_bound = std::abs(b) >= kMostRate || b == 0.0;
+  curve.at_bound = std::abs(b) >= of.most_rate || b == 0.0;
   curve.b = kind == CurveKind::power ? b : b / greatest;
   curve.a = b == 0.0 ? 0.0 : y_scale * line.alpha / b;
   curve.c = y_scale * (line.gamma - (b == 0.0 ? 0.0 : line.alpha / b));

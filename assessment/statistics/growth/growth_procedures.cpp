@@ -4,8 +4,10 @@
 #include <string>
 
 #include "assessment/statistics/growth/cusum_chart.h"
+#include "assessment/statistics/growth/decay.h"
 #include "assessment/statistics/growth/learning_curve.h"
 #include "assessment/statistics/growth/mixed_model.h"
+#include "assessment/statistics/growth/proficiency.h"
 #include "assessment/statistics/growth/rasch/rasch.h"
 
 namespace seldinger::assessment::statistics {
@@ -108,6 +110,31 @@ Answer run_rasch(const DataTable& table, const ProcedureOptions&) {
   return rasch(table);
 }
 
+Answer run_proficiency(const DataTable& table, const ProcedureOptions& options) {
+  ProficiencyRule rule;
+  rule.share = options.number("share", rule.share).value_or(kNoNumber);
+  rule.sure = options.number("sure", rule.sure).value_or(kNoNumber);
+  const auto last = options.whole("last", rule.last, 1, 1000);
+  if (!last || !sound(rule))
+    return bad_option("proficiency", table, "options share, sure and last: shares between 0 and 1, last 1 to 1000");
+  rule.last = *last;
+  return proficiency(table, rule);
+}
+
+Answer run_decay(const DataTable& table, const ProcedureOptions& options) {
+  DecayOptions how;
+  const std::string better = options.text("better", "lower");
+  how.higher_is_better = better == "higher";
+  how.pause = options.number("pause", how.pause).value_or(kNoNumber);
+  if (!(how.pause > 0.0) || (better != "lower" && better != "higher"))
+    return bad_option("decay", table, "options pause and better: pause above 0, better lower or higher");
+  return decay(table, how);
+}
+
+constexpr ProcedureOption kDecayOptions[] = {
+    {"pause", "a number above 0, 1 unless given", "the least difference of x that is a pause"},
+    {"better", "lower or higher", "which values are better; lower unless given"},
+};
 constexpr ProcedureOption kLcCusumOptions[] = {
     {"adequate", "a share, 0.10 unless given", "rate of failure of who is competent"},
     {"inadequate", "a share, 0.30 unless given", "rate of failure of who is not"},
@@ -124,6 +151,11 @@ constexpr ProcedureOption kCusumOptions[] = {
     {"shift", "0.1 to 5, 1 unless given", "the change that is to be found, in SDs"},
     {"run_length", "10 to 100000, 500 unless given", "attempts until a false alarm, on average"},
     {"worse", "higher or lower", "the side on which values are worse; higher unless given"},
+};
+constexpr ProcedureOption kProficiencyOptions[] = {
+    {"share", "a share, 0.8 unless given", "of attempts that a proficient person passes, or more"},
+    {"sure", "a share, 0.9 unless given", "the probability from which on somebody counts as proficient"},
+    {"last", "1 to 1000, 10 unless given", "how many of the last attempts count"},
 };
 constexpr ProcedureOption kLearningCurveOptions[] = {
     {"better", "lower or higher", "whether practice makes values fall or rise; lower unless given"},
@@ -161,6 +193,14 @@ constexpr Procedure kProcedures[] = {
      &run_cusum,
      "Page 1954; limit by enumeration, for values of any size by quadrature of the run length",
      "R spc (xcusum.arl, xcusum.crit) 1e-6; 100,000 simulated charts within 3 SE"},
+    {"proficiency",
+     "Whether a learner now passes as often as is asked, as a probability.",
+     "value: 1 passed, 0 not, in order of x or of the rows; subject: a row for each",
+     {},
+     kProficiencyOptions,
+     &run_proficiency,
+     "beta posterior with Jeffreys' prior (Brown, Cai, DasGupta 2001)",
+     "R pbeta, qbeta 1e-9; two running by enumeration of all sequences"},
     {"learning_curve",
      "How fast a value changes with practice, and where it levels off.",
      "value; x: number or time of the attempt, else the order of the rows; subject: a curve for each",
@@ -169,6 +209,9 @@ constexpr Procedure kProcedures[] = {
      &run_learning_curve,
      "power law of practice (Newell and Rosenbloom 1981), exponential (Heathcote et al. 2000), AICc",
      "R nls 1e-6"},
+    {"decay", "What is lost over a pause, and how much of it goes with a longer one.",
+     "value; subject; x: when, in days", Needs{.subject = true, .x = true}, kDecayOptions, &run_decay,
+     "Arthur et al., Hum Perform 1998;11:57, as a paired comparison", "R t.test and lm, 1e-9"},
     {"mixed_model", "How values of repeated persons change with x and differ between groups.",
      "value; subject: two persons at least with several values; x; group", kRepeated, kMixedModelOptions,
      &run_mixed_model, "REML as in Bates et al. 2015; df of Satterthwaite after Giesbrecht and Burns 1985",

@@ -76,6 +76,11 @@ void tell_one(Answer& answer, const Series& series, const BothCurves& curves, co
     answer.ci95 = Interval{best.b - reach, best.b + reach};
   }
   answer.more = {{"attempts", static_cast<double>(series.values.size())}, {"a", best.a}, {"plateau", best.c}};
+  if (!best.at_bound && std::isfinite(best.se_c)) {
+    const double reach = student_t_quantile(0.975, df) * best.se_c;
+    answer.more.push_back({"plateau_low", best.c - reach});
+    answer.more.push_back({"plateau_high", best.c + reach});
+  }
   if (best.at_bound)
     answer.notes.emplace_back(
         "The rate is at the edge of what is searched: these values show no curve of this form.");
@@ -132,6 +137,16 @@ Answer of_several(Answer answer, const PersonsSeries& series, const LearningCurv
 }
 
 }  // namespace
+
+std::optional<LearningCurve> better_curve(std::span<const double> t, std::span<const double> y) {
+  const BothCurves curves{fit_curve(CurveKind::power, t, y), fit_curve(CurveKind::exponential, t, y)};
+  const LearningCurve* best = curves.better();
+  return best == nullptr ? std::nullopt : std::optional(*best);
+}
+
+double value_at(const LearningCurve& curve, double t) {
+  return curve.a * (curve.kind == CurveKind::power ? std::pow(t, -curve.b) : std::exp(-curve.b * t)) + curve.c;
+}
 
 Answer learning_curve(const DataTable& table, const LearningCurveOptions& options) {
   const PersonsSeries series = persons_series(table);

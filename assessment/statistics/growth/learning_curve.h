@@ -21,9 +21,14 @@ struct LearningCurve {
   bool at_bound = false;  // b is as large or as small as it may be: there is no such curve in these values
 };
 
-// The curve of least squares, b within kLeastRate and kMostRate; of an exponential, b·(greatest t). Nothing: fewer
-// than five values, less than four different t, or values that do not vary; for the power law also t below 1e-9.
+// The curve of least squares, |b| up to 8; of an exponential, b·(greatest t) up to as many as there are different
+// t, 8 to 100. Nothing: fewer than five values, less than four different t, or values that do not vary; for the
+// power law also t below 1e-9.
 std::optional<LearningCurve> fit_curve(CurveKind kind, std::span<const double> t, std::span<const double> y);
+
+// Of the two the one with the smaller sum of squares.
+std::optional<LearningCurve> better_curve(std::span<const double> t, std::span<const double> y);
+double value_at(const LearningCurve& curve, double t);
 
 inline constexpr std::size_t kLeastAttempts = 5;
 

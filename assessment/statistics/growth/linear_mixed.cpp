@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "assessment/statistics/growth/nelder_mead.h"
+#include "assessment/statistics/nelder_mead.h"
 
 namespace seldinger::assessment::statistics {
 namespace {

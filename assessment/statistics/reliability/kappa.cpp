@@ -57,6 +57,52 @@ std::vector<Row> pairs_of_raters(const CompleteTable& table, std::span<const dou
   return rows;
 }
 
+// Light's kappa without the subject at `without`; all stand where that is none of them.
+double light_kappa(const CompleteTable& table, std::span<const double> categories, KappaWeights weights,
+                   std::size_t without) {
+  std::vector<std::vector<double>> columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    columns.push_back(table.column(i));
+    if (without < table.rows) columns.back().erase(columns.back().begin() + static_cast<std::ptrdiff_t>(without));
+  }
+  double sum = 0.0;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t j = i + 1; j < columns.size(); ++j)
+      sum += kappa_of(columns[i], columns[j], categories, weights).value;
+  return 2.0 * sum / static_cast<double>(columns.size() * (columns.size() - 1));
+}
+
+// By leaving out one subject after the other (Efron, Tibshirani, An Introduction to the Bootstrap, 1993, ch. 11);
+// NaN where without one of them nothing is left to agree on.
+double jackknife_error(const CompleteTable& table, std::span<const double> categories, KappaWeights weights) {
+  std::vector<double> without;
+  double mean = 0.0;
+  const double n = static_cast<double>(table.rows);
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    without.push_back(light_kappa(table, categories, weights, i));
+    mean += without.back() / n;
+  }
+  double squares = 0.0;
+  for (const double one : without) squares += (one - mean) * (one - mean);
+  return std::sqrt((n - 1.0) / n * squares);
+}
+
+void say_of_several_raters(Answer& answer, const CompleteTable& table, std::span<const double> categories,
+                           KappaWeights weights) {
+  answer.method += "; Light's mean over all pairs of raters, interval by the jackknife over subjects";
+  answer.rows = pairs_of_raters(table, categories, weights);
+  answer.estimate = light_kappa(table, categories, weights, table.rows);
+  const double se = jackknife_error(table, categories, weights);
+  if (std::isfinite(se) && se > 0.0 && table.rows > 2) {
+    const double reach = student_t_quantile(0.975, static_cast<double>(table.rows) - 1.0) * se;
+    answer.more.push_back({"se", se});
+    answer.ci95 = Interval{std::max(-1.0, *answer.estimate - reach), std::min(1.0, *answer.estimate + reach)};
+    if (answer.n < kLargeSample) answer.notes.emplace_back("Under 100 subjects the interval may be too narrow.");
+  } else {
+    answer.notes.emplace_back("Too few subjects differ for an interval.");
+  }
+}
+
 void say_of_two_raters(Answer& answer, const Kappa& found) {
   answer.estimate = found.value;
   answer.more = {{"observed_agreement", found.observed}, {"expected_agreement", found.expected}, {"se", found.se}};
@@ -131,12 +177,7 @@ Answer kappa(const CompleteTable& table, KappaWeights weights) {
   if (table.columns.size() == 2) {
     say_of_two_raters(answer, kappa_of(table.column(0), table.column(1), categories, weights));
   } else {
-    answer.method += "; Light's mean over all pairs of raters";
-    answer.rows = pairs_of_raters(table, categories, weights);
-    double sum = 0.0;
-    for (const Row& row : answer.rows) sum += row.values.front().value;
-    answer.estimate = sum / static_cast<double>(answer.rows.size());
-    answer.notes.emplace_back("With more than two raters there is no interval.");
+    say_of_several_raters(answer, table, categories, weights);
   }
   answer.more.push_back({"categories", static_cast<double>(categories.size())});
   if (table.missing > 0) answer.notes.emplace_back("Subjects that some rater did not score are left out.");

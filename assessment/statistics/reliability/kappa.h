@@ -23,7 +23,8 @@ struct Kappa {
 Kappa kappa_of(std::span<const double> a, std::span<const double> b, std::span<const double> categories,
                KappaWeights weights);
 
-// Of two raters; of more, Light's mean over pairs of raters, without an interval, and every pair as a row.
+// Of two raters; of more, Light's mean over pairs of raters, with an interval by the jackknife, and every pair as a
+// row.
 Answer kappa(const CompleteTable& table, KappaWeights weights);
 
 }  // namespace seldinger::assessment::statistics

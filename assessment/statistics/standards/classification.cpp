@@ -8,6 +8,7 @@
 #include "assessment/statistics/distributions.h"
 #include "assessment/statistics/roots.h"
 #include "assessment/statistics/spread.h"
+#include "assessment/statistics/standards/livingston_lewis.h"
 
 namespace seldinger::assessment::statistics {
 namespace {
@@ -88,14 +89,29 @@ Answer classification(const CutScores& of) {
     return refused_cut(of, "bad_value", "A reliability lies between 0 and 1.");
   const double side = of.higher_is_better ? 1.0 : -1.0;
   const double sd = std::sqrt(spread.variance), n = static_cast<double>(spread.n);
-  const Classification found = classification_of(side * spread.mean, sd, of.reliability, side * of.cut);
+  Classification found;
+  if (of.ends) {
+    const bool higher = of.higher_is_better;
+    const auto by_ends =
+        livingston_lewis_of({side * spread.mean, sd, higher ? of.ends->low : -of.ends->high,
+                             higher ? of.ends->high : -of.ends->low, of.reliability, side * of.cut});
+    if (!by_ends)
+      return refused_cut(of, "no_solution", "Between these ends no scores have this mean, spread and reliability.");
+    found = *by_ends;
+  } else {
+    found = classification_of(side * spread.mean, sd, of.reliability, side * of.cut);
+  }
   const auto passing =
       std::count_if(of.scores.begin(), of.scores.end(), [&](double one) { return side * one >= side * of.cut; });
   Answer answer;
   answer.test = "classification";
   answer.method =
-      "Peng and Subkoviak: two equivalent tests with normal scores and the reliability given; interval by the "
-      "non-central t of the cut's distance from the mean";
+      of.ends
+          ? "Livingston and Lewis: true scores by a beta distribution of two parameters between the ends given, "
+            "observed ones binomial about them"
+          : "Peng and Subkoviak: two equivalent tests with normal scores and the reliability given; interval by "
+            "the "
+            "non-central t of the cut's distance from the mean";
   answer.n = spread.n;
   answer.missing = of.missing;
   answer.estimate = found.consistency;
@@ -108,6 +124,7 @@ Answer classification(const CutScores& of) {
                  {"pass_share_observed", static_cast<double>(passing) / static_cast<double>(spread.n)},
                  {"reliability", of.reliability},
                  {"cut", of.cut}};
+  if (of.ends) return settled(std::move(answer));
   answer.ci95 = consistency_interval(standing_interval((of.cut - spread.mean) / sd, n), of.reliability);
   answer.notes.emplace_back("The interval takes the reliability as known.");
   if (std::abs(skewness_of(of.scores, spread)) > 1.0)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "assessment/statistics/answer.h"
@@ -29,8 +30,11 @@ struct CutScores {
   double cut = 0.0;
   double reliability = 0.0;  // of these scores: alpha, Φ, an ICC
   bool higher_is_better = true;
+  // Ends of the scale: with them it is Livingston and Lewis' way, without Peng and Subkoviak's.
+  std::optional<Interval> ends{};
 };
-// The interval: of where the cut stands in the scores, by the non-central t, with the reliability as it is.
+// The interval: of where the cut stands in the scores, by the non-central t, with the reliability as it is; with
+// `ends` there is none.
 Answer classification(const CutScores& of);
 
 }  // namespace seldinger::assessment::statistics

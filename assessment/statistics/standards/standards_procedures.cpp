@@ -53,6 +53,8 @@ constexpr ProcedureOption kHofsteeOptions[] = {
 constexpr ProcedureOption kClassificationOptions[] = {
     {"cut", "a number", "the cut; that score itself passes"},
     {"reliability", "a number between 0 and 1", "of the scores: alpha, Phi, an ICC"},
+    {"low", "a number", "the scale's lower end; with high it is Livingston and Lewis' way, for scores with ends"},
+    {"high", "a number", "the scale's upper end"},
     kDirection,
 };
 
@@ -229,9 +231,16 @@ Answer run_classification(const DataTable& table, const ProcedureOptions& option
   if (!options.has("cut") || !cut) return bad_option("classification", "cut", table);
   if (!reliability || !(*reliability > 0.0) || !(*reliability < 1.0))
     return bad_option("classification", "reliability", table);
+  const std::optional<double> low = options.number("low", 0.0), high = options.number("high", 0.0);
+  const bool ends = options.has("low") || options.has("high");
+  if (!low) return bad_option("classification", "low", table);
+  if (!high || (options.has("low") && !(options.has("high") && *high > *low)))
+    return bad_option("classification", "high", table);
+  if (ends && !options.has("low")) return bad_option("classification", "low", table);
   PersonScores persons = person_scores(table, false);
   if (persons.reason != nullptr) return refused_persons("classification", persons);
-  return classification({std::move(persons.scores), persons.missing, *cut, *reliability, draw.higher_is_better});
+  return classification({std::move(persons.scores), persons.missing, *cut, *reliability, draw.higher_is_better,
+                         ends ? std::optional(Interval{*low, *high}) : std::nullopt});
 }
 
 constexpr Procedure kStandards[] = {
@@ -253,7 +262,8 @@ constexpr Procedure kStandards[] = {
     {"classification",
      "How often a second test would decide the same at a cut, and how often the decision is right.",
      "value (the score), a row a person", Needs{}, kClassificationOptions, run_classification,
-     "Peng, Subkoviak, J Educ Meas 1980;17:359", "R's integrate, 1e-9"},
+     "Peng, Subkoviak, J Educ Meas 1980;17:359; Livingston, Lewis, J Educ Meas 1995;32:179",
+     "R's integrate, 1e-9; with ends 1e-5"},
 };
 
 }  // namespace

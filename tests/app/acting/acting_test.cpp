@@ -156,6 +156,8 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
   own_study.own_study = true;
   casedb::Relation own_programme;  // the director's
   own_programme.own_programme = true;
+  casedb::Relation nobodys;  // of simulated people
+  nobodys.nobodys = true;
   const std::vector<Asked> all = {
       {"import", {"nowhere.nii"}, Action::add_case},
       {"import", {"nowhere.nii", "--face", "overrule", "--reason", "knees"}, Action::overrule_face},
@@ -193,6 +195,10 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"export", {"--study", "Needles", "--out", out}, Action::export_study, own_study},
       {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},
       {"standard set", {draft_}, Action::set_standard},
+      {"standard propose",
+       {draft_, "--method", "borderline", "--csv", "nowhere.csv", "--value", "mm", "--x", "rating"},
+       Action::propose_cut},
+      {"standard freeze", {"nowhere"}, Action::freeze_cut},
       {"curriculum add", {"Year 2"}, Action::make_curriculum},
       {"curriculum item", {curriculum_, "--case", published_}, Action::make_curriculum},
       {"curriculum publish", {curriculum_}, Action::release_curriculum},
@@ -228,6 +234,13 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"study look", {"Needles"}, Action::plan_study, own_study},
       {"study deviate", {"Needles", "two came late"}, Action::plan_study, own_study},
       {"report", {"validity", "--study", "Needles", "--out", out + ".html"}, Action::plan_study, own_study},
+      {"report", {"learner", "--user", "trainee", "--out", out + ".html"}, Action::see_attempt, {}, true},
+      {"report",
+       {"learner", "--simulated", "--person", "novice-1", "--out", out + ".html"},
+       Action::see_attempt,
+       nobodys},
+      {"report", {"case", "--out", out + ".html"}, Action::see_case, CaseState::published},
+      {"report", {"standard", "--case", draft_, "--out", out + ".html"}, Action::see_case, CaseState::draft},
       {"questionnaire add", {"nowhere.json"}, Action::manage_questionnaires},
       {"questionnaire open", {"short", "--title", "Another day"}, Action::manage_questionnaires},
       {"questionnaire close", {round_}, Action::manage_questionnaires},

@@ -55,6 +55,8 @@ constexpr Row kMatrix[] = {
     {"retire_curriculum",         "",          "",                    "",                 "all",       ""},
     {"see_standard_attempts",     "",          "all",                 "",                 "",          ""},
     {"set_standard",              "",          "",                    "",                 "others'",   ""},
+    {"propose_cut",               "",          "all",                 "",                 "all",       ""},
+    {"freeze_cut",                "",          "",                    "",                 "others'",   ""},
     {"see_cohort",                "",          "cohort",              "",                 "programme", ""},
     {"see_cohort_cells",          "",          "",                    "",                 "all",       ""},
     {"manage_cohorts",            "",          "",                    "",                 "programme", "all"},

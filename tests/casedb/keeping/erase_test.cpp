@@ -241,6 +241,9 @@ TEST_F(EraseTest, ARetiredCaseGoesWithItsStandard) {
     database.run("INSERT INTO standard_band VALUES ('" + standard_id +
                  "', 0, 'hit', 1, 'bool', 8, 0, 1, 0.5, 0.1, NULL, "
                  "NULL)");
+    database.run("INSERT INTO cut VALUES ('" + std::string(36, 'c') + "', '" + case_id_ +
+                 "', 'hit', 1, 1, 'hofstee', '', 'value', 0.5, NULL, NULL, 8, 'in words', '" + zebedee_ +
+                 "', 1, NULL, NULL)");
     written.commit();
   }
   ASSERT_TRUE(erase_attempt(*library_, attempt_id, std::nullopt));
@@ -252,7 +255,7 @@ TEST_F(EraseTest, ARetiredCaseGoesWithItsStandard) {
   }
   const auto erased = erase_case(*library_, case_id_, std::nullopt);
   ASSERT_TRUE(erased) << erased.error().text;
-  for (const char* table : {"training_case", "lesion", "standard", "standard_band"})
+  for (const char* table : {"training_case", "lesion", "standard", "standard_band", "cut"})
     EXPECT_EQ(database.integer(std::string("SELECT count(*) FROM ") + table), 0) << table;
   library_.reset();
   EXPECT_TRUE(check_library(folder_ / "library", false)->holds());

@@ -101,6 +101,40 @@ TEST(LearningCurve, ChoosesTheCurveThatMadeTheValues) {
   EXPECT_NEAR(number_of(answer, "half_way_at"), 1.0 + std::log(2.0) / 0.2, 0.3);
 }
 
+// Of a long course, too, that levels off within a few attempts: before, the rate was at its bound, and there was no
+// interval.
+TEST(LearningCurve, FindsAPlateauThatIsReachedEarly) {
+  for (const int last : {18, 50}) {
+    std::vector<double> values;
+    for (int t = 1; t <= last; ++t) values.push_back(3.0 + 12.0 * std::exp(-0.5 * t) + 0.01 * std::cos(9.0 * t));
+    const Answer answer = learning_curve(attempts(values), {});
+    ASSERT_TRUE(answer.ci95.has_value()) << last;
+    EXPECT_NEAR(answer.estimate.value(), 0.5, 0.01) << last;
+    EXPECT_NEAR(number_of(answer, "plateau"), 3.0, 0.01) << last;
+    EXPECT_LT(number_of(answer, "plateau_low"), 3.0) << last;
+    EXPECT_GT(number_of(answer, "plateau_high"), 3.0) << last;
+  }
+}
+
+// Ceilings that were planted lie within their intervals as often as is said.
+TEST(LearningCurve, PlateausLieWithinTheirIntervals) {
+  base::Rng rng(11);
+  constexpr int kSets = 400;
+  int covered = 0, sets = 0;
+  for (int set = 0; set < kSets; ++set) {
+    const double rate = 0.15 + 0.3 * rng.uniform(), plateau = 2.0 + 8.0 * rng.uniform();
+    std::vector<double> values;
+    for (int t = 1; t <= 30; ++t) values.push_back(plateau + 15.0 * std::exp(-rate * t) + 0.8 * rng.normal());
+    // The curve that made them: what the choice of a curve adds is not in the interval.
+    const Answer answer = learning_curve(attempts(values), {});
+    if (answer.method.find("exponential") == std::string::npos) continue;
+    ++sets;
+    covered += number_of(answer, "plateau_low") <= plateau && plateau <= number_of(answer, "plateau_high") ? 1 : 0;
+  }
+  ASSERT_GT(sets, 200);
+  EXPECT_NEAR(covered / static_cast<double>(sets), 0.95, 0.04);
+}
+
 TEST(LearningCurve, SaysWhereNothingIsLearned) {
   std::vector<double> rising, scores;
   for (int k = 1; k <= 12; ++k) {

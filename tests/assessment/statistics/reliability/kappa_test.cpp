@@ -62,7 +62,62 @@ TEST(Kappa, OfSeveralRatersIsLightsMean) {
                        number_of(answer.rows[2], "kappa")) /
                       3.0;
   expect_kappa(*answer.estimate, mean, 1e-15);
-  EXPECT_FALSE(answer.ci95);
+  ASSERT_TRUE(answer.ci95);
+  EXPECT_LT(answer.ci95->low, mean);
+  EXPECT_GT(answer.ci95->high, mean);
+  // Who agree throughout differ from nobody: no subject's absence changes anything.
+  EXPECT_FALSE(kappa(fixtures::scores({{1, 1, 1}, {2, 2, 2}, {3, 3, 3}, {1, 1, 1}}), KappaWeights::kNone).ci95);
+}
+
+// Four raters who are right with a probability of .8, else any of three categories: a pair's kappa is .64.
+TEST(Kappa, OfSeveralRatersLiesInItsInterval) {
+  base::Rng rng(31);
+  constexpr int kSets = 300;
+  int covered = 0;
+  for (int set = 0; set < kSets; ++set) {
+    fixtures::Rows rows;
+    for (int i = 0; i < 60; ++i) {
+      const auto any = [&] { return std::floor(3.0 * rng.uniform()); };
+      const double truth = any();
+      auto& row = rows.emplace_back();
+      for (int rater = 0; rater < 4; ++rater) row.push_back(rng.uniform() < 0.8 ? truth : any());
+    }
+    const Answer answer = kappa(fixtures::scores(rows), KappaWeights::kNone);
+    covered += answer.ci95->low <= 0.64 && 0.64 <= answer.ci95->high ? 1 : 0;
+  }
+  EXPECT_NEAR(covered / static_cast<double>(kSets), 0.95, 3.0 * std::sqrt(0.95 * 0.05 / kSets) + 0.01);
+}
+
+// The jackknife in R, of psych's kappas.
+TEST(Kappa, OfSeveralRatersHasRsJackknife) {
+  SELDINGER_NEEDS_R();
+  base::Rng rng(fixtures::r_seed() + 77);
+  std::string script = R"(
+suppressMessages(library(psych))
+light <- function(m) { k <- ncol(m); v <- c()
+  for (i in 1:(k - 1)) for (j in (i + 1):k) v <- c(v, cohen.kappa(m[, c(i, j)])$kappa); mean(v) }
+)";
+  std::vector<Answer> answers;
+  for (int set = 0; set < 5; ++set) {
+    fixtures::Rows rows;
+    std::vector<double> flat;
+    for (int i = 0; i < 30; ++i) {
+      const double truth = std::floor(3.0 * rng.uniform());
+      auto& row = rows.emplace_back();
+      for (int rater = 0; rater < 3; ++rater)
+        flat.push_back(row.emplace_back(rng.uniform() < 0.6 ? truth : std::floor(3.0 * rng.uniform())));
+    }
+    answers.push_back(kappa(fixtures::scores(rows), KappaWeights::kNone));
+    const std::string k = std::to_string(set);
+    script += "m <- matrix(" + fixtures::r_vector(flat) + ", ncol = 3, byrow = TRUE); n <- nrow(m)\n" +
+              "j <- sapply(1:n, function(i) light(m[-i, ])); say(\"k" + k + "\", light(m))\n" + "say(\"s" + k +
+              "\", sqrt((n - 1) / n * sum((j - mean(j))^2)))\n";
+  }
+  auto said = fixtures::r_values(script);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    expect_kappa(*answers[i].estimate, said["k" + std::to_string(i)], 1e-9);
+    expect_kappa(number_of(answers[i], "se"), said["s" + std::to_string(i)], 1e-9);
+  }
 }
 
 TEST(Kappa, RefusesWithAReason) {

@@ -1,0 +1,33 @@
+// Attempts as a course of learning: whose, at which case, in which order, and whether they passed. What charts,
+// reliability and reports about learners and cases are made of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "casedb/grading/grading.h"
+
+namespace seldinger::casedb {
+
+// Never in one answer: what people did, and what simulated people did (casedb/people/simulated_people.h).
+enum class Learners { people, simulated };
+
+struct LearningAttempt {
+  std::string attempt_id, person_id;
+  std::string case_id, family_id;  // all versions of a case are one family
+  std::int64_t started_us = 0;
+  assessment::Verdict verdict = assessment::Verdict::no_rule;
+  std::vector<MetricValue> metrics;  // newest version of each
+
+  // Whether it says anything: passed or failed.
+  bool graded() const noexcept {
+    return verdict == assessment::Verdict::passed || verdict == assessment::Verdict::failed;
+  }
+  bool passed() const noexcept { return verdict == assessment::Verdict::passed; }
+};
+
+// Oldest first.
+std::vector<LearningAttempt> learning_attempts(Library& library, Learners learners);
+
+}  // namespace seldinger::casedb

@@ -1,0 +1,104 @@
+#include "reports/charts/series_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/charts/svg_parts.h"
+
+namespace seldinger::reports {
+namespace {
+
+// The drawing's own units; CSS scales it.
+constexpr double kWidth = 720.0, kHeight = 230.0, kLeft = 62.0, kRight = 110.0, kTop = 12.0, kBottom = 40.0;
+constexpr double kRadius = 4.0, kLabelGap = 13.0;
+constexpr std::size_t kMostXLabels = 12;
+
+struct Axis {
+  double low = 0.0, high = 1.0, low_px = 0.0, high_px = 1.0;
+  double at(double value) const {
+    return low_px + (high_px - low_px) * (std::clamp(value, low, high) - low) / (high - low);
+  }
+};
+
+void add_path(Html& html, const char* kind, const std::vector<std::pair<double, double>>& points, const Axis& x,
+              const Axis& y) {
+  html.raw("<polyline class=\"").text(kind).raw("\" points=\"");
+  for (const auto& [px_x, px_y] : points) html.text(svg_px(x.at(px_x)) + "," + svg_px(y.at(px_y)) + " ");
+  html.raw("\"/>");
+}
+
+Axis y_axis(const SeriesChart& chart, std::vector<double>& ticks) {
+  double low = chart.points.front().y, high = low;
+  const auto hold = [&](double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  };
+  for (const SeriesPoint& one : chart.points) hold(one.y);
+  for (const auto& one : chart.curve) hold(one.second);
+  for (const SeriesLimit& one : chart.limits) hold(one.y);
+  ticks = round_ticks(chart.y_low.value_or(low), chart.y_high.value_or(high));
+  return {ticks.front(), ticks.back(), kHeight - kBottom, kTop};
+}
+
+void add_axes(Html& html, const SeriesChart& chart, const Axis& x, const Axis& y,
+              const std::vector<double>& ticks) {
+  for (const double tick : ticks) {
+    add_svg_line(html, "grid", kLeft, y.at(tick), kWidth - kRight, y.at(tick));
+    add_svg_text(html, "end", kLeft - 6.0, y.at(tick) + 4.0, tick_text(tick));
+  }
+  const std::size_t every = (chart.points.size() - 1) / kMostXLabels + 1;
+  for (std::size_t i = 0; i < chart.points.size(); i += every)
+    add_svg_text(html, "middle", x.at(chart.points[i].x), kHeight - kBottom + 15.0, tick_text(chart.points[i].x));
+  add_svg_text(html, "middle", 0.5 * (kLeft + kWidth - kRight), kHeight - 6.0, chart.x_label);
+  html.raw("<text text-anchor=\"middle\" transform=\"translate(14 ").text(svg_px(0.5 * (kTop + kHeight - kBottom)));
+  html.raw(") rotate(-90)\">").text(chart.y_label).raw("</text>\n");
+}
+
+void add_limits(Html& html, const std::vector<SeriesLimit>& limits, const Axis& y) {
+  std::vector<double> taken;
+  for (const SeriesLimit& one : limits) {
+    if (!std::isfinite(one.y)) continue;
+    add_svg_line(html, "limit", kLeft, y.at(one.y), kWidth - kRight, y.at(one.y));
+    double label_y = y.at(one.y) + 4.0;
+    for (const double other : taken)
+      if (std::abs(label_y - other) < kLabelGap) label_y = other + kLabelGap;
+    taken.push_back(label_y);
+    add_svg_text(html, "start", kWidth - kRight + 6.0, label_y, one.label);
+  }
+}
+
+}  // namespace
+
+Html series_chart(const SeriesChart& asked) {
+  SeriesChart chart = asked;
+  std::erase_if(chart.points,
+                [](const SeriesPoint& one) { return !std::isfinite(one.x) || !std::isfinite(one.y); });
+  std::erase_if(chart.curve,
+                [](const auto& one) { return !std::isfinite(one.first) || !std::isfinite(one.second); });
+  Html html;
+  if (chart.points.empty()) return html;
+  std::vector<double> ticks;
+  const Axis y = y_axis(chart, ticks);
+  const double first = chart.points.front().x, last = chart.points.back().x;
+  // One point stands in the middle.
+  const double margin = last > first ? 0.02 * (last - first) : 1.0;
+  const Axis x{first - margin, last + margin, kLeft, kWidth - kRight};
+  html.raw("<svg class=\"series\" role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(kHeight));
+  html.raw("\"><title>").text(chart.said).raw("</title>\n");
+  add_axes(html, chart, x, y, ticks);
+  add_limits(html, chart.limits, y);
+  if (!chart.curve.empty()) add_path(html, "curve", chart.curve, x, y);
+  if (chart.joined) {
+    std::vector<std::pair<double, double>> path;
+    for (const SeriesPoint& one : chart.points) path.emplace_back(one.x, one.y);
+    add_path(html, "path", path, x, y);
+  }
+  for (const SeriesPoint& one : chart.points) {
+    html.raw("<circle class=\"").text(one.filled ? "point" : "point hollow").raw("\" r=\"").text(svg_px(kRadius));
+    html.raw("\" cx=\"").text(svg_px(x.at(one.x))).raw("\" cy=\"").text(svg_px(y.at(one.y))).raw("\"/>");
+  }
+  return html.raw("</svg>\n");
+}
+
+}  // namespace seldinger::reports

@@ -1,0 +1,16 @@
+// Φ in words, beside every pass rule that people are judged by.
+#pragma once
+
+#include <string>
+
+#include "assessment/statistics/answer.h"
+#include "casedb/grading/learning.h"
+
+namespace seldinger::reports {
+
+// Whether so few people made it up that it is not told.
+bool withheld(const assessment::statistics::Answer& dependability, casedb::Learners whose);
+// "One case alone: Φ 0.31. …; 9 cases for 0.8." or why there is none; whole sentences.
+std::string dependability_text(const assessment::statistics::Answer& dependability, casedb::Learners whose);
+
+}  // namespace seldinger::reports

@@ -1,0 +1,69 @@
+// Axes of round numbers, and charts that nothing odd leaves.
+#include "reports/charts/series_chart.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "reports/charts/interval_chart.h"
+#include "reports/charts/svg_parts.h"
+#include "sim/base/rng.h"
+
+namespace seldinger::reports {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(RoundTicks, HoldTheValuesInFewRoundSteps) {
+  EXPECT_THAT(round_ticks(0.0, 1.0),
+              ElementsAre(0.0, 0.2, ::testing::DoubleEq(0.4), ::testing::DoubleEq(0.6), 0.8, 1.0));
+  base::Rng rng(3);
+  for (int i = 0; i < 20'000; ++i) {
+    const double low = rng.normal() * std::pow(10.0, 12.0 * rng.uniform() - 6.0);
+    const double high = low + std::pow(10.0, 12.0 * rng.uniform() - 6.0) * rng.uniform();
+    const auto ticks = round_ticks(low, high);
+    ASSERT_GE(ticks.size(), 2U) << low << ' ' << high;
+    ASSERT_LE(ticks.size(), 10U) << low << ' ' << high;
+    const double step = ticks[1] - ticks[0];
+    EXPECT_LE(ticks.front(), low + 1e-6 * step);
+    EXPECT_GE(ticks.back(), high - 1e-6 * step);
+  }
+}
+
+TEST(SeriesChart, LeavesOutWhatIsNoNumber) {
+  SeriesChart chart{"said <x>",
+                    "attempt",
+                    "mm",
+                    {{1.0, 2.0}, {2.0, std::nan("")}, {3.0, 4.0, false}},
+                    true,
+                    {{1.0, INFINITY}},
+                    {{3.0, "limit"}},
+                    {},
+                    {}};
+  const std::string svg = series_chart(chart).str();
+  EXPECT_THAT(svg, HasSubstr("said &lt;x&gt;"));
+  EXPECT_THAT(svg, HasSubstr("point hollow"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr("inf")));
+  EXPECT_TRUE(series_chart({}).empty());
+}
+
+TEST(IntervalChart, DrawsEstimatesOnOneAxis) {
+  IntervalChart chart{"said",
+                      "mm",
+                      {{"a", 1.0, assessment::statistics::Interval{0.5, 2.0}, "n = 3", true, 1.2},
+                       {"b", std::nan(""), {}, "", false, {}}},
+                      {},
+                      {}};
+  const std::string svg = interval_chart(chart).str();
+  EXPECT_THAT(svg, HasSubstr("estimate marked"));
+  EXPECT_THAT(svg, HasSubstr("truth"));
+  EXPECT_THAT(svg, Not(HasSubstr("nan")));
+  EXPECT_THAT(svg, Not(HasSubstr(">b<")));
+  EXPECT_TRUE(interval_chart({}).empty());
+}
+
+}  // namespace
+}  // namespace seldinger::reports
