@@ -66,6 +66,10 @@ std::optional<base::Result<casedb::NewCase>> built_in(DemoSource source) {
       return import_phantom({.calyces = volume::Calyces::dilated});
     case DemoSource::torso_opacified:
       return import_phantom({.calyces = volume::Calyces::opacified});
+    case DemoSource::torso_prone:
+      return import_phantom({.posture = volume::Posture::prone});
+    case DemoSource::neck:
+      return import_phantom({.region = volume::Region::neck});
     default:
       return std::nullopt;
   }
