@@ -155,16 +155,17 @@ DemoCase torso_cortex() {
 // At the level of the cricoid, where the carotid lies in part behind the vein.
 DemoCase neck_jugular_vein() {
   DemoCase made = jugular_vein();
-  cases::LesionForm lumen = place_form({-33.2, -19.6, 335.0}, {6.0, 6.0, 6.0});
+  cases::LesionForm lumen = place_form({-32.6, -19.7, 335.0}, {6.0, 6.0, 6.0});
   made.lesions = {lumen};
-  made.structures = {drawn("carotid", StructureRule::critical, TissueClass::vessel,
-                           cases::Tube{{{-23, -6, 306}, {-26, -9.5, 340}, {-27, -8, 372}}, 3.5}),
-                     drawn("jugular_vein", StructureRule::target, TissueClass::vessel,
-                           cases::Tube{{{-36, -12, 376}, {-34, -18, 345}, {-32, -22, 322}, {-29, -28, 300}}, 6.5}),
-                     labelled("lung", StructureRule::critical),
-                     labelled("airway", StructureRule::critical),
-                     labelled("thyroid", StructureRule::major),
-                     labelled("nerve", StructureRule::major)};
+  made.structures = {
+      drawn("carotid", StructureRule::critical, TissueClass::vessel,
+            cases::Tube{{{-22, -6, 306}, {-24, -11, 340}, {-26, -9, 372}}, 3.5}),
+      drawn("jugular_vein", StructureRule::target, TissueClass::vessel,
+            cases::Tube{{{-35.5, -12, 376}, {-33.5, -18, 345}, {-31.5, -22, 322}, {-29, -28, 300}}, 6.5}),
+      labelled("lung", StructureRule::critical),
+      labelled("airway", StructureRule::critical),
+      labelled("thyroid", StructureRule::major),
+      labelled("nerve", StructureRule::major)};
   return made;
 }
 

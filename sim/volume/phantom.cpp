@@ -99,13 +99,13 @@ phantom::Physique physique_of(const PhantomOptions& options) {
     case Body::adult:
       break;
     case Body::lean:
-      made = {1.0, {12.0, 11.0, 5.0}, 8.0, 1.5};
+      made = {1.0, {12.0, 11.0, 5.0}, 8.0, 4.0};
       break;
     case Body::obese:
       made = {1.0, {-34.0, -30.0, -16.0}, -24.0, -8.0};
       break;
     case Body::child:
-      made = {0.7, {10.0, 9.0, 5.0}, 7.0, 1.0};
+      made = {0.7, {10.0, 9.0, 5.0}, 7.0, 3.5};
       break;
   }
   if (options.posture == Posture::prone) made.torso.front_mm += 6.0;

@@ -7,22 +7,22 @@ namespace seldinger::volume::phantom {
 namespace {
 
 constexpr double kNeckSkin_mm = 2.0;
-constexpr double kNeckFat_mm = 3.5;
+constexpr double kNeckFat_mm = 7.5;
 
 // Neck and chest as lenses, the slope from neck to shoulder as a tube: all inset alike.
 void add_neck_layer(Shapes& shapes, const Tissue& tissue, double inset_mm) {
   for (const Ellipsoid& lobe :
-       {Ellipsoid{{0.0, 12.0, 330.0}, {58.0, 60.0, kTall_mm}}, Ellipsoid{{0.0, 10.0, 232.0}, {166.0, 92.0, 95.0}}})
+       {Ellipsoid{{0.0, 12.0, 330.0}, {63.0, 64.0, kTall_mm}}, Ellipsoid{{0.0, 10.0, 232.0}, {168.0, 95.0, 98.0}}})
     add(shapes, tissue, Ellipsoid{lobe.center_mm, lobe.radii_mm - inset_mm});
   for (const double side : {-1.0, 1.0})
     add_tube(shapes, tissue,
-             {{{side * 14.0, 26.0, 420.0}, 40.0 - inset_mm},
-              {{side * 16.0, 30.0, 368.0}, 38.0 - inset_mm},
-              {{side * 24.0, 36.0, 340.0}, 34.0 - inset_mm},
-              {{side * 46.0, 36.0, 318.0}, 33.0 - inset_mm},
-              {{side * 80.0, 30.0, 294.0}, 37.0 - inset_mm},
-              {{side * 112.0, 26.0, 264.0}, 48.0 - inset_mm},
-              {{side * 116.0, 24.0, 230.0}, 48.0 - inset_mm}});
+             {{{side * 14.0, 26.0, 420.0}, 43.0 - inset_mm},
+              {{side * 16.0, 30.0, 368.0}, 41.0 - inset_mm},
+              {{side * 24.0, 36.0, 340.0}, 37.0 - inset_mm},
+              {{side * 46.0, 36.0, 318.0}, 36.0 - inset_mm},
+              {{side * 80.0, 30.0, 294.0}, 40.0 - inset_mm},
+              {{side * 112.0, 26.0, 264.0}, 50.0 - inset_mm},
+              {{side * 116.0, 24.0, 230.0}, 50.0 - inset_mm}});
 }
 
 // What of it is fat: round vessels and airway, between the muscles, in the chest.
@@ -95,8 +95,8 @@ void add_airway(Shapes& shapes) {
   add_tube(shapes, kAirway, lumen);
   const Over beside{kVisceralFat.name, kMuscle.name, kOesophagus.name};
   for (const double side : {-1.0, 1.0})
-    for (const Ellipsoid& part : {Ellipsoid{{side * 16.0, -20.0, 334.0}, {8.0, 11.0, 17.0}},
-                                  Ellipsoid{{side * 17.5, -18.0, 346.0}, {6.0, 9.0, 17.0}}})
+    for (const Ellipsoid& part : {Ellipsoid{{side * 15.0, -20.0, 334.0}, {7.0, 11.0, 17.0}},
+                                  Ellipsoid{{side * 16.0, -19.0, 346.0}, {6.0, 9.0, 17.0}}})
       add(shapes, kThyroid, part, beside);
   add_tube(shapes, kThyroid,
            {{{-11.0, -32.5, 331.0}, 3.4}, {{0.0, -37.0, 331.0}, 2.8}, {{11.0, -32.5, 331.0}, 3.4}}, beside);
@@ -109,9 +109,9 @@ void add_neck_vessels(Shapes& shapes, double side) {
   const double jugular_mm = side < 0.0 ? 6.5 : 5.5;
   add_tube(shapes, kJugular,
            {{at(37.0, -4.0, 410.0), 0.85 * jugular_mm},
-            {at(36.0, -12.0, 376.0), 0.95 * jugular_mm},
-            {at(34.0, -18.0, 345.0), jugular_mm},
-            {at(32.0, -22.0, 322.0), 1.05 * jugular_mm},
+            {at(35.5, -12.0, 376.0), 0.95 * jugular_mm},
+            {at(33.5, -18.0, 345.0), jugular_mm},
+            {at(31.5, -22.0, 322.0), 1.05 * jugular_mm},
             {at(29.0, -28.0, 300.0), 1.1 * jugular_mm}},
            open);
   add_valve(shapes, kJugular, at(30.2, -25.6, 309.0), 1.05 * jugular_mm);
@@ -128,12 +128,12 @@ void add_neck_vessels(Shapes& shapes, double side) {
            {kFat.name, kMuscle.name, kVisceralFat.name});
   add_tube(shapes, kCarotid,
            {{at(16.0, 0.0, 262.0), 3.8},
-            {at(23.0, -6.0, 306.0), 3.5},
-            {at(26.0, -9.5, 340.0), 3.4},
-            {at(27.0, -8.0, 372.0), 4.2}},
+            {at(22.0, -6.0, 306.0), 3.5},
+            {at(24.0, -11.0, 340.0), 3.4},
+            {at(26.0, -9.0, 372.0), 4.2}},
            open);
-  add_tube(shapes, kCarotid, {{at(27.0, -8.0, 372.0), 3.2}, {at(30.0, 0.0, 410.0), 2.6}}, open);
-  add_tube(shapes, kCarotid, {{at(27.0, -8.0, 372.0), 2.8}, {at(24.0, -16.0, 410.0), 2.2}}, open);
+  add_tube(shapes, kCarotid, {{at(26.0, -9.0, 372.0), 3.2}, {at(30.0, 0.0, 410.0), 2.6}}, open);
+  add_tube(shapes, kCarotid, {{at(26.0, -9.0, 372.0), 2.8}, {at(24.0, -16.0, 410.0), 2.2}}, open);
   add_tube(shapes, kArtery,  // subclavian, behind the anterior scalene
            {{at(16.0, 0.0, 270.0), 5.0},
             {at(34.0, -4.0, 300.0), 4.5},
@@ -141,7 +141,7 @@ void add_neck_vessels(Shapes& shapes, double side) {
             {at(94.0, 4.0, 288.0), 4.0}},
            open);
   add_tube(shapes, kNerve,
-           {{at(29.5, -10.5, 400.0), 1.4}, {at(29.5, -11.0, 345.0), 1.4}, {at(26.0, -14.0, 300.0), 1.4}},
+           {{at(29.5, -10.5, 400.0), 1.4}, {at(28.6, -8.5, 345.0), 1.4}, {at(26.0, -14.0, 300.0), 1.4}},
            {kVisceralFat.name, kMuscle.name});  // vagus
   for (const double up_mm : {0.0, 9.0, 18.0})   // the brachial plexus, between the scalenes
     add_tube(shapes, kNerve,
