@@ -11,8 +11,8 @@
 #include <span>
 
 #include "casedb/database/credentials.h"
-#include "casedb/database/uuid.h"
 #include "casedb/database/sqlite.h"
+#include "casedb/database/uuid.h"
 #include "casedb/grading/dependability.h"
 #include "casedb/people/noted_tries.h"
 #include "casedb/people/simulated_people.h"

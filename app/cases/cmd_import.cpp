@@ -25,12 +25,44 @@ void tell_same_ct(casedb::Library& library, const casedb::CaseRow& row) {
                    other.case_id.c_str(), other.title.c_str(), other.version, name_of(other.state).c_str());
 }
 
+// Its value is one of the table's names: the option lists them.
+template <typename Value, std::size_t n>
+Value named_option(const Arguments& arguments, const char* name, const base::Names<Value, n>& table) {
+  return base::from_name(table, arguments.text(name)).value_or(table.front().value);
+}
+
+// The built-in patient that is asked for; nothing where a source is. A patient lay in the scanner as in the case.
+std::optional<volume::PhantomOptions> built_in_of(const Arguments& arguments, cases::PatientPosition position) {
+  const bool built_in = arguments.has("--built-in");
+  if (built_in == (arguments.positionals() > 0))
+    throw UsageError("import takes a SOURCE or --built-in, one of the two");
+  if (!built_in) {
+    if (arguments.has("--body") || arguments.has("--calyces"))
+      throw UsageError("--body and --calyces go with --built-in");
+    return std::nullopt;
+  }
+  for (const char* of_a_source : {"--series", "--face", "--reason", "--denoise", "--large", "--no-burned-in-text"})
+    if (arguments.has(of_a_source)) throw UsageError(std::string(of_a_source) + " is of a SOURCE");
+  volume::PhantomOptions options;
+  options.region = named_option(arguments, "--built-in", volume::kRegionNames);
+  options.body = named_option(arguments, "--body", volume::kBodyNames);
+  options.calyces = named_option(arguments, "--calyces", volume::kCalycesNames);
+  if (options.region != volume::Region::torso && arguments.has("--calyces"))
+    throw UsageError("--calyces is of the torso");
+  if (position == cases::PatientPosition::prone)
+    options.posture = volume::Posture::prone;
+  else if (position != cases::PatientPosition::supine)
+    throw UsageError("a built-in patient lies supine or prone");
+  return options;
+}
+
 int run_import(const Arguments& arguments) {
   const std::filesystem::path folder = library_folder(arguments);
   const auto modality = casedb::modality_from(arguments.text("--modality", "mpr"));
   if (!modality) throw UsageError("--modality is " + casedb::modality_names());
   const auto position = casedb::position_from(arguments.text("--position", "supine"));
   if (!position) throw UsageError("--position is supine, prone, lateral_left or lateral_right");
+  const auto built_in = built_in_of(arguments, *position);
   const FaceWish face = face_of(arguments);
   if (face.choice == casedb::FaceChoice::overrule) {
     arguments.required("--by");
@@ -53,10 +85,12 @@ int run_import(const Arguments& arguments) {
         return refuse(by.error());
     if (const auto by = acting(*library, arguments, casedb::Action::add_case); !by) return refuse(by.error());
   }
-  auto imported = import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"), "import",
-                              face, arguments.has("--denoise"), arguments.has("--large"));
-  if (!imported) return refuse(error_of("SOURCE", arguments.positional(0), imported.error()));
-  imported->no_burned_in_text = arguments.has("--no-burned-in-text");
+  auto imported = built_in ? import_phantom(*built_in, arguments.text("--title"))
+                           : import_case(arguments.positional(0), series_of(arguments), arguments.text("--title"),
+                                         "import", face, arguments.has("--denoise"), arguments.has("--large"));
+  if (!imported)
+    return refuse(built_in ? imported.error() : error_of("SOURCE", arguments.positional(0), imported.error()));
+  if (!built_in) imported->no_burned_in_text = arguments.has("--no-burned-in-text");
   imported->burned_in_checked_by = confirmed_by;
   imported->modality = *modality;
   if (*modality == cases::Modality::xray)
@@ -143,6 +177,10 @@ int run_case_confirm(const Arguments& arguments) {
 
 constexpr Option kImportOptions[] = {
     kLibrary,
+    {"--built-in", "torso|groin|neck",
+     "in place of SOURCE: the built-in patient, made by formulas, no person's CT"},
+    {"--body", "adult|lean|obese|child", "of the built-in patient; default adult"},
+    {"--calyces", "normal|dilated|opacified", "of the built-in torso; default normal"},
     {"--title", "TEXT", "the case's title; never taken from the source"},
     kSeries,
     {"--modality", "mpr|xray|ultrasound", "what the case is practised with; default mpr"},
@@ -164,13 +202,15 @@ constexpr Option kSampleOptions[] = {
 
 Command import_command() {
   return {.name = "import",
-          .positionals = "SOURCE",
-          .min_positionals = 1,
+          .positionals = "[SOURCE]",
+          .min_positionals = 0,
           .max_positionals = 1,
           .options = kImportOptions,
           .acts = true,
           .summary =
-              "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case.",
+              "Reads a CT (DICOM folder or file, .nii .nii.gz .nrrd .nhdr .mha .mhd) into the library as a case, "
+              "or makes "
+              "the built-in patient.",
           .run = &run_import};
 }
 

@@ -116,22 +116,42 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
   return made;
 }
 
-std::string phantom_origin(volume::Calyces calyces) {
-  const char* kind = calyces == volume::Calyces::dilated     ? ":dilated"
-                     : calyces == volume::Calyces::opacified ? ":opacified"
-                                                             : "";
-  return std::string("phantom:") + volume::kPhantomVersion + kind;
+namespace {
+
+// Of what a built-in patient is other than an adult, supine, with normal calyces.
+std::vector<std::string_view> differences(const volume::PhantomOptions& options) {
+  std::vector<std::string_view> told;
+  if (options.body != volume::Body::adult) told.push_back(base::name_of(volume::kBodyNames, options.body));
+  if (options.posture != volume::Posture::supine)
+    told.push_back(base::name_of(volume::kPostureNames, options.posture));
+  if (options.calyces != volume::Calyces::normal)
+    told.push_back(base::name_of(volume::kCalycesNames, options.calyces));
+  return told;
 }
 
-base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces) {
-  progress("making the built-in torso");
-  volume::PhantomOptions options;
-  options.calyces = calyces;
-  const std::string title = calyces == volume::Calyces::dilated     ? "Built-in torso, dilated calyces"
-                            : calyces == volume::Calyces::opacified ? "Built-in torso, opacified calyces"
-                                                                    : "Built-in torso";
-  return import_built_in(volume::make_phantom(options), "Seldinger built-in torso phantom", title,
-                         phantom_origin(calyces));
+}  // namespace
+
+std::string phantom_origin(const volume::PhantomOptions& options) {
+  std::string origin = std::string("phantom:") + volume::kPhantomVersion;
+  if (options.region != volume::Region::torso)
+    origin.append(":").append(base::name_of(volume::kRegionNames, options.region));
+  for (const std::string_view one : differences(options)) origin.append(":").append(one);
+  return origin;
+}
+
+base::Result<casedb::NewCase> import_phantom(const volume::PhantomOptions& options, const std::string& own_title) {
+  progress("making the built-in patient");
+  const std::string region(base::name_of(volume::kRegionNames, options.region));
+  std::string title = own_title;
+  if (title.empty()) {
+    title = "Built-in " + region;
+    for (const std::string_view one : differences(options)) title.append(", ").append(one);
+    if (options.calyces != volume::Calyces::normal) title += " calyces";
+  }
+  auto made = import_built_in(volume::make_phantom(options), "Seldinger built-in " + region + " phantom", title,
+                              phantom_origin(options));
+  if (made && options.posture == volume::Posture::prone) made->position = cases::PatientPosition::prone;
+  return made;
 }
 
 std::string gel_block_origin(volume::GelBlock block) {

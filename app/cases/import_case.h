@@ -42,10 +42,11 @@ base::Result<casedb::NewCase> import_case(const std::filesystem::path& source,
                                           const std::string& origin, const FaceWish& face = {},
                                           bool denoise = false, bool large = false);
 
-// The built-in case: the phantom written as a DICOM series to a temporary folder and imported like any patient.
-base::Result<casedb::NewCase> import_phantom(volume::Calyces calyces);
-// What a case of it has as its origin: one for each version of the phantom and each kind of calyces.
-std::string phantom_origin(volume::Calyces calyces);
+// A built-in patient: the phantom written as a DICOM series to a temporary folder and imported like any patient;
+// prone where it lies prone. Without a title it is named after what it is.
+base::Result<casedb::NewCase> import_phantom(const volume::PhantomOptions& options, const std::string& title = {});
+// What a case of it has as its origin: one for each version of the phantom and each of its kinds.
+std::string phantom_origin(const volume::PhantomOptions& options);
 
 // A block of gel, likewise.
 base::Result<casedb::NewCase> import_gel_block(volume::GelBlock block);

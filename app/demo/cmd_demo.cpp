@@ -172,11 +172,10 @@ constexpr Option kDemoOptions[] = {
      "the first hour: three drills on blocks of gel, published, each passed once by a simulated expert whose "
      "replay is to be watched, and the curriculum that leads through them; takes seconds"},
     {"--cases", nullptr,
-     "the drills, then the graded cases: 1, 5 and 6 from the built-in torso, those of a --ct that fits; likewise"},
+     "the drills, then the eight graded cases, of a --ct where it fits, else of the built-in patients; likewise"},
     {"--programme", nullptr,
      "the drills, and a programme of sixty simulated people in three cohorts who have practised them, for the "
-     "pages of "
-     "mentors and directors; takes minutes"},
+     "pages of mentors and directors; takes minutes"},
     {"--calyces", "normal|dilated|opacified", "of the built-in case; default normal"},
     {"--modality", "ultrasound|xray|mpr",
      "ultrasound, fluoroscopy, or CT slices under a probe; default ultrasound"},

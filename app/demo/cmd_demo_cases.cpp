@@ -219,9 +219,16 @@ base::Result<DemoCurriculum> lead_through(casedb::Library& library, const char* 
 
 using Sources = std::map<DemoSource, casedb::NewCase>;
 
-// Of those whose source is at hand, in their order.
+// The graded cases: those of a CT that is at hand in the place of the built-in ones.
+std::vector<DemoCase> graded_cases(const Sources& given) {
+  std::vector<DemoCase> all = demo_cases();
+  for (const DemoCase& one : demo_cases_of_ct())
+    if (given.contains(one.source)) all.at(static_cast<std::size_t>(one.number - 1)) = one;
+  return all;
+}
+
 base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, const std::vector<DemoCase>& wanted,
-                                                   Sources& sources, const char* hits, std::vector<int>& not_made) {
+                                                   Sources& sources, const char* hits) {
   std::vector<DemoCaseAnswer> made;
   for (const DemoCase& one : wanted) {
     if (!sources.contains(one.source))
@@ -229,12 +236,7 @@ base::Result<std::vector<DemoCaseAnswer>> make_all(casedb::Library& library, con
         if (!*read) return read->error();
         sources.emplace(one.source, std::move(**read));
       }
-    const auto source = sources.find(one.source);
-    if (source == sources.end()) {
-      not_made.push_back(one.number);
-      continue;
-    }
-    auto answer = make(library, one, source->second, hits);
+    auto answer = make(library, one, sources.at(one.source), hits);
     if (!answer) return answer.error();
     made.push_back(std::move(*answer));
   }
@@ -258,11 +260,6 @@ void print(const DemoCasesAnswer& answer) {
   std::printf("%s\n\n", base::kTrainingOnly);
   print(answer.drills);
   print(answer.cases);
-  if (!answer.not_made.empty()) {
-    std::printf("\nThese need a CT (--ct):");
-    for (const int number : answer.not_made) std::printf(" %d", number);
-    std::puts("");
-  }
   std::puts("");
   for (const DemoCurriculum& one : answer.curricula)
     std::printf("%s  curriculum of %zu: %s\n", one.curriculum_id.c_str(), one.items, one.title.c_str());
@@ -307,7 +304,7 @@ int run_demo_cases(const Arguments& arguments) {
   if (!arguments.has("--json")) print_accounts(answer.passwords);
   const auto add = [&](const std::vector<DemoCase>& wanted, const char* title, const char* hits,
                        std::vector<DemoCaseAnswer>& made) -> base::Result<void> {
-    auto all = make_all(*library, wanted, sources, hits, answer.not_made);
+    auto all = make_all(*library, wanted, sources, hits);
     if (!all) return all.error();
     made = std::move(*all);
     auto curriculum = lead_through(*library, title, made);
@@ -319,7 +316,7 @@ int run_demo_cases(const Arguments& arguments) {
   if (const auto done = add(drills(), "First hour", "first_pass_success", answer.drills); !done)
     return refuse(done.error());
   if (graded)
-    if (const auto done = add(demo_cases(), "Graded cases", "hit", answer.cases); !done)
+    if (const auto done = add(graded_cases(sources), "Graded cases", "hit", answer.cases); !done)
       return refuse(done.error());
   folder.keep();
   if (arguments.has("--json"))

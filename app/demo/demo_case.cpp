@@ -14,11 +14,9 @@ namespace seldinger::app {
 namespace {
 
 volume::Calyces calyces_of(const Arguments& arguments) {
-  const std::string kind = arguments.text("--calyces", "normal");
-  if (kind == "normal") return volume::Calyces::normal;
-  if (kind == "dilated") return volume::Calyces::dilated;
-  if (kind == "opacified") return volume::Calyces::opacified;
-  throw UsageError("--calyces is normal, dilated or opacified");
+  const auto calyces = base::from_name(volume::kCalycesNames, arguments.text("--calyces", "normal"));
+  if (!calyces) throw UsageError("--calyces is normal, dilated or opacified");
+  return *calyces;
 }
 
 cases::Modality modality_of(const Arguments& arguments) {
@@ -93,14 +91,14 @@ base::Result<DemoCaseFound> demo_case(std::optional<casedb::Library>& library, M
     if (!opened) return error_of_library(arguments, opened.error());
     library.emplace(std::move(*opened));
     for (casedb::CaseRow& row : casedb::list_cases(*library))
-      if (is_case_of(row, phantom_origin(calyces), volume_sha256, modality)) {
+      if (is_case_of(row, phantom_origin({.calyces = calyces}), volume_sha256, modality)) {
         auto found = with_lesion(*library, std::move(row));
         if (!found && made) return with_warnings(found.error(), made->warnings);
         return found;
       }
   }
   if (!made) {
-    auto read = import_phantom(calyces);
+    auto read = import_phantom({.calyces = calyces});
     if (!read) return read.error();
     made.emplace(std::move(*read));
   }

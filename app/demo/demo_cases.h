@@ -21,6 +21,8 @@ enum class DemoSource {
   torso,
   torso_dilated,
   torso_opacified,
+  torso_prone,
+  neck,
   contrast_liver,
   abdomen_pelvis,
   thorax_inlet
@@ -40,9 +42,11 @@ struct DemoCase {
   std::vector<DemoStructure> structures;
 };
 
-// In the order of their numbers, each from 1: what comes before patients, and what then is graded.
+// In the order of their numbers, each from 1: what comes before patients, and what then is graded; all built in.
 const std::vector<DemoCase>& drills();
 const std::vector<DemoCase>& demo_cases();
+// Of a CT of a patient: what takes the place of those with the same number where that CT is at hand.
+const std::vector<DemoCase>& demo_cases_of_ct();
 
 // A CT is known by what lies where: mean HU of 7 × 7 mm at points that its readers named.
 struct Landmark {
@@ -72,7 +76,6 @@ struct DemoCurriculum {
 };
 struct DemoCasesAnswer {
   std::vector<DemoCaseAnswer> drills, cases;
-  std::vector<int> not_made;
   std::vector<base::Error> left_out;  // of the CTs that were given: why nothing is made of them
   std::vector<DemoCurriculum> curricula;
   std::vector<std::pair<std::string, std::string>> passwords;

@@ -61,11 +61,15 @@ std::optional<base::Result<casedb::NewCase>> built_in(DemoSource source) {
     case DemoSource::gel_across:
       return import_gel_block(volume::GelBlock::out_of_plane);
     case DemoSource::torso:
-      return import_phantom(volume::Calyces::normal);
+      return import_phantom({.calyces = volume::Calyces::normal});
     case DemoSource::torso_dilated:
-      return import_phantom(volume::Calyces::dilated);
+      return import_phantom({.calyces = volume::Calyces::dilated});
     case DemoSource::torso_opacified:
-      return import_phantom(volume::Calyces::opacified);
+      return import_phantom({.calyces = volume::Calyces::opacified});
+    case DemoSource::torso_prone:
+      return import_phantom({.posture = volume::Posture::prone});
+    case DemoSource::neck:
+      return import_phantom({.region = volume::Region::neck});
     default:
       return std::nullopt;
   }

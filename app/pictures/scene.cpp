@@ -6,7 +6,6 @@
 #include "app/cli/words.h"
 #include "casedb/cases/cases.h"
 #include "casedb/import/import.h"
-#include "sim/volume/phantom.h"
 #include "sim/volume/tissue/find_tissue.h"
 
 namespace seldinger::app {
@@ -25,7 +24,8 @@ base::Result<Scene> read_scene(const std::filesystem::path& path, std::vector<st
 base::Result<volume::Volume> volume_of(const Scene& scene, const std::string& library) {
   if (const auto* analytic = std::get_if<volume::AnalyticVolume>(&scene.volume))
     return volume::rasterize(*analytic);
-  if (std::holds_alternative<BuiltInTorso>(scene.volume)) return volume::make_phantom().volume;
+  if (const auto* built_in = std::get_if<volume::PhantomOptions>(&scene.volume))
+    return volume::make_phantom(*built_in).volume;
   if (const auto* file = std::get_if<VolumeFile>(&scene.volume)) {
     auto source = casedb::read_source(file->path);
     if (!source) return error_of("the scene's volume", file->path.string(), source.error());
@@ -46,8 +46,8 @@ base::Result<std::vector<volume::TissueClass>> classes_of(const Scene& scene, co
     volume::rasterize(*analytic, labels);
     return volume::tissue_classes(volume, &labels);
   }
-  if (std::holds_alternative<BuiltInTorso>(scene.volume)) {
-    const volume::LabelMap labels = volume::make_phantom().labels;
+  if (const auto* built_in = std::get_if<volume::PhantomOptions>(&scene.volume)) {
+    const volume::LabelMap labels = volume::make_phantom(*built_in).labels;
     return volume::tissue_classes(volume, &labels);
   }
   if (std::holds_alternative<VolumeFile>(scene.volume)) return volume::tissue_classes(volume);

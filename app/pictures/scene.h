@@ -16,6 +16,7 @@
 #include "sim/imaging/xray/projection/projection.h"
 #include "sim/volume/analytic.h"
 #include "sim/volume/classes.h"
+#include "sim/volume/phantom.h"
 
 namespace seldinger::app {
 
@@ -25,7 +26,6 @@ struct VolumeFile {
 struct VolumeOfCase {
   std::string case_id;
 };
-struct BuiltInTorso {};  // sim/volume/phantom: as the demo's case has it
 
 enum class XrayOutput { line_integral, intensity, display };
 struct XrayView {
@@ -54,7 +54,7 @@ struct SceneMotion {
 };
 
 struct Scene {
-  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume, BuiltInTorso> volume;
+  std::variant<VolumeFile, VolumeOfCase, volume::AnalyticVolume, volume::PhantomOptions> volume;
   imaging::Inserted inserted;
   cases::Instrument instrument;  // size and HU from the needle; kind from needle.instrument
   cases::Approach approach = cases::Approach::in_plane;

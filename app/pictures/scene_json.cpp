@@ -17,6 +17,15 @@ constexpr int kMaxShapes = 10'000;
 constexpr std::size_t kMaxStructures = 100, kMaxPoints = 1000;
 constexpr std::size_t kMaxClasses = 254;  // a label is one byte; 0 is none
 
+// One of a table's names.
+template <typename Value, std::size_t n>
+Value read_named(SceneReader& reader, const char* field, const base::Names<Value, n>& table,
+                 const char* otherwise) {
+  std::vector<std::string> names;
+  for (const base::Named<Value>& one : table) names.emplace_back(one.name);
+  return *base::from_name(table, reader.choice(field, names, otherwise));
+}
+
 volume::Shape read_shape(const Json& json, const std::string& where, base::Error& error,
                          std::vector<std::string>& unused) {
   SceneReader reader(json, where, error);
@@ -80,8 +89,11 @@ void read_volume(SceneReader& root, const std::filesystem::path& folder, Scene& 
   else if (reader.has("analytic"))
     scene.volume = read_analytic(reader["analytic"], error, unused);
   else if (reader.has("built_in")) {
-    reader.choice("built_in", {"torso"}, nullptr);
-    scene.volume = BuiltInTorso{};
+    volume::PhantomOptions built_in;
+    built_in.region = read_named(reader, "built_in", volume::kRegionNames, nullptr);
+    built_in.body = read_named(reader, "body", volume::kBodyNames, "adult");
+    built_in.posture = read_named(reader, "posture", volume::kPostureNames, "supine");
+    scene.volume = built_in;
   } else
     reader.bad("", "is neither a path, a case, built_in nor analytic");
   reader.unused(unused);

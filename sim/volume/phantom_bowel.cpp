@@ -1,4 +1,5 @@
-// The torso's hollow organs: stomach, duodenum, colon with haustra, small bowel; gas lies in front (supine).
+// The torso's hollow organs: stomach, duodenum, colon with haustra, small bowel; gas lies in front when supine,
+// behind when prone.
 #include <cstdint>
 
 #include "sim/base/rng.h"
@@ -17,19 +18,20 @@ void add_hollow(Shapes& shapes, const Tissue& wall, const std::vector<Ellipsoid>
     add(shapes, kBowelContent, Ellipsoid{part.center_mm, part.radii_mm - wall_mm}, {wall.name});
 }
 
-// Gas in front of a level, content behind it: one level for all that hangs together, as in any supine patient.
-void add_gas(Shapes& shapes, const glm::dvec3& from_mm, const glm::dvec3& to_mm) {
-  add(shapes, kBowelGas, Box{from_mm, to_mm}, {kBowelContent.name});
+// Gas above a level, content below it: one level for all that hangs together.
+void add_gas(Shapes& shapes, const Box& above) {
+  add(shapes, kBowelGas, above, {kBowelContent.name});
 }
 
-void add_stomach(Shapes& shapes) {
+void add_stomach(Shapes& shapes, bool prone) {
   const std::vector<Ellipsoid> parts{
       {{62.0, 6.0, 74.0}, {36.0, 38.0, 32.0}},   {{60.0, -14.0, 50.0}, {36.0, 34.0, 34.0}},
       {{56.0, -34.0, 26.0}, {32.0, 26.0, 30.0}}, {{42.0, -44.0, 6.0}, {28.0, 20.0, 22.0}},
       {{20.0, -46.0, -4.0}, {22.0, 16.0, 17.0}}, {{-2.0, -42.0, 2.0}, {18.0, 14.0, 14.0}},
       {{-18.0, -32.0, 8.0}, {10.0, 10.0, 10.0}}};
   add_hollow(shapes, kStomach, parts, 4.0, kFree);
-  add_gas(shapes, {-10.0, -80.0, -30.0}, {100.0, -36.0, 110.0});
+  add_gas(shapes, prone ? Box{{-30.0, 12.0, -30.0}, {100.0, 60.0, 110.0}}
+                        : Box{{-10.0, -80.0, -30.0}, {100.0, -36.0, 110.0}});
   // Duodenum round the pancreatic head.
   add_tube(shapes, kSmallBowel,
            {{{-26.0, -28.0, 8.0}, 11.0},
@@ -50,7 +52,7 @@ void add_stomach(Shapes& shapes) {
 }
 
 // Haustra strung along the colon: lenses whose size alternates.
-void add_colon(Shapes& shapes) {
+void add_colon(Shapes& shapes, bool prone) {
   const std::vector<Knot> line{
       {{-92.0, 2.0, -185.0}, 25.0},   {{-104.0, 6.0, -160.0}, 24.0}, {{-107.0, 10.0, -130.0}, 22.0},
       {{-106.0, 10.0, -102.0}, 21.0}, {{-98.0, -4.0, -78.0}, 20.0},  {{-82.0, -34.0, -70.0}, 19.0},
@@ -69,11 +71,18 @@ void add_colon(Shapes& shapes) {
           {line[i].p_mm + (line[i + 1].p_mm - line[i].p_mm) * t, {radius_mm, 0.92 * radius_mm, 0.95 * radius_mm}});
     }
   add_hollow(shapes, kColon, parts, 3.0, kFree);
-  add_gas(shapes, {-140.0, -90.0, -95.0}, {100.0, -50.0, 0.0});  // transverse
-  add(shapes, kBowelGas, Ellipsoid{{98.0, -24.0, 0.0}, {9.0, 5.0, 8.0}}, {kBowelContent.name});
-  add_gas(shapes, {-140.0, -60.0, -200.0}, {-80.0, -6.0, -91.0});  // ascending
-  add_gas(shapes, {90.0, -60.0, -75.0}, {140.0, 8.0, -42.0});      // descending
-  add_gas(shapes, {90.0, -60.0, -165.0}, {140.0, -2.0, -108.0});
+  if (prone) {
+    add_gas(shapes, {{-75.0, -54.0, -95.0}, {75.0, -20.0, -20.0}});   // transverse
+    add_gas(shapes, {{-140.0, 14.0, -200.0}, {-80.0, 40.0, -91.0}});  // ascending
+    add_gas(shapes, {{88.0, 16.0, -75.0}, {140.0, 40.0, -5.0}});      // descending
+    add_gas(shapes, {{88.0, 6.0, -165.0}, {140.0, 40.0, -108.0}});
+  } else {
+    add_gas(shapes, {{-140.0, -90.0, -95.0}, {100.0, -50.0, 0.0}});
+    add(shapes, kBowelGas, Ellipsoid{{98.0, -24.0, 0.0}, {9.0, 5.0, 8.0}}, {kBowelContent.name});
+    add_gas(shapes, {{-140.0, -60.0, -200.0}, {-80.0, -6.0, -91.0}});
+    add_gas(shapes, {{90.0, -60.0, -75.0}, {140.0, 8.0, -42.0}});
+    add_gas(shapes, {{90.0, -60.0, -165.0}, {140.0, -2.0, -108.0}});
+  }
 }
 
 // Loops that wander from side to side, the jejunum in the left upper abdomen; bubbles in some.
@@ -87,7 +96,7 @@ constexpr LoopRow kLoopRows[] = {
     {-2.0, 66.0, -47.0, -146.0}, {2.0, 72.0, -24.0, -154.0},  {0.0, 66.0, -48.0, -173.0},
 };
 
-void add_small_bowel(Shapes& shapes) {
+void add_small_bowel(Shapes& shapes, bool prone) {
   std::uint64_t draw = 0;
   const auto jitter = [&](double by_mm) { return by_mm * (2.0 * base::uniform_at(21, draw++) - 1.0); };
   for (const LoopRow& row : kLoopRows) {
@@ -104,7 +113,7 @@ void add_small_bowel(Shapes& shapes) {
     for (const Knot& knot : lumen)
       if (base::uniform_at(22, draw++) > 0.55) {
         const double r_mm = knot.radius_mm;
-        const glm::dvec3 middle_mm = knot.p_mm - glm::dvec3(0.0, 0.5 * r_mm, 0.0);
+        const glm::dvec3 middle_mm = knot.p_mm - glm::dvec3(0.0, prone ? -0.5 * r_mm : 0.5 * r_mm, 0.0);
         add(shapes, kBowelGas, Ellipsoid{middle_mm, {1.1 * r_mm, 0.5 * r_mm, 0.9 * r_mm}}, {kBowelContent.name});
       }
   }
@@ -112,10 +121,10 @@ void add_small_bowel(Shapes& shapes) {
 
 }  // namespace
 
-void add_bowel(Shapes& shapes) {
-  add_stomach(shapes);
-  add_colon(shapes);
-  add_small_bowel(shapes);
+void add_bowel(Shapes& shapes, bool prone) {
+  add_stomach(shapes, prone);
+  add_colon(shapes, prone);
+  add_small_bowel(shapes, prone);
 }
 
 }  // namespace seldinger::volume::phantom

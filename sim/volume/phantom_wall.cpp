@@ -10,8 +10,6 @@
 namespace seldinger::volume::phantom {
 namespace {
 
-constexpr double kTall_mm = 3000.0;  // half axis of what runs through both ends: tapers by 0.2 % over the volume
-
 // A trunk's section is no ellipse: a middle one and two lateral ones give flat flanks, belly and back.
 struct Ellipse {
   double x_mm, y_mm, x_radius_mm, y_radius_mm;
@@ -19,9 +17,6 @@ struct Ellipse {
 constexpr std::array<Ellipse, 3> kOutline{
     {{0.0, -2.0, 168.0, 112.0}, {48.0, 6.0, 120.0, 108.0}, {-48.0, 6.0, 120.0, 108.0}}};
 
-struct Inset {
-  double lateral_mm, front_mm, back_mm;
-};
 constexpr Inset kSkinInside{2.0, 2.0, 2.0};
 constexpr Inset kMuscleOutside{22.0, 20.0, 16.0};
 constexpr Inset kCavity{35.0, 32.0, 38.0};
@@ -162,9 +157,11 @@ void add_costal_arch(Shapes& shapes, double side) {
 
 }  // namespace
 
-void add_body_layers(Shapes& shapes) {
-  add_layer(shapes, kSkin, {0.0, 0.0, 0.0});
-  add_layer(shapes, kFat, kSkinInside);
+void add_body_layers(Shapes& shapes, const Inset& less_fat) {
+  add_layer(shapes, kSkin, less_fat);
+  add_layer(shapes, kFat,
+            {kSkinInside.lateral_mm + less_fat.lateral_mm, kSkinInside.front_mm + less_fat.front_mm,
+             kSkinInside.back_mm + less_fat.back_mm});
   add_layer(shapes, kMuscle, kMuscleOutside);
   add_layer(shapes, kVisceralFat, kCavity);
 }

@@ -120,14 +120,14 @@ class Scenes : public testing::Test {
   const fs::path folder_ = fixtures::fresh_folder("documented_scenes");
 };
 
-TEST_F(Scenes, EveryOneHereIsOfTheBuiltInTorsoAndIsDrawn) {
+TEST_F(Scenes, EveryOneHereIsOfABuiltInPatientAndIsDrawn) {
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(kRoot / "docs" / "scenes")) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() != ".json" || name.find(".sheet.") != std::string::npos) continue;
     SCOPED_TRACE(name);
     const Json scene = read(name);
-    EXPECT_EQ(scene.at("volume"), Json({{"built_in", "torso"}}));
+    EXPECT_TRUE(scene.at("volume").contains("built_in"));
     render(scene, name + ".png");
     const fixtures::RgbPicture picture = fixtures::read_png(folder_ / (name + ".png"));
     int dark = 0, bright = 0;

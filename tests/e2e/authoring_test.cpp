@@ -215,17 +215,17 @@ TEST_F(AuthoringCommands, WrongUseIsTwo) {
     EXPECT_EQ(call(words).exit_code, 2) << words;
 }
 
-TEST(GradedCases, TheBuiltInOnesAreMadePublishedAndHit) {
+TEST(GradedCases, AllEightAreMadeOfBuiltInPatientsPublishedAndHit) {
   const auto scratch = fixtures::fresh_folder("graded_cases");
   const std::string library = (scratch / "library").string();
   const std::string command = kProgram + " demo --cases --json --library '" + library + "'";
   const auto ran = run(command, scratch);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json made = Json::parse(ran.out);
-  ASSERT_EQ(made.at("cases").size(), 3U);
-  EXPECT_EQ(made.at("not_made"), Json({2, 3, 4, 7, 8}));
+  ASSERT_EQ(made.at("cases").size(), 8U);
   for (const Json& one : made.at("cases")) {
-    EXPECT_EQ(one.at("state"), "published");
+    EXPECT_EQ(one.at("state"), "published") << "checked: each has a free path from the skin";
+    if (one.at("decision") == "defer") continue;
     ASSERT_TRUE(one.at("hit").is_object()) << one;
     const auto shown = run(kProgram + " attempt show " + one.at("hit").at("attempt_id").get<std::string>() +
                                " --json --library '" + library + "'",
@@ -234,6 +234,9 @@ TEST(GradedCases, TheBuiltInOnesAreMadePublishedAndHit) {
     EXPECT_EQ(attempt.at("case_id"), one.at("case_id"));
     EXPECT_EQ(*fixtures::metric(attempt, "hit"), 1.0);
     EXPECT_EQ(*fixtures::metric(attempt, "nogo_length_critical"), 0.0) << one.at("title");
+    // What must be avoided lies near the way.
+    EXPECT_GT(*fixtures::metric(attempt, "clearance_min"), 0.0) << one.at("title");
+    EXPECT_LT(*fixtures::metric(attempt, "clearance_min"), 12.0) << one.at("title");
   }
   const auto again = run(command, scratch);
   ASSERT_EQ(again.exit_code, 0) << again.err;

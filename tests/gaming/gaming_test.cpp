@@ -1,17 +1,17 @@
 // Nobody passes a case that the program brings along by parking, freezing, creeping, starting again, talking, or
-// firing anywhere else: those of the built-in phantoms.
+// firing anywhere else: those of gel and of the built-in patients.
 #include "tests/gaming/all_players.h"
 
 namespace seldinger::gaming {
 namespace {
 
-TEST(Gaming, PassesNoDrillAndNoGradedCaseOfTheTorso) {
+TEST(Gaming, PassesNoDrillAndNoGradedCaseOfBuiltInPatients) {
   const fixtures::CommandLibrary made(fixtures::fresh_folder("gaming"));
-  ASSERT_EQ(made.demo("--cases").at("cases").size(), 3U);
+  ASSERT_EQ(made.demo("--cases").at("cases").size(), 8U);
   auto library = casedb::Library::open(made.path());
   ASSERT_TRUE(library.has_value()) << library.error().text;
   const auto all = all_played(*library);
-  EXPECT_EQ(all.size(), 6U * (1 + gaming_players().size()));
+  EXPECT_EQ(all.size(), 11U * (1 + gaming_players().size()));
   expect_only_honest_passes(all);
 }
 
