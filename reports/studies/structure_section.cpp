@@ -33,9 +33,7 @@ Html forms_panel(const ValidityReport& report) {
               std::to_string(one.high));
     html.raw("</td><td>").text(std::to_string(one.alpha.n));
     if (one.alpha.missing > 0)
-      html.raw("<span class=\"why\">")
-          .text(std::to_string(one.alpha.missing) + " left out, who did not answer every item")
-          .raw("</span>");
+      html.text("; " + std::to_string(one.alpha.missing) + " left out, who did not answer every item");
     html.raw("</td>");
     add_estimate(html, one.alpha);
     add_estimate(html, one.omega);

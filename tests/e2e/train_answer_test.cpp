@@ -76,7 +76,8 @@ TEST_F(TrainAnswerTest, AnswersBegunByKeysOutliveTheProgramAndAreSentOnce) {
   person_->press("q");
   ASSERT_TRUE(person_->reaches("answer")) << person_->now();
 
-  // By keys: a number that does not fit is told and mended, another is not applicable.
+  // By keys: one of the choices; a number that does not fit is told and mended.
+  ASSERT_NO_FATAL_FAILURE(tick("1: fellow"));
   ASSERT_NO_FATAL_FAILURE(go_to("3"));
   person_->screen().type("200");
   ASSERT_NO_FATAL_FAILURE(go_to("Next"));
@@ -122,6 +123,7 @@ TEST_F(TrainAnswerTest, AnswersBegunByKeysOutliveTheProgramAndAreSentOnce) {
   const std::string out = (library_.folder() / "answers.csv").string();
   library_.done("questionnaire export " + code + " --out '" + out + "'");
   const std::string csv = fixtures::whole_file(out);
+  EXPECT_NE(csv.find(",window,1,choice,answered,2,,fellow,"), csv.npos) << csv;
   EXPECT_NE(csv.find(",window,3,number,answered,31,31,,"), csv.npos) << csv;
   EXPECT_NE(csv.find(",window,7,scale,answered,3,"), csv.npos) << csv;
   EXPECT_NE(csv.find(",window,8a,scale,not_applicable,,"), csv.npos) << csv;

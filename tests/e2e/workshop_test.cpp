@@ -47,6 +47,17 @@ TEST(WorkshopCommands, ThePageIsWhatCanBeTyped) {
   }
   const auto late = library.call("workshop admit " + code + " --user tina --consent");
   EXPECT_NE(late.err.find("workshop_closed"), std::string::npos) << late.err;
+
+  // Once the study has a plan, it is told when she is to come back.
+  const std::string plan = (library.folder() / "plan.json").string();
+  library.done("study template --case " + case_id + " --out '" + plan + "'");
+  library.done("study plan 'Study day' '" + plan + "' --by rita");
+  library.done("study freeze 'Study day' --by rita");
+  library.done("user fact tina years_in_radiology 0");
+  library.done("study enrol 'Study day' --user tina --by rita");
+  const auto visits = library.ask("workshop show " + code)["participants"][0]["visits"];
+  ASSERT_FALSE(visits.empty());
+  for (const auto& one : visits) EXPECT_LT(one["from_us"].get<long long>(), one["to_us"].get<long long>()) << one;
   library.done("check");
 }
 
