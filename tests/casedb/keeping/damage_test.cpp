@@ -268,8 +268,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
     for (const char* later :
-         {"rating", "rating_known", "rating_view", "rating_rater", "rating_round", "attempt_comment", "response",
-          "response_set", "questionnaire_group", "questionnaire_round", "questionnaire", "study_plan",
+         {"cut", "rating", "rating_known", "rating_view", "rating_rater", "rating_round", "attempt_comment",
+          "response", "response_set", "questionnaire_group", "questionnaire_round", "questionnaire", "study_plan",
           "study_stratum", "study_enrolment", "study_look", "study_deviation"})
       old.run(std::string("DROP TABLE ") + later);  // as schema 20 has them not yet
     old.run("PRAGMA user_version = 20");
