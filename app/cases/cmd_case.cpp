@@ -7,6 +7,8 @@
 #include "app/cases/privacy_text.h"
 #include "app/cli/command.h"
 #include "casedb/cases/authoring.h"
+#include "casedb/grading/dependability.h"
+#include "reports/words/dependability_words.h"
 
 namespace seldinger::app {
 namespace {
@@ -72,6 +74,10 @@ int run_case_show(const Arguments& arguments) {
                 volume::about(one.tissue).name, casedb::name_of(one.kind).c_str());
   for (const assessment::Criterion& one : row.rule.criteria)
     std::printf("%s %s\n", one.critical ? "critical  " : "pass      ", assessment::text_of(one).c_str());
+  if (!row.rule.criteria.empty()) {
+    const auto dependability = casedb::dependability(casedb::learning_attempts(*library, casedb::Learners::people));
+    std::printf("tells      %s\n", reports::dependability_text(dependability, casedb::Learners::people).c_str());
+  }
   for (const casedb::Decision& one : parts->decisions)
     std::printf("%s by %s%s%s\n", casedb::name_of(one.kind).c_str(), one.who().c_str(),
                 one.note.empty() ? "" : ": ", one.note.c_str());

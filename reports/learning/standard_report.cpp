@@ -5,10 +5,12 @@
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
 #include "casedb/database/uuid.h"
+#include "casedb/grading/dependability.h"
 #include "reports/charts/interval_chart.h"
 #include "reports/learning/cut_words.h"
 #include "reports/learning/learning_page.h"
 #include "reports/studies/study_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -66,8 +68,13 @@ void add_scale(Html& html, const StandardReport& report, const std::vector<const
 
 StandardReport standard_report_of(casedb::Library& library, const casedb::CaseRow& row,
                                   const std::string& program_version) {
-  return {row.title,       row.version, casedb::now_us(),
-          program_version, row.rule,    casedb::list_cuts(library, row.case_id)};
+  return {row.title,
+          row.version,
+          casedb::now_us(),
+          program_version,
+          row.rule,
+          casedb::list_cuts(library, row.case_id),
+          casedb::dependability(casedb::learning_attempts(library, casedb::Learners::people))};
 }
 
 std::string standard_report_page(const StandardReport& report) {
@@ -93,6 +100,9 @@ std::string standard_report_page(const StandardReport& report) {
         "<p class=\"note\">The filled mark is the cut that holds. Methods that disagree by more than their "
         "intervals "
         "answer different questions: which one counts is a decision, and whoever takes it signs for it.</p>\n");
+  html.raw("<h2>What passing one case tells</h2>\n<p>")
+      .text(dependability_text(report.dependability, casedb::Learners::people))
+      .raw("</p>\n");
   return learning_page(report.title + " – standard", html);
 }
 

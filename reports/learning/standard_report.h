@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/statistics/answer.h"
 #include "casedb/cases/cases.h"
 #include "casedb/grading/cuts.h"
 
@@ -16,7 +17,8 @@ struct StandardReport {
   std::int64_t made_us = 0;
   std::string program_version;
   assessment::PassRule rule;
-  std::vector<casedb::Cut> cuts;  // oldest first
+  std::vector<casedb::Cut> cuts;                 // oldest first
+  assessment::statistics::Answer dependability;  // of passing, by what people did
 };
 StandardReport standard_report_of(casedb::Library& library, const casedb::CaseRow& row,
                                   const std::string& program_version);

@@ -267,7 +267,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
-    for (const char* later : {"rating",
+    for (const char* later : {"cut",
+                              "rating",
                               "rating_known",
                               "rating_view",
                               "rating_rater",

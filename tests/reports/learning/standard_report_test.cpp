@@ -33,6 +33,7 @@ StandardReport cuts_report(std::vector<casedb::Cut> cuts) {
   report.program_version = "1";
   report.rule.criteria = {{"tip_target_dist", 1, assessment::Comparison::at_most, 5.0}};
   report.cuts = std::move(cuts);
+  report.dependability = assessment::statistics::not_estimable("g_theory", "too_few", 1);
   return report;
 }
 
@@ -44,6 +45,7 @@ TEST(StandardReport, PutsMethodsOnOneAxisAndMarksTheOneThatHolds) {
   EXPECT_THAT(page, HasSubstr("at most 5.5 mm (4.5 to 6.5), n = 12, Borderline persons</strong> holds"));
   EXPECT_THAT(page, HasSubstr("The case’s rule asks for at most 5 mm."));
   EXPECT_THAT(page, HasSubstr("frozen by P-2"));
+  EXPECT_THAT(page, HasSubstr("Φ is not estimated: there are too few values"));
   EXPECT_THAT(page, HasSubstr("Share of items that are right"));
   EXPECT_THAT(page, HasSubstr("&quot;&lt;b&gt;&quot;"));
   std::size_t charts = 0, marked = 0;
