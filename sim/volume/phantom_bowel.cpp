@@ -71,11 +71,9 @@ void add_colon(Shapes& shapes, bool prone) {
           {line[i].p_mm + (line[i + 1].p_mm - line[i].p_mm) * t, {radius_mm, 0.92 * radius_mm, 0.95 * radius_mm}});
     }
   add_hollow(shapes, kColon, parts, 3.0, kFree);
-  if (prone) {
-    add_gas(shapes, {{-75.0, -54.0, -95.0}, {75.0, -20.0, -20.0}});   // transverse
-    add_gas(shapes, {{-140.0, 14.0, -200.0}, {-80.0, 40.0, -91.0}});  // ascending
-    add_gas(shapes, {{88.0, 16.0, -75.0}, {140.0, 40.0, -5.0}});      // descending
-    add_gas(shapes, {{88.0, 6.0, -165.0}, {140.0, 40.0, -108.0}});
+  if (prone) {  // the transverse colon is lowest, and full of content
+    add_gas(shapes, {{-140.0, -2.0, -200.0}, {-80.0, 40.0, -55.0}});
+    add_gas(shapes, {{86.0, -2.0, -200.0}, {140.0, 40.0, 22.0}});
   } else {
     add_gas(shapes, {{-140.0, -90.0, -95.0}, {100.0, -50.0, 0.0}});
     add(shapes, kBowelGas, Ellipsoid{{98.0, -24.0, 0.0}, {9.0, 5.0, 8.0}}, {kBowelContent.name});

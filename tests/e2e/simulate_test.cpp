@@ -32,7 +32,7 @@ bool passes(const Json& attempt, const Json& criteria) {
   return true;
 }
 
-// The graded cases of the built-in torso: 1 and 5 by ultrasound, 6 by fluoroscopy.
+// The graded cases of the built-in patients.
 class SimulateTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -53,8 +53,9 @@ class SimulateTest : public testing::Test {
 };
 
 TEST_F(SimulateTest, MostExpertsPassTheGradedCasesAndNovicesMostlyDoNot) {
-  ASSERT_EQ(cases_.size(), 3U);
+  ASSERT_EQ(cases_.size(), 8U);
   for (const Json& one : cases_) {
+    if (one.at("decision") == "defer") continue;
     const std::string id = one.at("case_id");
     const Json shown = ask("case show " + id);
     const Json& criteria = shown.at("rule");
