@@ -32,14 +32,21 @@ constexpr PersonColumn kRemoved[] = {
     {"simulated_truth", "person_id"}, {"desk_response", "person_id"},   {"workshop_participant", "person_id"},
 };
 constexpr PersonColumn kKept[] = {
-    {"audit", "person_id"},           {"case_decision", "person_id"},
-    {"consent", "person_id"},         {"curriculum", "made_by"},
-    {"curriculum", "published_by"},   {"standard", "set_by"},
-    {"erasure", "by_person_id"},      {"training_case", "burned_in_checked_by"},
-    {"study_plan", "frozen_by"},      {"study_look", "person_id"},
-    {"study_deviation", "person_id"}, {"questionnaire_round", "opened_by"},
+    {"audit", "person_id"},
+    {"case_decision", "person_id"},
+    {"consent", "person_id"},
+    {"curriculum", "made_by"},
+    {"curriculum", "published_by"},
+    {"standard", "set_by"},
+    {"erasure", "by_person_id"},
+    {"training_case", "burned_in_checked_by"},
+    {"study_plan", "frozen_by"},
+    {"study_look", "person_id"},
+    {"study_deviation", "person_id"},
+    {"questionnaire_round", "opened_by"},
     {"workshop", "opened_by"},
-    {"cut", "proposed_by"},           {"cut", "frozen_by"},
+    {"cut", "proposed_by"},
+    {"cut", "frozen_by"},
 };
 
 void run_with_id(Sqlite& database, const std::string& sql, const std::string& id) {

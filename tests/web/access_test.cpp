@@ -121,19 +121,19 @@ TEST(AccessMatrix, RoutesWithoutAnActionAreThoseOfNoSecret) {
   std::set<std::string_view> without;
   for (const Route& route : routes())
     if (!route.who.action) without.insert(route.pattern);
-  EXPECT_EQ(without,
-            (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts", "/metrics",
-                                        "/answer", "/answer/form", "/answer/thanks", "/answer.js", "/rate",
-                                        "/rate/bench", "/rate/replay", "/replay.js", "/openapi.json", "/board", "/film.js"}))
+  EXPECT_EQ(without, (std::set<std::string_view>{"/healthz", "/style.css", "/", "/login", "/logout", "/attempts",
+                                                 "/metrics", "/answer", "/answer/form", "/answer/thanks",
+                                                 "/answer.js", "/rate", "/rate/bench", "/rate/replay", "/replay.js",
+                                                 "/openapi.json", "/board", "/film.js"}))
       << "a new route names its action";
 }
 
 TEST(AccessMatrix, LoggedOutEverythingButTheOpenRoutesIsClosed) {
   FakeSite fake;
   FakeBrowser browser(*fake.site);
-  const std::set<std::string_view> open = {"/healthz", "/style.css",     "/login",
-                                           "/answer",  "/answer/thanks", "/answer.js",
-                                           "/rate",    "/replay.js",     "/openapi.json", "/board", "/film.js"};
+  const std::set<std::string_view> open = {"/healthz",       "/style.css", "/login",  "/answer",
+                                           "/answer/thanks", "/answer.js", "/rate",   "/replay.js",
+                                           "/openapi.json",  "/board",     "/film.js"};
   for (const Route& route : routes()) {
     if (route.method != "GET") continue;
     for (const std::string& id : {kOwnAttempt, kMissingAttempt}) {
