@@ -23,7 +23,7 @@ namespace {
 const bool kAllCrops = std::getenv("SELDINGER_REPETITIONS") != nullptr;
 
 TEST(CutCt, ExpertsComeThroughTrueSkin) {
-  const volume::Volume torso = volume::make_phantom({.spacing_mm = {2, 2, 3}}).volume;
+  const volume::Volume torso = volume::make_phantom({.spacing_mm = glm::dvec3(2, 2, 3)}).volume;
   const auto body = volume::body_mask(torso);
   const auto whole = casedb::skin_surface(torso, {.decimate_share = 0.0});
   ASSERT_TRUE(whole);

@@ -16,7 +16,7 @@ void expect_every_crop(const volume::Volume& volume) {
 }
 
 TEST(CutSkinLong, OfTheTorsoAtEverySpacing) {
-  const volume::Volume torso = volume::make_phantom({.spacing_mm = {1, 1, 1}}).volume;
+  const volume::Volume torso = volume::make_phantom({.spacing_mm = glm::dvec3(1, 1, 1)}).volume;
   for (const double spacing_mm : {1.0, 2.0, 3.0, 5.0}) {
     SCOPED_TRACE(spacing_mm);
     expect_every_crop(volume::coarser(torso, spacing_mm));

@@ -20,7 +20,7 @@ namespace seldinger::casedb {
 namespace {
 
 const volume::Volume& torso() {
-  static const volume::Volume made = volume::make_phantom({.spacing_mm = {2, 2, 3}}).volume;
+  static const volume::Volume made = volume::make_phantom({.spacing_mm = glm::dvec3(2, 2, 3)}).volume;
   return made;
 }
 

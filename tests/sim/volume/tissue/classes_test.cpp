@@ -51,7 +51,7 @@ void add_noise(Volume& volume, double sd_hu, std::uint64_t seed) {
 AnalyticVolume trunk() {
   AnalyticVolume made;
   made.size_voxels = {210, 210, 16};
-  made.spacing_mm = {0.8, 0.8, 3.0};
+  made.spacing_mm = glm::dvec3(0.8, 0.8, 3.0);
   made.origin_mm = {-84.0, -84.0, 0.0};
   made.shapes = {{Cylinder{{0, 0, -10}, {0, 0, 60}, 75.0}, -100.0},
                  {Cylinder{{0, 0, -10}, {0, 0, 60}, 60.0}, 50.0}};
@@ -256,7 +256,7 @@ TEST(Classes, NamesComeBackAndEveryOneOfTheTorsoIsKnown) {
   EXPECT_FALSE(tissue_of_name("").has_value());
   EXPECT_FALSE(tissue_of_name("none").has_value());
   EXPECT_FALSE(tissue_of_name("Liver").has_value());
-  const LabelMap labels = make_phantom({.spacing_mm = {6, 6, 9}}).labels;
+  const LabelMap labels = make_phantom({.spacing_mm = glm::dvec3(6, 6, 9)}).labels;
   for (std::size_t at = 1; at < labels.names.size(); ++at)
     EXPECT_TRUE(tissue_of_name(labels.names[at]).has_value()) << labels.names[at];
 }

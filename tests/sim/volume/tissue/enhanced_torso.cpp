@@ -41,7 +41,7 @@ const EnhancedTorso& fine_torso(TorsoPhase phase, bool metal) {
   static TorsoPhase made_phase = TorsoPhase::none;
   static bool made_metal = false;
   if (!made.volume.hu.empty() && made_phase == phase && made_metal == metal) return made;
-  AnalyticVolume shapes = phantom_shapes({.spacing_mm = {1, 1, 1}});
+  AnalyticVolume shapes = phantom_shapes({.spacing_mm = glm::dvec3(1, 1, 1)});
   for (Shape& shape : shapes.shapes) shape.hu = hu_of(shape, phase);
   if (metal) {
     shapes.shapes.push_back({Cylinder{{-14, 30, -32}, {-14, 70, -32}, 3.0}, 3071.0, "steel"});
