@@ -33,7 +33,7 @@ TEST(Board, ShowsNumbersAndNothingOfWhoTheyAre) {
   const auto all = casedb::list_participants(library, day);
   FakeSite fake;
   const auto questions = std::move(questions_of(std::move(library)).value());
-  Site site(*questions, fake.surroundings);
+  Site site(*questions, fake.surroundings, routes());
   FakeBrowser browser(site);
   const Response board = browser.get("/board?code=" + day.code);
   EXPECT_EQ(board.status, 200);
