@@ -27,11 +27,11 @@ void add_row(Html& html, const AuditView& view, const casedb::AuditRow& row) {
   if (row.actor != "person") html.text(row.person_id ? " (through the operator)" : row.actor);
   html.raw("</td><td data-label=\"What\">").text(act_text(row.act));
   if (row.result != "done") html.raw(" <span class=\"no\">refused</span>");
-  html.raw("</td><td data-label=\"Of\">").text(row.object).raw(" ");
+  html.raw("</td><td data-label=\"Of\">");
   if (row.object == "person")
     html.name(person_text_of(view, row.object_id));
   else
-    html.raw("<span class=\"why\">").text(row.object_id).raw("</span>");
+    html.text(row.object).raw(" <span class=\"why\">").text(row.object_id).raw("</span>");
   html.raw("</td></tr>\n");
 }
 
