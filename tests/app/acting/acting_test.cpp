@@ -21,6 +21,7 @@
 #include "casedb/people/consent.h"
 #include "casedb/people/login_session.h"
 #include "casedb/questionnaires/rounds.h"
+#include "casedb/workshops/workshops.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::app {
@@ -49,7 +50,7 @@ class ActingTest : public testing::Test {
  protected:
   fs::path folder_ = fixtures::fresh_test_folder("acting");
   fs::path made_ = folder_ / "made", library_ = folder_ / "library";
-  std::string draft_, in_review_, published_, attempt_, curriculum_, text_, round_, other_round_;
+  std::string draft_, in_review_, published_, attempt_, curriculum_, text_, round_, other_round_, day_;
   std::map<Role, std::string> person_;
 
   void SetUp() override {
@@ -104,6 +105,7 @@ class ActingTest : public testing::Test {
         "items": [{"id": "1", "text": "Anything?", "kind": "comment"}]})"));
     round_ = casedb::open_round(library, {"Visit", "short", 1, study, {}})->code;
     other_round_ = casedb::open_round(library, {"Day", "short", 1, {}, {}})->code;
+    day_ = casedb::open_workshop(library, {study, "Autumn", {{"Talk"}, {"Film"}}})->code;
     text_ = casedb::list_consents(library, person_[Role::trainee]).front().text_id;
   }
   // The library as it was made.
@@ -251,6 +253,15 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"rating open", {"short", "--title", "Replays"}, Action::manage_questionnaires},
       {"rating show", {round_}, Action::see_responses, own_study},
       {"rating export", {other_round_, "--out", out + ".csv"}, Action::see_responses},
+      {"workshop open",
+       {"Needles", "--title", "Winter", "--station", "Talk", "--station", "Film"},
+       Action::enrol_in_study,
+       own_study},
+      {"workshop admit", {day_, "--user", "trainee"}, Action::enrol_in_study, own_study},
+      {"workshop tick", {day_, "--number", "1", "--station", "Talk"}, Action::enrol_in_study, own_study},
+      {"workshop show", {day_}, Action::enrol_in_study, own_study},
+      {"workshop close", {day_}, Action::enrol_in_study, own_study},
+      {"workshop show", {"XXXXXX"}, Action::enrol_in_study},
       {"consent text", {"nowhere.txt"}, Action::manage_studies},
       {"consent give", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
       {"consent withdraw", {text_, "--user", "trainee"}, Action::answer_consent, {}, true},
