@@ -155,8 +155,8 @@ DemoCase torso_cortex() {
 // At the level of the cricoid, where the carotid lies in part behind the vein.
 DemoCase neck_jugular_vein() {
   DemoCase made = jugular_vein();
-  cases::LesionForm lumen = place_form({-32.6, -19.7, 335.0}, {6.0, 6.0, 6.0});
-  made.lesions = {lumen};
+  // The lumen where it is entered: as dark as the blood about it, not a place, which would be tissue in it.
+  made.lesions = {sphere_form({-32.6, -19.7, 335.0}, 6.0, 12.0)};
   made.structures = {
       drawn("carotid", StructureRule::critical, TissueClass::vessel,
             cases::Tube{{{-22, -6, 306}, {-24, -11, 340}, {-26, -9, 372}}, 3.5}),
