@@ -44,6 +44,12 @@ Proficiency proficiency_of(std::span<const Verdict> verdicts) {
   return verdicts.empty() ? Proficiency::not_started : Proficiency::practising;
 }
 
+std::optional<std::size_t> proficient_at(std::span<const Verdict> verdicts) {
+  for (std::size_t i = 1; i <= verdicts.size(); ++i)
+    if (proficiency_of(verdicts.first(i)) == Proficiency::proficient) return i - 1;
+  return std::nullopt;
+}
+
 int passes_missing(std::span<const Verdict> verdicts) {
   const Passes passes = passes_of(verdicts);
   return passes.longest >= kPassesRunning ? 0 : kPassesRunning - passes.running;

@@ -20,6 +20,9 @@ std::optional<Proficiency> proficiency_from(std::string_view name) noexcept;
 // a run.
 Proficiency proficiency_of(std::span<const Verdict> verdicts);
 
+// Which attempt first made somebody proficient.
+std::optional<std::size_t> proficient_at(std::span<const Verdict> verdicts);
+
 // How many passes running, from now on, that takes; 0 of who is.
 int passes_missing(std::span<const Verdict> verdicts);
 

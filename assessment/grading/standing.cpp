@@ -9,8 +9,6 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
-
 constexpr auto kNames = base::names<Standing>({{Standing::ready, "ready"},
                                                {Standing::nearly, "nearly"},
                                                {Standing::under_way, "under_way"},
@@ -20,11 +18,11 @@ constexpr auto kNames = base::names<Standing>({{Standing::ready, "ready"},
                                                {Standing::not_started, "not_started"}});
 
 // The attempts since the last pass that were graded and not passed, oldest first.
-std::vector<const GradedAttempt*> misses_of(const ItemRecord& item) {
-  std::vector<const GradedAttempt*> misses;
+std::vector<GradedAttempt> misses_of(const ItemRecord& item) {
+  std::vector<GradedAttempt> misses;
   for (const GradedAttempt& one : item.graded) {
     if (one.verdict == Verdict::passed) misses.clear();
-    if (one.verdict == Verdict::failed) misses.push_back(&one);
+    if (one.verdict == Verdict::failed) misses.push_back(one);
   }
   return misses;
 }
@@ -48,21 +46,28 @@ bool find_stuck(std::span<const ItemRecord> items, StandingFound& found) {
     found.item = i;
     found.misses = static_cast<int>(misses.size());
     found.no_attempts_left = used_up;
-    if (!misses.empty()) found.last_us = misses.front()->started_us;
-    std::map<std::string, int> counts;
-    for (const GradedAttempt* one : misses)
-      for (const std::string& id : one->missed) ++counts[id];
-    for (const auto& [id, count] : counts)
-      if (count > found.missed_times) {
-        found.missed_most = id;
-        found.missed_times = count;
-      }
+    if (!misses.empty()) found.last_us = misses.front().started_us;
+    if (const std::vector<Missed> missed = missed_in(misses); !missed.empty()) {
+      found.missed_most = missed.front().metric;
+      found.missed_times = missed.front().times;
+    }
     return true;
   }
   return false;
 }
 
 }  // namespace
+
+std::vector<Missed> missed_in(std::span<const GradedAttempt> attempts) {
+  std::map<std::string, int> counts;
+  for (const GradedAttempt& one : attempts)
+    for (const std::string& id : one.missed) ++counts[id];
+  std::vector<Missed> missed;
+  for (const auto& [id, times] : counts) missed.push_back({id, times});
+  std::stable_sort(missed.begin(), missed.end(),
+                   [](const Missed& a, const Missed& b) { return a.times > b.times; });
+  return missed;
+}
 
 std::string_view name_of(Standing standing) noexcept {
   return base::name_of(kNames, standing);

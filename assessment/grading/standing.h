@@ -22,6 +22,8 @@ inline constexpr Standing kAllStandings[] = {Standing::stuck,      Standing::abs
                                              Standing::nearly,     Standing::ready,  Standing::under_way,
                                              Standing::not_started};
 
+inline constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
+
 // Who passes half of their attempts misses five running in 3 of 100 such rows (0.5^5).
 inline constexpr int kStuckAfter = 5;
 // Four weeks without an attempt while something is due: a judgement.
@@ -41,6 +43,13 @@ struct GradedAttempt {
   Verdict verdict = Verdict::no_rule;
   std::vector<std::string> missed;  // ids of the metrics whose criterion was missed or not measured
 };
+
+// What attempts that did not pass have missed, most often first; by id where as often.
+struct Missed {
+  std::string metric;
+  int times = 0;
+};
+std::vector<Missed> missed_in(std::span<const GradedAttempt> attempts);
 
 struct ItemRecord {
   ItemProgress progress;

@@ -17,6 +17,7 @@ namespace seldinger::casedb {
 enum class Action {
   // Attempts.
   see_attempt,
+  see_recording,      // its course pose by pose: more than to see it, since a hand's movements are its own
   see_operator_name,  // the log-in name of the person who made it; without it, a pseudonym
   see_free_text,      // what somebody typed, and the time of day of what was done
   see_expert_replay,  // an expert's recording, shown before one's own attempt
@@ -177,6 +178,15 @@ inline constexpr Permission kPermissions[] = {
       {{Role::mentor}, {}, Whose::own_cohorts},
       {{Role::director}, {}, Whose::own_programmes},
       {{Role::researcher}, {}, Whose::own_studies},
+      {{Role::mentor, Role::researcher}, {}, Whose::nobodys}}},
+    {Action::see_recording,
+     "see_recording",
+     "whoever sees an attempt by name sees its recording; a researcher those of simulated operators, and people's "
+     "by an "
+     "export with a key",
+     {{{Role::trainee, Role::mentor}, {}, Whose::own},
+      {{Role::mentor}, {}, Whose::own_cohorts},
+      {{Role::director}, {}, Whose::own_programmes},
       {{Role::mentor, Role::researcher}, {}, Whose::nobodys}}},
     {Action::see_operator_name,
      "see_operator_name",

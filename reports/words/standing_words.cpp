@@ -10,8 +10,6 @@ namespace {
 
 using assessment::Standing;
 
-constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
-
 // "2. Liver biopsy"
 std::string item_text(const casedb::CurriculumRecord& record, std::size_t index) {
   return std::to_string(index + 1) + ". " + record.items.at(index).title;
@@ -100,7 +98,7 @@ std::string passes_text(const casedb::ItemState& item) {
 }
 
 std::string days_ago_text(std::int64_t then_us, std::int64_t now_us) {
-  const std::int64_t days = (now_us - then_us) / kDay_us;
+  const std::int64_t days = (now_us - then_us) / assessment::kDay_us;
   if (days <= 0) return "today";
   return days == 1 ? "yesterday" : std::to_string(days) + " days ago";
 }

@@ -22,6 +22,8 @@ constexpr std::size_t kRowsOfAPage = 50;
 constexpr std::string_view kSeen =
     "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: consenting people of "
     "own studies as pseudonyms, simulated";
+constexpr std::string_view kRecordingSeen =
+    "trainee: own; mentor: own, own cohort, simulated; director: own programmes; researcher: simulated";
 constexpr std::string_view kSeenOrNone = "the same; admin: none, the page says so";
 
 std::size_t wanted_page(const Request& request, std::size_t pages) {
@@ -145,6 +147,10 @@ Response show_picture(Site& site, const Call& call) {
 Response show_replay(Site& site, const Call& call) {
   const auto row = visible_attempt(site, call);
   if (!row.has_value()) return refusal(404, call.reader);
+  const casedb::Account& account = call.reader->account;
+  const Relations relations = site.questions.relations_of(account.person_id);
+  if (!casedb::may(account.role, Action::see_recording, relation_to(relations, row->person_id)))
+    return refusal(404, call.reader);
   const auto recording = site.questions.load_recording(row->attempt_id);
   if (!recording.has_value()) return refusal(404, call.reader);
   return {.content_type = "application/json", .body = replay_json(*row, *recording)};
@@ -174,7 +180,7 @@ constexpr Route kAttemptRoutes[] = {
      "one attempt: debrief, criteria, metrics, picture, course", show_attempt},
     {"GET", "/attempts/{attempt_id}/picture.png", Action::see_attempt, false, kSeen,
      "the picture at the moment of firing", show_picture},
-    {"GET", "/attempts/{attempt_id}/replay.json", Action::see_attempt, false, kSeen,
+    {"GET", "/attempts/{attempt_id}/replay.json", Action::see_recording, false, kRecordingSeen,
      "its course for the replay: poses in LPS, target, what the pictures showed of the tip", show_replay},
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},

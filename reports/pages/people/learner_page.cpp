@@ -14,8 +14,6 @@ using assessment::GradedAttempt;
 using assessment::Proficiency;
 using assessment::Verdict;
 
-constexpr std::int64_t kDay_us = std::int64_t{24} * 3600 * 1'000'000;
-
 std::string day_text(std::int64_t time_us) {
   return utc_text(time_us).substr(0, 10);
 }
@@ -27,28 +25,20 @@ const GradedAttempt* last_pass(const casedb::ItemState& item) {
   return last;
 }
 
-// When it was first held: the second of two passes running.
 const GradedAttempt* first_proficient(const casedb::ItemState& item) {
-  int running = 0;
-  for (const GradedAttempt& one : item.graded) {
-    if (one.verdict == Verdict::passed && ++running == 2) return &one;
-    if (one.verdict == Verdict::failed) running = 0;
-  }
-  return nullptr;
+  std::vector<Verdict> verdicts;
+  for (const GradedAttempt& one : item.graded) verdicts.push_back(one.verdict);
+  const auto at = assessment::proficient_at(verdicts);
+  return at ? &item.graded[*at] : nullptr;
 }
 
 std::string missed_text(const casedb::ItemState& item) {
-  std::map<std::string, int> counts;
-  int failed = 0;
-  for (const GradedAttempt& one : item.graded) {
-    failed += one.verdict == Verdict::failed ? 1 : 0;
-    for (const std::string& id : one.missed) ++counts[id];
-  }
-  std::vector<std::pair<std::string, int>> most(counts.begin(), counts.end());
-  std::stable_sort(most.begin(), most.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  const auto failed = std::count_if(item.graded.begin(), item.graded.end(),
+                                    [](const GradedAttempt& one) { return one.verdict == Verdict::failed; });
+  const std::vector<assessment::Missed> most = assessment::missed_in(item.graded);
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(most.size(), 3); ++i)
-    text += (i == 0 ? "" : ", ") + metric_label(most[i].first) + " (" + std::to_string(most[i].second) + " of " +
+    text += (i == 0 ? "" : ", ") + metric_label(most[i].metric) + " (" + std::to_string(most[i].times) + " of " +
             std::to_string(failed) + ")";
   return text.empty() ? "—" : text;
 }
@@ -70,7 +60,7 @@ void add_item(Html& html, const casedb::CurriculumRecord& record, std::size_t in
   html.raw("</td><td class=\"number\" data-label=\"Retention due\">");
   html.text(pass == nullptr || item.progress.reached != Proficiency::proficient
                 ? "—"
-                : day_text(pass->started_us + assessment::kRetentionDays * kDay_us));
+                : day_text(pass->started_us + assessment::kRetentionDays * assessment::kDay_us));
   html.raw("</td><td data-label=\"Missed most\">").text(missed_text(item)).raw("</td></tr>\n");
 }
 

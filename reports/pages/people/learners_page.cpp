@@ -165,19 +165,19 @@ void add_items(Html& html, const std::vector<Row>& rows) {
   for (std::size_t i = 0; i < items; ++i) {
     std::array<int, 4> reached{};
     int stuck = 0, passes = 0, failed = 0;
-    std::map<std::string, int> missed;
+    std::vector<assessment::GradedAttempt> all;
     for (const Row& row : rows) {
       const casedb::ItemState& item = row.record->items.at(i);
       ++reached.at(static_cast<std::size_t>(item.progress.reached));
       stuck += row.found.standing == Standing::stuck && row.found.item == i ? 1 : 0;
       passes += item.passes;
       for (const assessment::GradedAttempt& one : item.graded) {
-        failed += one.verdict == assessment::Verdict::failed ? 1 : 0;
-        for (const std::string& id : one.missed) ++missed[id];
+        if (one.verdict != assessment::Verdict::failed) continue;
+        ++failed;
+        all.push_back(one);
       }
     }
-    const auto most = std::max_element(missed.begin(), missed.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    const std::vector<assessment::Missed> missed = assessment::missed_in(all);
     html.raw("<tr><th scope=\"row\">").text(std::to_string(i + 1)).raw(". ");
     html.name(rows.front().record->items[i].title).raw("</th>");
     for (const Proficiency one : {Proficiency::proficient, Proficiency::passed, Proficiency::practising}) {
@@ -188,11 +188,11 @@ void add_items(Html& html, const std::vector<Row>& rows) {
     html.raw("</td><td class=\"number\" data-label=\"Attempts passed\">");
     html.text(std::to_string(passes) + " of " + std::to_string(passes + failed));
     html.raw("</td><td data-label=\"Missed most\">");
-    if (most == missed.end())
+    if (missed.empty())
       html.raw("—");
     else
-      html.text(metric_label(most->first) + " (" + std::to_string(most->second) + " of " + std::to_string(failed) +
-                ")");
+      html.text(metric_label(missed.front().metric) + " (" + std::to_string(missed.front().times) + " of " +
+                std::to_string(failed) + ")");
     html.raw("</td></tr>\n");
   }
   html.raw("</tbody>\n</table>\n</div>\n</section>\n");

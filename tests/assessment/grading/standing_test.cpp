@@ -6,7 +6,7 @@
 namespace seldinger::assessment {
 namespace {
 
-constexpr std::int64_t kDay = std::int64_t{24} * 3600 * 1'000'000;
+constexpr std::int64_t kDay = kDay_us;
 constexpr std::int64_t kNow = 20'000 * kDay;
 
 GradedAttempt tried(Verdict verdict, std::int64_t days_ago, std::vector<std::string> missed = {}) {
@@ -90,6 +90,20 @@ TEST(Standing, NearlyIsOnePassRunningFromTheEnd) {
   // After a miss two are missing again.
   EXPECT_EQ(standing_of(records({{tried(P, 3), tried(P, 2)}, {tried(P, 1), tried(F, 0)}}), kNow).standing,
             Standing::under_way);
+}
+
+TEST(Standing, WhatIsMissedIsToldMostOftenFirst) {
+  const auto missed =
+      missed_in(std::vector{tried(F, 3, {"b"}), tried(F, 2, {"c", "b"}), tried(F, 1, {"c", "a"}), tried(P, 0)});
+  ASSERT_EQ(missed.size(), 3U);
+  EXPECT_EQ(missed[0].metric + missed[1].metric + missed[2].metric, "bca");
+  EXPECT_EQ(missed[0].times, 2);
+  EXPECT_EQ(missed[2].times, 1);
+}
+
+TEST(Standing, ProficientIsMadeByTheSecondOfTwoPassesRunning) {
+  EXPECT_EQ(proficient_at(std::vector{P, F, P, N, P, F}), 4U) << "what is not graded breaks no run";
+  EXPECT_FALSE(proficient_at(std::vector{P, F, P}).has_value());
 }
 
 TEST(Standing, NamesGoBothWaysAndEachHasARule) {

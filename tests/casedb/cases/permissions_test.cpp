@@ -23,6 +23,7 @@ struct Row {
 constexpr Row kMatrix[] = {
     //                            trainee      mentor                 researcher          director     admin
     {"see_attempt",               "own",       "own|cohort|nobody's", "study|nobody's",   "programme", ""},
+    {"see_recording",             "own",       "own|cohort|nobody's", "nobody's",         "programme", ""},
     {"see_operator_name",         "own",       "own|cohort",          "",                 "programme", ""},
     {"see_free_text",             "all",       "all",                 "",                 "all",       "all"},
     {"see_expert_replay",         "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed", "own|nobody's|agreed"},
