@@ -118,8 +118,11 @@ void main() {
 #ifdef XRAY_SLAB
       vec4 share = xray_slab_shares(length_x, lowest_y - voxel_y, lowest_z - voxel_z);
 #else
-      vec4 share = xray_exact_shares(length_x, (voxel_y + 1.0) - lowest_y, (voxel_z + 1.0) - lowest_z,
-                                     layers_per_y, layers_per_z, together);
+      // As written: a compiler may make 1 - fract(lowest) of it (an NVIDIA driver does), which is 0 up to 6e-8 from the
+      // face, and a ray that hardly crosses the face then crosses it layers too early.
+      precise float to_face_y = (voxel_y + 1.0) - lowest_y;
+      precise float to_face_z = (voxel_z + 1.0) - lowest_z;
+      vec4 share = xray_exact_shares(length_x, to_face_y, to_face_z, layers_per_y, layers_per_z, together);
 #endif
       // All four at once, at the corner that they share; beyond the box the sampler repeats the border, so rounding
       // never reads outside.

@@ -88,12 +88,14 @@ TEST_F(XrayHardCases, NearlyParallelTendsToParallel) {
                 1e-5 * expected_mm)
         << slope;
   // Nearly parallel, close to a face and crossing it somewhere within.
-  for (const double slope : {1e-9, 1e-7, 1e-5, 1e-3, -1e-7, -1e-4}) {
-    const glm::dvec3 from(-20.0, 11.0 - 31.0 * slope, 9.5), to(40.0, 11.0 + 29.0 * slope, 9.5);
-    const double crossing_mm = lengths_between(volume, from, to).total_mm();
-    // A face crossed at slope s is met where double tells coordinates apart by 1e-15·20/s.
-    EXPECT_NEAR(through(gpu, from, to), crossing_mm, 1e-5 * crossing_mm + 1e-13 / std::abs(slope)) << slope;
-  }
+  for (const double slope : {1e-9, 1e-7, 1e-5, 1e-3, -1e-7, -1e-4})
+    for (const double x : {11.0, 11.37, 4.8}) {
+      const glm::dvec3 from(-20.0, 11.0 - (x + 20.0) * slope, 9.5), to(40.0, 11.0 + (40.0 - x) * slope, 9.5);
+      const double crossing_mm = lengths_between(volume, from, to).total_mm();
+      // A face crossed at slope s is met where double tells coordinates apart by 1e-15·20/s.
+      EXPECT_NEAR(through(gpu, from, to), crossing_mm, 1e-5 * crossing_mm + 1e-13 / std::abs(slope))
+          << slope << " at " << x;
+    }
 }
 
 TEST_F(XrayHardCases, RayInAVoxelFace) {
