@@ -24,6 +24,8 @@ constexpr double kHandsEveryS = 0.004;  // half of what lies between two words o
 constexpr double kNoticeS = 4.0, kVolumeStep = 0.1;
 // A window that is drawn in software leaves the processor to servo and pictures.
 constexpr double kMostFramesS = 60.0, kMostFramesInSoftwareS = 25.0;
+// And where nothing moves by itself it is drawn so often only while somebody does something, and a little after.
+constexpr double kRestS = 0.125, kStirredS = 0.4;
 
 // Looking at it takes every arena's lock in turn: not while an attempt runs.
 double heap_mib() {
@@ -258,13 +260,38 @@ void Desk::finish(double began_s) {
   attempt_.take_late(trainer_);
 }
 
-void Desk::frame() {
-  for (double left_s = due_s_ - session::clock_s(); left_s > 0.0; left_s = due_s_ - session::clock_s()) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kHandsEveryS)));
-    go_on();
+bool Desk::moves() const noexcept {
+  switch (trainer_.screen()) {
+    case TrainerScreen::attempt:
+    case TrainerScreen::watch:
+    case TrainerScreen::devices:
+      return true;
+    default:
+      return false;
   }
+}
+
+bool Desk::rests(double now_s) const noexcept {
+  return window_.context().software() && !moves() && !window_.touched() && now_s > stirred_s_ + kStirredS;
+}
+
+void Desk::await_frame() {
+  for (double left_s = due_s_ - session::clock_s(); left_s > 0.0; left_s = due_s_ - session::clock_s()) {
+    if (moves()) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(std::min(left_s, kHandsEveryS)));
+      go_on();
+    } else if (window_.wait(left_s)) {
+      const double now_s = session::clock_s();
+      if (rests(now_s)) due_s_ = now_s;  // what is done is seen at once
+      stirred_s_ = now_s;
+    }
+  }
+}
+
+void Desk::frame() {
+  await_frame();
   const double began_s = session::clock_s();
-  due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : between_s_), began_s);
+  due_s_ = std::max(due_s_ + (window_.hidden() ? kHiddenS : rests(began_s) ? kRestS : between_s_), began_s);
   // In the room, and while one is watched, keys are hands.
   const TrainerScreen up = trainer_.screen();
   window_.begin_frame(up != TrainerScreen::attempt && up != TrainerScreen::watch);
@@ -290,6 +317,7 @@ void Desk::frame() {
   keep_guidance(attempt_.guidance());
   keep_guidance(watch_.guidance());
   tell(screen);
+  if (screen != told_) stirred_s_ = session::clock_s();
   if (screen != told_) window_.set_title(words_of(trainer_) + " – Seldinger");
   if (screen != told_ && screen == "devices") look_for_space_mouse();  // its daemon may have been started since
   told_ = screen;

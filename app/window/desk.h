@@ -31,6 +31,9 @@ class Desk {
   void draw_screen();
   OtherHands other_hands();
   void look_for_space_mouse();
+  bool moves() const noexcept;  // the screen shows what goes on by itself, or hands are read between frames
+  bool rests(double now_s) const noexcept;
+  void await_frame();
   void go_on();                 // of hands between frames
   void finish(double began_s);  // what is being drawn for the frame that began then
   bool settles();               // whether this frame is the first that shows what the last keys did
@@ -57,7 +60,8 @@ class Desk {
   Trace& trace_;
   ScreenWords& words_;
   double words_s_ = 0.0;  // when they were gathered last
-  double opened_s_, told_s_, due_s_ = 0.0, between_s_;
+  double opened_s_, told_s_, due_s_ = 0.0, stirred_s_ = 0.0,
+                             between_s_;                        // stirred: when somebody did something last
   int frames_ = 0, keys_ = 0, keys_shown_ = 0, since_key_ = 0;  // since_key_: frames
   std::string told_, notice_;                                   // told: the screen that was up
   double notice_until_s_ = 0.0;

@@ -322,6 +322,17 @@ const Keys& Window::poll() {
   return parts_->between;
 }
 
+bool Window::wait(double most_s) {
+  const double until_s = glfwGetTime() + most_s;
+  glfwWaitEventsTimeout(most_s);
+  return glfwGetTime() < until_s;
+}
+
+bool Window::touched() const noexcept {
+  const std::array<bool, 3> down = pointer().down;
+  return !parts_->down.empty() || std::any_of(down.begin(), down.end(), [](bool is) { return is; });
+}
+
 Pointer Window::pointer() const {
   Pointer pointer;
   glfwGetCursorPos(parts_->window, &pointer.x_px, &pointer.y_px);

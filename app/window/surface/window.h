@@ -96,6 +96,9 @@ class Window {
   // not to wait for a frame. Keys are as they are now; what went down counts until the next frame, which has it
   // too.
   const Keys& poll();
+  // As poll, where nobody's hands are read: back when anything came, or after so long. Whether something came.
+  bool wait(double most_s);
+  bool touched() const noexcept;  // a key or a button of the mouse is down
   Pointer pointer() const;
   // Notches since the frame, or the last call; those that are taken the next frame does not have.
   double take_wheel();

@@ -28,7 +28,7 @@ TEST(DeidentifyFuzz, MutatedFilesAreRefusedOrWrittenWhole) {
   HashKey key{};
   std::mt19937_64 random(19);
   int written = 0, refused = 0;
-  const int rounds = fixtures::fuzz_rounds(500);
+  const int rounds = fixtures::fuzz_rounds(250);
   for (int round = 0; round < rounds; ++round) {
     const std::string bytes = mutated(seeds[random() % seeds.size()], seeds, 2 * longest, random);
     std::ofstream(in, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 int flips() {
   const char* text = std::getenv("SELDINGER_FAULTS");
-  return text == nullptr ? 50 : std::atoi(text);
+  return text == nullptr ? 25 : std::atoi(text);
 }
 
 // All that a database's tables hold, by table and in the order of their rows' content.

@@ -25,7 +25,7 @@ using faults::Kind;
 
 int rounds() {
   const char* text = std::getenv("SELDINGER_FAULTS");
-  return text == nullptr ? 50 : std::atoi(text);
+  return text == nullptr ? 25 : std::atoi(text);
 }
 
 enum Work { kImport, kAuthor, kAttempt, kBundle };

@@ -52,7 +52,7 @@ TEST(BundleFuzz, DamageIsRefusedWithinBounds) {
   base::Rng rng(77);
   fixtures::Outcomes outcomes;
   int taken = 0, imported = 0;
-  const int rounds = fixtures::fuzz_rounds(500);
+  const int rounds = fixtures::fuzz_rounds(250);
   for (int round = 0; round < rounds; ++round) {
     const std::size_t kind = fixtures::any_below(rng, 4);
     const bool knows_format = round % 2 == 0;
