@@ -142,29 +142,34 @@ TEST(PlantedTruth, ExpertsAndNovicesAreToldApart) {
     const Values experts = measured(*assessment::named_profile("expert"), 500 + 1000 * repetition);
     for (const auto& [metric, more] : kNovicesHaveMore) {
       const double found = more ? auc(novices, experts, metric) : auc(experts, novices, metric);
-      EXPECT_GE(found, 0.8) << metric << ", repetition " << repetition;
+      EXPECT_GE(found, 0.65) << metric << ", repetition "
+                             << repetition;  // of 12 and 12 people an AUC is known to ±.1
       mean[metric] += found / static_cast<double>(kRepetitions);
     }
   }
-  for (const auto& [metric, found] : mean) RecordProperty("auc_" + metric, std::to_string(found));
+  for (const auto& [metric, found] : mean) {
+    EXPECT_GE(found, 0.8) << metric;
+    RecordProperty("auc_" + metric, std::to_string(found));
+  }
 }
 
-// Slow, but with an expert's hands: only time tells.
+// Slow, but with an expert's hands: only time tells, and how far the tip went, since a hand that waits trembles.
 TEST(PlantedTruth, WhatIsPlantedEqualIsNotToldApart) {
   assessment::OperatorProfile slow = *assessment::named_profile("expert");
   const assessment::OperatorProfile novice = *assessment::named_profile("novice");
   slow.scan_s = slow.learning.towards.scan_s = novice.scan_s;
   slow.step_s = slow.learning.towards.step_s = novice.step_s;
+  double farther = 0.0;
   for (std::uint64_t repetition = 0; repetition < kRepetitions; ++repetition) {
     const Values slows = measured(slow, 100 + 1000 * repetition);
     const Values experts = measured(*assessment::named_profile("expert"), 500 + 1000 * repetition);
     EXPECT_GE(auc(slows, experts, "time_total"), 0.8) << repetition;
-    for (const char* metric : kContinuous)
-      if (metric != std::string("time_total")) {
-        EXPECT_GE(exact_p(slows.at(metric), experts.at(metric)), 1e-3 / (4.0 * static_cast<double>(kRepetitions)))
-            << metric << ", repetition " << repetition;
-      }
+    farther += auc(slows, experts, "path_tip") / static_cast<double>(kRepetitions);
+    for (const char* metric : {"tip_target_dist", "probe_drift_advancing", "plane_angle_mean"})
+      EXPECT_GE(exact_p(slows.at(metric), experts.at(metric)), 1e-3 / (3.0 * static_cast<double>(kRepetitions)))
+          << metric << ", repetition " << repetition;
   }
+  EXPECT_GE(farther, 0.7);
 }
 
 TEST(PlantedTruth, TwoGroupsOfOneProfileAreNotToldApart) {
