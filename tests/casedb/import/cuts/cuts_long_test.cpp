@@ -1,6 +1,8 @@
 // Every crop of the torso and of the real CTs, fine and coarse.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "casedb/import/import.h"
 #include "sim/volume/phantom.h"
 #include "tests/casedb/import/cuts/cropped.h"
@@ -15,24 +17,30 @@ void expect_every_crop(const volume::Volume& volume) {
   for (const volume::Crop& crop : volume::crops()) expect_true_skin(whole, crop);
 }
 
-TEST(CutSkinLong, OfTheTorsoAtEverySpacing) {
-  const volume::Volume torso = volume::make_phantom({.spacing_mm = glm::dvec3(1, 1, 1)}).volume;
-  for (const double spacing_mm : {1.0, 2.0, 3.0, 5.0}) {
-    SCOPED_TRACE(spacing_mm);
-    expect_every_crop(volume::coarser(torso, spacing_mm));
-  }
+class CutTorsoLong : public testing::TestWithParam<double> {};
+
+TEST_P(CutTorsoLong, EveryCropKeepsTrueSkin) {
+  const volume::Volume torso = volume::make_phantom({.spacing_mm = glm::dvec3(1.0)}).volume;
+  expect_every_crop(volume::coarser(torso, GetParam()));
 }
 
-TEST(CutSkinLong, OfTheRealCts) {
+INSTANTIATE_TEST_SUITE_P(Spacings, CutTorsoLong, testing::Values(1.0, 2.0, 3.0, 5.0));
+
+class CutCtLong : public testing::TestWithParam<std::tuple<const char*, double>> {};
+
+TEST_P(CutCtLong, EveryCropKeepsTrueSkin) {
   SELDINGER_NEEDS_SHARED_DATA();
-  for (const char* name : {"ct-abdomen-pelvis/abdomen_pelvis_2x.mha", "ct-abdomen-contrast-dicom",
-                           "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-neck/neck.nrrd"}) {
-    const auto source = read_source(fixtures::shared_data_dir() / name);
-    ASSERT_TRUE(source);
-    SCOPED_TRACE(name);
-    for (const double spacing_mm : {2.0, 3.0, 5.0}) expect_every_crop(volume::coarser(source->volume, spacing_mm));
-  }
+  const auto& [name, spacing_mm] = GetParam();
+  const auto source = read_source(fixtures::shared_data_dir() / name);
+  ASSERT_TRUE(source);
+  expect_every_crop(volume::coarser(source->volume, spacing_mm));
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    OfTheRealCts, CutCtLong,
+    testing::Combine(testing::Values("ct-abdomen-pelvis/abdomen_pelvis_2x.mha", "ct-abdomen-contrast-dicom",
+                                     "ct-thorax-inlet/thorax_inlet_1mm.mha", "ct-neck/neck.nrrd"),
+                     testing::Values(2.0, 3.0, 5.0)));
 
 }  // namespace
 }  // namespace seldinger::casedb
