@@ -682,6 +682,16 @@ CREATE TABLE trusted_key (
   added_us INTEGER NOT NULL
 ) STRICT;
 
+CREATE TABLE web_session (
+  id_hash TEXT NOT NULL PRIMARY KEY CHECK (length(id_hash) = 64), -- SHA-256; the id has only the browser
+  port INTEGER NOT NULL, -- of the server that began it
+  person_id TEXT NOT NULL REFERENCES person (person_id),
+  password_mark TEXT NOT NULL, -- of the password, role and epoch that began it
+  begun_us INTEGER NOT NULL,
+  seen_us INTEGER NOT NULL CHECK (seen_us >= begun_us), -- last; written once a minute
+  ends_us INTEGER NOT NULL CHECK (ends_us > begun_us)
+) STRICT;
+
 CREATE TABLE workshop (
   workshop_id TEXT NOT NULL PRIMARY KEY,
   code TEXT NOT NULL CHECK (length(code) = 6), -- opens the board
@@ -738,6 +748,9 @@ CREATE INDEX attempt_comment_by_person ON attempt_comment (person_id);
 
 CREATE INDEX audit_by_object ON audit (object_id, act);
 
+CREATE INDEX audit_of_changes ON audit (sequence)
+WHERE act NOT IN ('log_in', 'log_out', 'let_in_again', 'unproven', 'not_allowed', 'comment_attempt');
+
 CREATE UNIQUE INDEX consent_stands_once ON consent (person_id, text_id) WHERE withdrawn_us IS NULL;
 
 CREATE UNIQUE INDEX consent_text_version ON consent_text (coalesce(study_id, ''), version);
@@ -783,6 +796,8 @@ CREATE INDEX study_enrolment_by_person ON study_enrolment (person_id);
 CREATE UNIQUE INDEX study_enrolment_place ON study_enrolment (study_id, stratum, position);
 
 CREATE UNIQUE INDEX training_case_version ON training_case (coalesce(family_id, case_id), version);
+
+CREATE INDEX web_session_of_person ON web_session (person_id);
 
 CREATE UNIQUE INDEX workshop_by_code ON workshop (code);
 

@@ -43,6 +43,26 @@ class ActingFor {
   casedb::Library& library_;
 };
 
+// What takes long to ask, until its mark is another one.
+template <typename Value>
+class Kept {
+ public:
+  template <typename Ask>
+  const Value& at(const std::string& mark, const Ask& ask) {
+    if (!value_ || mark_ != mark) {
+      value_ = ask();
+      mark_ = mark;
+    }
+    return *value_;
+  }
+
+ private:
+  std::string mark_;
+  std::optional<Value> value_;
+};
+
+constexpr std::int64_t kHour_us = 3'600'000'000;
+
 class LibraryQuestions final : public Questions {
  public:
   LibraryQuestions(std::array<casedb::Library, 5> handles, CaseChecker check)
@@ -76,11 +96,19 @@ class LibraryQuestions final : public Questions {
     return casedb::last_let_in_again(pages_.library, person_id);
   }
 
+  std::vector<casedb::WebSession> list_sessions(int port) override {
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::list_web_sessions(pages_.library, port);
+  }
+
+  void keep_sessions(int port, const casedb::WebSessionChanges& changes) override {
+    const std::lock_guard lock(changes_.mutex);
+    casedb::keep_web_sessions(changes_.library, port, changes);
+  }
+
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
-    const auto all = list_accounts();
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const casedb::Account& a) { return a.person_id == person_id; });
-    return found == all.end() ? std::nullopt : std::optional(*found);
+    const std::lock_guard lock(pages_.mutex);
+    return casedb::find_user(pages_.library, person_id);
   }
 
   std::vector<casedb::Account> list_accounts() override {
@@ -95,7 +123,15 @@ class LibraryQuestions final : public Questions {
 
   std::vector<casedb::Cohort> list_cohorts() override {
     const std::lock_guard lock(pages_.mutex);
-    return casedb::list_cohorts(pages_.library);
+    return cohorts_.at(casedb::learning_mark(pages_.library), [&] { return casedb::list_cohorts(pages_.library); });
+  }
+
+  std::map<std::string, casedb::ToldCells> told_cells(std::int64_t now_us) override {
+    const std::lock_guard lock(pages_.mutex);
+    const std::string mark = casedb::learning_mark(pages_.library), hour = std::to_string(now_us / kHour_us);
+    return told_.at(mark + " " + hour, [&] {
+      return casedb::told_cells(casedb::list_cohort_pasts(pages_.library), now_us / kHour_us * kHour_us);
+    });
   }
 
   casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
@@ -105,15 +141,11 @@ class LibraryQuestions final : public Questions {
 
   LearnerRecords records_of(const std::string& person_id) override {
     const std::lock_guard lock(pages_.mutex);  // one learner at a time, so that other pages come between
-    const std::string mark = casedb::records_mark(pages_.library, person_id);
-    Kept& kept = records_[person_id];
-    if (kept.mark != mark) {
-      kept.learner.simulated = casedb::is_simulated(pages_.library, person_id);
-      kept.learner.records = std::make_shared<const std::vector<casedb::CurriculumRecord>>(
-          casedb::records_of(pages_.library, person_id));
-      kept.mark = mark;
-    }
-    return kept.learner;
+    return records_[person_id].at(casedb::records_mark(pages_.library, person_id), [&] {
+      return LearnerRecords{casedb::is_simulated(pages_.library, person_id),
+                            std::make_shared<const std::vector<casedb::CurriculumRecord>>(
+                                casedb::records_of(pages_.library, person_id))};
+    });
   }
 
   reports::StandardTexts standard_texts(const reports::Records& records) override {
@@ -289,8 +321,9 @@ class LibraryQuestions final : public Questions {
   }
 
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
-    const std::lock_guard lock(pages_.mutex);
+    std::unique_lock lock(pages_.mutex);
     auto parts = casedb::load_parts(pages_.library, case_id);
+    lock.unlock();
     if (parts && !parts->row.rule.criteria.empty()) parts->dependability = dependability();
     return parts;
   }
@@ -330,27 +363,22 @@ class LibraryQuestions final : public Questions {
   }
 
  private:
-  // Of everybody's attempts: kept until somebody stores something.
-  const assessment::statistics::Answer& dependability() {
-    const auto version = pages_.library.database().integer("PRAGMA data_version");
-    if (!dependability_ || dependable_at_ != version) {
-      dependability_ = casedb::dependability(casedb::learning_attempts(pages_.library, casedb::Learners::people));
-      dependable_at_ = version;
-    }
-    return *dependability_;
+  // Of everybody's attempts: long to read.
+  assessment::statistics::Answer dependability() {
+    const std::lock_guard lock(recordings_.mutex);
+    return dependability_.at(casedb::learning_mark(recordings_.library), [&] {
+      return casedb::dependability(casedb::learning_verdicts(recordings_.library, casedb::Learners::people));
+    });
   }
 
-  Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
-  Handle first_, second_;      // a password is long to hash
-  Handle changes_;             // a change may wait for another program's
-  struct Kept {
-    std::string mark;
-    LearnerRecords learner;
-  };
-  std::map<std::string, Kept> records_;  // by person, under pages_.mutex
+  Handle pages_, recordings_;                  // a recording is long to read: meanwhile other pages are answered
+  Handle first_, second_;                      // a password is long to hash
+  Handle changes_;                             // a change may wait for another program's
+  Kept<std::vector<casedb::Cohort>> cohorts_;  // under pages_.mutex
+  Kept<std::map<std::string, casedb::ToldCells>> told_;  // under pages_.mutex
+  std::map<std::string, Kept<LearnerRecords>> records_;  // by person, under pages_.mutex
+  Kept<assessment::statistics::Answer> dependability_;   // under recordings_.mutex
   CaseChecker check_;
-  std::optional<assessment::statistics::Answer> dependability_;
-  std::int64_t dependable_at_ = 0;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
   casedb::Health health_ = casedb::Health::ok;

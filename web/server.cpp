@@ -6,7 +6,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <optional>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 #include "web/connections.h"
@@ -69,6 +74,22 @@ struct Server::Parts {
     ConnectionLimits limits;
     if (!where.public_authority.empty()) limits.most_waiting_of_address = limits.most;
     return limits;
+  }
+
+  // Once a minute, so that no request waits for it.
+  void keep_sessions(const std::stop_token& stop) noexcept {
+    std::mutex mutex;
+    std::condition_variable_any never;
+    std::unique_lock lock(mutex);
+    while (!stop.stop_requested()) {
+      never.wait_for(lock, stop, std::chrono::minutes(1), [] { return false; });
+      if (stop.stop_requested()) return;
+      try {
+        site.keep_sessions();
+      } catch (const std::exception&) {
+        // The next minute.
+      }
+    }
   }
 
   void answer(Job job) noexcept {
@@ -153,6 +174,7 @@ int Server::port() const noexcept {
 void Server::run() {
   Parts& parts = *parts_;
   parts.workers.emplace([&parts](Job job) { parts.answer(std::move(job)); });
+  const std::jthread keeper([&parts](const std::stop_token& stop) { parts.keep_sessions(stop); });
   try {
     parts.connections.run();
   } catch (...) {

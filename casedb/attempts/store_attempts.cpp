@@ -268,14 +268,14 @@ std::string json_of_ids(const std::vector<std::string>& ids) {
 std::vector<AttemptRow> list_attempts(Library& library, const WhoseAttempts& whose, std::size_t first,
                                       std::size_t count) {
   Sqlite& database = library.database();
-  Statement attempts = question(database, "attempts_of_people"),
-            metrics = question(database, "metric_values_of_people");
-  for (Statement* part : {&attempts, &metrics})
-    part->bind("people", json_of_ids(whose.people))
-        .bind("nobodys", whose.nobodys ? 1 : 0)
-        .bind("first", bounded(first))
-        .bind("count", bounded(count));
   const Snapshot one_state(database);
+  std::vector<std::string> ids;
+  Statement wanted = question(database, "attempts_of_people");
+  wanted.bind("people", json_of_ids(whose.people)).bind("nobodys", whose.nobodys ? 1 : 0);
+  for (wanted.bind("first", bounded(first)).bind("count", bounded(count)); wanted.step();)
+    ids.push_back(wanted.text("attempt_id"));
+  Statement attempts = question(database, "attempts_by_id"), metrics = question(database, "metric_values_by_id");
+  for (Statement* part : {&attempts, &metrics}) part->bind("attempts", json_of_ids(ids));
   return read_attempts(std::move(attempts), std::move(metrics));
 }
 

@@ -81,6 +81,7 @@ constexpr std::string_view kStaying[] = {"person",
                                          "standard_attempt",
                                          "standard_band",
                                          "login_session",
+                                         "web_session",
                                          "audit",
                                          "audit_head",
                                          "digest"};

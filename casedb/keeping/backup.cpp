@@ -1,5 +1,6 @@
 #include "casedb/keeping/backup.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <sstream>
@@ -189,6 +190,17 @@ base::Result<Copied> backed_up(Library& library, const fs::path& out, const std:
   throw base::Failure("database", "cases come and go faster than they can be copied");
 }
 
+// Those that ended since the backup would open something again.
+void end_sessions(const fs::path& file) {
+  Sqlite database(file);
+  database.run("PRAGMA secure_delete = ON");
+  const auto tables = tables_of(database);
+  Transaction transaction(database);
+  for (const char* sessions : {"login_session", "web_session"})
+    if (std::ranges::find(tables, sessions) != tables.end()) database.run(std::string("DELETE FROM ") + sessions);
+  transaction.commit();
+}
+
 base::Result<Copied> restored(const fs::path& in, const fs::path& folder) {
   const base::Error exists{"exists", "there is something where the library is to be; it is not overwritten"};
   if (lies_on_network(folder))
@@ -208,6 +220,7 @@ base::Result<Copied> restored(const fs::path& in, const fs::path& folder) {
     if (copied_file(in / name, made.unfinished() / name).sha256 != file.sha256) return damaged;
   }
   if (const auto sound = check_copy(made.unfinished(), *list); !sound) return sound.error();
+  end_sessions(made.unfinished() / kDatabaseFile);
   if (!made.keep()) return exists;
   parents.keep();
   return sum_of(*list);

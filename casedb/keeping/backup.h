@@ -26,7 +26,7 @@ base::Result<Copied> back_up(Library& library, const std::filesystem::path& out,
 
 // Every byte is checked before the library gets its name. Refused: `no_backup`, `damaged` (a file is missing or
 // another, a page, a reference, a value or a recording is hurt), `newer_schema`, `exists` (there is something where
-// the library is to be), `network_file_system`.
+// the library is to be), `network_file_system`. Nobody is logged in at what was restored.
 base::Result<Copied> restore(const std::filesystem::path& in, const std::filesystem::path& folder);
 
 }  // namespace seldinger::casedb

@@ -171,28 +171,4 @@ CohortCells cells_of(const Cohort& cohort) {
   return cells;
 }
 
-CohortCells suppressed(const Cohort& cohort, const std::function<bool(const std::string&)>& seen) {
-  CohortCells cells, people, unseen;
-  for (const Learner& one : cohort.learners) {
-    cells.attempts += one.attempts;
-    cells.with_hit += one.with_hit;
-    cells.hits += one.hits;
-    const int other = seen(one.person_id) ? 0 : 1;
-    const auto count = [other](int& all, int& unseen_of_all) {
-      ++all;
-      unseen_of_all += other;
-    };
-    if (one.still) count(people.learners, unseen.learners);
-    if (one.attempts > 0) count(people.attempts, unseen.attempts);
-    if (one.with_hit > 0) count(people.with_hit, unseen.with_hit);
-  }
-  const auto enough = [](int all, int others) {
-    return all >= kSmallestCell && (others == 0 || others >= kSmallestCell);
-  };
-  cells.learners = enough(people.learners, unseen.learners) ? people.learners : -1;
-  if (!enough(people.attempts, unseen.attempts)) cells.attempts = -1;
-  if (cells.attempts < 0 || !enough(people.with_hit, unseen.with_hit)) cells.with_hit = cells.hits = -1;
-  return cells;
-}
-
 }  // namespace seldinger::casedb

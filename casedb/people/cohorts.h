@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,11 +64,7 @@ base::Result<void> appoint_director(Library& library, const std::string& program
 base::Result<void> end_director(Library& library, const std::string& programme,
                                 const std::string& person_id);  // `not_enrolled`
 
-// For who sees its people: of those who are in it now.
+// For who sees its people: of those who are in it now. For others: told_cells.h.
 CohortCells cells_of(const Cohort& cohort);
-// For who does not: of all who were ever in it, and each count only where at least kSmallestCell people make it up.
-// Of these the reader may see some elsewhere (`seen`) and subtract them: the others must be nobody, or as many
-// again.
-CohortCells suppressed(const Cohort& cohort, const std::function<bool(const std::string& person_id)>& seen);
 
 }  // namespace seldinger::casedb

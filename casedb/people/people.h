@@ -41,6 +41,7 @@ base::Result<std::string> add_user(Library& library, const std::string& name, Ro
 // `no_person`: there is no such one, or they were erased.
 base::Result<void> check_person(Library& library, const std::string& person_id);
 std::vector<Account> list_users(Library& library);  // oldest first; those who have a name
+std::optional<Account> find_user(Library& library, const std::string& person_id);  // as list_users has them
 base::Result<void> set_password(Library& library, const std::string& name,
                                 const std::string& password);  // `no_user`, `weak_password`
 // In these two the last admin whose account is open stays one: `last_admin`. Whoever is logged in is logged out.

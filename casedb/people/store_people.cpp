@@ -49,6 +49,15 @@ std::string mark_of(const std::string& password_hash, std::int64_t epoch) {
   return sha256_hex(std::as_bytes(std::span(both))).substr(0, 16);
 }
 
+Account account_of(const Statement& stored, const std::string& name) {
+  return {stored.text("person_id"),
+          name,
+          stored_role(stored),
+          stored.integer("enabled") != 0,
+          mark_of(stored.text("password_hash"), stored.integer("epoch")),
+          level_from(stored.text("level"))};
+}
+
 void add_account(Library& library, const std::string& person_id, Role role, const std::string& hash) {
   Sqlite& database = library.database();
   std::array<std::byte, 5> random{};
@@ -201,9 +210,16 @@ std::vector<Account> list_users(Library& library) {
   Statement all = question(library.database(), "accounts");
   for (all.bind("now_us", now_us()); all.step();)
     if (const auto name = names.find(all.text("person_id")); name != names.end())  // not erased, not half made
-      users.push_back({name->first, name->second, stored_role(all), all.integer("enabled") != 0,
-                       mark_of(all.text("password_hash"), all.integer("epoch")), level_from(all.text("level"))});
+      users.push_back(account_of(all, name->second));
   return users;
+}
+
+std::optional<Account> find_user(Library& library, const std::string& person_id) {
+  Statement identity = question(library.identities(), "identity_of_person");
+  if (!identity.bind("person_id", person_id).step()) return std::nullopt;
+  Statement stored = question(library.database(), "account");
+  if (!stored.bind("person_id", person_id).bind("now_us", now_us()).step()) return std::nullopt;
+  return account_of(stored, identity.text("name"));
 }
 
 base::Result<void> set_password(Library& library, const std::string& name, const std::string& password) {
@@ -266,7 +282,7 @@ std::optional<Account> log_in(Library& library, const std::string& name, const s
   std::int64_t epoch = 0;
   if (const auto identity = find_identity(library, name)) {
     Statement stored = question(library.database(), "account");
-    if (stored.bind("person_id", identity->person_id).step()) {
+    if (stored.bind("person_id", identity->person_id).bind("now_us", now_us()).step()) {
       account = {identity->person_id, identity->name, stored_role(stored), stored.integer("enabled") != 0, {}, {}};
       hash = stored.text("password_hash");
       epoch = stored.integer("epoch");

@@ -31,9 +31,12 @@ void add_row(Html& html, const CohortView& view) {
 
 std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> cohorts) {
   Html html;
-  html.raw("<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; of others counts only, and none of fewer than ")
+  html.raw(
+          "<h1>Cohorts</h1>\n<p class=\"sub\">Your own by name; of others counts only, as they were at the end of "
+          "a "
+          "week, once at least ")
       .text(std::to_string(casedb::kSmallestCell))
-      .raw(" people.</p>\n");
+      .raw(" people have made them, or their last change.</p>\n");
   if (cohorts.empty()) {
     html.raw(
         "<p>There is no cohort for you to see. Whoever runs this library adds one with <code>seldinger cohort "

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <thread>
 
@@ -50,9 +51,13 @@ class Beside {
   }
   Beside(const Beside&) = delete;
   Beside& operator=(const Beside&) = delete;
-  ~Beside() {
-    ::kill(pid_, SIGTERM);
-    ::waitpid(pid_, nullptr, 0);
+  ~Beside() { end(SIGTERM); }
+  void end(int signal) {
+    if (pid_ > 0) {
+      ::kill(pid_, signal);
+      ::waitpid(pid_, nullptr, 0);
+    }
+    pid_ = -1;
   }
 
  private:
@@ -170,6 +175,43 @@ TEST(Serving, ANameThatIsNoOriginIsRefused) {
     EXPECT_NE(ran.exit_code, 0) << bad;
     EXPECT_NE(ran.err.find("bad_origin"), std::string::npos) << bad << ran.err;
   }
+}
+
+// Neither the server nor the machine is asked: the one is killed, and begins again on the same library.
+TEST_F(ServingTest, WhoIsLoggedInStaysSoWhenTheServerIsKilled) {
+  const std::string library = (scratch_ / "library").string(), port = std::to_string(free_port());
+  for (const char* name : {"ann", "bob"})
+    ASSERT_EQ(run("printf 'a long password\\n' | " + kProgram + " user add " + name +
+                      " --role trainee --new-library --library '" + library + "'",
+                  scratch_)
+                  .exit_code,
+              0);
+  const std::string here = "http://127.0.0.1:" + port;
+  const auto as = [&](const std::string& who, const std::string& words) {
+    const std::string cookies = " '" + (scratch_ / who).string() + "'";
+    return run("curl -s -i --max-time 20 -H 'Origin: " + here + "' -b" + cookies + " -c" + cookies + " " + words,
+               scratch_)
+        .out;
+  };
+  std::optional<Beside> server;
+  const auto start = [&] {
+    server.emplace(kProgram + " serve --library '" + library + "' --port " + port, scratch_ / "serve.out");
+    return wait_until([&] { return as("nobody", here + "/healthz").find("\"ok\"") != std::string::npos; });
+  };
+  ASSERT_TRUE(start());
+  for (const std::string who : {"ann", "bob"}) {
+    const std::string token = token_in(as(who, here + "/login"));
+    ASSERT_NE(as(who, "--data 'name=" + who + "&password=a+long+password&token=" + token + "' " + here + "/login")
+                  .find("303"),
+              std::string::npos);
+  }
+  const std::string ann = fixtures::whole_file(scratch_ / "ann");  // as somebody has copied it
+  as("ann", "--data 'token=" + token_in(as("ann", here + "/me")) + "' " + here + "/logout");
+  std::ofstream(scratch_ / "ann") << ann;
+  server->end(SIGKILL);
+  ASSERT_TRUE(start());
+  EXPECT_TRUE(as("bob", here + "/me").starts_with("HTTP/1.1 200"));
+  EXPECT_TRUE(as("ann", here + "/me").starts_with("HTTP/1.1 303")) << "who had logged out";
 }
 
 }  // namespace

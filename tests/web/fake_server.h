@@ -18,7 +18,7 @@ struct FakeLog {
 // `log` may be null.
 inline Surroundings plain_surroundings(std::shared_ptr<FakeLog> log = nullptr) {
   Surroundings surroundings;
-  surroundings.now_us = [] { return std::int64_t{1}; };
+  surroundings.now_us = surroundings.utc_us = [] { return std::int64_t{1}; };
   surroundings.random_id = [count = std::make_shared<std::atomic<int>>()] {
     return fake_hash(std::to_string(++*count));
   };

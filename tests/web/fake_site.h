@@ -46,6 +46,19 @@ class FakeQuestions final : public Questions {
     const auto found = unlocked.find(person_id);
     return found == unlocked.end() ? 0 : found->second;
   }
+  std::vector<casedb::WebSession> list_sessions(int) override {
+    const std::lock_guard lock(mutex);
+    std::vector<casedb::WebSession> all;
+    for (const auto& [id_hash, session] : sessions) all.push_back(session);
+    return all;
+  }
+  void keep_sessions(int, const casedb::WebSessionChanges& changes) override {
+    const std::lock_guard lock(mutex);
+    ++session_writes;
+    if (refuse_sessions) throw base::Failure("disk", "the disk is full");
+    for (const casedb::WebSession& one : changes.kept) sessions[one.id_hash] = one;
+    for (const std::string& id_hash : changes.ended) sessions.erase(id_hash);
+  }
   std::optional<casedb::Account> find_account(const std::string& person_id) override {
     for (const casedb::Account& account : list_accounts()) {
       if (account.person_id == person_id) return account;
@@ -65,6 +78,11 @@ class FakeQuestions final : public Questions {
     return all;
   }
   std::vector<casedb::Cohort> list_cohorts() override { return cohorts; }
+  std::map<std::string, casedb::ToldCells> told_cells(std::int64_t) override {
+    std::map<std::string, casedb::ToldCells> all = told;
+    for (const casedb::Cohort& cohort : cohorts) all[cohort.cohort_id];
+    return all;
+  }
   casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
     const auto known = cohort_relations.find(reader_id);
     if (known == cohort_relations.end()) return {};
@@ -202,6 +220,7 @@ class FakeQuestions final : public Questions {
   std::map<std::string, std::string> passwords;                                        // by log-in name
   std::map<std::string, std::unordered_map<std::string, casedb::Relation>> relations;  // by reader
   std::vector<casedb::Cohort> cohorts;
+  std::map<std::string, casedb::ToldCells> told;                                    // by cohort; none: all withheld
   std::map<std::string, std::map<std::string, casedb::Relation>> cohort_relations;  // by reader and cohort
   std::map<std::string, std::vector<casedb::CurriculumRecord>> records;             // by person
   std::set<std::string> simulated;
@@ -210,6 +229,9 @@ class FakeQuestions final : public Questions {
   reports::AboutMe about_me;
   std::string asked_about;
   std::vector<std::string> logged_out, let_in;
+  std::map<std::string, casedb::WebSession> sessions;  // as a library keeps them
+  int session_writes = 0;
+  bool refuse_sessions = false;
   std::map<std::string, std::int64_t> unlocked;  // by person, as the audit log numbers it
   std::vector<std::string> done;                 // what was changed, in words
   std::vector<casedb::AttemptRow> attempts;      // newest first
@@ -317,7 +339,8 @@ struct FakeSite {
   FakeSite() {
     fill(questions);
     surroundings.now_us = [this] { return now_us.load(); };
-    surroundings.utc_us = [] { return std::int64_t{1'772'373'909'123'456}; };  // 2026-03-01 14:05:09
+    // 2026-03-01 14:05:09, and what has passed since the site began.
+    surroundings.utc_us = [this] { return 1'772'373'909'123'456 - 1'000'000 + now_us.load(); };
     surroundings.random_id = [this] { return fake_hash("random " + std::to_string(++ids)); };
     surroundings.sha256_hex = fake_hash;
     surroundings.log = [this](const std::string& line) {

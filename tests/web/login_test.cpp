@@ -198,7 +198,7 @@ TEST_F(LoginTest, WhoLogsOutIsOutThoughTheLibraryCannotKeepIt) {
   EXPECT_EQ(browser.cookies.count("seldinger_8080"), 0U);
   browser.cookies = cookies;
   EXPECT_EQ(browser.get("/attempts").status, 303);
-  EXPECT_THAT(fake.log.back(), MatchesRegex("error [0-9a-f]{8}: disk: a log-out is not in the audit log"));
+  EXPECT_THAT(fake.log.back(), MatchesRegex("error [0-9a-f]{8}: disk: a log-out is not kept in the library"));
 }
 
 // Was: the right password counted five times as a failure while the disk was full, and its owner waited after that.

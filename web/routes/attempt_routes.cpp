@@ -48,11 +48,11 @@ Response list_attempts(Site& site, const Call& call) {
   const std::size_t page = wanted_page(call.request, pages);
   auto rows = site.questions.list_attempts(seen, (page - 1) * kRowsOfAPage, kRowsOfAPage);
 
-  std::map<std::string, casedb::Account> accounts;
-  for (casedb::Account& one : site.questions.list_accounts()) accounts.emplace(one.person_id, one);
+  std::map<std::string, std::optional<casedb::Account>> accounts;  // of those on the page
   const AccountOf account_of = [&](const std::string& person_id) {
-    const auto found = accounts.find(person_id);
-    return found == accounts.end() ? std::nullopt : std::optional(found->second);
+    const auto [at, is_new] = accounts.try_emplace(person_id);
+    if (is_new) at->second = site.questions.find_account(person_id);
+    return at->second;
   };
   // The question was right already; this holds it to the table.
   std::erase_if(rows,

@@ -81,6 +81,11 @@ Response log_in(Site& site, const Call& call) {
   const casedb::Secret old{cookie(call.request, site.cookies.session)};
   site.sessions.end(old.text);
   const casedb::Secret id{site.sessions.begin(account->person_id, account->password_mark)};
+  try {
+    site.keep_sessions();
+  } catch (const base::Failure&) {
+    // The next minute's try may do it; until then a restart would end the session.
+  }
   Response response = redirect("/attempts");
   response.headers.emplace_back("Set-Cookie", set_cookie(site.cookies.session, id.text));
   response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.before_login));
@@ -95,8 +100,9 @@ Response log_out(Site& site, const Call& call) {
   site.sessions.end(id.text);  // first: whoever leaves is out, whatever becomes of the library
   try {
     site.questions.log_out(call.reader->account.person_id);
+    site.keep_sessions();
   } catch (const base::Failure& failure) {
-    site.log_fault(failure.code() + ": a log-out is not in the audit log");
+    site.log_fault(failure.code() + ": a log-out is not kept in the library");
   }
   Response response = redirect("/login");
   response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.session));

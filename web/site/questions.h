@@ -19,6 +19,8 @@
 #include "casedb/people/cohorts.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
+#include "casedb/people/told_cells.h"
+#include "casedb/people/web_sessions.h"
 #include "casedb/questionnaires/responses.h"
 #include "casedb/ratings/rating_rounds.h"
 #include "casedb/workshops/workshops.h"
@@ -55,12 +57,18 @@ class Questions {
   // By an admin: kept in the audit log, for other programs of this library too.
   virtual void let_in_again(const std::string& admin_id, const std::string& name) = 0;
   virtual std::int64_t last_let_in_again(const std::string& person_id) = 0;  // as casedb does
+  // Who is logged in at this port, kept for the next start (casedb/people/web_sessions.h). Throws where nothing can
+  // be written.
+  virtual std::vector<casedb::WebSession> list_sessions(int port) = 0;
+  virtual void keep_sessions(int port, const casedb::WebSessionChanges& changes) = 0;
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
 
   // What everybody is to the reader; who is missing is nothing to them.
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
   virtual std::vector<casedb::Cohort> list_cohorts() = 0;  // by programme and title
+  // Of every cohort, by id: casedb::told_cells.
+  virtual std::map<std::string, casedb::ToldCells> told_cells(std::int64_t now_us) = 0;
   virtual casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) = 0;
 
   // How far somebody is in each published curriculum, and whether they are a simulated person. Kept until

@@ -70,10 +70,15 @@ Site::Site(Questions& questions_in, const Surroundings& surroundings_in, std::sp
     : questions(questions_in),
       surroundings(surroundings_in),
       cookies(surroundings_in.port),
-      sessions(surroundings_in),
+      sessions(surroundings_in, questions_in.list_sessions(surroundings_in.port)),
       security(surroundings_in),
       routes_(routes),
       secret_(surroundings_in.random_id()) {}
+
+void Site::keep_sessions() {
+  sessions.keep(
+      [this](const casedb::WebSessionChanges& changes) { questions.keep_sessions(surroundings.port, changes); });
+}
 
 std::string Site::login_token(const std::string& before_login_id) const {
   // Both parts have a fixed length, so that nothing can be moved from one to the other.

@@ -38,7 +38,7 @@ struct CookieNames {
 // a word about the inside, but for an id that stands in the log as well.
 class Site {
  public:
-  // All outlive the site.
+  // All outlive the site. Who was logged in at this port before still is.
   Site(Questions& questions, const Surroundings& surroundings, std::span<const Route> routes);
 
   Response answer(const Request& request) noexcept;
@@ -51,6 +51,8 @@ class Site {
   SecurityLog security;
   Answers answers;  // heavy ones
 
+  // Writes who is logged in for the next start, as far as the library does not know it. Throws where it cannot.
+  void keep_sessions();
   // The token of the log-in form, bound to the cookie of the browser that asked for it.
   std::string login_token(const std::string& before_login_id) const;
   // What a browser keeps that has logged in under this name, so that it is told from those who only know the name.

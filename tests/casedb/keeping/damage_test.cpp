@@ -5,6 +5,7 @@
 #include "casedb/database/digests.h"
 #include "casedb/database/migrate.h"
 #include "casedb/database/tables.h"
+#include "casedb/database/uuid.h"
 #include "casedb/keeping/backup.h"
 #include "casedb/keeping/check.h"
 #include "casedb/keeping/erase.h"
@@ -13,6 +14,7 @@
 #include "casedb/people/facts.h"
 #include "casedb/people/login_session.h"
 #include "casedb/people/people.h"
+#include "casedb/people/web_sessions.h"
 #include "tests/casedb/library_samples.h"
 
 namespace seldinger::casedb {
@@ -137,6 +139,7 @@ TEST_F(DamageTest, AnErasedPersonsDamageGoesToo) {
     }
     ASSERT_TRUE(set_level(library, "zoe", Level::consultant));
     static_cast<void>(begin_login_session(library, log_in(library, "zoe", "a long password").value()));
+    keep_web_sessions(library, 8080, {{{std::string(64, 'a'), zoe_, "mark", 1, 2, now_us() + 1'000'000'000}}, {}});
   }
   ASSERT_EQ(found(), none_);
   const std::string of_zoe = " WHERE person_id = '" + zoe_ + "'; ";
@@ -144,11 +147,12 @@ TEST_F(DamageTest, AnErasedPersonsDamageGoesToo) {
   for (const char* change : {"enrolment SET from_us = from_us - 1", "study_researcher SET from_us = from_us - 1",
                              "programme_director SET from_us = from_us - 1", "person_fact SET answer = 'right'",
                              "replay_watched SET watched_us = watched_us - 1", "person_level SET level = 'student'",
-                             "account SET role = 'admin'", "login_session SET ends_us = ends_us + 1"})
+                             "account SET role = 'admin'", "login_session SET ends_us = ends_us + 1",
+                             "web_session SET ends_us = ends_us + 1"})
     sql += std::string("UPDATE ") + change + of_zoe;
   change_unseen(sql);
   const auto told = found();
-  ASSERT_EQ(told.size(), 8U);
+  ASSERT_EQ(told.size(), 9U);
   for (const std::string& text : told) EXPECT_EQ(text.find("Radiology"), std::string::npos) << text;
   {
     Library library = open_library(folder_);
@@ -258,7 +262,7 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
   }
   {
     Sqlite old(folder_ / kDatabaseFile);
-    old.run("DROP TRIGGER training_case_keeps_its_sight_law");
+    old.run("DROP TRIGGER training_case_keeps_its_sight_law; DROP INDEX audit_of_changes");
     old.run("ALTER TABLE training_case DROP COLUMN sight_law");
     old.run("ALTER TABLE lesion DROP COLUMN lesion_kind");
     for (const char* later :
@@ -267,7 +271,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
-    for (const char* later : {"cut",
+    for (const char* later : {"web_session",
+                              "cut",
                               "rating",
                               "rating_known",
                               "rating_view",

@@ -290,31 +290,5 @@ TEST_F(CohortsTest, FactsAreStoredAllOrNone) {
   EXPECT_EQ(list_facts(library_, tina_).size(), 2U);
 }
 
-// Of so many learners who made attempts of which so many had a known hit; the first `seen` of them are seen
-// elsewhere.
-CohortCells told(int learners, int with_attempts, int with_hit, int seen) {
-  Cohort cohort{"id", "t", "p", "", {}};
-  for (int i = 0; i < learners; ++i)
-    cohort.learners.push_back(
-        {std::to_string(i), true, i < with_attempts ? 8 : 0, i < with_hit ? 6 : 0, i < with_hit ? 4 : 0});
-  return suppressed(cohort, [&](const std::string& person_id) { return std::stoi(person_id) < seen; });
-}
-
-TEST(SuppressedCells, NoCountIsOfFewerThanFivePeople) {
-  EXPECT_EQ(told(5, 5, 5, 0), (CohortCells{5, 40, 30, 20}));
-  EXPECT_EQ(told(5, 4, 4, 0), (CohortCells{5, -1, -1, -1}));
-  EXPECT_EQ(told(4, 4, 4, 0), (CohortCells{-1, -1, -1, -1}));
-  // Before, who made attempts were counted, not whose hit is known: one person's "4 of 6" was told.
-  EXPECT_EQ(told(5, 5, 1, 0), (CohortCells{5, 40, -1, -1}));
-}
-
-// Before: six in all, less four whom the director sees by name, is what the other two did.
-TEST(SuppressedCells, NoDifferenceToWhatIsSeenElsewhereIsOfFewerThanFive) {
-  EXPECT_EQ(told(6, 6, 6, 4), (CohortCells{-1, -1, -1, -1}));
-  EXPECT_EQ(told(9, 9, 9, 4), (CohortCells{9, 72, 54, 36}));
-  EXPECT_EQ(told(9, 8, 8, 4), (CohortCells{9, -1, -1, -1})) << "four others have made attempts";
-  EXPECT_EQ(told(6, 6, 6, 6), (CohortCells{6, 48, 36, 24})) << "all are seen anyway";
-}
-
 }  // namespace
 }  // namespace seldinger::casedb
