@@ -143,7 +143,7 @@ std::string cases_page(const Visitor& visitor, std::span<const casedb::CaseRow> 
         .text(guidance_text(row))
         .raw("</td></tr>\n");
   end_table(html);
-  return page("Cases", visitor, html);
+  return list_page("Cases", visitor, html);
 }
 
 }  // namespace seldinger::reports
