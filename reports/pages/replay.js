@@ -16,7 +16,8 @@ function show(replay) {
   let yaw = -35, pitch = 20, zoom = 1, index = 0, playing = false, last = 0;
   const times = replay.t_s, count = times.length, target = replay.target.center_mm;
   const comments = [...document.querySelectorAll(".comments [data-at-s]")].map((moment) => ({
-    at: Number(moment.dataset.atS), words: moment.nextElementSibling.textContent.trim() }));
+    at: Number(moment.dataset.atS), words: moment.nextElementSibling.firstChild.textContent.trim(),
+    author: moment.nextElementSibling.querySelector("bdi").textContent }));
   const said = root.querySelector("[data-said]"), field = document.getElementById("at");
   let typed = false, net = null;
   root.hidden = false;
@@ -136,7 +137,7 @@ function show(replay) {
     slider.setAttribute("aria-valuetext", words);
     // A comment stays for six seconds, or until the next.
     const now = comments.filter((one) => one.at <= times[index] + 0.05 && times[index] < one.at + 6).pop();
-    const saying = now ? "“" + now.words + "”" : "";
+    const saying = now ? now.author + ": “" + now.words + "”" : "";
     if (said.textContent !== saying) said.textContent = saying;
     if (field && !typed) field.value = times[index].toFixed(1);
   }
@@ -198,7 +199,7 @@ function show(replay) {
     });
     moment.append(button);
   }
-  if (field) field.addEventListener("input", () => { typed = true; });
+  if (field) field.addEventListener("focus", () => { typed = true; });
   // Where the comments are, along the slider.
   if (comments.length > 0) {
     const marks = document.createElement("datalist");
