@@ -102,8 +102,9 @@ Html series_chart(const SeriesChart& asked) {
   // One point stands in the middle.
   const double margin = last > first ? 0.02 * (last - first) : 1.0;
   const Axis x{first - margin, last + margin, kLeft, kWidth - kRight};
-  html.raw("<div class=\"wide\"><svg class=\"series\" role=\"img\" viewBox=\"0 0 ")
-      .text(svg_px(kWidth) + " " + svg_px(kHeight));
+  // Whoever has no mouse moves what is wider than the screen, too.
+  html.raw("<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"").text(chart.said);
+  html.raw("\"><svg class=\"series\" role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(kHeight));
   html.raw("\"><title>").text(chart.said).raw("</title>\n");
   if (chart.band) add_band(html, *chart.band, y);
   add_axes(html, chart, x, y, ticks);

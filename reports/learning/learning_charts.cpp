@@ -197,7 +197,7 @@ void add_number(Html& html, const std::vector<double>& values, std::size_t at, i
 void add_attempts(Html& html, const LearnerItem& item, const LearnedCourse& course) {
   html.raw(
       "<details class=\"numbers\"><summary>The charts as a table</summary>\n<div "
-      "class=\"wide\"><table><thead><tr><th "
+      "class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"The charts as a table\"><table><thead><tr><th "
       "scope=\"col\" class=\"number\">Attempt</th><th scope=\"col\">When</th><th scope=\"col\">Grade</th><th "
       "scope=\"col\" class=\"number\">Probability</th><th scope=\"col\" class=\"number\">LC-CUSUM</th>");
   for (const assessment::Criterion& one : item.rule.criteria)

@@ -175,7 +175,9 @@ std::string learner_record_page(const Visitor& visitor, const LearnerView& learn
         .text(standing_text(found.standing));
     html.raw("</strong>: ")
         .text(evidence_text(found, record, now_us))
-        .raw("</p>\n<div class=\"wide\">\n<table>\n<caption>");
+        .raw(
+            "</p>\n<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Item by "
+            "item\">\n<table>\n<caption>");
     html.raw(
         "Proficient: two passes running, by the pass rule of the case’s version that was "
         "attempted</caption>\n<thead><tr>"
