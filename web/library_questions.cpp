@@ -14,8 +14,10 @@
 #include "casedb/database/sqlite.h"
 #include "casedb/database/uuid.h"
 #include "casedb/grading/dependability.h"
+#include "casedb/grading/learning.h"
 #include "casedb/people/noted_tries.h"
 #include "casedb/people/simulated_people.h"
+#include "reports/studies/validity_report.h"
 #include "reports/words/grade_words.h"
 #include "sim/base/hex.h"
 
@@ -65,13 +67,13 @@ constexpr std::int64_t kHour_us = 3'600'000'000;
 
 class LibraryQuestions final : public Questions {
  public:
-  LibraryQuestions(std::array<casedb::Library, 5> handles, CaseChecker check)
+  LibraryQuestions(std::array<casedb::Library, 5> handles, HeavyWork work)
       : pages_(std::move(handles[0])),
         recordings_(std::move(handles[1])),
         first_(std::move(handles[2])),
         second_(std::move(handles[3])),
         changes_(std::move(handles[4])),
-        check_(std::move(check)) {}
+        work_(std::move(work)) {}
 
   std::optional<casedb::Account> log_in(const std::string& name, const std::string& password) override {
     std::unique_lock first(first_.mutex, std::try_to_lock);
@@ -148,6 +150,11 @@ class LibraryQuestions final : public Questions {
     });
   }
 
+  std::vector<reports::LearnerItem> learning_of(const std::string& person_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    return reports::learner_items(pages_.library, casedb::learning_attempts_of(pages_.library, person_id));
+  }
+
   reports::StandardTexts standard_texts(const reports::Records& records) override {
     const std::lock_guard lock(pages_.mutex);
     reports::StandardTexts texts;
@@ -157,6 +164,50 @@ class LibraryQuestions final : public Questions {
         if (!standards.empty()) texts.emplace(item.case_id, reports::experts_text(standards.front().set));
       }
     return texts;
+  }
+
+  std::vector<reports::StudyView> list_studies() override {
+    const std::lock_guard lock(pages_.mutex);
+    std::vector<reports::StudyView> views;
+    for (casedb::Study& one : casedb::list_studies(pages_.library))
+      views.push_back(study_head(pages_.library, std::move(one)));
+    return views;
+  }
+
+  casedb::Relation relation_to_study(const std::string& reader_id, const std::string& study_id) override {
+    const std::lock_guard lock(pages_.mutex);
+    casedb::Relation relation;
+    relation.own_study = casedb::is_researcher_of(pages_.library, study_id, reader_id);
+    return relation;
+  }
+
+  base::Result<reports::StudyView> find_study(const std::string& study_id) override {
+    const std::lock_guard lock(recordings_.mutex);  // long to read where many are in: no page waits
+    casedb::Library& library = recordings_.library;
+    auto study = casedb::find_study(library, study_id);
+    if (!study) return study.error();
+    reports::StudyView view = study_head(library, std::move(*study));
+    if (view.plan && view.plan->frozen()) {
+      view.flow = casedb::study_data(library, *view.plan).flow;
+      view.visits = casedb::list_visits(library, *view.plan, casedb::now_us());
+      view.deviations = casedb::list_deviations(library, study_id);
+    } else if (view.plan) {
+      view.blinded = casedb::blinded_counts(library, *view.plan);
+    }
+    return view;
+  }
+
+  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
+                                         const std::string& program_version) override {
+    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
+    if (!library) return library.error();
+    library->act_for(casedb::Actor::person(person_id));
+    const auto study = casedb::find_study(*library, study_id);
+    if (!study) return study.error();
+    const auto plan = casedb::find_plan(*library, study_id);
+    if (!plan) return plan.error();
+    return reports::validity_page(
+        reports::validity_report_of(*library, *study, *plan, "report validity", program_version));
   }
 
   reports::AuditView audit_of(int days) override {
@@ -315,7 +366,7 @@ class LibraryQuestions final : public Questions {
     for (casedb::Curriculum& one : casedb::list_curricula(pages_.library)) {
       auto items =
           person_id ? casedb::states_of(pages_.library, one, *person_id) : casedb::states_of(pages_.library, one);
-      views.push_back({std::move(one), std::move(items), person_id.has_value()});
+      views.push_back({std::move(one), std::move(items)});
     }
     return views;
   }
@@ -334,17 +385,25 @@ class LibraryQuestions final : public Questions {
   }
 
   base::Result<casedb::CaseCheck> check_case(const casedb::CaseRow& row) override {
-    if (!check_) return base::Error{"not_checked", "cases are not checked here"};
-    auto library = casedb::Library::open(pages_.library.folder());  // so that no page waits
-    if (!library) return library.error();
-    auto check = check_(*library, row.case_id);
-    ::malloc_trim(0);  // a case took hundreds of megabytes
-    return check;
+    if (!work_.check) return base::Error{"not_checked", "cases are not checked here"};
+    return heavily(work_.check, row.case_id);
+  }
+
+  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+    if (!work_.pictures) return base::Error{"not_drawn", "pictures of a replay are not drawn here"};
+    return heavily(work_.pictures, attempt_id);
   }
 
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) override {
     const std::lock_guard lock(pages_.mutex);
     return pages_.library.load_asset(row.picture_sha256);
+  }
+
+  base::Result<cases::Mesh> load_skin(const std::string& case_id) override {
+    const std::lock_guard lock(recordings_.mutex);
+    const auto row = casedb::find_case(recordings_.library, case_id);
+    if (!row) return row.error();
+    return casedb::load_skin(recordings_.library, *row);
   }
 
   base::Result<cases::Recording> load_recording(const std::string& attempt_id) override {
@@ -363,6 +422,28 @@ class LibraryQuestions final : public Questions {
   }
 
  private:
+  // With a handle of its own, so that no page waits.
+  template <typename Answer>
+  base::Result<Answer> heavily(
+      const std::function<base::Result<Answer>(casedb::Library&, const std::string&)>& work,
+      const std::string& id) {
+    auto library = casedb::Library::open(pages_.library.folder());
+    if (!library) return library.error();
+    auto answer = work(*library, id);
+    ::malloc_trim(0);  // a case took hundreds of megabytes
+    return answer;
+  }
+
+  static reports::StudyView study_head(casedb::Library& library, casedb::Study study) {
+    reports::StudyView view;
+    view.study = std::move(study);
+    if (auto plan = casedb::find_plan(library, view.study.study_id)) view.plan = std::move(*plan);
+    view.enrolments = casedb::list_study_enrolments(library, view.study.study_id);
+    std::erase_if(view.enrolments, [](const casedb::StudyEnrolment& one) { return !one.consents; });
+    view.looks = casedb::list_looks(library, view.study.study_id);
+    return view;
+  }
+
   // Of everybody's attempts: long to read.
   assessment::statistics::Answer dependability() {
     const std::lock_guard lock(recordings_.mutex);
@@ -378,7 +459,7 @@ class LibraryQuestions final : public Questions {
   Kept<std::map<std::string, casedb::ToldCells>> told_;  // under pages_.mutex
   std::map<std::string, Kept<LearnerRecords>> records_;  // by person, under pages_.mutex
   Kept<assessment::statistics::Answer> dependability_;   // under recordings_.mutex
-  CaseChecker check_;
+  HeavyWork work_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
   casedb::Health health_ = casedb::Health::ok;
@@ -387,7 +468,7 @@ class LibraryQuestions final : public Questions {
 
 }  // namespace
 
-base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check) {
+base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, HeavyWork work) {
   auto recordings = casedb::Library::open(library.folder());
   if (!recordings.has_value()) return recordings.error();
   auto first = casedb::Library::open(library.folder());
@@ -399,12 +480,12 @@ base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, C
   return std::unique_ptr<Questions>(
       std::make_unique<LibraryQuestions>(std::array{std::move(library), std::move(*recordings), std::move(*first),
                                                     std::move(*second), std::move(*changes)},
-                                         std::move(check)));
+                                         std::move(work)));
 }
 
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
-                                 std::function<void(const std::string&)> log, CaseChecker check) {
-  auto questions = questions_of(std::move(library), std::move(check));
+                                 std::function<void(const std::string&)> log, HeavyWork work) {
+  auto questions = questions_of(std::move(library), std::move(work));
   if (!questions.has_value()) return questions.error();
   Surroundings surroundings;
   surroundings.now_us = [] {

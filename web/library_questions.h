@@ -12,12 +12,17 @@ namespace seldinger::web {
 
 // Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.
 // Refused as Library::open.
-// `check` looks at a case of a library of its own; empty: cases are not checked here.
+// What is done with volumes and pictures, each in a library of its own; empty: not done here.
 using CaseChecker = std::function<base::Result<casedb::CaseCheck>(casedb::Library&, const std::string& case_id)>;
-base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, CaseChecker check = {});
+using PicturesMaker = std::function<base::Result<std::string>(casedb::Library&, const std::string& attempt_id)>;
+struct HeavyWork {
+  CaseChecker check{};
+  PicturesMaker pictures{};  // markup, as reports/sheets/moments_sheet.h
+};
+base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, HeavyWork work = {});
 
 // As Server::open, with time, chance and hash of this machine. `log` gets one line a fault.
 base::Result<Server> open_server(casedb::Library library, const ServeOptions& options, std::string program_version,
-                                 std::function<void(const std::string&)> log, CaseChecker check = {});
+                                 std::function<void(const std::string&)> log, HeavyWork work = {});
 
 }  // namespace seldinger::web

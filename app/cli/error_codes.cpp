@@ -151,7 +151,11 @@ constexpr ErrorCode kCaseCodes[] = {
     {"burned_in_unchecked", kRefuses, "Nobody has confirmed that the pictures hold no burned-in text.",
      "Look through the slices, then `seldinger case confirm --no-burned-in-text`."},
     {"not_checked", kRefuses, "This server cannot run the check of a case.",
-     "`seldinger case check` on the command line."}};
+     "`seldinger case check` on the command line."},
+    {"not_drawn", kRefuses, "This server cannot draw the pictures of a replay.",
+     "`seldinger replay --out FILE.html` on the command line."},
+    {"replay_differs", kRefuses, "A replay is not tick for tick what was recorded.",
+     "`seldinger replay` tells the first tick that differs."}};
 
 constexpr ErrorCode kPeopleCodes[] = {
     {"no_user", kRefuses, "There is no such account, or it is closed.", "`seldinger user list` lists them."},

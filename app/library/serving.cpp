@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "app/cli/version.h"
+#include "app/replay/replay_output.h"
 #include "casedb/database/audit.h"
 #include "session/case/case_check.h"
 #include "sim/base/failure.h"
@@ -43,12 +44,12 @@ base::Result<void> serve_until_stopped(casedb::Library library, const ServeAt& a
   const std::filesystem::path folder = library.folder();
   const casedb::Actor starts = library.actor();
   const auto log = [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); };
-  auto server =
-      web::open_server(std::move(library), {at.host, at.port, at.behind}, kVersion, log, session::check_case);
+  const web::HeavyWork work{session::check_case, telling_pictures};
+  auto server = web::open_server(std::move(library), {at.host, at.port, at.behind}, kVersion, log, work);
   if (!server && server.error().code == "port_taken" && at.any_port_if_taken) {
     auto again = casedb::Library::open(folder);
     if (!again) return again.error();
-    server = web::open_server(std::move(*again), {at.host, 0, at.behind}, kVersion, log, session::check_case);
+    server = web::open_server(std::move(*again), {at.host, 0, at.behind}, kVersion, log, work);
   }
   if (!server) return server.error();
   auto noted = casedb::Library::open(folder);

@@ -14,6 +14,7 @@
 #include "assessment/score.h"
 #include "casedb/database/disk.h"
 #include "reports/sheets/blinded_replay.h"
+#include "reports/sheets/moments_sheet.h"
 #include "reports/sheets/replay_sheet.h"
 #include "session/case/case_build.h"
 #include "session/monitor/guidance_screen.h"
@@ -26,6 +27,12 @@ namespace fs = std::filesystem;
 
 std::string label_of(const casedb::AttemptRow& attempt) {
   return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "a person";
+}
+
+constexpr const char* kNotVerified = "Recorded by another step version: drawn as this one steps it, not verified.";
+
+bool is_comparable(const cases::Recording& recording) {
+  return recording.step_version == engine::kStepVersion;
 }
 
 std::vector<std::byte> png_of(const session::GreyPicture& picture) {
@@ -83,9 +90,9 @@ session::Replay walk(const Scene& s, const cases::Recording& recording, session:
                          });
 }
 
-std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const cases::Recording& recording,
-                        session::GuidanceScreen& screen, const std::string& note, const fs::path& out,
-                        session::Replay& replayed) {
+// `note`: when the replay cannot be held against the recording.
+reports::ReplaySheet sheet_of(const Scene& s, const casedb::AttemptRow& attempt, const cases::Recording& recording,
+                              session::GuidanceScreen& screen, const std::string& note, session::Replay& replayed) {
   reports::ReplaySheet sheet;
   sheet.attempt = {attempt, label_of(attempt)};
   sheet.note = note;
@@ -122,8 +129,7 @@ std::size_t write_sheet(const Scene& s, const casedb::AttemptRow& attempt, const
   for (; next < moments.size(); ++next) take(moments[next]);
   session::cut_black_edges(pictures);
   for (std::size_t i = 0; i < pictures.size(); ++i) sheet.moments[i].png = png_of(pictures[i]);
-  if (replayed.same || !note.empty()) write_file(out, reports::replay_sheet(sheet));
-  return sheet.moments.size();
+  return sheet;
 }
 
 // What a rater is shown, at even times: so many pictures, and the moment in which it was fired; and a film of so
@@ -211,7 +217,7 @@ base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb:
                                          const cases::Recording& recording) {
   const base::Error cannot{"not_to_be_rated",
                            "an attempt whose replay is not tick for tick what was recorded is not shown to raters"};
-  if (recording.step_version != engine::kStepVersion) return cannot;
+  if (!is_comparable(recording)) return cannot;
   const auto s = scene_of(library, attempt, recording);
   if (!s) return s.error();
   reports::ReplaySheet sheet;
@@ -226,6 +232,23 @@ base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb:
   return reports::blinded_replay(std::move(sheet));
 }
 
+base::Result<std::string> telling_pictures(casedb::Library& library, const std::string& attempt_id) {
+  const auto attempt = casedb::find_attempt(library, attempt_id);
+  if (!attempt) return attempt.error();
+  const auto recording = casedb::load_recording(library, attempt_id);
+  if (!recording) return recording.error();
+  const auto s = scene_of(library, *attempt, *recording);
+  if (!s) return s.error();
+  session::GuidanceScreen screen(s->scene, recording->hashes.empty() ? 0 : recording->hashes.back());
+  session::Replay replayed;
+  const reports::ReplaySheet sheet =
+      sheet_of(*s, *attempt, *recording, screen, is_comparable(*recording) ? "" : kNotVerified, replayed);
+  if (!replayed.same && is_comparable(*recording))
+    return base::Error{"replay_differs",
+                       "the replay is not tick for tick what was recorded: nothing is drawn of it"};
+  return reports::moments_sheet(sheet);
+}
+
 base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb::AttemptRow& attempt,
                                          const cases::Recording& recording, const fs::path& out, double rate_hz) {
   const auto began = std::chrono::steady_clock::now();
@@ -236,14 +259,15 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
   if (!built) return built.error();
   const Scene& s = *built;
   session::GuidanceScreen screen(s.scene, recording.hashes.empty() ? 0 : recording.hashes.back());
-  const bool comparable = recording.step_version == engine::kStepVersion;
-  const std::string note =
-      comparable ? "" : "Recorded by another step version: drawn as this one steps it, not verified.";
+  const bool comparable = is_comparable(recording);
+  const std::string note = comparable ? "" : kNotVerified;
   const std::string title = reports::picture_text(attempt.picture) + (comparable ? "" : " - not verified");
 
   ReplayWritten written;
   if (sheet) {
-    written.pictures = write_sheet(s, attempt, recording, screen, note, out, written.replay);
+    const reports::ReplaySheet made = sheet_of(s, attempt, recording, screen, note, written.replay);
+    if (written.replay.same || !comparable) write_file(out, reports::replay_sheet(made));
+    written.pictures = made.moments.size();
   } else if (film) {
     VideoFile video(out, ReplayFrame::kWidthPx, ReplayFrame::kHeightPx, rate_hz);
     written.pictures = draw_frames(s, recording, screen, title, rate_hz, written.replay,

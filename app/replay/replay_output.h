@@ -25,6 +25,10 @@ base::Result<ReplayWritten> write_replay(casedb::Library& library, const casedb:
                                          const cases::Recording& recording, const std::filesystem::path& out,
                                          double rate_hz);
 
+// The pictures of an attempt at its telling moments (assessment/moments.h), as reports/sheets/moments_sheet.h.
+// Refused: `no_attempt`, `replay_differs`, and as build_case_of and make_signals. Takes seconds.
+base::Result<std::string> telling_pictures(casedb::Library& library, const std::string& attempt_id);
+
 // The attempt as raters see it: reports/sheets/blinded_replay.h. Refused: `not_to_be_rated` (another step version
 // recorded it, or its replay differs), and as build_case_of and make_signals.
 base::Result<std::string> replay_to_rate(casedb::Library& library, const casedb::AttemptRow& attempt,

@@ -70,6 +70,13 @@ std::string plain_range(double low, double high, std::string_view unit) {
   return from + (low < 0.0 || high < 0.0 ? " to " : "–") + to + after;
 }
 
+std::pair<double, double> said_range(double low, double high, std::string_view unit) {
+  const UnitWords words = words_of(unit);
+  const double tenths = std::pow(10.0, std::min(digits_of(low, words), digits_of(high, words)));
+  const auto said = [&](double value) { return std::round(value * words.factor * tenths) / tenths / words.factor; };
+  return {said(low), said(high)};
+}
+
 std::string plain_times(double count) {
   if (count == 1.0) return "once";
   if (count == 2.0) return "twice";

@@ -15,6 +15,8 @@ std::pair<std::string, std::string> plain_apart(double value, double other, std:
 
 // "0–3 mm", "−2 to 3 mm"; one value where both read the same.
 std::string plain_range(double low, double high, std::string_view unit);
+// The two numbers that it says: what draws a range tells no more of it than what writes it.
+std::pair<double, double> said_range(double low, double high, std::string_view unit);
 
 std::string plain_times(double count);  // "once", "twice", "3 times"
 

@@ -19,6 +19,7 @@ struct LearningAttempt {
   std::int64_t started_us = 0;
   assessment::Verdict verdict = assessment::Verdict::no_rule;
   std::vector<MetricValue> metrics;  // newest version of each
+  Task task{};                       // what was done there
 
   // Whether it says anything: passed or failed.
   bool graded() const noexcept {
@@ -34,5 +35,8 @@ std::vector<LearningAttempt> learning_verdicts(Library& library, Learners learne
 
 // Another one when learning_attempts, cohorts or what was done in them may have changed.
 std::string learning_mark(Library& library);
+
+// With metrics, of one: of a person what they did, of a simulated one what was simulated of them.
+std::vector<LearningAttempt> learning_attempts_of(Library& library, const std::string& person_id);
 
 }  // namespace seldinger::casedb

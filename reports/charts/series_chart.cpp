@@ -37,6 +37,7 @@ Axis y_axis(const SeriesChart& chart, std::vector<double>& ticks) {
   for (const SeriesPoint& one : chart.points) hold(one.y);
   for (const auto& one : chart.curve) hold(one.second);
   for (const SeriesLimit& one : chart.limits) hold(one.y);
+  if (chart.band) hold(chart.band->low), hold(chart.band->high);
   ticks = round_ticks(chart.y_low.value_or(low), chart.y_high.value_or(high));
   return {ticks.front(), ticks.back(), kHeight - kBottom, kTop};
 }
@@ -55,17 +56,33 @@ void add_axes(Html& html, const SeriesChart& chart, const Axis& x, const Axis& y
   html.raw(") rotate(-90)\">").text(chart.y_label).raw("</text>\n");
 }
 
-void add_limits(Html& html, const std::vector<SeriesLimit>& limits, const Axis& y) {
+// A word at the right end, below those that are there.
+void add_label(Html& html, const std::string& label, double at_px, std::vector<double>& taken) {
+  double label_y = at_px + 4.0;
+  for (const double other : taken)
+    if (std::abs(label_y - other) < kLabelGap) label_y = other + kLabelGap;
+  taken.push_back(label_y);
+  add_svg_text(html, "start", kWidth - kRight + 6.0, label_y, label);
+}
+
+void add_band(Html& html, const SeriesBand& band, const Axis& y) {
+  html.raw("<rect class=\"band\" x=\"")
+      .text(svg_px(kLeft))
+      .raw("\" width=\"")
+      .text(svg_px(kWidth - kRight - kLeft));
+  html.raw("\" y=\"").text(svg_px(y.at(band.high))).raw("\" height=\"");
+  // A band of one value is seen, too.
+  html.text(svg_px(std::max(2.0, y.at(band.low) - y.at(band.high)))).raw("\"/>");
+}
+
+void add_limits(Html& html, const SeriesChart& chart, const Axis& y) {
   std::vector<double> taken;
-  for (const SeriesLimit& one : limits) {
+  for (const SeriesLimit& one : chart.limits) {
     if (!std::isfinite(one.y)) continue;
     add_svg_line(html, "limit", kLeft, y.at(one.y), kWidth - kRight, y.at(one.y));
-    double label_y = y.at(one.y) + 4.0;
-    for (const double other : taken)
-      if (std::abs(label_y - other) < kLabelGap) label_y = other + kLabelGap;
-    taken.push_back(label_y);
-    add_svg_text(html, "start", kWidth - kRight + 6.0, label_y, one.label);
+    add_label(html, one.label, y.at(one.y), taken);
   }
+  if (chart.band) add_label(html, chart.band->label, 0.5 * (y.at(chart.band->low) + y.at(chart.band->high)), taken);
 }
 
 }  // namespace
@@ -74,6 +91,7 @@ Html series_chart(const SeriesChart& asked) {
   SeriesChart chart = asked;
   std::erase_if(chart.points,
                 [](const SeriesPoint& one) { return !std::isfinite(one.x) || !std::isfinite(one.y); });
+  if (chart.band && !(std::isfinite(chart.band->low) && std::isfinite(chart.band->high))) chart.band.reset();
   std::erase_if(chart.curve,
                 [](const auto& one) { return !std::isfinite(one.first) || !std::isfinite(one.second); });
   Html html;
@@ -84,10 +102,13 @@ Html series_chart(const SeriesChart& asked) {
   // One point stands in the middle.
   const double margin = last > first ? 0.02 * (last - first) : 1.0;
   const Axis x{first - margin, last + margin, kLeft, kWidth - kRight};
-  html.raw("<svg class=\"series\" role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(kHeight));
+  // Whoever has no mouse moves what is wider than the screen, too.
+  html.raw("<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"").text(chart.said);
+  html.raw("\"><svg class=\"series\" role=\"img\" viewBox=\"0 0 ").text(svg_px(kWidth) + " " + svg_px(kHeight));
   html.raw("\"><title>").text(chart.said).raw("</title>\n");
+  if (chart.band) add_band(html, *chart.band, y);
   add_axes(html, chart, x, y, ticks);
-  add_limits(html, chart.limits, y);
+  add_limits(html, chart, y);
   if (!chart.curve.empty()) add_path(html, "curve", chart.curve, x, y);
   if (chart.joined) {
     std::vector<std::pair<double, double>> path;
@@ -98,7 +119,7 @@ Html series_chart(const SeriesChart& asked) {
     html.raw("<circle class=\"").text(one.filled ? "point" : "point hollow").raw("\" r=\"").text(svg_px(kRadius));
     html.raw("\" cx=\"").text(svg_px(x.at(one.x))).raw("\" cy=\"").text(svg_px(y.at(one.y))).raw("\"/>");
   }
-  return html.raw("</svg>\n");
+  return html.raw("</svg></div>\n");
 }
 
 }  // namespace seldinger::reports

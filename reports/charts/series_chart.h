@@ -20,6 +20,12 @@ struct SeriesLimit {
   std::string label;  // short, at the line's right end
 };
 
+// Where others lie: drawn behind the values.
+struct SeriesBand {
+  double low = 0.0, high = 0.0;
+  std::string label;  // short, at its right end
+};
+
 struct SeriesChart {
   std::string said;  // for who cannot see it
   std::string x_label, y_label;
@@ -28,6 +34,7 @@ struct SeriesChart {
   std::vector<std::pair<double, double>> curve;
   std::vector<SeriesLimit> limits;
   std::optional<double> y_low, y_high;  // the ends of a scale that has them
+  std::optional<SeriesBand> band{};
 };
 // What is not finite is left out. Nothing is drawn of no point.
 Html series_chart(const SeriesChart& chart);

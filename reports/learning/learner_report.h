@@ -9,15 +9,9 @@
 #include "assessment/statistics/answer.h"
 #include "casedb/grading/learning.h"
 #include "casedb/people/simulated_people.h"
+#include "reports/learning/learning_charts.h"
 
 namespace seldinger::reports {
-
-// A case in all its versions, and what the learner did there.
-struct LearnerItem {
-  std::string title;
-  assessment::PassRule rule;                      // of its newest version
-  std::vector<casedb::LearningAttempt> attempts;  // oldest first, graded or not
-};
 
 struct LearnerReport {
   std::string learner;  // as the reader may call them

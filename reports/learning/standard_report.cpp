@@ -37,7 +37,10 @@ void add_scale(Html& html, const StandardReport& report, const std::vector<const
   for (const Cut* one : cuts)
     chart.rows.push_back(
         {cut_method_text(one->method), one->value, one->interval, "n = " + std::to_string(one->n), one == holds});
-  html.raw("<section class=\"item\">\n<h2>").text(cut_scale_text(first)).raw("</h2>\n").add(interval_chart(chart));
+  html.raw("<section class=\"learned\">\n<h2>")
+      .text(cut_scale_text(first))
+      .raw("</h2>\n")
+      .add(interval_chart(chart));
   html.raw("<p>");
   if (holds != nullptr)
     html.raw("<strong>").text(cut_text(*holds)).raw("</strong> holds. ").text(cut_standing_text(*holds)).raw(". ");

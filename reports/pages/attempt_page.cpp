@@ -120,7 +120,8 @@ void add_metrics(Html& html, const AttemptView& view) {
   html.raw("</section>\n");
 }
 
-void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recording* recording) {
+void add_picture(Html& html, const AttemptView& attempt, const cases::Recording* recording) {
+  const casedb::AttemptRow& row = attempt.row;
   html.raw("<section class=\"picture\" aria-labelledby=\"picture\">\n<h2 id=\"picture\">Picture</h2>\n");
   if (row.picture_sha256.empty()) {
     html.raw("<p class=\"note\">No picture is stored with this attempt.</p>\n");
@@ -160,6 +161,10 @@ void add_picture(Html& html, const casedb::AttemptRow& row, const cases::Recordi
     }
     html.raw("</figcaption></figure>\n");
   }
+  if (attempt.may_replay && recording != nullptr)
+    html.raw("<p><a href=\"/attempts/")
+        .text(row.attempt_id)
+        .raw("/pictures\">What was on the screen at the telling moments, and where the needle was</a></p>\n");
   html.raw("</section>\n");
 }
 
@@ -177,10 +182,12 @@ void add_drawn(Html& html, const casedb::AttemptRow& row) {
 // Filled by replay.js, which hides it where there is nothing to show; without a script it is not there.
 void add_replay(Html& html, const casedb::AttemptRow& row) {
   html.raw("<div class=\"replay3d\" data-replay=\"/attempts/").text(row.attempt_id);
+  html.raw("/replay.json\" data-skin=\"/attempts/").text(row.attempt_id);
   html.raw(
-      "/replay.json\" hidden>\n<canvas tabindex=\"0\" role=\"img\" aria-label=\"Needle, probe and target in three "
+      "/skin.json\" hidden>\n<canvas tabindex=\"0\" role=\"img\" aria-label=\"Needle, probe and target in three "
       "dimensions; arrow keys turn them. What is shown is told below.\"></canvas>\n"
-      "<p class=\"told\" data-told></p>\n<div class=\"controls\"><button type=\"button\" data-play>Play</button>\n"
+      "<p class=\"told\" data-told></p>\n<p class=\"said-now\" data-said role=\"status\"></p>\n<div "
+      "class=\"controls\"><button type=\"button\" data-play>Play</button>\n"
       "<label>Time <input type=\"range\" min=\"0\" max=\"1\" value=\"0\"></label>\n"
       "<label>Speed <select><option value=\"0.25\">¼</option><option value=\"1\" selected>1</option><option "
       "value=\"4\">4</option></select></label>\n<span><button type=\"button\" class=\"quiet\" "
@@ -190,16 +197,18 @@ void add_replay(Html& html, const casedb::AttemptRow& row) {
       "type=\"button\" class=\"quiet\" data-zoom=\"1.5\">Larger</button> <button type=\"button\" class=\"quiet\" "
       "data-zoom=\"0.667\">Smaller</button></span></div>\n<p class=\"note\">Blue: the picture showed the tip. "
       "Dashed: it "
-      "did not. R right, A front, H head.</p>\n</div>\n<script src=\"/replay.js\" defer></script>\n");
+      "did not. Net: the skin, coarsely. R right, A front, H head. A mentor’s comment appears at its "
+      "moment.</p>\n</div>\n<script src=\"/replay.js\" defer></script>\n");
 }
 
-void add_course(Html& html, const casedb::AttemptRow& row, const cases::Recording* recording) {
+void add_course(Html& html, const AttemptView& attempt, const cases::Recording* recording) {
+  const casedb::AttemptRow& row = attempt.row;
   html.raw("<section aria-labelledby=\"course\">\n<h2 id=\"course\">Course</h2>\n");
   const Html chart = recording == nullptr ? Html{} : time_chart(*recording, row.lesion);
   if (chart.empty()) {
     html.raw("<p class=\"note\">There is no readable recording to draw.</p>\n");
   } else {
-    add_replay(html, row);
+    if (attempt.may_replay) add_replay(html, row);
     html.add(chart);
     html.add(beam_table(*recording));
     add_drawn(html, row);
@@ -259,6 +268,25 @@ void add_details(Html& html, const AttemptView& attempt) {
 
 }  // namespace
 
+std::string attempt_pictures_page(const Visitor& visitor, const AttemptView& attempt,
+                                  const base::Result<std::string>& pictures) {
+  Html html;
+  html.raw("<p class=\"back\"><a href=\"/attempts/").text(attempt.row.attempt_id);
+  html.raw("\">The attempt</a></p>\n<h1>Pictures of an attempt</h1>\n<p class=\"sub\">")
+      .name(attempt.operator_label);
+  html.raw(" · ").name(attempt.row.case_title).raw(" · ").text(told_text(attempt.row.started_us)).raw("</p>\n");
+  if (!pictures) {
+    html.raw("<div class=\"message\"><p>There are no pictures: ").text(pictures.error().text).raw(".</p></div>\n");
+    return page("Pictures of an attempt", visitor, html);
+  }
+  html.raw(
+      "<p class=\"note\">Drawn anew from the recording, which was run again tick for tick and held against what "
+      "was "
+      "recorded.</p>\n");
+  html.raw(kKeptMarkup);
+  return with_kept_markup(page("Pictures of an attempt", visitor, html), *pictures);
+}
+
 std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, const cases::Recording* recording) {
   const casedb::AttemptRow& row = attempt.row;
   Html html;
@@ -275,12 +303,12 @@ std::string attempt_page(const Visitor& visitor, const AttemptView& attempt, con
       .raw("</time></p>\n");
   html.add(grade_section(attempt.grade));
   add_outcome(html, row);
-  add_course(html, row, recording);
+  add_course(html, attempt, recording);
   html.add(comment_section(attempt, attempt.may_comment ? visitor.form_token : std::string()));
   html.raw("<div class=\"columns\">\n");
   add_metrics(html, attempt);
   html.raw("<div>\n");
-  add_picture(html, row, recording);
+  add_picture(html, attempt, recording);
   html.add(step_section(attempt.steps)).raw("</div>\n</div>\n");
   add_details(html, attempt);
   return page("Attempt of " + attempt.operator_label, visitor, html);

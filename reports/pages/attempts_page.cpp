@@ -113,7 +113,7 @@ std::string attempts_page(const Visitor& visitor, std::span<const AttemptView> a
   for (const AttemptView& view : attempts) add_row(html, view);
   html.raw("</tbody>\n</table>\n</div>\n");
   add_pages(html, part);
-  return page("Attempts", visitor, html);
+  return list_page("Attempts", visitor, html);
 }
 
 std::string no_attempts_page(const Visitor& visitor) {

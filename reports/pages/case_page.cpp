@@ -130,20 +130,22 @@ std::string case_page(const Visitor& visitor, const casedb::CaseParts& parts) {
 
 std::string cases_page(const Visitor& visitor, std::span<const casedb::CaseRow> rows) {
   Html html;
-  html.raw("<h1>Cases</h1>\n");
-  add_table(html, "Oldest first");
+  html.raw(
+      "<h1>Cases</h1>\n<div class=\"wide\">\n<table class=\"list\">\n<caption>Oldest "
+      "first</caption>\n<thead><tr><th "
+      "scope=\"col\">Case</th><th scope=\"col\">State</th><th scope=\"col\">Guidance</th></tr></thead>\n<tbody>\n");
   for (const casedb::CaseRow& row : rows)
     html.raw("<tr><th scope=\"row\"><a href=\"/cases/")
         .text(row.case_id)
         .raw("\">")
         .name(row.title)
-        .raw("</a></th><td>")
+        .raw("</a></th><td data-label=\"State\">")
         .text(state_text(row))
-        .raw("</td><td>")
+        .raw("</td><td data-label=\"Guidance\">")
         .text(guidance_text(row))
         .raw("</td></tr>\n");
   end_table(html);
-  return page("Cases", visitor, html);
+  return list_page("Cases", visitor, html);
 }
 
 }  // namespace seldinger::reports

@@ -52,7 +52,7 @@ std::string cohorts_page(const Visitor& visitor, std::span<const CohortView> coh
       "scope=\"col\" class=\"number\">Hits</th></tr></thead>\n<tbody>\n");
   for (const CohortView& view : cohorts) add_row(html, view);
   html.raw("</tbody>\n</table>\n</div>\n");
-  return page("Cohorts", visitor, html);
+  return list_page("Cohorts", visitor, html);
 }
 
 }  // namespace seldinger::reports

@@ -1,4 +1,4 @@
-// Curricula: for a trainee how far they are and which case is due; for others what the items are.
+// Curricula: what is learnt in which order. How far somebody is stands on the pages of progress.
 #pragma once
 
 #include <span>
@@ -13,7 +13,6 @@ namespace seldinger::reports {
 struct CurriculumView {
   casedb::Curriculum curriculum;
   std::vector<casedb::ItemState> items;
-  bool own = false;  // the states are the reader's
 };
 
 std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula);

@@ -12,11 +12,16 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
       .raw(
           " · Seldinger</title>\n<link rel=\"stylesheet\" href=\"/style.css\">\n</head>\n<body>\n"
           "<a class=\"skip\" href=\"#content\">Skip to the content</a>\n"
-          "<header class=\"top\">\n<p class=\"brand\">Seldinger</p>\n");
+          "<header class=\"top\">\n<p class=\"brand\">");
+  if (visitor.name.empty())
+    html.raw("Seldinger</p>\n");
+  else
+    html.raw("<a href=\"/\">Seldinger</a></p>\n");
   if (!visitor.name.empty()) {
     const bool answers_for_others = visitor.role == "mentor" || visitor.role == "director";
     html.raw("<nav aria-label=\"Main\">");
     if (visitor.role == "trainee" || answers_for_others) html.raw("<a href=\"/progress\">Progress</a> ");
+    if (visitor.role == "researcher") html.raw("<a href=\"/studies\">Studies</a> ");
     html.raw("<a href=\"/attempts\">Attempts</a>");
     if (visitor.role != "admin") html.raw(" <a href=\"/curricula\">Curriculum</a>");
     if (visitor.role != "trainee") html.raw(" <a href=\"/cases\">Cases</a>");
@@ -42,6 +47,10 @@ std::string page(std::string_view title, const Visitor& visitor, const Html& con
   return html.str();
 }
 
+std::string list_page(std::string_view title, const Visitor& visitor, const Html& content) {
+  return page(title, visitor, Html(content).raw("<script src=\"/tables.js\" defer></script>\n"));
+}
+
 std::string page_with_style(std::string_view title, std::string_view style, const Html& content) {
   Html head, body;
   head.raw(
@@ -58,6 +67,10 @@ std::string page_with_style(std::string_view title, std::string_view style, cons
       .text(kTrainingOnly)
       .raw("</strong></p></footer>\n</body>\n</html>\n");
   return head.str() + std::string(style) + body.str();
+}
+
+std::string with_kept_markup(std::string page, const std::string& markup) {
+  return page.replace(page.find(kKeptMarkup), sizeof kKeptMarkup - 1, markup);
 }
 
 std::string message_page(std::string_view title, std::string_view message, const Visitor& visitor) {

@@ -12,13 +12,6 @@ namespace {
 namespace rated = assessment::rating;
 using assessment::questionnaire::Form;
 
-// Where the sheet goes: markup of ours that the library keeps by its hash. Text cannot hold it, as < is escaped.
-constexpr std::string_view kSheetGoesHere = "<!-- replay -->";
-
-std::string with_sheet(std::string page, const std::string& sheet) {
-  return page.replace(page.find(kSheetGoesHere), kSheetGoesHere.size(), sheet);
-}
-
 Html token_field(std::string_view token) {
   return Html{}.raw("<input type=\"hidden\" name=\"token\" value=\"").text(token).raw("\">\n");
 }
@@ -146,7 +139,9 @@ std::string rating_page(const RatingView& view) {
   html.raw("<p class=\"back\"><a href=\"/rate/bench\">All replays</a></p>\n<h1>")
       .text(title_of(shown))
       .raw("</h1>\n");
-  html.raw("<div class=\"rating\">\n<div class=\"rated\">\n<!-- replay --></div>\n<div class=\"answering\">\n<h2>");
+  html.raw("<div class=\"rating\">\n<div class=\"rated\">\n")
+      .raw(kKeptMarkup)
+      .raw("</div>\n<div class=\"answering\">\n<h2>");
   html.text(shown.form.form.title).raw("</h2>\n");
   if (shown.task.sent)
     add_sent(html, shown);
@@ -155,7 +150,7 @@ std::string rating_page(const RatingView& view) {
   else
     add_form(html, view);
   html.raw("</div>\n</div>\n<script src=\"/film.js\" defer></script>\n");
-  return with_sheet(page(title_of(shown), {}, html), shown.sheet);
+  return with_kept_markup(page(title_of(shown), {}, html), shown.sheet);
 }
 
 }  // namespace seldinger::reports

@@ -1,4 +1,5 @@
-// An attempt in three dimensions: needle, probe and target as they were recorded, to be turned, played and searched.
+// An attempt in three dimensions: needle, probe, target and skin as they were recorded, to be turned, played and
+// searched; what mentors said stands beneath at its moment.
 // Drawn with lines on a canvas: an orthographic view needs no library. Without this script the page has the same
 // course as a chart and a table.
 "use strict";
@@ -14,6 +15,11 @@ function show(replay) {
   const views = { front: [0, 0], side: [90, 0], slice: [0, -90] };
   let yaw = -35, pitch = 20, zoom = 1, index = 0, playing = false, last = 0;
   const times = replay.t_s, count = times.length, target = replay.target.center_mm;
+  const comments = [...document.querySelectorAll(".comments [data-at-s]")].map((moment) => ({
+    at: Number(moment.dataset.atS), words: moment.nextElementSibling.firstChild.textContent.trim(),
+    author: moment.nextElementSibling.querySelector("bdi").textContent }));
+  const said = root.querySelector("[data-said]"), field = document.getElementById("at");
+  let typed = false, net = null;
   root.hidden = false;
   slider.max = count - 1;
 
@@ -48,6 +54,27 @@ function show(replay) {
     pen.setLineDash((dash || []).map((one) => one * devicePixelRatio));
     pen.stroke();
   }
+  // The skin as a net, its outline from here more strongly: there one side of an edge faces us and the other does not.
+  function skin(pen) {
+    if (!net) return;
+    const points = net.vertices.map(project);
+    const faces = net.triangles.map(([a, b, c]) => (points[b][0] - points[a][0]) * (points[c][1] - points[a][1]) -
+      (points[b][1] - points[a][1]) * (points[c][0] - points[a][0]) > 0);
+    pen.setLineDash([]);
+    pen.strokeStyle = colour("--skin");
+    pen.lineWidth = devicePixelRatio;
+    for (const outline of [false, true]) {
+      pen.globalAlpha = outline ? 0.8 : 0.18;
+      pen.beginPath();
+      for (const [a, b, one, other] of net.edges) {
+        if ((other === undefined || faces[one] !== faces[other]) !== outline) continue;
+        pen.moveTo(points[a][0], points[a][1]);
+        pen.lineTo(points[b][0], points[b][1]);
+      }
+      pen.stroke();
+    }
+    pen.globalAlpha = 1;
+  }
   // Which way is right, front and head, in the corner.
   function compass(pen) {
     const centre = project(target), unit = 26 * devicePixelRatio, at = [2 * unit, canvas.height - 2 * unit];
@@ -73,6 +100,7 @@ function show(replay) {
     canvas.height = Math.round(box.height * devicePixelRatio);
     const pen = canvas.getContext("2d");
     pen.clearRect(0, 0, canvas.width, canvas.height);
+    skin(pen);
     compass(pen);
     const [x, y, scale] = project(target);
     pen.beginPath();
@@ -107,6 +135,11 @@ function show(replay) {
     told.textContent = words;
     slider.value = index;
     slider.setAttribute("aria-valuetext", words);
+    // A comment stays for six seconds, or until the next.
+    const now = comments.filter((one) => one.at <= times[index] + 0.05 && times[index] < one.at + 6).pop();
+    const saying = now ? now.author + ": “" + now.words + "”" : "";
+    if (said.textContent !== saying) said.textContent = saying;
+    if (field && !typed) field.value = times[index].toFixed(1);
   }
   function step(now) {
     if (!playing) return;
@@ -146,7 +179,7 @@ function show(replay) {
     });
   for (const button of root.querySelectorAll("[data-zoom]"))
     button.addEventListener("click", () => {
-      zoom = Math.min(12, Math.max(0.5, zoom * Number(button.dataset.zoom)));
+      zoom = Math.min(12, Math.max(0.1, zoom * Number(button.dataset.zoom)));
       draw();
     });
   // A moment elsewhere on the page, told by its time, is shown here.
@@ -166,6 +199,31 @@ function show(replay) {
     });
     moment.append(button);
   }
+  if (field) field.addEventListener("focus", () => { typed = true; });
+  // Where the comments are, along the slider.
+  if (comments.length > 0) {
+    const marks = document.createElement("datalist");
+    marks.id = "comment-marks";
+    for (const one of comments) {
+      const mark = document.createElement("option");
+      mark.value = Math.max(0, times.findIndex((t) => t >= one.at));
+      marks.append(mark);
+    }
+    slider.after(marks);
+    slider.setAttribute("list", marks.id);
+  }
+  fetch(root.dataset.skin).then((answer) => answer.json()).then((skin) => {
+    const vertices = [], triangles = [], edges = new Map();
+    for (let i = 0; i < skin.vertices_mm.length; i += 3) vertices.push(skin.vertices_mm.slice(i, i + 3));
+    for (let i = 0; i < skin.triangles.length; i += 3) triangles.push(skin.triangles.slice(i, i + 3));
+    triangles.forEach((corners, t) => corners.forEach((a, i) => {
+      const b = corners[(i + 1) % 3], key = Math.min(a, b) + " " + Math.max(a, b);
+      if (edges.has(key)) edges.get(key).push(t);
+      else edges.set(key, [a, b, t]);
+    }));
+    net = { vertices, triangles, edges: [...edges.values()] };
+    draw();
+  }).catch(() => {});  // without it there is a replay still
   let held = null;
   canvas.addEventListener("pointerdown", (event) => {
     held = [event.clientX, event.clientY];

@@ -37,4 +37,8 @@ std::string_view film_script() {
   return page_file("film.js");
 }
 
+std::string_view tables_script() {
+  return page_file("tables.js");
+}
+
 }  // namespace seldinger::reports

@@ -1,5 +1,5 @@
 // The one style sheet of all pages: served by the dashboard, and put into pages that are files of their own. And
-// the two scripts, of pages that keep what is typed and that show a film.
+// the scripts, each of the pages that need it.
 #pragma once
 
 #include <string_view>
@@ -10,5 +10,6 @@ std::string_view style_sheet();
 std::string_view keep_typed_script();
 std::string_view replay_script();
 std::string_view film_script();
+std::string_view tables_script();
 
 }  // namespace seldinger::reports

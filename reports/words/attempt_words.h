@@ -24,7 +24,7 @@ struct AttemptView {
   casedb::AttemptGrade grade{};
   std::vector<assessment::StepResult> steps{};
   std::vector<CommentView> comments{};
-  bool may_comment = false;  // the reader
+  bool may_comment = false, may_replay = false;  // the reader
 };
 
 std::string instrument_text(const cases::Instrument& instrument);       // short: "Access needle"

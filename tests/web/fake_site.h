@@ -95,10 +95,31 @@ class FakeQuestions final : public Questions {
             std::make_shared<const std::vector<casedb::CurriculumRecord>>(
                 found == records.end() ? std::vector<casedb::CurriculumRecord>() : found->second)};
   }
+  std::vector<reports::StudyView> list_studies() override { return studies; }
+  casedb::Relation relation_to_study(const std::string& reader_id, const std::string& study_id) override {
+    const auto known = study_relations.find(reader_id);
+    if (known == study_relations.end()) return {};
+    const auto found = known->second.find(study_id);
+    return found == known->second.end() ? casedb::Relation{} : found->second;
+  }
+  base::Result<reports::StudyView> find_study(const std::string& study_id) override {
+    for (const reports::StudyView& one : studies)
+      if (one.study.study_id == study_id) return one;
+    return base::Error{"no_study", "there is no such study"};
+  }
+  base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
+                                         const std::string&) override {
+    done.push_back(person_id + " looks at " + study_id);
+    return std::string("<!doctype html>");
+  }
   reports::AuditView audit_of(int days) override {
     reports::AuditView view = audit;
     view.days = days;
     return view;
+  }
+  std::vector<reports::LearnerItem> learning_of(const std::string& person_id) override {
+    const auto found = learning.find(person_id);
+    return found == learning.end() ? std::vector<reports::LearnerItem>() : found->second;
   }
   reports::StandardTexts standard_texts(const reports::Records&) override { return {}; }
   reports::AboutMe about(const std::string& person_id) override {
@@ -182,14 +203,12 @@ class FakeQuestions final : public Questions {
   std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) override {
     const std::lock_guard lock(mutex);
     curricula_asked_for = person_id;
-    std::vector<reports::CurriculumView> views = curricula;
-    for (reports::CurriculumView& view : views) view.own = person_id.has_value();
-    return views;
+    return curricula;
   }
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)
-      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, {}, {}, true};
+      if (row.case_id == case_id) return casedb::CaseParts{row, {}, {}, decisions, {}, true};
     return base::Error{"no_case", "there is no such case"};
   }
   std::string case_mark(const std::string&) override {
@@ -207,6 +226,12 @@ class FakeQuestions final : public Questions {
     return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}, case_mark("")};
   }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
+  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+    ++pictures_made;
+    if (pictures_refusal) return *pictures_refusal;
+    return "<p class=\"pictures\">" + attempt_id + "</p>";
+  }
+  base::Result<cases::Mesh> load_skin(const std::string&) override { return skin; }
   base::Result<cases::Recording> load_recording(const std::string&) override {
     if (recording) return *recording;
     return base::Error{"damaged", "the recording is damaged"};
@@ -223,7 +248,10 @@ class FakeQuestions final : public Questions {
   std::map<std::string, casedb::ToldCells> told;                                    // by cohort; none: all withheld
   std::map<std::string, std::map<std::string, casedb::Relation>> cohort_relations;  // by reader and cohort
   std::map<std::string, std::vector<casedb::CurriculumRecord>> records;             // by person
+  std::map<std::string, std::vector<reports::LearnerItem>> learning;                // by person
   std::set<std::string> simulated;
+  std::vector<reports::StudyView> studies;
+  std::map<std::string, std::map<std::string, casedb::Relation>> study_relations;  // by reader and study
   reports::AuditView audit;
   casedb::Erased erased;
   reports::AboutMe about_me;
@@ -236,6 +264,7 @@ class FakeQuestions final : public Questions {
   std::vector<std::string> done;                 // what was changed, in words
   std::vector<casedb::AttemptRow> attempts;      // newest first
   std::vector<casedb::CaseRow> cases;            // oldest first
+  std::vector<casedb::Decision> decisions;       // of every case
   casedb::AttemptGrade grade;                    // of every attempt
   std::optional<cases::Recording> recording;     // of every attempt; none: it is damaged
   std::vector<casedb::AttemptComment> comments;  // of every attempt
@@ -246,7 +275,9 @@ class FakeQuestions final : public Questions {
   std::function<void()> during_log_in, during_log_out, during_health;
   std::function<void()> during_check;
   std::optional<base::Error> check_refusal;
-  std::atomic<int> log_ins = 0, case_checks = 0;
+  std::optional<base::Error> pictures_refusal;
+  cases::Mesh skin;  // of every case
+  std::atomic<int> log_ins = 0, case_checks = 0, pictures_made = 0;
 
  private:
   void fail_if_asked() const {
@@ -275,6 +306,8 @@ inline const std::string kDraftCase = "0190a1b2-0000-7000-8000-0000000000c0";
 inline const std::string kReviewCase = "0190a1b2-0000-7000-8000-0000000000c1";
 inline const std::string kPublishedCase = "0190a1b2-0000-7000-8000-0000000000c2";
 inline const std::string kRetiredCase = "0190a1b2-0000-7000-8000-0000000000c3";
+
+inline const std::string kStudy = "0190a1b2-0000-7000-8000-0000000000d1";
 
 inline casedb::CaseRow case_row(const std::string& id, casedb::CaseState state) {
   casedb::CaseRow row;
@@ -317,6 +350,7 @@ inline void fill(FakeQuestions& questions) {
     view.curriculum.title = "A " + casedb::name_of(state) + " curriculum";
     view.curriculum.state = state;
   }
+  questions.studies.emplace_back().study = {kStudy, "Needles in phantoms", 3};
   questions.grade.experts.attempt_ids = {kMissingAttempt};
   questions.grade.experts.id = "C-1";
   questions.attempts = {attempt_row(kOwnAttempt, "person-of-trainee"),
@@ -370,6 +404,8 @@ inline void give(FakeSite& fake, casedb::Role role, const casedb::Relation& rela
   fake.questions.relations.clear();
   fake.questions.relations[reader][relation.own ? reader : other] = relation;
   if (!relation.nobodys) fake.questions.relations[reader][kSomebody] = relation;
+  fake.questions.study_relations.clear();
+  fake.questions.study_relations[reader][kStudy] = relation;
   fake.questions.recording.emplace().poses.resize(2);
   fake.questions.attempts = {attempt_row(
       kOwnAttempt, relation.nobodys ? std::nullopt : std::optional<std::string>(relation.own ? reader : other))};

@@ -20,13 +20,13 @@ class LoginTest : public ::testing::Test {
   FakeBrowser browser{*fake.site};
 };
 
-TEST_F(LoginTest, TheStartLeadsToTheFormThenToTheAttempts) {
+TEST_F(LoginTest, TheStartLeadsToTheFormAndBack) {
   EXPECT_EQ(header_of(browser.get("/"), "Location"), "/login");
   const Response logged_in = browser.log_in_as(Role::trainee);
   EXPECT_EQ(logged_in.status, 303);
-  EXPECT_EQ(header_of(logged_in, "Location"), "/attempts");
-  EXPECT_EQ(header_of(browser.get("/"), "Location"), "/attempts");
-  EXPECT_EQ(header_of(browser.get("/login"), "Location"), "/attempts");
+  EXPECT_EQ(header_of(logged_in, "Location"), "/");
+  EXPECT_EQ(browser.get("/").status, 200);
+  EXPECT_EQ(header_of(browser.get("/login"), "Location"), "/");
   EXPECT_EQ(browser.get("/attempts").status, 200);
 }
 

@@ -9,6 +9,8 @@ namespace seldinger::web {
 namespace {
 
 using casedb::Role;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(Routes, OtherMethodsAndOtherPathsAreRefused) {
   FakeSite fake;
@@ -82,6 +84,39 @@ TEST(Routes, APictureThatIsNoneIsNotServed) {
   EXPECT_EQ(browser.get("/attempts/" + kOthersAttempt + "/picture.png").status, 500);
   fake.questions.attempts[1].picture_sha256.clear();
   EXPECT_EQ(browser.get("/attempts/" + kOthersAttempt + "/picture.png").status, 404);
+}
+
+// A page of lists runs the script of lists, and it fetches nothing; other pages run none.
+TEST(Routes, OnlyListsRunTheScriptOfLists) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  EXPECT_EQ(browser.get("/tables.js").content_type, "text/javascript; charset=utf-8");
+  for (const char* path : {"/attempts", "/cases"}) {
+    const std::string list = bytes_of(browser.get(path), true);
+    EXPECT_THAT(list, HasSubstr("script-src 'self'; form-action")) << path;
+    EXPECT_THAT(list, HasSubstr("src=\"/tables.js\"")) << path;
+  }
+  for (const char* path : {"/", "/me", "/metrics", "/curricula"}) {
+    const std::string other = bytes_of(browser.get(path), true);
+    EXPECT_THAT(other, Not(HasSubstr("script"))) << path;
+  }
+}
+
+// Without whoever draws, or where a replay differs, the page says so and offers nothing broken.
+TEST(Routes, PicturesAreDrawnOnceAndTheirAbsenceIsSaid) {
+  FakeSite fake;
+  FakeBrowser browser(*fake.site);
+  browser.log_in_as(Role::mentor);
+  const std::string path = "/attempts/" + kOthersAttempt + "/pictures";
+  fake.questions.pictures_refusal = base::Error{"replay_differs", "it <differs>"};
+  EXPECT_THAT(browser.get(path).body, HasSubstr("There are no pictures: it &lt;differs&gt;."));
+  fake.questions.pictures_refusal.reset();
+  const Response first = browser.get(path);
+  EXPECT_THAT(first.body, HasSubstr("<p class=\"pictures\">" + kOthersAttempt + "</p>"));
+  EXPECT_THAT(bytes_of(first, true), HasSubstr("img-src 'self' data:"));
+  EXPECT_EQ(browser.get(path).body, first.body);
+  EXPECT_EQ(fake.questions.pictures_made, 2) << "the refusal, and once";
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "reports/pages/style_sheet.h"
 #include "web/json/attempt_json.h"
 #include "web/json/replay_json.h"
+#include "web/json/skin_json.h"
+#include "web/routes/said.h"
 #include "web/routes/shelves.h"
 #include "web/site/access.h"
 #include "web/site/site.h"
@@ -67,7 +69,7 @@ Response list_attempts(Site& site, const Call& call) {
   const std::vector<assessment::Grade> grades = site.questions.grades_of(rows);
   for (std::size_t i = 0; i < views.size(); ++i) views[i].grade.grade = grades.at(i);
   const reports::ListPart part{page, pages, total, account.role == casedb::Role::trainee};
-  return html_response(200, reports::attempts_page(call.reader->visitor(), views, part));
+  return list_response(reports::attempts_page(call.reader->visitor(), views, part));
 }
 
 // The attempt when it exists and this reader may see it. Both are asked before either is answered.
@@ -76,18 +78,6 @@ std::optional<casedb::AttemptRow> visible_attempt(Site& site, const Call& call) 
   const Relations relations = site.questions.relations_of(call.reader->account.person_id);
   if (!row.has_value() || !may_see_attempt(call.reader->account.role, relations, *row)) return std::nullopt;
   return std::move(*row);
-}
-
-std::vector<reports::CommentView> comments_of(Site& site, const std::string& attempt_id) {
-  std::vector<reports::CommentView> comments;
-  for (casedb::AttemptComment& one : site.questions.list_comments(attempt_id)) {
-    const auto author = one.person_id ? site.questions.find_account(*one.person_id) : std::nullopt;
-    std::string name = author          ? author->login_name
-                       : one.person_id ? reports::person_text(*one.person_id)
-                                       : "Operator";
-    comments.push_back({std::move(one), std::move(name)});
-  }
-  return comments;
 }
 
 Response show_attempt(Site& site, const Call& call) {
@@ -102,6 +92,7 @@ Response show_attempt(Site& site, const Call& call) {
   reports::AttemptView view{*row, operator_label(role, relations, *row, account_of), grade,
                             site.questions.list_steps(row->attempt_id)};
   if (casedb::may(role, casedb::Action::see_free_text)) view.comments = comments_of(site, row->attempt_id);
+  view.may_replay = casedb::may(role, casedb::Action::see_recording, relation_to(relations, row->person_id));
   view.may_comment = casedb::may(role, casedb::Action::comment_attempt, relation_to(relations, row->person_id));
   Response response = html_response(
       200,
@@ -144,16 +135,53 @@ Response show_picture(Site& site, const Call& call) {
   return response;
 }
 
-Response show_replay(Site& site, const Call& call) {
-  const auto row = visible_attempt(site, call);
-  if (!row.has_value()) return refusal(404, call.reader);
+// The same, where the reader may also see it pose by pose.
+std::optional<casedb::AttemptRow> replayable_attempt(Site& site, const Call& call) {
+  auto row = visible_attempt(site, call);
   const casedb::Account& account = call.reader->account;
   const Relations relations = site.questions.relations_of(account.person_id);
-  if (!casedb::may(account.role, Action::see_recording, relation_to(relations, row->person_id)))
-    return refusal(404, call.reader);
+  if (!row || !casedb::may(account.role, Action::see_recording, relation_to(relations, row->person_id)))
+    return std::nullopt;
+  return row;
+}
+
+Response show_replay(Site& site, const Call& call) {
+  const auto row = replayable_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
   const auto recording = site.questions.load_recording(row->attempt_id);
   if (!recording.has_value()) return refusal(404, call.reader);
   return {.content_type = "application/json", .body = replay_json(*row, *recording)};
+}
+
+Response show_skin(Site& site, const Call& call) {
+  const auto row = replayable_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  auto skin = site.answers.get("skin " + row->case_id, [&]() -> base::Result<Answers::Made> {
+    const auto mesh = site.questions.load_skin(row->case_id);
+    if (!mesh) return mesh.error();
+    return Answers::Made{skin_json(*mesh)};
+  });
+  if (!skin) return site.fault(500, call.reader, skin.error().code + ": a skin cannot be shown");
+  return {.content_type = "application/json", .body = std::move(*skin)};
+}
+
+Response show_pictures(Site& site, const Call& call) {
+  auto row = replayable_attempt(site, call);
+  if (!row.has_value()) return refusal(404, call.reader);
+  const auto pictures = site.answers.get("pictures " + row->attempt_id, [&]() -> base::Result<Answers::Made> {
+    auto made = site.questions.pictures_of(row->attempt_id);
+    if (!made) return made.error();
+    return Answers::Made{std::move(*made)};
+  });
+  const casedb::Account& account = call.reader->account;
+  const AccountOf account_of = [&](const std::string& person_id) { return site.questions.find_account(person_id); };
+  const std::string label =
+      operator_label(account.role, site.questions.relations_of(account.person_id), *row, account_of);
+  withhold(account.role, *row);
+  Response response =
+      html_response(200, reports::attempt_pictures_page(call.reader->visitor(), {*row, label}, pictures));
+  response.policy = Policy::answering;  // pictures that stand in the page
+  return response;
 }
 
 Response show_replay_script(Site&, const Call&) {
@@ -182,6 +210,11 @@ constexpr Route kAttemptRoutes[] = {
      "the picture at the moment of firing", show_picture},
     {"GET", "/attempts/{attempt_id}/replay.json", Action::see_recording, false, kRecordingSeen,
      "its course for the replay: poses in LPS, target, what the pictures showed of the tip", show_replay},
+    {"GET", "/attempts/{attempt_id}/skin.json", Action::see_recording, false, kRecordingSeen,
+     "a coarse net of the patient's skin for the replay, in LPS", show_skin, Lane::heavy},
+    {"GET", "/attempts/{attempt_id}/pictures", Action::see_recording, true, kRecordingSeen,
+     "what was on the screen at its telling moments and where the needle was, drawn when first asked",
+     show_pictures, Lane::heavy},
     {"GET", "/attempts/{attempt_id}/metrics.json", Action::see_attempt, false, kSeen,
      "its metrics as `score` prints them", show_metrics},
     {"GET", "/attempts/{attempt_id}/grade.json", Action::see_attempt, false, kSeen,
@@ -192,6 +225,18 @@ constexpr Route kAttemptRoutes[] = {
 };
 
 }  // namespace
+
+std::vector<reports::CommentView> comments_of(Site& site, const std::string& attempt_id) {
+  std::vector<reports::CommentView> comments;
+  for (casedb::AttemptComment& one : site.questions.list_comments(attempt_id)) {
+    const auto author = one.person_id ? site.questions.find_account(*one.person_id) : std::nullopt;
+    std::string name = author          ? author->login_name
+                       : one.person_id ? reports::person_text(*one.person_id)
+                                       : "Operator";
+    comments.push_back({std::move(one), std::move(name)});
+  }
+  return comments;
+}
 
 std::span<const Route> attempt_routes() {
   return kAttemptRoutes;

@@ -23,7 +23,7 @@ Response list_cases(Site& site, const Call& call) {
       withhold(call.reader->account.role, row);
       seen.push_back(std::move(row));
     }
-  return html_response(200, reports::cases_page(call.reader->visitor(), seen));
+  return list_response(reports::cases_page(call.reader->visitor(), seen));
 }
 
 std::optional<casedb::CaseParts> visible_case(Site& site, const Call& call) {

@@ -21,10 +21,6 @@ std::string drop_cookie(std::string_view name) {
   return set_cookie(name, "") + "; Max-Age=0";
 }
 
-Response start(Site&, const Call& call) {
-  return redirect(call.reader != nullptr ? "/attempts" : "/login");
-}
-
 Response healthz(Site& site, const Call&) {
   const casedb::Health health = site.questions.health();
   return {.status = health == casedb::Health::ok ? 200 : 503,
@@ -34,6 +30,10 @@ Response healthz(Site& site, const Call&) {
 
 Response style(Site&, const Call&) {
   return {.content_type = "text/css; charset=utf-8", .body = std::string(reports::style_sheet())};
+}
+
+Response tables_script(Site&, const Call&) {
+  return {.content_type = "text/javascript; charset=utf-8", .body = std::string(reports::tables_script())};
 }
 
 Response login_form(Site& site, const Call& call, int status, std::string_view problem) {
@@ -46,7 +46,7 @@ Response login_form(Site& site, const Call& call, int status, std::string_view p
 }
 
 Response show_login(Site& site, const Call& call) {
-  if (call.reader != nullptr) return redirect("/attempts");
+  if (call.reader != nullptr) return redirect("/");
   return login_form(site, call, 200, "");
 }
 
@@ -86,7 +86,7 @@ Response log_in(Site& site, const Call& call) {
   } catch (const base::Failure&) {
     // The next minute's try may do it; until then a restart would end the session.
   }
-  Response response = redirect("/attempts");
+  Response response = redirect("/");
   response.headers.emplace_back("Set-Cookie", set_cookie(site.cookies.session, id.text));
   response.headers.emplace_back("Set-Cookie", drop_cookie(site.cookies.before_login));
   constexpr std::string_view kHalfAYear = "; Max-Age=15552000";
@@ -113,7 +113,7 @@ constexpr Route kEntryRoutes[] = {
     {"GET", "/healthz", kOpen, false, "",
      "`ok`, `moved`, `full` or `read_only` (503) as the library is, and the version, as JSON", healthz},
     {"GET", "/style.css", kOpen, false, "", "the style sheet", style},
-    {"GET", "/", kOpen, true, "", "goes on to /attempts or /login", start},
+    {"GET", "/tables.js", kOpen, false, "", "the script that orders and narrows lists", tables_script},
     {"GET", "/login", kOpen, true, "", "the log-in form", show_login},
     {"POST", "/login", kOpen, true, "", "logs in: name, password, token", log_in, Lane::log_in},
     {"POST", "/logout", kAnyRole, true, "", "ends the session: token", log_out, Lane::changes},

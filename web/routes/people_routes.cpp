@@ -3,6 +3,7 @@
 
 #include "reports/pages/cohorts_page.h"
 #include "reports/pages/log_ins_page.h"
+#include "reports/words/attempt_words.h"
 #include "sim/base/failure.h"
 #include "web/routes/shelves.h"
 #include "web/site/access.h"
@@ -42,7 +43,7 @@ Response list_cohorts(Site& site, const Call& call) {
     }
     views.push_back(std::move(view));
   }
-  return html_response(200, reports::cohorts_page(call.reader->visitor(), views));
+  return list_response(reports::cohorts_page(call.reader->visitor(), views));
 }
 
 Response show_log_ins(Site& site, const Call& call) {

@@ -19,8 +19,8 @@ Response show_audit(Site& site, const Call& call) {
   int days = 30;
   if (const auto found = asked->find("days"); found != asked->end())
     std::from_chars(found->second.data(), found->second.data() + found->second.size(), days);
-  return html_response(
-      200, reports::audit_page(call.reader->visitor(), site.questions.audit_of(std::clamp(days, 1, 3650))));
+  return list_response(
+      reports::audit_page(call.reader->visitor(), site.questions.audit_of(std::clamp(days, 1, 3650))));
 }
 
 Response show_openapi(Site& site, const Call&) {

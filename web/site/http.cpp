@@ -100,6 +100,12 @@ Response html_response(int status, std::string body) {
   return {.status = status, .body = std::move(body)};
 }
 
+Response list_response(std::string body) {
+  Response response = html_response(200, std::move(body));
+  response.policy = Policy::list;
+  return response;
+}
+
 Response redirect(std::string_view path) {
   return {.status = 303, .headers = {{"Location", std::string(path)}}};
 }
@@ -130,6 +136,10 @@ const std::vector<std::pair<std::string_view, std::string_view>>& security_heade
   static const Headers page = with(
       "default-src 'none'; style-src 'self'; img-src 'self'; form-action 'self'; base-uri 'none'; "
       "frame-ancestors 'none'");
+  static const Headers list = with(
+      "default-src 'none'; style-src 'self'; img-src 'self'; script-src 'self'; form-action 'self'; base-uri "
+      "'none'; "
+      "frame-ancestors 'none'");
   static const Headers answering = with(
       "default-src 'none'; style-src 'self'; img-src 'self' data:; script-src 'self'; connect-src 'self'; "
       "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
@@ -137,6 +147,8 @@ const std::vector<std::pair<std::string_view, std::string_view>>& security_heade
       "default-src 'none'; style-src 'self'; img-src 'self'; script-src 'self'; connect-src 'self'; "
       "form-action 'self'; base-uri 'none'; frame-ancestors 'none'");
   switch (policy) {
+    case Policy::list:
+      return list;
     case Policy::replay:
       return replay;
     case Policy::answering:

@@ -22,8 +22,9 @@ struct Request {
 };
 
 // What a page may load and run: nothing but the style sheet and pictures of this server; where it is answered or
-// rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself.
-enum class Policy { page, replay, answering };
+// rated also the scripts, of which one sends what is typed, and pictures that stand in the page itself; a list's
+// script runs and fetches nothing.
+enum class Policy { page, list, replay, answering };
 
 struct Response {
   int status = 200;
@@ -34,6 +35,7 @@ struct Response {
 };
 
 Response html_response(int status, std::string body);
+Response list_response(std::string body);  // 200, of a page of lists
 Response redirect(std::string_view path);  // 303: the browser asks again with GET
 
 // Overwrites what may be secret: bodies, cookies.

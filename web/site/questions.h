@@ -28,6 +28,7 @@
 #include "reports/pages/me_page.h"
 #include "reports/pages/people/audit_page.h"
 #include "reports/pages/people/learner_page.h"
+#include "reports/pages/people/studies_page.h"
 
 namespace seldinger::web {
 
@@ -74,8 +75,18 @@ class Questions {
   // How far somebody is in each published curriculum, and whether they are a simulated person. Kept until
   // casedb::records_mark changes.
   virtual LearnerRecords records_of(const std::string& person_id) = 0;
+  // What they did, case by case, for charts.
+  virtual std::vector<reports::LearnerItem> learning_of(const std::string& person_id) = 0;
   // How the standard of each case that they learn is called, by case id.
   virtual reports::StandardTexts standard_texts(const reports::Records& records) = 0;
+
+  // Oldest first; of each its plan, who is in and the looks, no more.
+  virtual std::vector<reports::StudyView> list_studies() = 0;
+  virtual casedb::Relation relation_to_study(const std::string& reader_id, const std::string& study_id) = 0;
+  virtual base::Result<reports::StudyView> find_study(const std::string& study_id) = 0;  // `no_study`
+  // As reports::validity_report_of, in that person's name: `no_study`, `no_plan`.
+  virtual base::Result<std::string> report_study(const std::string& person_id, const std::string& study_id,
+                                                 const std::string& program_version) = 0;
 
   // The last `days` of the audit log, newest first and 500 at most, and whether the whole log stands. Takes
   // milliseconds for each thousand rows of it.
@@ -115,7 +126,7 @@ class Questions {
   virtual std::vector<assessment::Grade> grades_of(const std::vector<casedb::AttemptRow>& rows) = 0;  // in order
   virtual std::vector<casedb::CaseRow> list_cases() = 0;                              // oldest first
   virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;  // `no_case`
-  // With a person's states, or nobody's; oldest first.
+  // As they reach a person, or nobody; oldest first.
   virtual std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) = 0;
   // casedb::content_mark: another one when a check would look at something else.
   virtual std::string case_mark(const std::string& case_id) = 0;
@@ -127,6 +138,10 @@ class Questions {
   virtual std::vector<assessment::StepResult> list_steps(
       const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
+  // Markup of what was on the screen at the telling moments. Takes seconds: case and attempt are run again.
+  // `not_drawn` where the server has nobody who draws.
+  virtual base::Result<std::string> pictures_of(const std::string& attempt_id) = 0;
+  virtual base::Result<cases::Mesh> load_skin(const std::string& case_id) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
   virtual casedb::Health health() = 0;  // as it was a second ago at most
 };

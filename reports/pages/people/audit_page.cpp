@@ -69,7 +69,7 @@ std::string audit_page(const Visitor& visitor, const AuditView& view) {
       "scope=\"col\">Who</th><th scope=\"col\">What</th><th scope=\"col\">Of</th></tr></thead>\n<tbody>\n");
   for (const casedb::AuditRow& row : view.rows) add_row(html, view, row);
   html.raw("</tbody>\n</table>\n</div>\n");
-  return page("Audit log", visitor, html);
+  return list_page("Audit log", visitor, html);
 }
 
 }  // namespace seldinger::reports

@@ -43,6 +43,11 @@ std::string missed_text(const casedb::ItemState& item) {
   return text.empty() ? "—" : text;
 }
 
+std::string left_text(int attempts) {
+  if (attempts == 0) return "no attempts left: a mentor can help";
+  return std::to_string(attempts) + (attempts == 1 ? " attempt left" : " attempts left");
+}
+
 void add_item(Html& html, const casedb::CurriculumRecord& record, std::size_t index) {
   const casedb::ItemState& item = record.items[index];
   html.raw("<tr><th scope=\"row\">").text(std::to_string(index + 1)).raw(". ").name(item.title);
@@ -51,8 +56,8 @@ void add_item(Html& html, const casedb::CurriculumRecord& record, std::size_t in
   html.raw("</th><td data-label=\"State\">").text(proficiency_text(item.progress.reached));
   if (item.progress.due) html.raw(" <span class=\"mark due\">due</span>");
   if (!item.progress.open) html.raw(" <span class=\"why\">not open yet</span>");
-  if (item.progress.attempts_left == 0 && item.progress.reached != Proficiency::proficient)
-    html.raw(" <span class=\"why\">no attempts left</span>");
+  if (item.progress.attempts_left && item.progress.reached != Proficiency::proficient)
+    html.raw(" <span class=\"why\">").text(left_text(*item.progress.attempts_left)).raw("</span>");
   html.raw("</td><td class=\"number\" data-label=\"Passed\">").text(passes_text(item));
   const GradedAttempt* pass = last_pass(item);
   html.raw("</td><td class=\"number\" data-label=\"Last pass\">")
@@ -72,18 +77,7 @@ void add_record(Html& html, const casedb::CurriculumRecord& record, bool own, st
   html.text(assessment::name_of(found.standing)).raw("\">").text(standing_text(found.standing)).raw("</span> ");
   html.text(evidence_text(found, record, now_us)).raw(" <span class=\"why\">Rule: ");
   html.text(assessment::rule_of(found.standing)).raw("</span></p>\n");
-  for (std::size_t i = 0; own && i < record.items.size(); ++i) {
-    if (!record.items[i].progress.due) continue;
-    html.raw("<p><strong>Next: ")
-        .text(std::to_string(i + 1))
-        .raw(". ")
-        .name(record.items[i].title)
-        .raw("</strong>, ");
-    html.text(std::to_string(record.items[i].progress.passes_missing));
-    html.text(record.items[i].progress.passes_missing == 1 ? " more pass" : " passes running");
-    html.raw(
-        " to be proficient. It is due because it is the first item that is open and not proficient yet.</p>\n");
-  }
+  if (own) html.add(due_lines(record));
   std::vector<PassRow> rows;
   for (std::size_t i = 0; i < record.items.size(); ++i)
     rows.push_back({std::to_string(i + 1) + ". " + record.items[i].title, &record.items[i].graded});
@@ -100,6 +94,27 @@ void add_record(Html& html, const casedb::CurriculumRecord& record, bool own, st
   html.raw("</tbody>\n</table>\n</div>\n</section>\n");
 }
 
+// The case at which they were last stands open.
+void add_learning(Html& html, std::span<const LearnerItem> items) {
+  if (items.empty()) return;
+  html.raw(
+      "<section>\n<h2>Learning curves</h2>\n<p class=\"note\">A filled mark is an attempt that passed, a hollow "
+      "one "
+      "did not. None of this is a verdict: it is for learner and mentor to talk about.</p>\n");
+  const auto last = std::max_element(items.begin(), items.end(), [](const LearnerItem& a, const LearnerItem& b) {
+    return a.attempts.back().started_us < b.attempts.back().started_us;
+  });
+  for (const LearnerItem& one : items) {
+    if (&one == &*last)
+      html.raw("<details class=\"learned\" open><summary>");
+    else
+      html.raw("<details class=\"learned\"><summary>");
+    html.name(one.title).raw(" <span class=\"why\">").text(passed_text(one)).raw("</span></summary>\n");
+    html.add(learning_charts(one)).raw("</details>\n");
+  }
+  html.raw("</section>\n");
+}
+
 void add_title(Html& html, const LearnerView& learner) {
   html.raw("<p class=\"sub\">");
   if (learner.simulated) html.raw("<span class=\"mark\">simulated</span> A simulated person: not a learner. ");
@@ -109,7 +124,22 @@ void add_title(Html& html, const LearnerView& learner) {
 
 }  // namespace
 
-std::string learner_page(const Visitor& visitor, const LearnerView& learner, bool own, std::int64_t now_us) {
+Html due_lines(const casedb::CurriculumRecord& record) {
+  Html html;
+  for (std::size_t i = 0; i < record.items.size(); ++i) {
+    const casedb::ItemState& item = record.items[i];
+    if (!item.progress.due) continue;
+    html.raw("<p><strong>Next: ").text(std::to_string(i + 1)).raw(". ").name(item.title).raw("</strong>, ");
+    html.text(std::to_string(item.progress.passes_missing));
+    html.text(item.progress.passes_missing == 1 ? " more pass" : " passes running");
+    html.raw(
+        " to be proficient. It is due because it is the first item that is open and not proficient yet.</p>\n");
+  }
+  return html;
+}
+
+std::string learner_page(const Visitor& visitor, const LearnerView& learner, std::span<const LearnerItem> items,
+                         bool own, std::int64_t now_us) {
   Html html;
   if (own)
     html.raw("<h1>Your progress</h1>\n");
@@ -120,6 +150,7 @@ std::string learner_page(const Visitor& visitor, const LearnerView& learner, boo
   add_title(html, learner);
   if (learner.records->empty()) html.raw("<div class=\"message\"><p>No curriculum is published yet.</p></div>\n");
   for (const casedb::CurriculumRecord& one : *learner.records) add_record(html, one, own, now_us);
+  add_learning(html, items);
   if (!learner.records->empty())
     html.raw("<p><a href=\"/progress/").text(learner.person_id).raw("/record\">Record to print</a></p>\n");
   return page(own ? "Your progress" : learner.label, visitor, html);
@@ -144,7 +175,9 @@ std::string learner_record_page(const Visitor& visitor, const LearnerView& learn
         .text(standing_text(found.standing));
     html.raw("</strong>: ")
         .text(evidence_text(found, record, now_us))
-        .raw("</p>\n<div class=\"wide\">\n<table>\n<caption>");
+        .raw(
+            "</p>\n<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"Item by "
+            "item\">\n<table>\n<caption>");
     html.raw(
         "Proficient: two passes running, by the pass rule of the case’s version that was "
         "attempted</caption>\n<thead><tr>"

@@ -246,7 +246,7 @@ std::string learners_page(const Visitor& visitor, const LearnersView& view) {
     add_people(html, shown, view);
   if (!all.empty()) add_items(html, all);
   add_rules(html);
-  return page("Learners", visitor, html);
+  return list_page("Learners", visitor, html);
 }
 
 }  // namespace seldinger::reports

@@ -291,6 +291,9 @@ TEST(PlainWordsTest, ReadAsPeopleSayThem) {
   EXPECT_EQ(plain_range(-2.0, 3.0, "mm"), "−2 to 3 mm");
   EXPECT_EQ(plain_range(1.0, 1.0, "count"), "1");
   EXPECT_EQ(plain_range(9.96, 31.2, "s"), "10–31 s");
+  EXPECT_EQ(said_range(9.96, 31.2, "s"), std::pair(10.0, 31.0));
+  EXPECT_EQ(said_range(-2.04, 0.26, "mm"), std::pair(-2.0, 0.3));
+  EXPECT_EQ(said_range(0.123, 0.987, "share"), std::pair(0.12, 0.99));
   EXPECT_EQ(plain_apart(5.0, 5.0, "mm").first, "5 mm");
   EXPECT_EQ(plain_apart(0.7996, 0.8, "share"), (std::pair<std::string, std::string>{"79.96 %", "80 %"}));
   EXPECT_EQ(plain_times(1.0), "once");

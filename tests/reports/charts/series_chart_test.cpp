@@ -50,6 +50,27 @@ TEST(SeriesChart, LeavesOutWhatIsNoNumber) {
   EXPECT_TRUE(series_chart({}).empty());
 }
 
+// A band reaches from its low to its high end on the values' own axis, and one that is no number is not drawn.
+TEST(SeriesChart, ABandLiesWhereItsValuesWould) {
+  SeriesChart chart;
+  chart.said = "said";
+  chart.points = {{1.0, 0.0}, {2.0, 10.0}, {3.0, 20.0}};
+  chart.band = SeriesBand{0.0, 10.0, "9 consultants"};
+  const std::string svg = series_chart(chart).str();
+  EXPECT_THAT(svg, HasSubstr("9 consultants"));
+  const auto number_behind = [&](const std::string& what, std::size_t from) {
+    return std::stod(svg.substr(svg.find(what, from) + what.size()));
+  };
+  const std::size_t band = svg.find("class=\"band\""), points = svg.find("class=\"point\"");
+  ASSERT_NE(band, svg.npos);
+  const double low_px = number_behind("cy=\"", points);
+  const double high_px = number_behind("cy=\"", svg.find("class=\"point\"", points + 1));
+  EXPECT_DOUBLE_EQ(number_behind(" y=\"", band), high_px);
+  EXPECT_NEAR(number_behind("height=\"", band), low_px - high_px, 0.11);
+  chart.band->high = std::nan("");
+  EXPECT_THAT(series_chart(chart).str(), Not(HasSubstr("class=\"band\"")));
+}
+
 TEST(IntervalChart, DrawsEstimatesOnOneAxis) {
   IntervalChart chart{"said",
                       "mm",

@@ -55,6 +55,51 @@ TEST(LearnerReport, SaysWhyThereIsNoNumber) {
   EXPECT_THAT(learner_report_page({}), HasSubstr("There is no attempt yet"));
 }
 
+assessment::ExpertSet standard_of(std::size_t people, double low, double high) {
+  const assessment::MetricInfo* info = assessment::find_metric("tip_target_dist");
+  assessment::ExpertSet set;
+  set.standard_id = "s";
+  assessment::MetricBand& band = set.bands.emplace_back();
+  band.id = info->id;
+  band.version = info->version;
+  band.unit = info->unit;
+  band.n = people;
+  band.low = low;
+  band.high = high;
+  return set;
+}
+
+// Consultants lie behind the values, n is told, and the drawing tells no more of them than the words.
+TEST(LearnerReport, DrawsTheConsultantsBandAsCoarselyAsItIsWritten) {
+  LearnerItem item = item_of("FPP");
+  EXPECT_THAT(learning_charts(item).str(), Not(HasSubstr("class=\"band\"")));
+  item.experts = standard_of(9, 1.0312, 3.4449);
+  const std::string drawn = learning_charts(item).str();
+  EXPECT_THAT(drawn, HasSubstr("class=\"band\""));
+  EXPECT_THAT(drawn, HasSubstr("9 consultants"));
+  EXPECT_THAT(drawn, HasSubstr("from the 10th to the 90th percentile of 9 consultants"));
+  item.experts = standard_of(9, 0.9688, 3.3651);  // reads the same
+  EXPECT_EQ(learning_charts(item).str(), drawn);
+  item.experts = standard_of(4, 1.0, 3.4);
+  EXPECT_THAT(learning_charts(item).str(), Not(HasSubstr("class=\"band\"")));
+  item.experts = standard_of(9, 1.0, 3.4);
+  item.experts.standard_id.clear();
+  EXPECT_THAT(learning_charts(item).str(), Not(HasSubstr("class=\"band\""))) << "nobody has set it";
+}
+
+// Every number that is drawn stands in the table.
+TEST(LearnerReport, TheTableHoldsWhatTheChartsDraw) {
+  const std::string drawn = learning_charts(item_of("F-P")).str();
+  const std::string table = drawn.substr(drawn.find("<table"));
+  EXPECT_THAT(table, HasSubstr(">LC-CUSUM<"));
+  EXPECT_THAT(table, HasSubstr(">Probability<"));
+  std::size_t cells = 0;
+  for (std::size_t at = table.find("<td class=\"number\">—"); at != table.npos;
+       at = table.find("<td class=\"number\">—", at + 1))
+    ++cells;
+  EXPECT_EQ(cells, 2U) << "of the attempt that is not graded, and of no other";
+}
+
 // What is drawn stays within the drawing, whatever the values.
 TEST(LearnerReport, HasNoNumberThatIsNone) {
   LearnerReport report = report_of("FPPF");

@@ -1,0 +1,13 @@
+// What was on the screen at the telling moments of an attempt, and the needle's way in the body.
+#pragma once
+
+#include <string>
+
+#include "reports/sheets/replay_sheet.h"
+
+namespace seldinger::reports {
+
+// Part of a page that has the dashboard's style sheet. Of `sheet.attempt` only picture and needle are read.
+std::string moments_sheet(const ReplaySheet& sheet);
+
+}  // namespace seldinger::reports

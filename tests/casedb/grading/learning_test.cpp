@@ -1,0 +1,49 @@
+// Attempts as a course of learning: asked of one person they are what they are among everybody's.
+#include "casedb/grading/learning.h"
+
+#include <algorithm>
+
+#include "tests/casedb/graded_library.h"
+
+namespace seldinger::casedb {
+namespace {
+
+class LearningTest : public GradedLibrary {};
+
+std::vector<std::string> ids_of(const std::vector<LearningAttempt>& attempts) {
+  std::vector<std::string> ids;
+  for (const LearningAttempt& one : attempts) ids.push_back(one.attempt_id);
+  return ids;
+}
+
+TEST_F(LearningTest, OfOnePersonIsTheirPartOfEverybodys) {
+  rule({"hit >= 1"});
+  const std::string tom = user("Tom", Role::trainee), ann = user("Ann", Role::trainee);
+  for (int i = 0; i < 3; ++i)
+    for (const std::string& who : {tom, ann}) {
+      NewAttempt one = new_attempt(who, i > 0 ? 1.0 : 0.0, 20.0);
+      one.started_us += i * 1'000'000;
+      ASSERT_TRUE(add_attempt(library_, one).has_value());
+    }
+  NewAttempt simulated = new_attempt(tom, 1.0, 20.0);
+  simulated.operator_name = "expert";  // in Tom's name, and no deed of his
+  ASSERT_TRUE(add_attempt(library_, simulated).has_value());
+  attempt(std::nullopt, 1.0, 20.0);
+
+  std::vector<LearningAttempt> all = learning_attempts(library_, Learners::people);
+  EXPECT_EQ(all.size(), 6U);
+  const std::vector<LearningAttempt> toms = learning_attempts_of(library_, tom);
+  std::erase_if(all, [&](const LearningAttempt& one) { return one.person_id != tom; });
+  EXPECT_EQ(ids_of(toms), ids_of(all));
+  ASSERT_EQ(toms.size(), 3U);
+  EXPECT_FALSE(toms[0].passed());
+  EXPECT_TRUE(toms[2].passed());
+  EXPECT_TRUE(std::is_sorted(toms.begin(), toms.end(),
+                             [](const auto& a, const auto& b) { return a.started_us < b.started_us; }));
+  EXPECT_EQ(toms[0].task.case_id, case_id_);
+  EXPECT_EQ(toms[0].task.lesion_id, lesion_id_);
+  EXPECT_TRUE(learning_attempts_of(library_, "nobody").empty());
+}
+
+}  // namespace
+}  // namespace seldinger::casedb

@@ -1,0 +1,95 @@
+// Studies as who works on them reads them: people by pseudonym, no outcome, and a report that is a look.
+#include <gmock/gmock.h>
+
+#include "tests/web/fake_site.h"
+
+namespace seldinger::web {
+namespace {
+
+using casedb::Role;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+casedb::StoredPlan stored_plan(bool frozen) {
+  casedb::StoredPlan stored;
+  stored.study_id = kStudy;
+  stored.body_hash = std::string(64, 'b');
+  stored.plan.intended_use = "To tell <novices> from experts";
+  stored.plan.groups = {{"novices", {}, 1}, {"experts", {}, 1}};
+  stored.plan.visits = {{"first", 0.0, 7.0}};
+  stored.plan.primary.emplace_back();
+  stored.plan.primary[0].name = "precision";
+  stored.plan.primary[0].metric = "tip_target_dist";
+  stored.plan.primary[0].case_id = kPublishedCase;
+  stored.plan.per_group = 12;
+  if (frozen) stored.frozen_us = 1700000000000000;
+  return stored;
+}
+
+struct Studies : ::testing::Test {
+  Studies() {
+    fake.questions.study_relations["person-of-researcher"][kStudy].own_study = true;
+    browser.log_in_as(Role::researcher);
+  }
+  FakeSite fake;
+  FakeBrowser browser{*fake.site};
+};
+
+TEST_F(Studies, BeforeTheFreezeThereAreCountsOfAllTogether) {
+  reports::StudyView& study = fake.questions.studies[0];
+  study.plan = stored_plan(false);
+  study.blinded = {9, 8, 77};
+  const std::string page = browser.get("/studies/" + kStudy).body;
+  EXPECT_THAT(page, HasSubstr("Needles in phantoms"));
+  EXPECT_THAT(page, HasSubstr("To tell &lt;novices&gt; from experts"));
+  EXPECT_THAT(page, HasSubstr("<dd>77</dd>"));
+  EXPECT_THAT(page, HasSubstr("is no look"));
+  for (const char* later : {"By group", "Who is in", "Withdrew"}) EXPECT_THAT(page, Not(HasSubstr(later)));
+}
+
+TEST_F(Studies, AFrozenOneTellsWhoIsInByPseudonymAndWhoHasLooked) {
+  reports::StudyView& study = fake.questions.studies[0];
+  study.plan = stored_plan(true);
+  study.flow.consenting = 9;
+  study.flow.ever_enrolled = 4;
+  study.flow.groups = {{"novices", 3, 1, 2, 2}, {"experts", 1, 0, 1, 1}};
+  study.enrolments = {{"person-of-other-zzz999", "P-77", "novices", "", 0, 1700000000000000, true}};
+  study.visits = {{"P-77", "first", 0, 1, casedb::VisitState::missed}};
+  study.looks = {{1, 1700000000000000, "person", "R-1", "report <validity>", 7}};
+  const std::string page = browser.get("/studies/" + kStudy).body;
+  EXPECT_THAT(page, HasSubstr("Frozen on 2023-11-14"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">P-77</th>"));
+  EXPECT_THAT(page, HasSubstr("data-label=\"Missed\">1<"));
+  EXPECT_THAT(page, HasSubstr("data-label=\"Due or missed by\">P-77<"));
+  EXPECT_THAT(page, HasSubstr("report &lt;validity&gt;"));
+  EXPECT_THAT(page, HasSubstr("of 7 people with an outcome"));
+  EXPECT_THAT(page, HasSubstr("making it is a look"));
+  for (const char* hidden : {"person-of-other", "Other Trainee", "zzz999"})
+    EXPECT_THAT(page, Not(HasSubstr(hidden)));
+  EXPECT_THAT(browser.get("/studies").body, HasSubstr("3 consent, 1 enrolled"));
+  EXPECT_THAT(browser.get("/").body, HasSubstr("/studies/" + kStudy)) << "where a researcher lands";
+}
+
+TEST_F(Studies, TheReportIsMadeInTheResearchersNameOnlyWhenAsked) {
+  fake.questions.studies[0].plan = stored_plan(true);
+  const std::string page = browser.get("/studies/" + kStudy).body, action = "/studies/" + kStudy + "/report";
+  EXPECT_EQ(fake.questions.done, std::vector<std::string>{}) << "to read is no look";
+  EXPECT_EQ(browser.get(action).status, 405);
+  EXPECT_EQ(browser.post(action, "token=wrong").status, 403);
+  EXPECT_EQ(fake.questions.done, std::vector<std::string>{});
+  const Response report = browser.post(action, "token=" + form_token(page, action));
+  EXPECT_EQ(report.status, 200);
+  EXPECT_THAT(header_of(report, "Content-Disposition"), HasSubstr("attachment"));
+  EXPECT_EQ(fake.questions.done, std::vector<std::string>{"person-of-researcher looks at " + kStudy});
+}
+
+TEST_F(Studies, AnothersStudyIsByteForByteAMissingOne) {
+  fake.questions.study_relations.clear();
+  EXPECT_EQ(bytes_of(browser.get("/studies/" + kStudy), true),
+            bytes_of(browser.get("/studies/" + kMissingAttempt), true));
+  EXPECT_THAT(browser.get("/studies").body, Not(HasSubstr("Needles")));
+  EXPECT_THAT(browser.get("/").body, Not(HasSubstr("Needles")));
+}
+
+}  // namespace
+}  // namespace seldinger::web
