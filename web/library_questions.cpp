@@ -272,6 +272,11 @@ class LibraryQuestions final : public Questions {
     return grades;
   }
 
+  assessment::statistics::Answer dependability() override {
+    const std::lock_guard lock(pages_.mutex);
+    return dependability_.of(pages_.library);
+  }
+
   std::vector<casedb::CaseRow> list_cases() override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::list_case_heads(pages_.library);
@@ -291,7 +296,7 @@ class LibraryQuestions final : public Questions {
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     const std::lock_guard lock(pages_.mutex);
     auto parts = casedb::load_parts(pages_.library, case_id);
-    if (parts && !parts->row.rule.criteria.empty()) parts->dependability = dependability();
+    if (parts && !parts->row.rule.criteria.empty()) parts->dependability = dependability_.of(pages_.library);
     return parts;
   }
 
@@ -330,16 +335,6 @@ class LibraryQuestions final : public Questions {
   }
 
  private:
-  // Of everybody's attempts: kept until somebody stores something.
-  const assessment::statistics::Answer& dependability() {
-    const auto version = pages_.library.database().integer("PRAGMA data_version");
-    if (!dependability_ || dependable_at_ != version) {
-      dependability_ = casedb::dependability(casedb::learning_attempts(pages_.library, casedb::Learners::people));
-      dependable_at_ = version;
-    }
-    return *dependability_;
-  }
-
   Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
   Handle first_, second_;      // a password is long to hash
   Handle changes_;             // a change may wait for another program's
@@ -349,8 +344,7 @@ class LibraryQuestions final : public Questions {
   };
   std::map<std::string, Kept> records_;  // by person, under pages_.mutex
   CaseChecker check_;
-  std::optional<assessment::statistics::Answer> dependability_;
-  std::int64_t dependable_at_ = 0;
+  casedb::KeptDependability dependability_;  // under pages_.mutex
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};
   casedb::Health health_ = casedb::Health::ok;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -89,7 +90,8 @@ std::string gates_text(const std::vector<assessment::Gate>& gates) {
   return text;
 }
 
-std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula) {
+std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula,
+                           const assessment::statistics::Answer& dependability) {
   Html html;
   html.raw("<h1>Curriculum</h1>\n");
   const bool own = std::any_of(curricula.begin(), curricula.end(), [](const auto& one) { return one.own; });
@@ -102,6 +104,10 @@ std::string curricula_page(const Visitor& visitor, std::span<const CurriculumVie
         "<div class=\"message\"><p>There is no curriculum here yet. A mentor makes one with <code>seldinger "
         "curriculum add</code>, a director publishes it.</p></div>\n");
   for (const CurriculumView& one : curricula) add_curriculum(html, one);
+  if (!curricula.empty())
+    html.raw("<p class=\"note\">What passing tells: ")
+        .text(dependability_text(dependability, casedb::Learners::people))
+        .raw("</p>\n");
   return page("Curriculum", visitor, html);
 }
 
