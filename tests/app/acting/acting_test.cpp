@@ -193,6 +193,7 @@ TEST_F(ActingTest, EveryCommandThatActsAsksTheTableForEveryRole) {
       {"simulate", {"--case", "nowhere", "--operator", "expert"}, Action::simulate_attempts},
       {"surrogate fit", {"--case", "nowhere", "--out", "s.json"}, Action::simulate_attempts},
       {"surrogate check", {"--case", "nowhere", "--surrogate", "s.json"}, Action::simulate_attempts},
+      {"recovery", {}, Action::simulate_attempts},
       {"recompute", {}, Action::keep_library},
       {"export", {"--study", "Needles", "--out", out}, Action::export_study, own_study},
       {"attempt delete", {attempt_}, Action::erase_attempts, {}, true},
