@@ -46,6 +46,7 @@ namespace seldinger::app {
   ROW(surrogate_fit)            \
   ROW(surrogate_check)          \
   ROW(surrogate_effects)        \
+  ROW(recovery)                 \
   ROW(score)                    \
   ROW(replay)                   \
   ROW(recompute)                \
@@ -152,7 +153,8 @@ const std::vector<Group>& groups() {
       {"To begin", {"demo", "train", "serve", "doctor", "help"}},
       {"Cases", {"import", "sample", "case", "deidentify", "bundle"}},
       {"Attempts",
-       {"simulate", "surrogate", "score", "replay", "recompute", "export", "attempt", "standard", "curriculum"}},
+       {"simulate", "surrogate", "recovery", "score", "replay", "recompute", "export", "attempt", "standard",
+        "curriculum"}},
       {"People", {"user", "login", "logout", "audit", "cohort", "consent"}},
       {"Studies", {"study", "workshop", "questionnaire", "rating", "report"}},
       {"Numbers", {"stats"}},

@@ -51,6 +51,8 @@ constexpr std::string_view kLines[] = {
     "surrogate fit --case 'Drill 1' --attempts 60 --out drill.json --library first-hour",
     "surrogate check --case 'Drill 1' --surrogate drill.json --attempts 12 --library first-hour",
     "surrogate effects --surrogate drill.json",
+    "simulate --case 'Drill 1' --operator novice --people 5 --no-pictures --library first-hour",
+    "recovery --truth 10 --library first-hour",
     "attempt list",
     "attempt show ATTEMPT",
     "attempt compare --case Built --out side.html",

@@ -355,6 +355,11 @@ class LibraryQuestions final : public Questions {
     return grades;
   }
 
+  assessment::statistics::Answer dependability() override {
+    const std::lock_guard lock(recordings_.mutex);  // of everybody's attempts: long to read
+    return dependability_.of(recordings_.library);
+  }
+
   std::vector<casedb::CaseRow> list_cases() override {
     const std::lock_guard lock(pages_.mutex);
     return casedb::list_case_heads(pages_.library);
@@ -444,21 +449,13 @@ class LibraryQuestions final : public Questions {
     return view;
   }
 
-  // Of everybody's attempts: long to read.
-  assessment::statistics::Answer dependability() {
-    const std::lock_guard lock(recordings_.mutex);
-    return dependability_.at(casedb::learning_mark(recordings_.library), [&] {
-      return casedb::dependability(casedb::learning_verdicts(recordings_.library, casedb::Learners::people));
-    });
-  }
-
   Handle pages_, recordings_;                  // a recording is long to read: meanwhile other pages are answered
   Handle first_, second_;                      // a password is long to hash
   Handle changes_;                             // a change may wait for another program's
   Kept<std::vector<casedb::Cohort>> cohorts_;  // under pages_.mutex
   Kept<std::map<std::string, casedb::ToldCells>> told_;  // under pages_.mutex
   std::map<std::string, Kept<LearnerRecords>> records_;  // by person, under pages_.mutex
-  Kept<assessment::statistics::Answer> dependability_;   // under recordings_.mutex
+  casedb::KeptDependability dependability_;              // under recordings_.mutex
   HeavyWork work_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};

@@ -7,6 +7,7 @@
 #include "app/cli/file.h"
 #include "reports/pages/compare_page.h"
 #include "reports/pages/style_sheet.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/grade_words.h"
 
 namespace seldinger::app {
@@ -15,6 +16,9 @@ namespace {
 void print_comparison(const casedb::Comparison& comparison) {
   std::printf("%s, %s\n%s\n", comparison.row.title.c_str(), casedb::name_of(comparison.manner.modality).c_str(),
               reports::experts_text(comparison.experts).c_str());
+  if (comparison.dependability)
+    std::printf("What passing tells of people: %s\n",
+                reports::dependability_text(*comparison.dependability, casedb::Learners::people).c_str());
   for (const casedb::ComparedGroup& group : comparison.groups) {
     std::printf("\n%s: passed %zu of %zu, with a critical error %zu\n", reports::group_label(group).c_str(),
                 group.passed, group.gradable, group.with_critical_errors);

@@ -1,13 +1,16 @@
 // report.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "app/cli/file.h"
 #include "app/cli/version.h"
 #include "app/cli/words.h"
 #include "app/studies/acting_in_study.h"
 #include "app/studies/learning_reports.h"
+#include "casedb/database/audit.h"
 #include "reports/questionnaires/workshops_page.h"
+#include "reports/studies/report_data.h"
 #include "reports/studies/validity_report.h"
 
 namespace seldinger::app {
@@ -15,12 +18,26 @@ namespace {
 
 base::Result<std::string> validity_report(const Arguments& arguments) {
   arguments.required("--study");
-  auto open = open_study(arguments, "--study", casedb::Action::plan_study);
+  const bool with_data = arguments.has("--data");  // values by person leave the library
+  auto open =
+      open_study(arguments, "--study", with_data ? casedb::Action::export_study : casedb::Action::plan_study);
   if (!open) return open.error();
   const auto plan = casedb::find_plan(open->library, open->study.study_id);
   if (!plan) return plan.error();
-  return reports::validity_page(
-      reports::validity_report_of(open->library, open->study, *plan, "report validity", kVersion));
+  const std::filesystem::path folder = arguments.text("--data");
+  if (with_data && !plan->frozen())
+    return base::Error{"plan_not_frozen", "until the plan is frozen there are no outcomes by person"};
+  if (std::error_code failed; with_data && std::filesystem::exists(folder, failed))
+    return base::Error{"exists", "--data: there is already something of that name"};
+  if (with_data) casedb::audit_alone(open->library, casedb::Act::export_attempts, {"study", open->study.study_id});
+  const auto report =
+      reports::validity_report_of(open->library, open->study, *plan,
+                                  with_data ? "report validity, with its data" : "report validity", kVersion);
+  if (with_data) {
+    std::filesystem::create_directories(folder);
+    for (const reports::DataFile& one : reports::report_data(report)) write_file(folder / one.name, one.content);
+  }
+  return reports::validity_page(report);
 }
 
 base::Result<std::string> workshops_report(const Arguments&) {
@@ -55,6 +72,9 @@ int run_report(const Arguments& arguments) {
 constexpr Option kReportOptions[] = {
     kLibrary,
     {"--study", "STUDY", "of this study, for validity"},
+    {"--data", "DIR",
+     "also a new folder with the values that validity rests on, by person, and redo.R, which redoes its numbers in "
+     "R"},
     {"--user", "NAME", "of this person, for learner"},
     {"--case", "CASE", "of this case, for standard"},
     {"--simulated", nullptr, "of simulated people, for learner and case; they never stand beside people"},

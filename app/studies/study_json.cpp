@@ -66,7 +66,10 @@ Json json_of(const std::vector<study::Compared>& outcomes, bool primary) {
     for (const study::LeftOut& why : one.left_out)
       left_out.push_back({{"why", why.why}, {"attempts", why.attempts}});
     for (const study::Sensitivity& other : one.sensitivity)
-      sensitivity.push_back({{"rule", other.rule}, {"answer", Json::parse(json_of_answer(other.answer))}});
+      sensitivity.push_back({{"kind", base::name_of(study::kOtherRuleNames, other.kind)},
+                             {"rule", other.rule},
+                             {"shift", casedb::maybe(other.shift)},
+                             {"answer", Json::parse(json_of_answer(other.answer))}});
     json["left_out"] = std::move(left_out);
     json["answer"] = one.refused.empty() ? Json::parse(json_of_answer(one.answer)) : Json(nullptr);
     if (primary)

@@ -39,6 +39,7 @@ constexpr ReferenceEffect answer(std::string_view source, std::string_view what,
       difference(source, what, of_means(m1, sd1, static_cast<double>(n1), m2, sd2, static_cast<double>(n2)), n1, n2,
                  false, source == kFinal && statement >= 0, kFromMeans);
   row.statement = statement;
+  row.of_answers = true;
   return row;
 }
 constexpr ReferenceEffect share(std::string_view source, std::string_view what, std::size_t hits, std::size_t of,

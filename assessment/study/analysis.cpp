@@ -93,6 +93,12 @@ struct Rule {
   Stead absent_first = Stead::left_out, absent_second = Stead::left_out;
 };
 
+Rule rule_of(const Plan& plan) {
+  Rule rule;
+  if (plan.absent == Absent::failure) rule.absent_first = rule.absent_second = Stead::worst;
+  return rule;
+}
+
 // Values better or worse than any that was seen, for a test of order; the plan's failure_value for one of means.
 std::optional<double> stands_for(Stead stead, const Outcome& outcome, double low, double high) {
   if (stead == Stead::left_out) return std::nullopt;
@@ -185,19 +191,104 @@ void compare(const Plan& plan, const std::vector<StudyPerson>& people, Compared&
     made.refused += "), and the plan has them not compared together.";
     return;
   }
-  Rule rule;
-  if (plan.absent == Absent::failure) rule.absent_first = rule.absent_second = Stead::worst;
-  made.answer = tested(outcome, made.people, rule);
+  made.answer = tested(outcome, made.people, rule_of(plan));
   tell_of_failures(made);
   if (made.first.failures + made.first.censored + made.second.failures + made.second.censored > 0)
-    made.sensitivity.push_back({"only who has a value",
+    made.sensitivity.push_back({OtherRule::present, "only who has a value",
                                 tested(outcome, made.people, {Stead::left_out, Stead::left_out, Stead::left_out})});
   if (made.first.absent + made.second.absent > 0) {
-    made.sensitivity.push_back({"absent: best in " + outcome.first + ", worst in " + outcome.second,
+    made.sensitivity.push_back({OtherRule::best_in_first,
+                                "absent: best in " + outcome.first + ", worst in " + outcome.second,
                                 tested(outcome, made.people, {Stead::worst, Stead::best, Stead::worst})});
-    made.sensitivity.push_back({"absent: worst in " + outcome.first + ", best in " + outcome.second,
+    made.sensitivity.push_back({OtherRule::worst_in_first,
+                                "absent: worst in " + outcome.first + ", best in " + outcome.second,
                                 tested(outcome, made.people, {Stead::worst, Stead::worst, Stead::best})});
   }
+}
+
+// Whether somebody came to each visit: made an attempt within its days at a case of the plan.
+bool came_to_every_visit(const Plan& plan, const StudyPerson& person) {
+  const auto is_of_plan = [&](const StudyAttempt& attempt) {
+    const auto at_case = [&](const Outcome& one) { return one.case_id == attempt.case_id; };
+    return attempt.synthetic == (plan.people == People::simulated) &&
+           (std::any_of(plan.primary.begin(), plan.primary.end(), at_case) ||
+            std::any_of(plan.secondary.begin(), plan.secondary.end(), at_case));
+  };
+  return std::all_of(plan.visits.begin(), plan.visits.end(), [&](const Visit& visit) {
+    return std::any_of(person.attempts.begin(), person.attempts.end(), [&](const StudyAttempt& one) {
+      return visit.from_day <= one.day && one.day <= visit.to_day && is_of_plan(one);
+    });
+  });
+}
+
+void add_per_protocol(const Plan& plan, const std::set<std::string>& missed, Compared& compared) {
+  std::vector<PersonValue> kept;
+  bool otherwise = false;  // whether the comparison is another one
+  for (PersonValue& one : compared.people) {
+    one.every_visit = !missed.contains(one.name);
+    if (one.every_visit)
+      kept.push_back(one);
+    else
+      otherwise = otherwise || one.standing != Standing::absent || plan.absent == Absent::failure;
+  }
+  if (otherwise)
+    compared.sensitivity.push_back({OtherRule::per_protocol, "per protocol: only who came to every visit",
+                                    tested(compared.outcome, kept, rule_of(plan))});
+}
+
+void add_tipping(const Plan& plan, Compared& compared) {
+  const Answer& answer = compared.answer;
+  const GroupSum &first = compared.first, &second = compared.second;
+  if (first.absent + second.absent == 0 || !first.median || !second.median || !answer.estimate || !answer.p_value ||
+      !(*answer.p_value < plan.alpha))
+    return;
+  const Outcome& outcome = compared.outcome;
+  const bool larger = *answer.estimate > (outcome.test == Test::brunner_munzel ? 0.5 : 0.0);
+  const bool first_is_better = larger == (outcome.better == Direction::higher_is_better);
+  const double worse = outcome.better == Direction::lower_is_better ? 1.0 : -1.0;
+  double low = *first.median, high = low;
+  for (const PersonValue& one : compared.people) {
+    if (one.standing != Standing::value) continue;
+    low = std::min(low, one.value);
+    high = std::max(high, one.value);
+  }
+  const auto at = [&](double shift) {
+    std::vector<PersonValue> moved = compared.people;
+    for (PersonValue& one : moved) {
+      if (one.standing != Standing::absent) continue;
+      const bool is_first = one.group == outcome.first;
+      one.standing = Standing::value;
+      one.value =
+          (is_first ? *first.median : *second.median) + (is_first == first_is_better ? worse : -worse) * shift;
+    }
+    return tested(outcome, moved, rule_of(plan));
+  };
+  const auto goes = [&](const Answer& one) { return !one.p_value || !(*one.p_value < plan.alpha); };
+  constexpr int kSteps = 20, kHalvings = 10;
+  const double range = high - low;
+  double holds = 0.0, shift = 0.0;
+  Answer there = at(shift);
+  for (int step = 1; step <= kSteps && !goes(there); ++step) {
+    holds = shift;
+    shift = range * step / kSteps;
+    there = at(shift);
+  }
+  const bool found = goes(there);
+  for (int i = 0; i < kHalvings && found && shift > holds; ++i) {
+    const double middle = 0.5 * (holds + shift);
+    Answer here = at(middle);
+    if (goes(here)) {
+      shift = middle;
+      there = std::move(here);
+    } else {
+      holds = middle;
+    }
+  }
+  compared.sensitivity.push_back(
+      {OtherRule::tipping,
+       found ? "absent: at their group’s median, shifted against the conclusion until it goes"
+             : "absent: at their group’s median, shifted against the conclusion, which stays",
+       std::move(there), shift});
 }
 
 // Where the plan parts by hands, one for each; else one.
@@ -288,6 +379,17 @@ StudyResult analyse(const Plan& plan, const std::vector<StudyPerson>& people) {
       if (sum->persons < sum->absent + static_cast<std::size_t>(plan.per_group)) result.stopped = false;
   }
   return result;
+}
+
+void add_sensitivity(const Plan& plan, const std::vector<StudyPerson>& people, StudyResult& result) {
+  std::set<std::string> missed;
+  for (const StudyPerson& one : people)
+    if (!came_to_every_visit(plan, one)) missed.insert(one.name);
+  for (Compared& one : result.primary) {
+    if (!one.refused.empty()) continue;
+    add_per_protocol(plan, missed, one);
+    add_tipping(plan, one);
+  }
 }
 
 }  // namespace seldinger::assessment::study

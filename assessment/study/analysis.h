@@ -40,6 +40,7 @@ struct PersonValue {
   double value = 0.0;  // of Standing::value
   std::size_t attempts = 0;
   std::vector<double> values{};  // of the attempts that count and have one, oldest first
+  bool every_visit = true;       // came to each of the plan's; told by add_sensitivity
 };
 
 struct GroupSum {
@@ -48,10 +49,18 @@ struct GroupSum {
   std::optional<double> median, low_quartile, high_quartile;  // of those who have a value
 };
 
-// The same comparison under another rule for what is missing.
+// The same comparison under another rule for what is missing, or of those alone who kept to the plan.
+enum class OtherRule { present, best_in_first, worst_in_first, per_protocol, tipping };
+inline constexpr auto kOtherRuleNames = base::names<OtherRule>({{OtherRule::present, "present"},
+                                                                {OtherRule::best_in_first, "best_in_first"},
+                                                                {OtherRule::worst_in_first, "worst_in_first"},
+                                                                {OtherRule::per_protocol, "per_protocol"},
+                                                                {OtherRule::tipping, "tipping"}});
 struct Sensitivity {
-  std::string rule;
+  OtherRule kind = OtherRule::present;
+  std::string rule;  // in words
   statistics::Answer answer;
+  std::optional<double> shift{};  // of tipping, in the metric's unit
 };
 
 struct Compared {
@@ -74,6 +83,13 @@ struct StudyResult {
 
 // Each person in the group that they were enrolled in, whatever they did.
 StudyResult analyse(const Plan& plan, const std::vector<StudyPerson>& people);
+
+// Beside the rules that `analyse` tells: per protocol, where somebody who is analysed missed a visit; and of a
+// significant primary outcome with absent people the tipping point. There the absent stand at their group's median,
+// those of the better group shifted for the worse and those of the other for the better, by the least shift at
+// which p is no longer below alpha (a twentieth of the values' range at a time, then halved), or by the whole
+// range.
+void add_sensitivity(const Plan& plan, const std::vector<StudyPerson>& people, StudyResult& result);
 
 // What each person has on an outcome, without regard to groups.
 struct Collected {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "assessment/registry.h"
+#include "casedb/grading/dependability.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -137,6 +138,8 @@ base::Result<Comparison> compare_attempts(Library& library, const std::string& c
            std::tuple(!b.person_id, b.person_id.value_or(""), b.operator_name);
   });
   for (ComparedGroup& group : made.groups) sum_up(group, made);
+  if (!made.row.rule.criteria.empty())
+    made.dependability = dependability(learning_attempts(library, Learners::people));
   return made;
 }
 

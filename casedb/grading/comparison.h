@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assessment/estimand.h"
+#include "assessment/statistics/answer.h"
 #include "casedb/grading/grading.h"
 
 namespace seldinger::casedb {
@@ -46,6 +47,9 @@ struct Comparison {
   std::vector<ComparedGroup> groups;                   // people, then the simulated, by name
   assessment::ExpertSet experts;
   bool provisional = true;
+  // Of passing cases of the library, by what people did (casedb/grading/dependability.h); none: the case has no
+  // rule.
+  std::optional<assessment::statistics::Answer> dependability{};
   std::size_t other_tasks = 0;  // attempts on the case with another target, guidance, approach or kind of needle
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assessment/statistics/reliability/g_theory.h"
+#include "casedb/database/sqlite.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -84,6 +85,17 @@ assessment::statistics::DataTable dependability_table(std::span<const LearningAt
 
 assessment::statistics::Answer dependability(std::span<const LearningAttempt> attempts) {
   return assessment::statistics::g_theory(dependability_table(attempts), kDependable);
+}
+
+const assessment::statistics::Answer& KeptDependability::of(Library& library) {
+  const std::string now = learning_mark(library);
+  const Clock::time_point begun = Clock::now();
+  if (answer_ && (now == of_what_ || begun < until_)) return *answer_;
+  answer_ = dependability(learning_verdicts(library, Learners::people));
+  of_what_ = now;
+  const Clock::time_point done = Clock::now();
+  until_ = done + 100 * (done - begun);
+  return *answer_;
 }
 
 }  // namespace seldinger::casedb

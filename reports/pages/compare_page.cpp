@@ -8,6 +8,7 @@
 #include "reports/pages/sections/grade_section.h"
 #include "reports/pages/sections/metric_details.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_words.h"
 
@@ -191,6 +192,10 @@ std::string compare_page(const casedb::Comparison& comparison, std::string_view 
         .text(std::to_string(comparison.other_tasks))
         .raw(" with another target, guidance, approach or kind of needle.</p>\n");
   add_criteria(html, comparison);
+  if (comparison.dependability)
+    html.raw("<p class=\"note\">What passing tells of people: ")
+        .text(dependability_text(*comparison.dependability, casedb::Learners::people))
+        .raw("</p>\n");
   add_debriefs(html, comparison);
   add_metrics(html, comparison);
   return page_with_style("Side by side", style, html);

@@ -1,5 +1,8 @@
 #include "reports/pages/curricula_page.h"
 
+#include <algorithm>
+
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_words.h"
 
 namespace seldinger::reports {
@@ -57,7 +60,8 @@ std::string gates_text(const std::vector<assessment::Gate>& gates) {
   return text;
 }
 
-std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula) {
+std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula,
+                           const assessment::statistics::Answer& dependability) {
   Html html;
   html.raw("<h1>Curriculum</h1>\n");
   const bool learns = visitor.role == "trainee";  // of whom what is left stands with their progress
@@ -69,6 +73,10 @@ std::string curricula_page(const Visitor& visitor, std::span<const CurriculumVie
         "<div class=\"message\"><p>There is no curriculum here yet. A mentor makes one with <code>seldinger "
         "curriculum add</code>, a director publishes it.</p></div>\n");
   for (const CurriculumView& one : curricula) add_curriculum(html, one, !learns);
+  if (!curricula.empty())
+    html.raw("<p class=\"note\">What passing tells: ")
+        .text(dependability_text(dependability, casedb::Learners::people))
+        .raw("</p>\n");
   return page("Curriculum", visitor, html);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assessment/statistics/answer.h"
 #include "casedb/grading/learner_records.h"
 #include "reports/pages/page.h"
 
@@ -15,7 +16,9 @@ struct CurriculumView {
   std::vector<casedb::ItemState> items;
 };
 
-std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula);
+// `dependability`: of passing a case, by what people did.
+std::string curricula_page(const Visitor& visitor, std::span<const CurriculumView> curricula,
+                           const assessment::statistics::Answer& dependability);
 
 std::string proficiency_text(assessment::Proficiency reached);  // "Not started", "Practising", …
 

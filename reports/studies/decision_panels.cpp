@@ -1,13 +1,9 @@
-#include <algorithm>
-
 #include "assessment/grading/debrief.h"
 #include "assessment/grading/plain_words.h"
 #include "assessment/registry.h"
-#include "assessment/statistics/complete_table.h"
 #include "assessment/statistics/reasons.h"
 #include "assessment/statistics/relations/proportions.h"
-#include "assessment/statistics/reliability/icc.h"
-#include "assessment/statistics/standards/classification.h"
+#include "reports/studies/decision_numbers.h"
 #include "reports/studies/study_words.h"
 #include "reports/studies/validity_sections.h"
 #include "reports/words/metric_words.h"
@@ -18,8 +14,6 @@ namespace {
 namespace study = assessment::study;
 namespace statistics = assessment::statistics;
 
-constexpr std::size_t kIcc2 = 1;  // of kIccForms: agreement of single attempts
-
 std::string unit_of(const std::string& metric) {
   const assessment::MetricInfo* info = assessment::find_metric(metric);
   return info == nullptr ? "" : info->unit;
@@ -29,55 +23,17 @@ std::string name_of_outcome(const study::Compared& one) {
   return one.outcome.name + (one.hand.empty() ? "" : ", hand: " + one.hand);
 }
 
-// The last two attempts of every person who has two with a value.
-statistics::Answer agreement_of(const study::Compared& one) {
-  statistics::DataTable table;
-  table.values = {{"before", {}}, {"last", {}}};
-  for (const study::PersonValue& person : one.people) {
-    if (person.values.size() < 2) continue;
-    table.values[0].values.push_back(person.values[person.values.size() - 2]);
-    table.values[1].values.push_back(person.values.back());
-    ++table.rows;
-  }
-  return statistics::icc(statistics::complete_table(table), kIcc2);
-}
-
 std::string number_or_dash(const std::optional<double>& value, const std::string& unit) {
   return value ? digits_text(*value) + " " + unit : "–";
 }
 
-// What an outcome is held against: the frozen cut of its case, else its case's rule.
-struct PassMark {
-  double cut = 0.0;
-  bool higher_is_better = true;
-  std::string words;
-};
-std::optional<PassMark> pass_mark_of(const ValidityReport& report, const study::Outcome& outcome) {
-  if (const auto cuts = report.cuts.find(outcome.case_id); cuts != report.cuts.end())
-    if (const casedb::Cut* cut = casedb::cut_in_force(cuts->second, outcome.metric);
-        cut != nullptr && cut->version == outcome.version)
-      return PassMark{cut->value, cut->higher_is_better, "the frozen cut (" + cut->words + ")"};
-  const auto rule = report.rules.find(outcome.case_id);
-  if (rule == report.rules.end()) return std::nullopt;
-  for (const assessment::Criterion& one : rule->second.criteria)
-    if (one.metric == outcome.metric && one.version == outcome.version &&
-        one.comparison != assessment::Comparison::equal)
-      return PassMark{one.value, one.comparison == assessment::Comparison::at_least, "the case’s rule"};
-  return std::nullopt;
-}
-
-// Of a group how many are at the mark; who failed is not.
+// Of a group how many are at the mark.
 void add_rate(Html& html, const study::Compared& one, const std::string& group, const PassMark& mark) {
-  std::int64_t n = 0, passed = 0;
-  for (const study::PersonValue& person : one.people) {
-    if (person.group != group || person.standing == study::Standing::absent) continue;
-    ++n;
-    const bool at = mark.higher_is_better ? person.value >= mark.cut : person.value <= mark.cut;
-    passed += person.standing == study::Standing::value && at ? 1 : 0;
-  }
-  html.raw("<td>").text(group + ": " + of_text(static_cast<std::size_t>(passed), static_cast<std::size_t>(n)));
-  if (n > 0) {
-    const statistics::Interval share = statistics::wilson_interval(passed, n);
+  const AtMark found = at_mark(one, group, mark);
+  html.raw("<td>").text(group + ": " +
+                        of_text(static_cast<std::size_t>(found.passed), static_cast<std::size_t>(found.n)));
+  if (found.n > 0) {
+    const statistics::Interval share = statistics::wilson_interval(found.passed, found.n);
     html.raw(" <span class=\"why\">").text(number_text(100.0 * share.low, 0) + " to ");
     html.text(number_text(100.0 * share.high, 0)).raw(" %</span>");
   }
@@ -85,14 +41,8 @@ void add_rate(Html& html, const study::Compared& one, const std::string& group, 
 }
 
 void add_decisions(Html& html, const study::Compared& one, const PassMark& mark) {
-  statistics::CutScores scores;
-  for (const study::PersonValue& person : one.people)
-    if (person.standing == study::Standing::value) scores.scores.push_back(person.value);
   const statistics::Answer agreement = agreement_of(one);
-  scores.cut = mark.cut;
-  scores.reliability = agreement.estimate.value_or(0.0);
-  scores.higher_is_better = mark.higher_is_better;
-  const statistics::Answer answer = statistics::classification(scores);
+  const statistics::Answer answer = decisions_of(one, mark, agreement);
   html.raw("<td>");
   if (!answer.estimable() || !answer.estimate) {
     html.raw("not estimated: ")

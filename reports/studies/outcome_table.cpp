@@ -107,17 +107,22 @@ Html sensitivity_table(const std::vector<study::Compared>& outcomes) {
     for (const study::Sensitivity& other : one.sensitivity) {
       if (!any)
         html.raw(
-            "<table class=\"outcomes\"><caption>The same comparisons under other rules for what is missing; the "
-            "plan’s rule bears the conclusion</caption>\n<thead><tr><th scope=\"col\">Outcome</th><th "
+            "<table class=\"outcomes\"><caption>The same comparisons under other rules for what is missing, and "
+            "per "
+            "protocol; the plan’s rule bears the conclusion, and p here is not adjusted</caption>\n<thead><tr><th "
+            "scope=\"col\">Outcome</th><th "
             "scope=\"col\">"
-            "Rule</th><th scope=\"col\">Effect, 95 % interval</th><th scope=\"col\" class=\"number\">n</th></tr>"
-            "</thead>\n<tbody>\n");
+            "Rule</th><th scope=\"col\">Effect, 95 % interval</th><th scope=\"col\" class=\"number\">p</th><th "
+            "scope=\"col\" class=\"number\">n</th></tr></thead>\n<tbody>\n");
       any = true;
-      html.raw("<tr><th scope=\"row\">").text(title_of(one)).raw("</th><td>").text(other.rule).raw("</td><td>");
+      html.raw("<tr><th scope=\"row\">").text(title_of(one)).raw("</th><td>").text(other.rule);
+      if (other.shift) html.text(" (by " + digits_text(*other.shift) + " " + unit_of(one) + ")");
+      html.raw("</td><td>");
       html.text(other.answer.estimate
                     ? digits_text(*other.answer.estimate) + "; 95 % " + interval_text(other.answer.ci95)
                     : std::string("not estimable"));
-      html.raw("</td><td class=\"number\">").text(std::to_string(other.answer.n)).raw("</td></tr>\n");
+      html.raw("</td><td class=\"number\">").text(p_text(other.answer.p_value)).raw("</td><td class=\"number\">");
+      html.text(std::to_string(other.answer.n)).raw("</td></tr>\n");
     }
   if (any) html.raw("</tbody></table>\n");
   return html;

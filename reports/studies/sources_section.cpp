@@ -138,6 +138,7 @@ Html sources_section(const ValidityReport& report) {
                            "Effects with intervals; no p, no verdict"))
         .raw("</article>\n");
   }
+  html.add(published_panel(report));
   if (!report.ratings.empty()) html.add(ratings_panel(report));
   html.add(consequences_panel(report));
   return html.raw("</section>\n");

@@ -17,6 +17,7 @@ ValidityReport validity_report_of(casedb::Library& library, const casedb::Study&
   if (plan.frozen()) {
     casedb::StudyData data = casedb::study_data(library, plan);
     report.result = assessment::study::analyse(report.plan.plan, data.people);
+    assessment::study::add_sensitivity(report.plan.plan, data.people, report.result);
     casedb::add_analysed(report.result, data.flow);
     report.flow = std::move(data.flow);
     report.ratings = casedb::rated_people(library, study.study_id);

@@ -14,6 +14,10 @@ std::optional<double> further_of(const assessment::statistics::Answer& answer, s
   return std::nullopt;
 }
 
+std::string cases_text(double cases) {
+  return number_text(cases, 0) + (cases == 1.0 ? " case" : " cases");
+}
+
 }  // namespace
 
 bool withheld(const assessment::statistics::Answer& dependability, casedb::Learners whose) {
@@ -37,8 +41,18 @@ std::string dependability_text(const assessment::statistics::Answer& of, casedb:
   const auto occasions = further_of(of, "occasions");
   if (occasions) text += ", each case on " + number_text(*occasions, 0) + " occasions";
   text += ". For " + number_text(casedb::kDependable, 1) + " it takes ";
-  return text + (needed ? number_text(*needed, 0) + (*needed == 1.0 ? " case." : " cases.")
-                        : "more than any number of cases: the persons do not differ enough.");
+  return text +
+         (needed ? cases_text(*needed) + "." : "more than any number of cases: the persons do not differ enough.");
+}
+
+std::string dependability_line(const assessment::statistics::Answer& of, casedb::Learners whose) {
+  if (!of.estimable()) return "How far passing one case tells people apart (Φ) is not known yet.";
+  if (withheld(of, whose))
+    return "How far passing one case tells people apart (Φ) is not told: fewer than five people made it up.";
+  const auto needed = further_of(of, "cases_for_phi");
+  return "Passing one case decides about a person with a dependability Φ of " +
+         number_text(further_of(of, "phi_one_case").value_or(0.0), 2) + "; " + number_text(casedb::kDependable, 1) +
+         " takes " + (needed ? cases_text(*needed) : "more than any number of cases") + ".";
 }
 
 }  // namespace seldinger::reports

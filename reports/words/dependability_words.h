@@ -13,4 +13,7 @@ bool withheld(const assessment::statistics::Answer& dependability, casedb::Learn
 // "One case alone: Φ 0.31. …; 9 cases for 0.8." or why there is none; whole sentences.
 std::string dependability_text(const assessment::statistics::Answer& dependability, casedb::Learners whose);
 
+// The same in one sentence, where there is room for one.
+std::string dependability_line(const assessment::statistics::Answer& dependability, casedb::Learners whose);
+
 }  // namespace seldinger::reports

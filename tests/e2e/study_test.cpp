@@ -6,6 +6,7 @@
 #include "casedb/people/consent.h"
 #include "casedb/people/facts.h"
 #include "casedb/people/people.h"
+#include "tests/assessment/statistics/r_oracle.h"
 #include "tests/fixtures/command_library.h"
 #include "tests/fixtures/files.h"
 #include "tests/fixtures/folders.h"
@@ -185,6 +186,32 @@ TEST_F(StudyCommands, APlanIsFrozenBeforeOutcomesAreToldAndEveryLookIsPrinted) {
   EXPECT_EQ(later["flow"]["groups"][0]["withdrew"], 1);
   EXPECT_NE(later["data_sha256"], look["data_sha256"]);
   library_.done("check");
+}
+
+// What a reviewer does with a report's data: run the script beside it.
+TEST_F(StudyCommands, RRedoesEveryNumberOfAReport) {
+  for (const char* group : {"novice", "expert"})
+    library_.done("simulate --no-pictures --people 8 --count 2 --seed 5 --case " + case_id_ + " --operator " +
+                  group);
+  EXPECT_EQ(refusal("report validity --study Needles --out " + at("r.html") + " --data " + at("early")), "no_plan");
+  library_.done("study plan Needles " + file_of(plan()));
+  EXPECT_EQ(refusal("report validity --study Needles --out " + at("r.html") + " --data " + at("early")),
+            "plan_not_frozen");
+  EXPECT_FALSE(std::filesystem::exists(at("early")));
+  library_.done("study freeze Needles");
+  library_.done("study enrol Needles --all");
+  library_.done("report validity --study Needles --out " + at("r.html") + " --data " + at("data"));
+  EXPECT_EQ(refusal("report validity --study Needles --out " + at("r.html") + " --data " + at("data")), "exists");
+  const std::string people = fixtures::whole_file(library_.folder() / "data" / "people.csv");
+  EXPECT_EQ(people.find("S-"), std::string::npos) << "pseudonyms stay in the library";
+  const Json looks = library_.ask("study show Needles")["looks"];
+  EXPECT_NE(looks.dump().find("with its data"), std::string::npos) << looks.dump();
+  if (!fixtures::has_r()) GTEST_SKIP() << "there is no Rscript (Debian: r-base-core) to redo it";
+  const auto redone =
+      fixtures::run("Rscript --vanilla '" + at("data") + "/redo.R' '" + at("data") + "'", at("redone"));
+  EXPECT_EQ(redone.exit_code, 0) << redone.out << redone.err;
+  EXPECT_NE(redone.out.find("0 differ"), std::string::npos) << redone.out;
+  EXPECT_EQ(redone.out.rfind("0 numbers", 0), std::string::npos) << redone.out;
 }
 
 // docs/studies.md, as it stands there.

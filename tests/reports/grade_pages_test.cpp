@@ -186,17 +186,19 @@ TEST(CurriculaPage, TellsATraineeTheWayAndWhereTheyStandElsewhere) {
   view.items[0].progress = {assessment::Proficiency::passed, true, true, {}};
   view.items[1].title = "Case B";
   view.items[1].progress = {assessment::Proficiency::not_started, false, false, 5};
-  const std::string html = curricula_page(kTrainee, std::vector{view});
+  const auto nobody = assessment::statistics::not_estimable("g_theory", "no_data", 0);
+  const std::string html = curricula_page(kTrainee, std::vector{view}, nobody);
   EXPECT_THAT(html, HasSubstr("First &lt;year&gt;"));
   EXPECT_THAT(html, HasSubstr("after 1 is proficient"));
   EXPECT_THAT(html, HasSubstr("href=\"/progress\""));
   for (const char* state :
        {"Passed, not yet", "mark due", "not open", "1 of 3", "Attempts allowed", "Attempts left"})
     EXPECT_THAT(html, Not(HasSubstr(state)));
-  const std::string mentors = curricula_page({"Mia", "mentor", "token-2"}, std::vector{view});
+  const std::string mentors = curricula_page({"Mia", "mentor", "token-2"}, std::vector{view}, nobody);
   EXPECT_THAT(mentors, HasSubstr("data-label=\"Attempts allowed\">no limit"));
   EXPECT_THAT(mentors, HasSubstr("data-label=\"Attempts allowed\">5"));
-  EXPECT_THAT(curricula_page(kTrainee, {}), HasSubstr("no curriculum here yet"));
+  EXPECT_THAT(curricula_page(kTrainee, {}, nobody), HasSubstr("no curriculum here yet"));
+  EXPECT_THAT(html, HasSubstr("What passing tells: Φ is not estimated"));
 }
 
 TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
@@ -214,7 +216,10 @@ TEST(ComparePage, PutsGroupsInColumnsWithTheirDebriefsBeneath) {
     group.of_criteria = {{3, 0.0, 0.0, 0.0, 0.0}, {3, 0.0, 1.0 / 3.0, 0.0, 1.0}};
     group.attempts.push_back({sample_attempt().row, failed_grade()});
   }
+  EXPECT_THAT(compare_page(comparison, ""), Not(HasSubstr("What passing tells")));
+  comparison.dependability = assessment::statistics::not_estimable("g_theory", "too_few", 1);
   const std::string html = compare_page(comparison, ".x > .y { color: red }");
+  EXPECT_THAT(html, HasSubstr("What passing tells of people: Φ is not estimated"));
   EXPECT_THAT(html, HasSubstr(".x > .y { color: red }"));
   EXPECT_THAT(html, HasSubstr("Person 3f20ab"));
   EXPECT_THAT(html, HasSubstr("Simulated novice"));

@@ -205,6 +205,9 @@ class FakeQuestions final : public Questions {
     curricula_asked_for = person_id;
     return curricula;
   }
+  assessment::statistics::Answer dependability() override {
+    return assessment::statistics::not_estimable("g_theory", "no_data", 0);
+  }
   std::vector<casedb::CaseRow> list_cases() override { return cases; }
   base::Result<casedb::CaseParts> find_case(const std::string& case_id) override {
     for (const casedb::CaseRow& row : cases)

@@ -303,6 +303,7 @@ TEST(LibraryQuestions, TellWhatPassingACaseTells) {
   ASSERT_TRUE(parts->dependability.has_value());
   EXPECT_EQ(parts->dependability->reason, "no_data");
   EXPECT_THAT(reports::case_page({"mona", "mentor", ""}, *parts), HasSubstr("Φ is not estimated"));
+  EXPECT_EQ(questions->dependability().reason, "no_data");
 }
 
 }  // namespace

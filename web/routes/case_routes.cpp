@@ -70,7 +70,7 @@ Response list_curricula(Site& site, const Call& call) {
   std::erase_if(views, [&](const auto& one) { return !may_see_curriculum(account.role, one.curriculum); });
   for (auto& view : views)
     for (casedb::ItemState& item : view.items) withhold(account.role, item);
-  return html_response(200, reports::curricula_page(call.reader->visitor(), views));
+  return html_response(200, reports::curricula_page(call.reader->visitor(), views, site.questions.dependability()));
 }
 
 constexpr Route kCaseRoutes[] = {

@@ -128,6 +128,8 @@ class Questions {
   virtual base::Result<casedb::CaseParts> find_case(const std::string& case_id) = 0;  // `no_case`
   // As they reach a person, or nobody; oldest first.
   virtual std::vector<reports::CurriculumView> list_curricula(const std::optional<std::string>& person_id) = 0;
+  // Of passing, by what people did (casedb/grading/dependability.h).
+  virtual assessment::statistics::Answer dependability() = 0;
   // casedb::content_mark: another one when a check would look at something else.
   virtual std::string case_mark(const std::string& case_id) = 0;
   // Takes seconds: the case is built. `not_checked` where the server has nobody who looks.

@@ -11,6 +11,7 @@
 #include "assessment/grading/debrief.h"
 #include "assessment/registry.h"
 #include "reports/words/attempt_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
 #include "session/case/planned_way.h"
@@ -150,6 +151,8 @@ void BriefingPanel::draw_task(Trainer& trainer) {
   }
   if (!row.rule.criteria.empty() && trainer.provisional())
     quiet("Provisional: no standard of consultants has been set for this case.");
+  if (trainer.dependability())
+    quiet(reports::dependability_line(*trainer.dependability(), casedb::Learners::people).c_str());
   ImGui::Spacing();
   heading(phantom ? "The block, cut through the target" : "The planning CT");
   if (prepared) {

@@ -14,6 +14,7 @@
 #include "assessment/procedure/steps.h"
 #include "reports/words/attempt_words.h"
 #include "reports/words/condition_words.h"
+#include "reports/words/dependability_words.h"
 #include "reports/words/grade_words.h"
 #include "reports/words/metric_card.h"
 #include "reports/words/metric_words.h"
@@ -342,6 +343,8 @@ void DebriefPanel::draw(Trainer& trainer, const Keys& keys, const gpu::ScreenPic
                      reports::verdict_text(debrief.grade.grade).c_str());
   ImGui::SetWindowFontScale(1.0F);
   if (debrief.grade.provisional) quiet("Provisional: no standard of consultants has been set for this case.");
+  if (trainer.dependability())
+    quiet(reports::dependability_line(*trainer.dependability(), casedb::Learners::people).c_str());
   if (const std::string away = reports::away_text(debrief.attempt); !away.empty()) quiet(away.c_str());
   const std::string made = reports::conditions_text(debrief.attempt.conditions, std::nullopt);
   if (!made.empty()) quiet(("Made with " + made + ".").c_str());

@@ -256,6 +256,7 @@ void Trainer::try_draft() {
   expert_.clear();
   restarting_ = false;
   provisional_ = trying_ = true;
+  dependability_.reset();
   plan_.reset();
   prepare(nullptr);
 }
@@ -283,6 +284,8 @@ void Trainer::choose(const std::string& case_id) {
   chosen_ = *row;
   expert_ = casedb::expert_replay_of(library_, case_id, account_.person_id, account_.role).value_or("");
   provisional_ = !casedb::has_standard(library_, chosen_);
+  dependability_.reset();
+  if (!chosen_.rule.criteria.empty()) dependability_ = kept_dependability_.of(library_);
   restarting_ = trying_ = false;
   plan_.reset();
   prepare(nullptr);

@@ -18,6 +18,7 @@
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/grading/choices.h"
+#include "casedb/grading/dependability.h"
 #include "casedb/grading/grading.h"
 #include "casedb/people/login_delays.h"
 #include "casedb/people/people.h"
@@ -79,6 +80,9 @@ class Trainer {
   const Choice* after_pass() const noexcept { return casedb::after_pass(choices_, chosen_.case_id); }
   const casedb::CaseRow& chosen() const noexcept { return chosen_; }
   bool provisional() const noexcept { return provisional_; }  // nobody has set a standard for it
+  // Of passing it, by what people did: what stands beside its pass rule.
+  // Nothing: it has none, or is tried.
+  const std::optional<assessment::statistics::Answer>& dependability() const noexcept { return dependability_; }
   // An attempt at it that an expert passed, to watch before one's own; empty: there is none.
   const std::string& expert_attempt() const noexcept { return expert_; }
   // How much the room helps (imaging::RoomOptions): in easy cases the needle's own line and the picture's plane,
@@ -206,6 +210,8 @@ class Trainer {
   std::string first_case_;  // to be opened at log-in
   std::optional<casedb::OpenAttempt> interrupted_;
   bool provisional_ = true, restarting_ = false, trying_ = false, resuming_ = false;
+  casedb::KeptDependability kept_dependability_;
+  std::optional<assessment::statistics::Answer> dependability_;
   int help_ = 0;
   std::optional<assessment::PlannedPath> plan_;
 };

@@ -42,13 +42,15 @@ inline std::uint64_t r_seed() {
   return asked != nullptr ? std::strtoull(asked, nullptr, 10) : 20261124;
 }
 
-// c(…) with every digit; NA where a value is NaN.
+// c(…) with every digit; NA where a value is NaN. On several lines: R ends a script without a word where one has
+// more than 16,000 letters.
 inline std::string r_vector(std::span<const double> values) {
   std::string text = "c(";
   char digits[40];
-  for (const double value : values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = values[i];
     std::snprintf(digits, sizeof digits, "%.17g", value);
-    text += (text.size() > 2 ? "," : "") + std::string(std::isnan(value) ? "NA_real_" : digits);
+    text += (i == 0 ? "" : i % 50 == 0 ? ",\n" : ",") + std::string(std::isnan(value) ? "NA_real_" : digits);
   }
   return text + ")";
 }

@@ -121,6 +121,66 @@ TEST(Analysis, WhoHasNoAttemptIsLeftOutOrFailedAsThePlanSays) {
   EXPECT_EQ(failed.answer.p_value, by_hand("brunner_munzel", kFew, worst).p_value);
 }
 
+const Sensitivity* of_kind(const Compared& compared, OtherRule kind) {
+  for (const Sensitivity& one : compared.sensitivity)
+    if (one.kind == kind) return &one;
+  return nullptr;
+}
+
+TEST(Analysis, PerProtocolIsWhoCameToEveryVisit) {
+  Plan plan = sample_plan();
+  auto all = people(kFew, kMany);
+  StudyResult result = analyse(plan, all);
+  add_sensitivity(plan, all, result);
+  EXPECT_TRUE(result.primary[0].sensitivity.empty()) << "everybody came to the only visit";
+  plan.visits.push_back({"later", 20.0, 30.0});
+  for (StudyPerson& one : all) one.attempts.push_back(attempt(5.0, 0.0, 25.0));
+  all[0].attempts.pop_back();
+  all[10].attempts.back().day = 31.0;
+  result = analyse(plan, all);
+  add_sensitivity(plan, all, result);
+  const Sensitivity* kept = of_kind(result.primary[0], OtherRule::per_protocol);
+  ASSERT_NE(kept, nullptr);
+  EXPECT_EQ(kept->answer.p_value, by_hand("brunner_munzel", {7, 6, 8, 11}, {3, 4, 2, 7, 5}).p_value);
+  EXPECT_EQ(result.primary[0].answer.n, 11U) << "as they were meant to be treated";
+  EXPECT_FALSE(result.primary[0].people[0].every_visit);
+  EXPECT_TRUE(result.primary[0].people[1].every_visit);
+}
+
+// Of means the answer is known in closed form: those who are absent lie at a distance that leaves t at its limit.
+TEST(Analysis, TheTippingPointIsWhereTheConclusionGoes) {
+  std::string json = sample_plan_json();
+  json.replace(json.find("\"brunner_munzel\""), 16, "\"welch\"");
+  json.replace(json.find("\"smallest_worthwhile\": 2}"), 25, "\"smallest_worthwhile\": 2, \"failure_value\": 40}");
+  const Plan plan = plan_from_json(json).value();
+  auto all = people({9, 7, 6, 8, 11}, {3, 4, 2, 7, 5, 1});
+  for (const char* name : {"m6", "m7"}) all.push_back(person(name, "many", {}));
+  all.push_back(person("f5", "few", {}));
+  StudyResult result = analyse(plan, all);
+  ASSERT_LT(*result.primary[0].answer.p_value, plan.alpha);
+  add_sensitivity(plan, all, result);
+  const Sensitivity* tipping = of_kind(result.primary[0], OtherRule::tipping);
+  ASSERT_NE(tipping, nullptr);
+  const double shift = tipping->shift.value();
+  EXPECT_GT(shift, 0.0);
+  // The absent of the better group are worse, those of the other better; lower is better.
+  const auto by_shift = [](double by) {
+    return *by_hand("welch", {9, 7, 6, 8, 11, 8 - by}, {3, 4, 2, 7, 5, 1, 3.5 + by, 3.5 + by}).p_value;
+  };
+  EXPECT_NEAR(*tipping->answer.p_value, by_shift(shift), 1e-12);
+  EXPECT_GE(by_shift(shift), plan.alpha);
+  EXPECT_LT(by_shift(shift - 0.001 * 10.0), plan.alpha) << "the least shift, to a thousandth of the range";
+  EXPECT_EQ(of_kind(analyse(plan, all).primary[0], OtherRule::tipping), nullptr) << "asked for by a report alone";
+}
+
+TEST(Analysis, WhatIsNotSignificantHasNoTippingPoint) {
+  auto all = people({4, 5, 6, 3}, {5, 4, 6, 3.5});
+  all.push_back(person("m4", "many", {}));
+  StudyResult result = analyse(sample_plan(), all);
+  add_sensitivity(sample_plan(), all, result);
+  EXPECT_EQ(of_kind(result.primary[0], OtherRule::tipping), nullptr);
+}
+
 TEST(Analysis, AttemptsOutsideOfThePlanAreCountedByReason) {
   auto all = people(kFew, kMany);
   StudyAttempt other_case = attempt(0.0), late = attempt(0.0, 0.0, 10.6), early = attempt(0.0, 0.0, -10.1),

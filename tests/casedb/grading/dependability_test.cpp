@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "sim/base/rng.h"
+#include "tests/casedb/graded_library.h"
+#include "tests/fixtures/until.h"
 
 namespace seldinger::casedb {
 namespace {
@@ -77,6 +79,23 @@ TEST(Dependability, FindsThePlantedPhi) {
     EXPECT_LT(*needed, 20.0);
   }
   EXPECT_GE(covered, 34) << "of " << sets;
+}
+
+class KeptDependabilityTest : public GradedLibrary {};
+
+TEST_F(KeptDependabilityTest, IsRenewedOnceSomebodyHasStoredSomething) {
+  rule({"hit >= 1"});
+  const std::string tom = user("Tom", Role::trainee);
+  KeptDependability kept;
+  EXPECT_EQ(kept.of(library_).reason, "no_data");
+  attempt(tom, 1.0, 20.0);
+  // Of a small library soon, of a large one later.
+  EXPECT_TRUE(fixtures::until([&] { return kept.of(library_).reason == "too_few"; }));
+  Library other = open_library(library_.folder());
+  KeptDependability others;
+  EXPECT_EQ(others.of(other).n, 1U);
+  attempt(user("Tina", Role::trainee), 0.0, 20.0);
+  EXPECT_TRUE(fixtures::until([&] { return others.of(other).n == 2U; })) << "by another connection";
 }
 
 }  // namespace

@@ -30,6 +30,17 @@ TEST(DependabilityWords, SayHowManyCasesADecisionTakes) {
   EXPECT_THAT(dependability_text(endless, Learners::people), HasSubstr("more than any number of cases"));
 }
 
+TEST(DependabilityWords, AreOneSentenceWhereThereIsRoomForOne) {
+  EXPECT_EQ(dependability_line(answer(7), Learners::people),
+            "Passing one case decides about a person with a dependability Φ of 0.29; 0.8 takes 10 cases.");
+  auto endless = answer(7);
+  endless.more.pop_back();
+  EXPECT_THAT(dependability_line(endless, Learners::people), HasSubstr("takes more than any number of cases."));
+  EXPECT_THAT(dependability_line(answer(4), Learners::people), HasSubstr("fewer than five people"));
+  EXPECT_THAT(dependability_line(assessment::statistics::not_estimable("g_theory", "too_few", 1), Learners::people),
+              HasSubstr("not known yet"));
+}
+
 TEST(DependabilityWords, TellNothingOfFewPeople) {
   EXPECT_TRUE(withheld(answer(4), Learners::people));
   EXPECT_THAT(dependability_text(answer(4), Learners::people), Not(HasSubstr("0.29")));

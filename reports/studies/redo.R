@@ -1,0 +1,283 @@
+# Redoes the numbers of a Seldinger validity report from the data beside this script, in R without packages:
+#
+#   Rscript redo.R [FOLDER]
+#
+# people.csv holds what each person has on each outcome, outcomes.csv how the plan compares them, numbers.csv what the
+# report says. Each number that comes out otherwise is printed, then how many were redone and the largest difference;
+# the exit status is 1 where one differs. The p of a permutation test that drew its deals is redone with other deals,
+# and may differ by what chance makes of them.
+
+arguments <- commandArgs(trailingOnly = TRUE)
+folder <- if (length(arguments) > 0) arguments[1] else "."
+table_of <- function(name)
+  read.csv(file.path(folder, name), colClasses = "character", na.strings = "", encoding = "UTF-8", check.names = FALSE)
+people <- table_of("people.csv")
+outcomes <- table_of("outcomes.csv")
+numbers <- table_of("numbers.csv")
+for (name in c("value", "last_but_one", "last")) people[[name]] <- as.numeric(people[[name]])
+for (name in c("failure_value", "cut")) outcomes[[name]] <- as.numeric(outcomes[[name]])
+numbers$value <- as.numeric(numbers$value)
+alpha <- 0.05   # of "would have been found"
+power <- 0.8
+draws <- 10000  # of a permutation test whose deals are more
+
+# --- what stands in the place of those without a value ----------------------------------------------------------------
+stand_in <- function(stead, outcome, low, high) {
+  at_high_end <- (stead == "worst") == (outcome$better == "lower")
+  if (outcome$test == "welch") {
+    if (stead == "worst" && !is.na(outcome$failure_value)) return(outcome$failure_value)
+    return(if (at_high_end) high else low)
+  }
+  step <- max(high - low, 1e-3 * max(abs(low), abs(high), 1))
+  if (at_high_end) high + step else low - step
+}
+
+# The values of both groups; `failed`, `first` and `second` (those who are absent there) are worst, best or left_out.
+values_by <- function(own, outcome, failed, first, second) {
+  present <- own$value[own$standing == "value"]
+  low <- if (length(present)) min(present) else 0
+  high <- if (length(present)) max(present) else 0
+  value <- own$value
+  for (i in seq_len(nrow(own))) {
+    if (own$standing[i] == "value") next
+    stead <- if (own$standing[i] != "absent") failed else if (own$group[i] == outcome$first) first else second
+    value[i] <- if (stead == "left_out") NA else stand_in(stead, outcome, low, high)
+  }
+  list(a = value[own$group == outcome$first & !is.na(value)], b = value[own$group == outcome$second & !is.na(value)])
+}
+
+# --- tests ------------------------------------------------------------------------------------------------------------
+of_welch <- function(a, b) {
+  test <- t.test(a, b)
+  df <- unname(test$parameter)
+  critical <- qt(1 - alpha / 2, df)
+  off <- function(errors) pt(critical, df, errors, lower.tail = FALSE) + pt(-critical, df, errors) - power
+  errors <- uniroot(off, c(0.5, 20 + 2 * critical), tol = 1e-13)$root
+  list(estimate = mean(a) - mean(b), low = test$conf.int[1], high = test$conf.int[2], p = test$p.value,
+       detectable = errors * test$stderr)
+}
+
+detectable_probability <- function(n1, n2)
+  0.5 + (qnorm(1 - alpha / 2) + qnorm(power)) * sqrt((n1 + n2) / (12 * n1 * n2))
+
+# Exact given the ties: how many ways to deal the doubled ranks have each sum (Streitberg and Roehmel 1987).
+of_mann_whitney <- function(a, b) {
+  n1 <- length(a); n2 <- length(b); n <- n1 + n2
+  ranks <- rank(c(a, b))
+  u <- sum(ranks[1:n1]) - n1 * (n1 + 1) / 2
+  if (n <= 100) {
+    scores <- as.integer(round(2 * ranks))
+    ways <- matrix(0, n1 + 1, sum(scores) + 1)
+    ways[1, 1] <- 1
+    for (score in scores)
+      for (k in n1:1) {
+        here <- seq_len(ncol(ways) - score)
+        ways[k + 1, here + score] <- ways[k + 1, here + score] + ways[k, here]
+      }
+    chances <- ways[n1 + 1, ] / sum(ways[n1 + 1, ])
+    off <- abs(seq_along(chances) - 1 - n1 * (n + 1))
+    p <- sum(chances[off >= off[sum(scores[1:n1]) + 1]])
+  } else {
+    p <- wilcox.test(a, b, exact = FALSE)$p.value
+  }
+  differences <- sort(outer(a, b, "-"))
+  k <- if (n <= 100) qwilcox(0.025, n1, n2) else
+    max(0, floor(n1 * n2 / 2 - qnorm(0.975) * sqrt(n1 * n2 * (n + 1) / 12)))
+  list(estimate = median(differences), low = if (k > 0) differences[k] else NA,
+       high = if (k > 0) differences[n1 * n2 + 1 - k] else NA, p = min(1, p), cliff_delta = 2 * u / (n1 * n2) - 1,
+       detectable = detectable_probability(n1, n2))
+}
+
+superiority <- function(a, b) {
+  n1 <- length(a); n2 <- length(b)
+  both <- rank(c(a, b))
+  place_a <- both[1:n1] - rank(a)
+  place_b <- both[n1 + 1:n2] - rank(b)
+  part1 <- var(place_a) / (n1 * n2^2)
+  part2 <- var(place_b) / (n2 * n1^2)
+  list(estimate = mean(place_a) / n2, error = sqrt(part1 + part2),
+       df = (part1 + part2)^2 / (part1^2 / (n1 - 1) + part2^2 / (n2 - 1)))
+}
+
+extremeness <- function(found) {
+  off <- abs(found$estimate - 0.5)
+  if (found$error > 0) off / found$error else if (off > 0) Inf else 0
+}
+
+of_brunner_munzel <- function(a, b) {
+  n1 <- length(a); n2 <- length(b); n <- n1 + n2
+  found <- superiority(a, b)
+  all <- c(a, b)
+  drawn <- FALSE
+  if (min(n1, n2) < 15 || !(found$error > 0)) {
+    least <- extremeness(found) * (1 - 1e-12)
+    as_extreme <- function(firsts) extremeness(superiority(all[firsts], all[-firsts])) >= least
+    drawn <- choose(n, n1) > draws
+    if (drawn) {
+      set.seed(1)
+      p <- (sum(replicate(draws, as_extreme(sample.int(n, n1)))) + 1) / (draws + 1)
+    } else {
+      p <- mean(combn(n, n1, as_extreme))
+    }
+  } else {
+    p <- 2 * pt(extremeness(found), found$df, lower.tail = FALSE)
+  }
+  estimate <- found$estimate
+  if (found$error > 0) {
+    wide <- qt(0.975, found$df) * found$error / (estimate * (1 - estimate))
+    ends <- plogis(qlogis(estimate) + c(-wide, wide))
+  } else {  # Newcombe's method 5
+    z <- qnorm(0.975); m <- n / 2 - 1
+    least <- uniroot(function(theta) (1 - theta) - z^2 * theta * (1 + m * ((1 - theta) / (2 - theta) + theta / (1 + theta))) /
+                       (n1 * n2), c(0, 1), tol = 1e-13)$root
+    ends <- if (estimate == 1) c(least, 1) else c(0, 1 - least)
+  }
+  list(estimate = estimate, low = ends[1], high = ends[2], p = p, cliff_delta = 2 * estimate - 1,
+       detectable = detectable_probability(n1, n2), drawn = drawn)
+}
+
+compared <- function(values, outcome) {
+  test <- switch(outcome$test, welch = of_welch, mann_whitney = of_mann_whitney, brunner_munzel = of_brunner_munzel)
+  c(list(n = length(values$a) + length(values$b)), test(values$a, values$b))
+}
+
+# --- the same under other rules ---------------------------------------------------------------------------------------
+by_rule <- function(rule, own, outcome, shift) {
+  absent <- if (outcome$absent == "failure") "worst" else "left_out"
+  if (rule == "present") return(values_by(own, outcome, "left_out", "left_out", "left_out"))
+  if (rule == "best_in_first") return(values_by(own, outcome, "worst", "best", "worst"))
+  if (rule == "worst_in_first") return(values_by(own, outcome, "worst", "worst", "best"))
+  if (rule == "per_protocol") own <- own[own$every_visit == "1", ]
+  if (rule == "tipping") {
+    plans <- by_rule("plan", own, outcome)
+    off <- switch(outcome$test, welch = mean(plans$a) - mean(plans$b), mann_whitney = median(outer(plans$a, plans$b, "-")),
+                  brunner_munzel = superiority(plans$a, plans$b)$estimate - 0.5)
+    larger <- off > 0
+    first_is_better <- larger == (outcome$better == "higher")
+    worse <- if (outcome$better == "lower") 1 else -1
+    middle <- function(group) median(own$value[own$group == group & own$standing == "value"])
+    for (i in which(own$standing == "absent")) {
+      first <- own$group[i] == outcome$first
+      own$value[i] <- middle(own$group[i]) + (if (first == first_is_better) worse else -worse) * shift
+    }
+    # Only now, so that medians are of those who were there.
+    own$standing[own$standing == "absent"] <- "value"
+  }
+  values_by(own, outcome, "worst", absent, absent)
+}
+
+# --- agreement and decisions ------------------------------------------------------------------------------------------
+# ICC(2,1) of two columns with its interval (McGraw and Wong 1996).
+agreement <- function(scores) {
+  n <- nrow(scores); k <- ncol(scores)
+  subjects <- rowMeans(scores); raters <- colMeans(scores); middle <- mean(scores)
+  ms_s <- k * sum((subjects - middle)^2) / (n - 1)
+  ms_r <- n * sum((raters - middle)^2) / (k - 1)
+  ms_e <- sum((scores - outer(subjects, raters, "+") + middle)^2) / ((n - 1) * (k - 1))
+  icc <- (ms_s - ms_e) / (ms_s + (k - 1) * ms_e + k * (ms_r - ms_e) / n)
+  a <- k * icc * ms_r / ms_e; b <- n * (1 + (k - 1) * icc) - k * icc
+  df <- (k - 1) * (n - 1) * (a + b)^2 / ((n - 1) * a^2 + b^2)
+  over <- qf(0.975, n - 1, df); under <- qf(0.975, df, n - 1)
+  rest <- k * ms_r + (k * n - k - n) * ms_e
+  sem <- sd(as.vector(scores)) * sqrt(1 - icc)
+  list(agreement_n = n, agreement_icc = icc, agreement_icc_low = n * (ms_s - over * ms_e) / (over * rest + n * ms_s),
+       agreement_icc_high = n * (under * ms_s - ms_e) / (rest + n * under * ms_s), agreement_sem = sem,
+       agreement_mdc95 = 1.96 * sqrt(2) * sem)
+}
+
+wilson <- function(x, n) {
+  z <- qnorm(0.975); p <- x / n
+  (p + z^2 / (2 * n) + c(-1, 1) * z * sqrt(p * (1 - p) / n + z^2 / (4 * n^2))) / (1 + z^2 / n)
+}
+
+both_below <- function(h, k, rho)
+  integrate(function(x) dnorm(x) * pnorm((k - rho * x) / sqrt(1 - rho^2)), -Inf, h, rel.tol = 1e-11)$value
+
+# Two equivalent tests with normal scores (Peng and Subkoviak 1980).
+decisions <- function(scores, cut, reliability, higher) {
+  side <- if (higher) 1 else -1
+  observed <- side * (cut - mean(scores)) / sd(scores); truly <- observed / sqrt(reliability)
+  fail <- pnorm(observed)
+  rightly <- both_below(observed, truly, sqrt(reliability))
+  list(alike = 1 - 2 * (fail - both_below(observed, observed, reliability)),
+       false_pass = max(0, pnorm(truly) - rightly), false_fail = max(0, fail - rightly))
+}
+
+# --- all of it --------------------------------------------------------------------------------------------------------
+of_group <- function(own, group, which) {
+  here <- own[own$group == group, ]
+  present <- here$value[here$standing == "value"]
+  quarters <- if (length(present)) unname(quantile(present, c(0.5, 0.25, 0.75))) else rep(NA, 3)
+  setNames(list(sum(here$standing != "absent"), sum(here$standing %in% c("failure", "censored")),
+                sum(here$standing == "absent"), quarters[1], quarters[2], quarters[3]),
+           paste0(which, c("_n", "_failed", "_absent", "_median", "_low_quartile", "_high_quartile")))
+}
+
+redone <- list()  # by outcome and rule
+for (i in seq_len(nrow(outcomes))) {
+  outcome <- as.list(outcomes[i, ])
+  own <- people[people$outcome == outcome$outcome, ]
+  said <- numbers[numbers$outcome == outcome$outcome, ]
+  for (rule in unique(said$rule)) {
+    asked <- said$number[said$rule == rule]
+    shift <- said$value[said$rule == rule & said$number == "shift"]
+    found <- list(shift = shift)
+    if ("estimate" %in% asked) found <- c(found, compared(by_rule(rule, own, outcome, shift), outcome))
+    if (rule == "plan") {
+      found <- c(found, of_group(own, outcome$first, "first"), of_group(own, outcome$second, "second"))
+      twice <- as.matrix(own[!is.na(own$last_but_one), c("last_but_one", "last")])
+      if ("agreement_n" %in% asked) found <- c(found, agreement(twice))
+      if ("first_pass" %in% asked) {
+        higher <- outcome$cut_higher_is_better == "1"
+        for (which in c("first", "second")) {
+          here <- own[own$group == outcome[[which]] & own$standing != "absent", ]
+          passed <- sum(here$standing == "value" & (if (higher) here$value >= outcome$cut else here$value <= outcome$cut),
+                        na.rm = TRUE)
+          ends <- wilson(passed, nrow(here))
+          found <- c(found, setNames(list(passed, ends[1], ends[2]), paste0(which, c("_pass", "_pass_low", "_pass_high"))))
+        }
+        if ("alike" %in% asked)
+          found <- c(found, decisions(own$value[own$standing == "value"], outcome$cut, found$agreement_icc, higher))
+      }
+    }
+    redone[[paste(outcome$outcome, rule)]] <- found
+  }
+}
+
+# Holm's step-down: what could not be tested counts in the family.
+primary <- outcomes$outcome[outcomes$primary == "1"]
+tested <- vapply(primary, function(which) {
+  p <- redone[[paste(which, "plan")]]$p
+  if (is.null(p) || outcomes$refused[outcomes$outcome == which] == "1") NA_real_ else p
+}, numeric(1))
+holm <- p.adjust(tested, "holm", n = length(tested))
+any_drawn <- FALSE
+for (which in primary) {
+  redone[[paste(which, "plan")]]$p_holm <- unname(holm[which])
+  any_drawn <- any_drawn || isTRUE(redone[[paste(which, "plan")]]$drawn)
+}
+
+worst <- 0
+differing <- 0
+for (i in seq_len(nrow(numbers))) {
+  number <- numbers[i, ]
+  found <- redone[[paste(number$outcome, number$rule)]]
+  here <- found[[number$number]]
+  by_chance <- (number$number == "p" && isTRUE(found$drawn)) || (number$number == "p_holm" && any_drawn)
+  allowed <- 1e-7
+  if (by_chance) {
+    p <- max(number$value, 2 / draws)
+    allowed <- (if (number$number == "p_holm") length(primary) else 1) * 5 * sqrt(2 * p * (1 - min(p, 0.5)) / draws)
+  }
+  off <- if (is.null(here) || is.na(here)) Inf else abs(here - number$value)
+  if (!by_chance) off <- off / max(1, abs(number$value))
+  if (!by_chance) worst <- max(worst, off)
+  if (!(off <= allowed)) {
+    differing <- differing + 1
+    cat("differs: outcome", number$outcome, number$rule, number$number, "report", format(number$value, digits = 15),
+        "here", if (is.null(here)) "nothing" else format(here, digits = 15), "\n")
+  }
+}
+cat(nrow(numbers), "numbers redone,", differing, "differ; the largest difference of those that chance has no part in:",
+    format(worst, digits = 3), "\n")
+if (differing > 0) quit(status = 1)

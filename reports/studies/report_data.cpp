@@ -1,0 +1,181 @@
+#include "reports/studies/report_data.h"
+
+#include <map>
+#include <span>
+
+#include "assessment/statistics/relations/proportions.h"
+#include "reports/export/csv_line.h"
+#include "reports/studies/decision_numbers.h"
+#include "reports/studies/study_words.h"
+#include "sim/base/check.h"
+#include "sim/base/embedded.h"
+
+namespace seldinger::embedded {
+std::span<const base::EmbeddedFile> study_files();
+}
+
+namespace seldinger::reports {
+namespace {
+
+namespace study = assessment::study;
+namespace statistics = assessment::statistics;
+
+constexpr auto kStandingWords = base::names<study::Standing>({{study::Standing::value, "value"},
+                                                              {study::Standing::failure, "failure"},
+                                                              {study::Standing::censored, "censored"},
+                                                              {study::Standing::absent, "absent"}});
+
+// Every comparison with its number, from 1: primary ones first.
+template <typename Told>
+void each_outcome(const ValidityReport& report, const Told& told) {
+  std::size_t number = 0;
+  for (const study::Compared& one : report.result.primary) told(++number, one, true);
+  for (const study::Compared& one : report.result.secondary) told(++number, one, false);
+}
+
+std::string people_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name :
+       {"outcome", "person", "group", "standing", "value", "every_visit", "last_but_one", "last"})
+    line.text(name);
+  std::string text = line.take();
+  std::map<std::string, std::uint64_t> numbers;  // of persons
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool) {
+    for (const study::PersonValue& person : one.people) {
+      const std::uint64_t who = numbers.emplace(person.name, numbers.size() + 1).first->second;
+      line.whole(std::uint64_t{number}).whole(who).text(person.group);
+      line.text(base::name_of(kStandingWords, person.standing));
+      line.number(person.standing == study::Standing::value ? std::optional(person.value) : std::nullopt);
+      line.flag(person.every_visit);
+      const std::size_t n = person.values.size();
+      line.number(n > 1 ? std::optional(person.values[n - 2]) : std::nullopt);
+      line.number(n > 1 ? std::optional(person.values[n - 1]) : std::nullopt);
+      text += line.take();
+    }
+  });
+  return text;
+}
+
+std::string outcomes_table(const ValidityReport& report) {
+  CsvLine line;
+  for (const char* name : {"outcome", "primary", "name", "hand", "metric", "test", "first", "second", "better",
+                           "failure_value", "absent", "refused", "cut", "cut_higher_is_better"})
+    line.text(name);
+  std::string text = line.take();
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
+    const study::Outcome& outcome = one.outcome;
+    const auto mark = pass_mark_of(report, outcome);
+    line.whole(std::uint64_t{number}).flag(primary).text(outcome.name).text(one.hand).text(outcome.metric);
+    line.text(base::name_of(study::kTestNames, outcome.test)).text(outcome.first).text(outcome.second);
+    line.text(outcome.better == assessment::Direction::lower_is_better ? "lower" : "higher");
+    line.number(outcome.failure_value);
+    line.text(base::name_of(study::kAbsentNames, report.plan.plan.absent)).flag(!one.refused.empty());
+    line.number(mark ? std::optional(mark->cut) : std::nullopt).flag(mark && mark->higher_is_better);
+    text += line.take();
+  });
+  return text;
+}
+
+class Numbers {
+ public:
+  Numbers() {
+    for (const char* name : {"outcome", "rule", "number", "value"}) line_.text(name);
+    text_ = line_.take();
+  }
+  void begin(std::size_t outcome, std::string_view rule) {
+    outcome_ = outcome;
+    rule_ = rule;
+  }
+  void add(const std::string& name, const std::optional<double>& value) {
+    if (!value) return;
+    line_.whole(std::uint64_t{outcome_}).text(rule_).text(name).number(*value);
+    text_ += line_.take();
+  }
+  void add(const std::string& name, const std::optional<statistics::Interval>& interval) {
+    if (!interval) return;
+    add(name + "low", interval->low);
+    add(name + "high", interval->high);
+  }
+  void count(const std::string& name, std::size_t many) { add(name, std::optional(static_cast<double>(many))); }
+  const std::string& text() const { return text_; }
+
+ private:
+  CsvLine line_;
+  std::string text_, rule_;
+  std::size_t outcome_ = 0;
+};
+
+void add_group(Numbers& numbers, const std::string& which, const study::GroupSum& sum) {
+  numbers.count(which + "_n", sum.persons - sum.absent);
+  numbers.count(which + "_failed", sum.failures + sum.censored);
+  numbers.count(which + "_absent", sum.absent);
+  numbers.add(which + "_median", sum.median);
+  numbers.add(which + "_low_quartile", sum.low_quartile);
+  numbers.add(which + "_high_quartile", sum.high_quartile);
+}
+
+void add_effect_numbers(Numbers& numbers, const statistics::Answer& answer, bool with_p) {
+  if (!answer.estimable()) return;
+  numbers.count("n", answer.n);
+  numbers.add("estimate", answer.estimate);
+  numbers.add("", answer.ci95);
+  if (with_p) numbers.add("p", answer.p_value);
+}
+
+void add_decision_numbers(Numbers& numbers, const ValidityReport& report, const study::Compared& one) {
+  const statistics::Answer agreement = agreement_of(one);
+  if (agreement.estimable()) {
+    numbers.count("agreement_n", agreement.n);
+    numbers.add("agreement_icc", agreement.estimate);
+    numbers.add("agreement_icc_", agreement.ci95);
+    numbers.add("agreement_sem", further(agreement, "sem"));
+    numbers.add("agreement_mdc95", further(agreement, "mdc95"));
+  }
+  const auto mark = pass_mark_of(report, one.outcome);
+  if (!mark) return;
+  for (const bool first : {true, false}) {
+    const AtMark at = at_mark(one, first ? one.outcome.first : one.outcome.second, *mark);
+    const std::string which = first ? "first_pass" : "second_pass";
+    numbers.count(which, static_cast<std::size_t>(at.passed));
+    if (at.n > 0) numbers.add(which + "_", std::optional(statistics::wilson_interval(at.passed, at.n)));
+  }
+  const statistics::Answer decisions = decisions_of(one, *mark, agreement);
+  if (!decisions.estimable()) return;
+  numbers.add("alike", decisions.estimate);
+  numbers.add("false_pass", further(decisions, "false_pass"));
+  numbers.add("false_fail", further(decisions, "false_fail"));
+}
+
+std::string numbers_table(const ValidityReport& report) {
+  Numbers numbers;
+  each_outcome(report, [&](std::size_t number, const study::Compared& one, bool primary) {
+    numbers.begin(number, "plan");
+    add_group(numbers, "first", one.first);
+    add_group(numbers, "second", one.second);
+    if (primary) add_decision_numbers(numbers, report, one);
+    if (!one.refused.empty()) return;
+    add_effect_numbers(numbers, one.answer, primary);
+    if (primary) numbers.add("p_holm", one.p_adjusted);
+    numbers.add("cliff_delta", further(one.answer, "cliff_delta"));
+    numbers.add("detectable", further(one.answer, "detectable_"));
+    if (!primary) return;
+    for (const study::Sensitivity& other : one.sensitivity) {
+      numbers.begin(number, base::name_of(study::kOtherRuleNames, other.kind));
+      add_effect_numbers(numbers, other.answer, true);
+      numbers.add("shift", other.shift);
+    }
+  });
+  return numbers.text();
+}
+
+}  // namespace
+
+std::vector<DataFile> report_data(const ValidityReport& report) {
+  CHECK(report.plan.frozen());
+  return {{"people.csv", people_table(report)},
+          {"outcomes.csv", outcomes_table(report)},
+          {"numbers.csv", numbers_table(report)},
+          {"redo.R", std::string(base::content_of(embedded::study_files(), "redo.R"))}};
+}
+
+}  // namespace seldinger::reports

@@ -1,0 +1,19 @@
+// The data of a validity report with a script for R that redoes its numbers: what a reviewer runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/studies/validity_report.h"
+
+namespace seldinger::reports {
+
+struct DataFile {
+  std::string name, content;
+};
+// people.csv (what each person has on each outcome, by a number in the place of the pseudonym), outcomes.csv (how
+// each is compared), numbers.csv (what the report says, with all digits) and redo.R, which reads the three and
+// tells each number that it finds otherwise. Of a frozen plan.
+std::vector<DataFile> report_data(const ValidityReport& report);
+
+}  // namespace seldinger::reports
