@@ -17,7 +17,7 @@ using devices::HeldTool;
 constexpr double kPressedMm = 1.0, kInPlaneMm = 2.0, kEntryInPlaneMm = 3.0, kAtEntryMm = 6.0, kAimedDeg = 3.0;
 constexpr double kMiddleMm = 5.0;     // about its middle a probe is turned without losing the target
 constexpr double kFarMm = 30.0;       // from the entry, further than a target is looked for
-constexpr double kAboveCosine = 0.8;  // of a view from above to the skin's normal
+constexpr double kAboveCosine = 0.8;  // of a view to straight down on a block, which lies as a supine patient does
 constexpr double kUnseenMm = 8.0;     // so deep a tip is to be seen
 constexpr double kThereShare = 0.5, kPassedShare = 0.8;  // of the target's radius
 
@@ -78,11 +78,10 @@ class Hints {
 
 std::string Hints::search() const {
   if (!entry_) return {};
-  if (glm::dot(view_.away, probe_.axial) < kAboveCosine)
-    return "Look from above (4): there the probe goes as you drag it.";
   const glm::dvec3 way_lps_mm = *entry_ - probe_.origin_lps_mm;
   const double from_mm = glm::length(way_lps_mm - probe_.axial * glm::dot(way_lps_mm, probe_.axial));
   if (from_mm <= kFarMm) return {};
+  if (view_.away.y < kAboveCosine) return "Look from above (4): there the probe goes as you drag it.";
   return told("The probe is %.1f mm from the green entry: look about it, and first ", from_mm) +
          slide_probe(way_lps_mm);
 }
