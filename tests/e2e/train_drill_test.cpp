@@ -85,7 +85,7 @@ class TrainDrillTest : public testing::Test {
       trainee_->screen().drag(x, y, x + act.right_px, y + act.down_px, act.button, 0.1);
     } else if (act.notches != 0) {
       trainee_->screen().point(x, y);
-      trainee_->screen().wheel(act.notches, 150);
+      trainee_->screen().wheel(act.notches, 300);  // those of one frame together count as a fast wheel
     } else if (act.fine) {
       trainee_->screen().with_key("shift", [&] { trainee_->screen().hold(act.key, act.held_s); });
     } else if (act.held_s > 0.0) {
@@ -130,7 +130,7 @@ class TrainDrillTest : public testing::Test {
     const auto named = keys.find(told);
     act.key = named != keys.end() ? named->second : std::string(1, static_cast<char>(std::tolower(told[0])));
     const double mm = amount_in(words, " mm"), degrees = amount_in(words, "°");
-    act.held_s = named != keys.end() ? kSPerMmOn * (mm > 0.0 ? mm : 3.0)
+    act.held_s = named != keys.end() ? kSPerMmOn * (mm > 0.0 ? 0.6 * mm : 3.0)
                  : degrees > 0.0     ? kSPerDegree * degrees
                                      : kSPerMm * mm;
     constexpr double kFineS = 0.15;  // a shorter press is told by luck
@@ -209,7 +209,7 @@ class TrainDrillTest : public testing::Test {
       } else if (has(words, "Look for the target")) {
         act = last ? last->back() : search(searched++, mouse);
       } else if (has(words, "(wheel, or Page") && amount_in(words, " mm") > 0.0 && mouse) {
-        act.notches = std::clamp(static_cast<int>(amount_in(words, " mm") / 2.0), 1, 5);
+        act.notches = std::clamp(static_cast<int>(amount_in(words, " mm") / 3.0), 1, 3);
       } else if (has(words, "from above (4)") && (mouse || !has(words, "or by"))) {
         act.key = "4";
       } else if (has(words, "drag") || has(words, "lead it") || has(words, "or by")) {
