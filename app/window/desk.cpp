@@ -103,6 +103,7 @@ Desk::Desk(Window& window, Trainer& trainer, DeskOptions options, std::filesyste
     : window_(window),
       trainer_(trainer),
       speaker_(options.sound),
+      choose_(window.context()),
       briefing_(window.context()),
       attempt_(window.context(), options, speaker_),
       watch_(window.context(), speaker_),
@@ -201,6 +202,8 @@ void Desk::tell(const std::string& screen) {
   if (screen == "devices" && trainer_.device_page() != nullptr) devices_.tell(*trainer_.device_page(), line);
   line.keys = keys_shown_;
   line.focus = focus();
+  line.width_px = window_.width_px();
+  line.height_px = window_.height_px();
   line.items = noted_items();
   trace_.write(line);
   told_s_ = now_s;

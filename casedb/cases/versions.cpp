@@ -1,8 +1,11 @@
 #include "casedb/cases/versions.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "casedb/cases/authoring.h"
+#include "casedb/cases/case_rows.h"
 #include "casedb/cases/permissions.h"
 #include "casedb/cases/setting_columns.h"
 #include "casedb/database/audit.h"
@@ -100,39 +103,48 @@ base::Result<void> check_burned_in(const CaseRow& row) {
 
 constexpr std::string_view kNewestSightLaw = "'echo'";
 
+enum class Copy { next_version, duplicate };
+
 // The row of a case and of what belongs to it alone, as they are; columns of later migrations come along.
-void copy_case(Sqlite& database, const std::string& from_case_id, const std::string& case_id) {
-  constexpr std::pair<std::string_view, std::string_view> kOwn[] = {
-      {"case_id", ":case_id"},
-      {"state", "'draft'"},
-      {"audience", "'everyone'"},
-      {"sight_law", kNewestSightLaw},
-      {"created_us", ":created_us"},
-      {"family_id", "coalesce(family_id, case_id)"},
-      {"version",
-       "(SELECT max(one.version) + 1 FROM training_case AS one WHERE coalesce(one.family_id, one.case_id) = "
-       "coalesce(training_case.family_id, training_case.case_id))"}};
+void copy_case(Sqlite& database, const CaseRow& from, const std::string& case_id, Copy copy_as) {
+  using Column = std::pair<std::string_view, std::string_view>;
+  std::vector<Column> own = {{"case_id", ":case_id"},
+                             {"state", "'draft'"},
+                             {"audience", "'everyone'"},
+                             {"sight_law", kNewestSightLaw},
+                             {"created_us", ":created_us"}};
+  const bool duplicates = copy_as == Copy::duplicate;
+  if (duplicates)
+    own.insert(own.end(), {Column{"title", ":title"}, {"family_id", "NULL"}, {"version", "1"}});
+  else
+    own.insert(
+        own.end(),
+        {Column{"family_id", "coalesce(family_id, case_id)"},
+         {"version",
+          "(SELECT max(one.version) + 1 FROM training_case AS one WHERE coalesce(one.family_id, one.case_id) "
+          "= coalesce(training_case.family_id, training_case.case_id))"}});
   for (const TravellingTable& table : travelling_tables()) {
     if (table.name == "lesion" || table.name == "structure") continue;  // these have ids of their own
     const bool is_case = table.name == "training_case";
     std::string columns, values;
     for (const std::string& column : columns_of(database, table.name)) {
-      const auto own =
-          std::find_if(std::begin(kOwn), std::end(kOwn), [&](const auto& one) { return one.first == column; });
-      const bool replaced = own != std::end(kOwn) && (is_case || column == "case_id");
+      const auto found =
+          std::find_if(own.begin(), own.end(), [&](const Column& one) { return one.first == column; });
+      const bool replaced = found != own.end() && (is_case || column == "case_id");
       if (!columns.empty()) {
         columns += ", ";
         values += ", ";
       }
       columns += column;
-      values += replaced ? own->second : std::string_view(column);
+      values += replaced ? found->second : std::string_view(column);
     }
     if (columns.empty()) continue;
     Statement copy =
         database.prepare("INSERT INTO " + std::string(table.name) + " (" + columns + ") SELECT " + values +
                          " FROM " + std::string(table.name) + " WHERE case_id = :from_case_id");
-    copy.bind("case_id", case_id).bind("from_case_id", from_case_id);
+    copy.bind("case_id", case_id).bind("from_case_id", from.case_id);
     if (is_case) copy.bind("created_us", now_us());
+    if (is_case && duplicates) copy.bind("title", fitted_title("Copy of " + from.title));
     copy.run();
   }
 }
@@ -259,7 +271,8 @@ base::Result<void> try_to_retire(Library& library, const std::string& case_id, c
   return {};
 }
 
-base::Result<std::string> try_to_make_version(Library& library, const std::string& case_id, const std::string& by) {
+base::Result<std::string> try_to_copy(Library& library, const std::string& case_id, const std::string& by,
+                                      Copy copy_as) {
   Transaction transaction(library.database());
   auto wanted = wish(library, case_id, by, {});
   if (!wanted) return wanted.error();
@@ -268,7 +281,7 @@ base::Result<std::string> try_to_make_version(Library& library, const std::strin
   const auto lesions = list_lesions(library, case_id);
   const auto structures = list_structures(library, case_id);
   const std::string made = new_uuid();
-  copy_case(database, case_id, made);
+  copy_case(database, wanted->row, made, copy_as);
   for (const LesionRow& lesion : lesions)
     question(database, "copy_lesion")
         .bind("case_id", made)
@@ -312,7 +325,11 @@ base::Result<void> retire_case(Library& library, const std::string& case_id, con
 }
 
 base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by) {
-  return kept(library, DecisionKind::made, case_id, try_to_make_version(library, case_id, by));
+  return kept(library, DecisionKind::made, case_id, try_to_copy(library, case_id, by, Copy::next_version));
+}
+
+base::Result<std::string> duplicate_case(Library& library, const std::string& case_id, const std::string& by) {
+  return kept(library, DecisionKind::made, case_id, try_to_copy(library, case_id, by, Copy::duplicate));
 }
 
 }  // namespace seldinger::casedb

@@ -50,6 +50,9 @@ base::Result<void> publish_case(Library& library, const std::string& case_id, co
 base::Result<void> retire_case(Library& library, const std::string& case_id, const std::string& by,
                                const std::string& note = {});
 
+// A draft like the case in all of that, but a case of its own, "Copy of …". By a mentor. Answers its id.
+base::Result<std::string> duplicate_case(Library& library, const std::string& case_id, const std::string& by);
+
 // A draft like the case, with lesions, structures and label maps of the same files, the next version of its family.
 // By a mentor. Answers its id.
 base::Result<std::string> new_version(Library& library, const std::string& case_id, const std::string& by);

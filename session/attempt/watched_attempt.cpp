@@ -14,6 +14,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 // So often it looks at the clock.
 constexpr double kPieceS = 0.005;
+// So often, at its end, for what has been stored since of one that is being made.
+constexpr std::chrono::milliseconds kLookAgain{250};
 
 }  // namespace
 
@@ -42,8 +44,9 @@ const cases::Case& WatchedAttempt::scene() const {
   return *scene_;
 }
 
-const cases::Recording& WatchedAttempt::recording() const {
+std::shared_ptr<const cases::Recording> WatchedAttempt::recording() const {
   CHECK(phase() == Phase::playing || phase() == Phase::over);
+  const std::lock_guard lock(recording_mutex_);
   return recording_;
 }
 
@@ -68,18 +71,32 @@ std::optional<double> WatchedAttempt::fired_s() const {
 }
 
 double WatchedAttempt::duration_s() const {
-  return static_cast<double>(recording().inputs.size()) * recording_.dt_s;
+  const auto so_far = recording();
+  return static_cast<double>(so_far->inputs.size()) * so_far->dt_s;
 }
 
-void WatchedAttempt::play() {
-  const std::size_t ticks = recording_.inputs.size();
-  const auto piece = static_cast<std::size_t>(std::max(1.0, kPieceS / recording_.dt_s));
+// What was open may have become an attempt like any other since.
+void WatchedAttempt::look_for_more(casedb::Library& library) {
+  auto more = casedb::load_open_recording(library, attempt_id_);
+  if (!more) {
+    live_ = false;
+    more = casedb::load_recording(library, attempt_id_);
+  }
+  if (!more || more->inputs.size() <= recording_->inputs.size()) return;
+  const std::lock_guard lock(recording_mutex_);
+  recording_ = std::make_shared<const cases::Recording>(std::move(*more));
+}
+
+void WatchedAttempt::play(casedb::Library& library) {
+  std::size_t ticks = recording_->inputs.size();
+  const double dt_s = recording_->dt_s;
+  const auto piece = static_cast<std::size_t>(std::max(1.0, kPieceS / dt_s));
   const engine::Tick whole(*scene_);
   engine::TickState now;
   std::size_t tick = 0;
   std::optional<engine::Moment> pulse;  // a fluoroscope's picture stays until its next
   const auto advance = [&] {
-    whole.advance(recording_.inputs[tick++], recording_.dt_s, now);
+    whole.advance(recording_->inputs[tick++], dt_s, now);
     if (now.state.fluoroscopy.frame_due) pulse = engine::moment_of(now);
   };
   const auto show = [&] {
@@ -89,9 +106,15 @@ void WatchedAttempt::play() {
     moments_.put(moment);
     monitor_->show(moment);
   };
+  auto looked = Clock::now();
   for (auto due = Clock::now(); !ending_;) {
+    if (live_ && tick == ticks && Clock::now() >= looked + kLookAgain) {
+      look_for_more(library);
+      looked = Clock::now();
+      ticks = recording_->inputs.size();
+    }
     if (const double wanted_s = wanted_s_.exchange(kNowhere); wanted_s != kNowhere) {
-      const auto to = std::min(ticks, static_cast<std::size_t>(wanted_s / recording_.dt_s));
+      const auto to = std::min(ticks, static_cast<std::size_t>(wanted_s / dt_s));
       if (to < tick) {
         now = {};
         tick = 0;
@@ -100,7 +123,7 @@ void WatchedAttempt::play() {
       if (tick > 0) show();
       due = Clock::now();
     }
-    phase_.store(tick < ticks ? Phase::playing : Phase::over, std::memory_order_release);
+    phase_.store(tick < ticks || live_ ? Phase::playing : Phase::over, std::memory_order_release);
     const double speed = tick < ticks ? speed_.load() : 0.0;
     if (speed > 0.0) {
       const std::size_t end = std::min(ticks, tick + piece);
@@ -115,6 +138,21 @@ void WatchedAttempt::play() {
   }
 }
 
+base::Result<casedb::AttemptRow> WatchedAttempt::find(casedb::Library& library) {
+  for (casedb::OpenAttempt& open : casedb::list_open_attempts(library)) {
+    if (open.attempt_id != attempt_id_) continue;
+    live_ = true;
+    casedb::AttemptRow row;
+    static_cast<casedb::AttemptHead&>(row) = std::move(open);
+    row.attempt_id = attempt_id_;
+    const auto of_case = casedb::find_case(library, row.case_id);
+    if (!of_case) return of_case.error();
+    row.case_title = of_case->title;
+    return row;
+  }
+  return casedb::find_attempt(library, attempt_id_);
+}
+
 void WatchedAttempt::run() {
   const auto refuse = [this](base::Error error) {
     error_ = std::move(error);
@@ -123,27 +161,30 @@ void WatchedAttempt::run() {
   try {
     auto library = casedb::Library::open(library_);
     if (!library) return refuse(library.error());
-    auto attempt = casedb::find_attempt(*library, attempt_id_);
+    auto attempt = find(*library);
     if (!attempt) return refuse(attempt.error());
-    auto recording = casedb::load_recording(*library, attempt_id_);
+    auto recording =
+        live_ ? casedb::load_open_recording(*library, attempt_id_) : casedb::load_recording(*library, attempt_id_);
     if (!recording) return refuse(recording.error());
     auto scene = build_case_of(*library, *attempt, needs_of(attempt->picture.modality));
     if (!scene) return refuse(scene.error());
     attempt_ = std::move(*attempt);
-    recording_ = std::move(*recording);
+    recording_ = std::make_shared<const cases::Recording>(std::move(*recording));
     scene_ = std::make_shared<const cases::Case>(std::move(*scene));
     // A recording that nothing can be measured of can still be watched.
-    if (const auto signals = assessment::signals_of(*scene_, recording_)) {
-      marks_ = assessment::replay_marks(*signals);
-      punctured_s_ = assessment::first_puncture_s(*signals);
-      if (signals->endpoint) fired_s_ = signals->endpoint->t_s;
-    }
+    if (!live_)
+      if (const auto signals = assessment::signals_of(*scene_, *recording_)) {
+        marks_ = assessment::replay_marks(*signals);
+        punctured_s_ = assessment::first_puncture_s(*signals);
+        if (signals->endpoint) fired_s_ = signals->endpoint->t_s;
+      }
     monitor_ = std::make_unique<Monitor>(*scene_, attempt_->seed, by_);
+    if (live_) go_to(static_cast<double>(recording_->inputs.size()) * recording_->dt_s);
+    phase_.store(Phase::playing, std::memory_order_release);
+    play(*library);
   } catch (const base::Failure& failure) {
     return refuse({failure.code(), failure.what()});
   }
-  phase_.store(Phase::playing, std::memory_order_release);
-  play();
 }
 
 }  // namespace seldinger::session

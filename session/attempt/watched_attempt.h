@@ -1,10 +1,12 @@
 // A stored attempt to be watched as it was made: its inputs go through the same step again, at the wall's pace or
-// faster, and room and monitor show what comes. Nothing is recorded.
+// faster, and room and monitor show what comes. One that is being made is followed from where it has come to, as
+// its pieces are stored: some seconds behind the hand. Nothing is recorded.
 #pragma once
 
 #include <atomic>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -32,7 +34,9 @@ class WatchedAttempt {
   const casedb::AttemptRow& attempt() const;
   const cases::Case& scene() const;
   std::shared_ptr<const cases::Case> kept_scene() const { return scene_; }  // for who works on it beside
-  const cases::Recording& recording() const;
+  std::shared_ptr<const cases::Recording> recording() const;                // so far
+  // It is being made right now; what it holds grows, and nothing is told of what happened when.
+  bool live() const noexcept { return live_; }
   Monitor& monitor();
   const std::vector<assessment::ReplayMark>& marks() const;  // what happened when
   // When the needle first went through the skin, and when it was fired; nothing: that never was.
@@ -48,7 +52,9 @@ class WatchedAttempt {
 
  private:
   void run();
-  void play();  // until it is to end
+  void play(casedb::Library& library);  // until it is to end
+  void look_for_more(casedb::Library& library);
+  base::Result<casedb::AttemptRow> find(casedb::Library& library);
 
   std::filesystem::path library_;
   std::string attempt_id_;
@@ -57,7 +63,9 @@ class WatchedAttempt {
   std::optional<base::Error> error_;
   std::optional<casedb::AttemptRow> attempt_;
   std::shared_ptr<const cases::Case> scene_;
-  cases::Recording recording_;
+  mutable std::mutex recording_mutex_;
+  std::shared_ptr<const cases::Recording> recording_;
+  std::atomic<bool> live_{false};
   std::vector<assessment::ReplayMark> marks_;
   std::optional<double> punctured_s_, fired_s_;
   std::unique_ptr<Monitor> monitor_;

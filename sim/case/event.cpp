@@ -19,7 +19,8 @@ constexpr EventInfo kKinds[] = {
     {note_plan, trainee, "note_plan", "noted entry and depth", "planned entry and depth are read off and kept"},
     {aspirate, trainee, "aspirate", "aspirated", "the anaesthetic's needle is shown to be in no vessel"},
     {anaesthetic, trainee, "anaesthetic", "gave local anaesthetic",
-     "skin and way are numb where the needle points at the skin, and 15 mm about it"},
+     "numb are 15 mm about where the needle points at the skin, or, with a length, about its tip so deep in "
+     "tissue"},
     {nick, trainee, "nick", "nicked the skin", "the skin is cut where the needle points at it"},
     {breath_hold_request, trainee, "breath_hold_request", "asked to hold the breath",
      "the patient is asked to hold the breath"},

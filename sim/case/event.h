@@ -22,7 +22,7 @@ enum class EventKind : std::uint8_t {
   probe_checked = 4,
   note_plan = 5,  // with a length since there are depths that are measured, where one was planned
   aspirate = 6,
-  anaesthetic = 7,
+  anaesthetic = 7,  // through the needle with a length: how far it is in
   nick = 8,
   breath_hold_request = 9,
   breathe_again = 10,

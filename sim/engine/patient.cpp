@@ -22,6 +22,12 @@ void note(EventKind kind, PatientState& patient) noexcept {
   }
 }
 
+bool is_numb(const glm::dvec3& place_lps_mm, const std::array<glm::dvec3, kNumbPlaces>& places_lps_mm,
+             std::uint32_t given) noexcept {
+  return std::any_of(places_lps_mm.begin(), places_lps_mm.begin() + std::min<std::size_t>(given, kNumbPlaces),
+                     [&](const glm::dvec3& numb) { return glm::distance(numb, place_lps_mm) <= kNumbMm; });
+}
+
 }  // namespace
 
 Patient::Patient(const cases::Case& scene) : scene_(scene) {
@@ -34,6 +40,14 @@ glm::dvec3 Patient::pointed_at(const cases::NeedleState& needle) const noexcept 
   const auto hit = scene_.skin_index.first_hit(needle.skin.tip_lps_mm, needle.direction, kPointingMm);
   if (hit && !hit->cut) return needle.skin.tip_lps_mm + hit->distance_mm * needle.direction;
   return scene_.skin_index.closest_skin(needle.skin.tip_lps_mm).point_lps_mm;
+}
+
+void Patient::numb(const cases::Inputs& inputs, const cases::NeedleState& needle,
+                   PatientState& patient) const noexcept {
+  if (needle.skin.in_body && inputs.event_tenths_mm > 0)
+    patient.deep_lps_mm[patient.deep++ % kNumbPlaces] = needle.skin.tip_lps_mm;
+  else
+    patient.numb_lps_mm[patient.numbed++ % kNumbPlaces] = pointed_at(needle);
 }
 
 bool Patient::in_bone(const glm::dvec3& tip_lps_mm) const noexcept {
@@ -53,8 +67,7 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
                            PatientState& patient) const noexcept {
   if (scene_.subject == cases::Subject::phantom) return EventKind::none;
   const cases::NeedleState& needle = state.needle;
-  if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty())
-    patient.numb_lps_mm[patient.numbed++ % patient.numb_lps_mm.size()] = pointed_at(needle);
+  if (inputs.event == EventKind::anaesthetic && !scene_.skin_index.empty()) numb(inputs, needle, patient);
   if (inputs.event == EventKind::breathe_again) patient.let_go = true;
   const bool held = tissue::holds(state.breath.state);
   if (held && !patient.held) {
@@ -64,15 +77,17 @@ EventKind Patient::advance(const cases::Inputs& inputs, const cases::State& stat
   if (!held && patient.held && !patient.let_go) note(EventKind::breath_lost, patient);
   patient.held = held;
 
-  if (needle.skin.in_body && !patient.was_in_body) {
-    bool numb = false;
-    for (std::size_t i = 0; i < std::min<std::size_t>(patient.numbed, patient.numb_lps_mm.size()); ++i)
-      numb = numb || glm::distance(patient.numb_lps_mm[i], needle.skin.entry_lps_mm) <= kNumbMm;
-    if (!numb) note(EventKind::pain_skin, patient);
-  }
+  const auto deeply_numb = [&](const glm::dvec3& place_lps_mm) {
+    return is_numb(place_lps_mm, patient.deep_lps_mm, patient.deep);
+  };
+  const glm::dvec3& entry_lps_mm = needle.skin.entry_lps_mm;
+  if (needle.skin.in_body && !patient.was_in_body && !is_numb(entry_lps_mm, patient.numb_lps_mm, patient.numbed) &&
+      !deeply_numb(entry_lps_mm))
+    note(EventKind::pain_skin, patient);
   patient.was_in_body = needle.skin.in_body;
   if (needle.skin.in_body && in_bone(needle.skin.tip_lps_mm)) {
-    if (state.t_s - patient.bone_s >= kBoneAgainSeconds) note(EventKind::pain_bone, patient);
+    if (state.t_s - patient.bone_s >= kBoneAgainSeconds && !deeply_numb(needle.skin.tip_lps_mm))
+      note(EventKind::pain_bone, patient);
     patient.bone_s = state.t_s;
   }
 

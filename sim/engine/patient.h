@@ -16,16 +16,19 @@
 namespace seldinger::engine {
 
 // How far about its place an anaesthetic works (a wheal and what spreads from it): judgement. That it takes a
-// minute to work is left out: nobody trains waiting.
+// minute to work is left out: nobody trains waiting. What is given at the skin leaves bone below it as it was; what
+// is told with a length goes through the needle, and works about its tip, on bone too (decision 0072).
 constexpr double kNumbMm = 15.0;
-inline constexpr std::size_t kNumbPlaces = 4;  // that are remembered
+inline constexpr std::size_t kNumbPlaces = 4;  // that are remembered, of each
 // Bone felt again so much later hurts again.
 constexpr double kBoneAgainSeconds = 0.5;
 
 // What must be kept from tick to tick. A new one: nothing was done yet.
 struct PatientState {
-  std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};  // the latest places
-  std::uint32_t numbed = 0;                           // how many there were
+  std::array<glm::dvec3, kNumbPlaces> numb_lps_mm{};  // the latest places of the skin, at rest,
+  std::uint32_t numbed = 0;                           // and how many there were
+  std::array<glm::dvec3, kNumbPlaces> deep_lps_mm{};  // the same of those about a tip in tissue
+  std::uint32_t deep = 0;
   bool was_in_body = false, held = false, let_go = false;
   double bone_s = -1e9;
   std::array<cases::EventKind, 4> waiting{};  // reactions not told yet, in their order
@@ -44,6 +47,7 @@ class Patient {
  private:
   // The tip, the skin and bone as they lie in the patient at rest.
   glm::dvec3 pointed_at(const cases::NeedleState& needle) const noexcept;
+  void numb(const cases::Inputs& inputs, const cases::NeedleState& needle, PatientState& patient) const noexcept;
   bool in_bone(const glm::dvec3& tip_lps_mm) const noexcept;
 
   const cases::Case& scene_;

@@ -54,7 +54,7 @@ SELDINGER_FIELDS(haptics::VolumeProxyTrack, proxy, spring, begun, touching, hold
 SELDINGER_FIELDS(haptics::ForceLimiterState, out, share, heat, fault_n, fault_s)
 SELDINGER_FIELDS(haptics::HandState, tool, needle, probe, finger, pointer, limiter, last, delay, interrupted)
 
-SELDINGER_FIELDS(PatientState, numb, numbed, was_in_body, held, let_go, bone, waiting)
+SELDINGER_FIELDS(PatientState, numb, numbed, deep_at, deep, was_in_body, held, let_go, bone, waiting)
 SELDINGER_FIELDS(devices::VirtualDeviceState, pose, started)
 SELDINGER_FIELDS(VirtualArms, needle, probe)
 SELDINGER_FIELDS(shaders::DisplacementSource, place, along, size, amount)

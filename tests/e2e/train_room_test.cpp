@@ -79,6 +79,8 @@ TEST_F(TrainRoomTest, AFireIsHeardSeenAndToldUntilTheNeedleIsOut) {
   ASSERT_NO_FATAL_FAILURE(enter());
   trainee_->prepare();
   ASSERT_NO_FATAL_FAILURE(trainee_->push_needle_to(25.0));
+  press("F4");
+  EXPECT_TRUE(comes("about the needle’s tip, which is 2")) << "where it is injected: " << now();
   EXPECT_TRUE(says("fired").empty()) << says("fired");
   press("space");
   EXPECT_TRUE(comes("flash")) << now();

@@ -65,6 +65,11 @@ std::string numb_words(const engine::Moment& moment) {
   return "Numb: skin and path, " + whole_mm(engine::kNumbMm) + " about " + where + ".";
 }
 
+std::string deep_numb_words(const engine::Moment& moment) {
+  return "Numb: " + whole_mm(engine::kNumbMm) + " about the needle’s tip, which is " +
+         whole_mm(moment.state.needle.inserted_mm) + " in.";
+}
+
 std::string guide_words(const Seen& seen, cases::Modality modality) {
   if (modality == cases::Modality::xray) return "No needle guide here: it is mounted on an ultrasound probe.";
   if (!seen.needle_by_mouse) return "No needle guide: an arm holds the needle, and leads it freely.";

@@ -27,6 +27,8 @@ struct Said {
 std::string said_words(const Said& said);
 // Of the newest place that is numb; CHECKs that there is one.
 std::string numb_words(const engine::Moment& moment);
+// Of what was given just now through a needle in tissue.
+std::string deep_numb_words(const engine::Moment& moment);
 // Of what has become of the needle guide since it was asked for: taken up, put aside, or why not.
 std::string guide_words(const Seen& seen, cases::Modality modality);
 // Of a patient who was asked to hold the breath; empty: none was, or it is over.

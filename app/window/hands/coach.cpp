@@ -1,84 +1,157 @@
 #include "app/window/hands/coach.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "app/window/hands/hand_ways.h"
+#include "sim/devices/hands/turning.h"
+
 namespace seldinger::app {
 namespace {
 
+using devices::HeldTool;
+
 // A probe that lies on is pressed so far; what is aligned, by judgement: well within the ball of a drill.
-constexpr double kPressedMm = 1.0, kInPlaneMm = 2.0, kEntryInPlaneMm = 3.0, kAtEntryMm = 16.0, kAimedDeg = 6.0;
-constexpr double kMiddleMm = 9.0;  // about its middle a probe is turned without losing the target
-constexpr double kFarMm = 40.0;    // from the entry, further than a target is looked for
-constexpr double kUnseenMm = 8.0;  // so deep a tip is to be seen
+constexpr double kPressedMm = 1.0, kInPlaneMm = 2.0, kEntryInPlaneMm = 3.0, kAtEntryMm = 6.0, kAimedDeg = 3.0;
+constexpr double kMiddleMm = 5.0;     // about its middle a probe is turned without losing the target
+constexpr double kFarMm = 30.0;       // from the entry, further than a target is looked for
+constexpr double kAboveCosine = 0.8;  // of a view to straight down on a block, which lies as a supine patient does
+constexpr double kUnseenMm = 8.0;     // so deep a tip is to be seen
 constexpr double kThereShare = 0.5, kPassedShare = 0.8;  // of the target's radius
 
-std::string told(const char* words, double number) {
-  char text[200];
-  std::snprintf(text, sizeof text, words, number);
+template <typename... Values>
+std::string told(const char* words, Values... values) {
+  char text[240];
+  std::snprintf(text, sizeof text, words, values...);
   return text;
 }
 
-double off_plane_mm(const cases::ProbeState& probe, const glm::dvec3& place_lps_mm) {
-  return std::abs(glm::dot(place_lps_mm - probe.origin_lps_mm, glm::cross(probe.axial, probe.lateral)));
+double degrees(double rad) {
+  return rad * (180.0 / std::numbers::pi);
 }
 
-double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * (180.0 / std::numbers::pi);
-}
+// With numbers, and the way of the hand.
+class Hints {
+ public:
+  Hints(const cases::Case& scene, const Seen& seen, const devices::HandView& view)
+      : target_(scene.lesions.front()),
+        entry_(scene.planned_entry_lps_mm),
+        seen_(seen),
+        probe_(seen.moment.state.probe),
+        tip_lps_mm_(seen.moment.state.needle.tip_lps_mm),
+        needle_{tip_lps_mm_, seen.moment.state.needle.direction, seen.needle_side},
+        normal_(glm::cross(probe_.axial, probe_.lateral)),
+        view_(view) {}
 
-// The target is in the picture, and the needle outside.
-std::string align_words(const cases::Case& scene, const Seen& seen, bool numbers) {
-  const cases::State& state = seen.moment.state;
-  const glm::dvec3& target = scene.lesions.front().center_lps_mm;
-  if (!numbers || !scene.planned_entry_lps_mm)
-    return "Turn the probe until the needle’s path and the target lie in one picture, then aim the needle.";
-  const glm::dvec3& entry = *scene.planned_entry_lps_mm;
-  const double aside_mm = std::abs(glm::dot(target - state.probe.origin_lps_mm, state.probe.lateral));
-  if (aside_mm > kMiddleMm)
-    return told("The target is %.1f mm beside the picture’s middle: slide the probe along (Tab takes it).",
-                aside_mm);
-  const double of_target = off_plane_mm(state.probe, target), of_entry = off_plane_mm(state.probe, entry);
-  if (of_target > kInPlaneMm || of_entry > kEntryInPlaneMm) {
-    char text[240];
-    std::snprintf(text, sizeof text,
-                  "The picture’s plane misses the target’s middle by %.1f mm and the green entry by %.1f mm: slide "
-                  "and turn the probe (Tab takes it).",
-                  of_target, of_entry);
-    return text;
+  std::string search() const;   // where to look, as long as that is not about the entry; else empty
+  std::string align() const;    // the target is in the picture, and the needle outside
+  std::string advance() const;  // the needle is in tissue
+
+  // What its hand does, or that it is to be taken first.
+  std::string by(HeldTool tool, const std::string& words) const {
+    if (seen_.held == tool || seen_.arms.used) return words;
+    return std::string("take the ") + (tool == HeldTool::probe ? "probe" : "needle") + " (Tab)";
   }
-  const glm::dvec3& tip = state.needle.tip_lps_mm;
-  if (const double from_mm = glm::distance(tip, entry); from_mm > kAtEntryMm)
-    return told("The needle’s tip is %.1f mm from the green entry: take it there (Tab takes it).", from_mm);
-  if (const double beside_deg = angle_deg(state.needle.direction, target - tip); beside_deg > kAimedDeg)
-    return told("The needle points %.1f° beside the target: turn it.", beside_deg);
-  return "The needle is aimed: push it on (wheel, or Page Down).";
+
+ private:
+  double off_plane_mm(const glm::dvec3& place_lps_mm) const {
+    return glm::dot(place_lps_mm - probe_.origin_lps_mm, normal_);
+  }
+  double along_mm(const glm::dvec3& place_lps_mm) const {
+    return glm::dot(place_lps_mm - probe_.origin_lps_mm, probe_.lateral);
+  }
+  std::string slide_probe(const glm::dvec3& way_lps_mm) const {
+    return by(HeldTool::probe, "slide it " + slide_words(way_lps_mm, HeldTool::probe, probe_.axial, view_)) + ".";
+  }
+
+  const cases::Lesion& target_;
+  std::optional<glm::dvec3> entry_;
+  const Seen& seen_;
+  const cases::ProbeState& probe_;
+  glm::dvec3 tip_lps_mm_;
+  cases::ToolPose needle_;
+  glm::dvec3 normal_;
+  const devices::HandView& view_;
+};
+
+std::string Hints::search() const {
+  if (!entry_) return {};
+  const glm::dvec3 way_lps_mm = *entry_ - probe_.origin_lps_mm;
+  const double from_mm = glm::length(way_lps_mm - probe_.axial * glm::dot(way_lps_mm, probe_.axial));
+  if (from_mm <= kFarMm) return {};
+  if (view_.away.y < kAboveCosine) return "Look from above (4): there the probe goes as you drag it.";
+  return told("The probe is %.1f mm from the green entry: look about it, and first ", from_mm) +
+         slide_probe(way_lps_mm);
 }
 
-std::string advance_words(const cases::Case& scene, const Seen& seen, bool numbers) {
-  const cases::State& state = seen.moment.state;
-  const cases::Lesion& target = scene.lesions.front();
-  const glm::dvec3 to_middle = target.center_lps_mm - state.needle.tip_lps_mm;
-  const double left_mm = glm::dot(to_middle, state.needle.direction);
-  const double beside_mm = glm::length(to_middle - left_mm * state.needle.direction);
-  if (!seen.frame->needle_tip && seen.inserted_mm > kUnseenMm)
-    return numbers
-               ? told(
-                     "Stop: the picture does not show the tip, which is %.1f mm beside its plane. Bring the probe "
-                     "to it (Tab takes it).",
-                     off_plane_mm(state.probe, state.needle.tip_lps_mm))
-               : "Stop: the picture does not show the tip. Find it before you go on.";
-  if (!seen.frame->target) return "Go on only while tip and target are both in the picture.";
-  if (!numbers) return "Push on slowly while the picture shows the tip. In the target: Space.";
-  if (beside_mm > kPassedShare * target.radius_mm && left_mm > target.radius_mm)
-    return told("The needle’s path passes the target’s middle by %.1f mm: draw back to the skin and aim again.",
-                beside_mm);
-  if (left_mm > kThereShare * target.radius_mm) return told("Push on: %.1f mm to the target’s middle.", left_mm);
-  if (left_mm < -kThereShare * target.radius_mm) return told("Draw back: %.1f mm too deep.", -left_mm);
+std::string Hints::align() const {
+  const glm::dvec3& target = target_.center_lps_mm;
+  const double aside_mm = along_mm(target), of_target_mm = off_plane_mm(target),
+               of_entry_mm = off_plane_mm(*entry_);
+  if (std::abs(aside_mm) > kMiddleMm)
+    return told("The target is %.1f mm beside the picture’s middle: ", std::abs(aside_mm)) +
+           slide_probe(aside_mm * probe_.lateral);
+  const std::string misses = told(
+      "The picture’s plane misses the target’s middle by %.1f mm and the green entry by "
+      "%.1f mm: ",
+      std::abs(of_target_mm), std::abs(of_entry_mm));
+  if (std::abs(of_target_mm) > kInPlaneMm) return misses + slide_probe(of_target_mm * normal_);
+  if (std::abs(of_entry_mm) > kEntryInPlaneMm) {
+    const double along = along_mm(*entry_) - aside_mm, across = of_entry_mm - of_target_mm;
+    // To either side: a plane has no direction.
+    const double turn_rad = std::atan2(along < 0.0 ? -across : across, std::abs(along));
+    return misses + by(HeldTool::probe, "rotate it " + rotate_words(turn_rad)) + ".";
+  }
+  const glm::dvec3 to_entry = *entry_ - tip_lps_mm_, to_target = target - tip_lps_mm_;
+  if (const double from_mm = glm::length(to_entry); from_mm > kAtEntryMm)
+    return told("The needle’s tip is %.1f mm from the green entry: ", from_mm) +
+           by(HeldTool::needle, "lead it " + slide_words(to_entry, HeldTool::needle, needle_.axis, view_)) + ".";
+  const glm::dvec3 aim = glm::normalize(to_target);
+  const double beside_deg = degrees(glm::length(devices::turn_between(needle_.axis, aim)));
+  if (beside_deg > kAimedDeg)
+    return told("The needle points %.1f° beside the target: ", beside_deg) +
+           by(HeldTool::needle, "turn " + aim_words(aim, needle_, view_)) + ".";
+  return "The needle is aimed: " + by(HeldTool::needle, "push it on (wheel, or Page Down)") + ".";
+}
+
+std::string Hints::advance() const {
+  const glm::dvec3 to_middle = target_.center_lps_mm - tip_lps_mm_;
+  const double left_mm = glm::dot(to_middle, needle_.axis);
+  const double beside_mm = glm::length(to_middle - left_mm * needle_.axis);
+  if (beside_mm > kPassedShare * target_.radius_mm)
+    return told("The needle’s path passes the target’s middle by %.1f mm: ", beside_mm) +
+           by(HeldTool::needle, "draw back to the skin and aim again") + ".";
+  if (!seen_.frame->needle_tip && seen_.inserted_mm > kUnseenMm) {
+    const double off_mm = off_plane_mm(tip_lps_mm_);
+    if (std::abs(off_mm) <= 0.5 * kInPlaneMm)
+      return "The tip lies in the picture’s plane, but does not show: " +
+             by(HeldTool::needle, "push on by little (wheel, or Page Down)") + ".";
+    return told(
+               "Stop: the picture does not show the tip, which is %.1f mm beside its plane. Bring the probe to "
+               "it: ",
+               std::abs(off_mm)) +
+           slide_probe(off_mm * normal_);
+  }
+  if (!seen_.frame->target) return "Go on only while tip and target are both in the picture.";
+  if (left_mm > kThereShare * target_.radius_mm)
+    return told("Push on: %.1f mm to the target’s middle: ", left_mm) +
+           by(HeldTool::needle, "wheel, or Page Down") + ".";
+  if (left_mm < -kThereShare * target_.radius_mm)
+    return told("Draw back: %.1f mm too deep: ", -left_mm) + by(HeldTool::needle, "wheel, or Page Up") + ".";
   return "The tip is in the target: say so (Space).";
+}
+
+std::string align_words() {
+  return "Turn the probe until the needle’s path and the target lie in one picture, then aim the needle.";
+}
+
+std::string advance_words(const Seen& seen) {
+  if (!seen.frame->needle_tip && seen.inserted_mm > kUnseenMm)
+    return "Stop: the picture does not show the tip. Find it before you go on.";
+  if (!seen.frame->target) return "Go on only while tip and target are both in the picture.";
+  return "Push on slowly while the picture shows the tip. In the target: Space.";
 }
 
 std::string across_words(const Seen& seen) {
@@ -91,26 +164,28 @@ std::string across_words(const Seen& seen) {
 
 }  // namespace
 
-std::string hint_words(const cases::Case& scene, const Seen& seen, int help) {
+std::string hint_words(const cases::Case& scene, const Seen& seen, int help, const devices::HandView& view) {
   if (help <= 0 || scene.subject != cases::Subject::phantom || scene.lesions.empty() ||
       scene.picture.modality != cases::Modality::ultrasound)
     return {};
   const bool numbers = help > 1;
   if (seen.moment.state.fire.fired) return "It is said. Finish (F9).";
   if (seen.frozen) return "The picture stands still: F lets it go on.";
+  const Hints hints(scene, seen, view);
   if (!seen.inserted && seen.press_mm < kPressedMm)
-    return "Press the probe on: Tab takes it, and the wheel over the room presses.";
+    return "Press the probe on: " + hints.by(HeldTool::probe, "wheel over the room, or Page Down") + ".";
   if (!seen.frame || !seen.frame->live) return {};
   if (!seen.inserted && !seen.frame->target) {
-    const glm::dvec3& probe = seen.moment.state.probe.origin_lps_mm;
-    const double from_mm = scene.planned_entry_lps_mm ? glm::distance(probe, *scene.planned_entry_lps_mm) : 0.0;
-    if (numbers && from_mm > kFarMm)
-      return told("The probe is %.1f mm from the green entry: slide it there, and look about it.", from_mm);
-    return "Look for the target: slide the probe over the gel, and turn it, until the lamp says that it is in the "
-           "picture.";
+    if (const std::string first = numbers ? hints.search() : ""; !first.empty()) return first;
+    return "Look for the target: " +
+           hints.by(HeldTool::probe,
+                    "slide the probe over the gel, and turn it, until the lamp says that it is in the "
+                    "picture") +
+           ".";
   }
   if (scene.approach == cases::Approach::out_of_plane) return across_words(seen);
-  return seen.inserted ? advance_words(scene, seen, numbers) : align_words(scene, seen, numbers);
+  if (seen.inserted) return numbers ? hints.advance() : advance_words(seen);
+  return numbers && scene.planned_entry_lps_mm ? hints.align() : align_words();
 }
 
 }  // namespace seldinger::app

@@ -221,6 +221,7 @@ void PersonAttempt::watch(engine::Moment moment) {
   seen.in_guide = mouse.in_guide();
   seen.guide = mouse.guide_on_probe();
   seen.guides_asked = mouse.guides_asked();
+  seen.needle_side = mouse.needle().side;
   seen.returning = mouse.returning();
   // What an arm led is where it is; mouse and keys know what they asked for.
   const bool by_mouse = hands_->mouse_leads(haptics::Tool::needle);

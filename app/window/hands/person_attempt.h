@@ -43,6 +43,7 @@ struct Seen {
   devices::HeldTool held = devices::HeldTool::needle;
   bool frozen = false, inserted = false, guided = false, in_guide = false, returning = false;
   double inserted_mm = 0.0, press_mm = 0.0;    // press: of the probe's face below the skin
+  glm::dvec3 needle_side{1.0, 0.0, 0.0};       // in the hand: what it is tilted about (devices::HandIntent)
   std::optional<devices::ProbeGuide> guide{};  // on the probe, taken up (devices::Hands)
   std::uint32_t guides_asked = 0;
   bool needle_by_mouse = true;               // as by_mouse, whichever tool is held

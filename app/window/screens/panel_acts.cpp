@@ -54,7 +54,7 @@ void ActsPanel::begin(const PersonAttempt& attempt, const std::optional<assessme
   for (const EventKind kind : attempt.said_before()) ++done_[kind];
   decided_ = attempt.task()->scene.subject == cases::Subject::phantom  // nobody is asked
              || done_.contains(EventKind::proceed) || done_.contains(EventKind::defer);
-  numbed_ = guides_asked_ = 0;
+  numbed_ = deep_ = guides_asked_ = 0;
   in_guide_ = fired_ = false;
   answered_.clear();
   answer_.clear();
@@ -70,10 +70,13 @@ void ActsPanel::answer(const Seen& seen, const std::string& words) {
 }
 
 void ActsPanel::say(PersonAttempt& attempt, const Seen& seen, bool flipped, EventKind kind) {
-  const double planned_mm = kind == EventKind::note_plan ? planned_mm_ : 0.0;
-  if (!attempt.say(kind, planned_mm)) return answer(seen, "Too much at once: say it again.");
+  const cases::NeedleState& needle = seen.moment.state.needle;
+  double length_mm = 0.0;
+  if (kind == EventKind::note_plan) length_mm = planned_mm_;
+  if (kind == EventKind::anaesthetic && needle.skin.in_body) length_mm = needle.inserted_mm;
+  if (!attempt.say(kind, length_mm)) return answer(seen, "Too much at once: say it again.");
   ++done_[kind];
-  std::string words = said_words({kind, planned_mm, flipped});
+  std::string words = said_words({kind, length_mm, flipped});
   if (words.empty())
     if (const cases::EventInfo* info = cases::find_event(kind)) words = info->words;  // a mentor's
   answer(seen, words);
@@ -93,6 +96,10 @@ void ActsPanel::look(const Seen& seen, const cases::Case& scene) {
   if (seen.moment.numbed > numbed_) {
     numbed_ = seen.moment.numbed;
     answer(seen, numb_words(seen.moment));
+  }
+  if (seen.moment.deep > deep_) {
+    deep_ = seen.moment.deep;
+    answer(seen, deep_numb_words(seen.moment));
   }
   if (seen.guides_asked != guides_asked_ || (seen.in_guide && !in_guide_))
     answer(seen, guide_words(seen, scene.picture.modality));
@@ -164,8 +171,7 @@ void ActsPanel::draw_answer(const Seen& seen) {
   if (!words.empty()) note_item(words.c_str());
 }
 
-void ActsPanel::draw_hint(const Trainer& trainer, const cases::Case& scene, const Seen& seen) {
-  const std::string words = hint_words(scene, seen, trainer.help());
+void ActsPanel::draw_hint(const std::string& words) {
   if (words.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.98F, 0.84F, 0.50F, 1.0F));
   ImGui::TextWrapped("Hint: %s", words.c_str());
@@ -173,10 +179,10 @@ void ActsPanel::draw_hint(const Trainer& trainer, const cases::Case& scene, cons
   note_item(("Hint: " + words).c_str());
 }
 
-void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped) {
+void ActsPanel::draw(Trainer& trainer, const Seen& seen, bool flipped, const devices::HandView& view) {
   PersonAttempt& attempt = *trainer.attempt();
   const cases::Case& scene = attempt.task()->scene;
-  draw_hint(trainer, scene, seen);
+  draw_hint(hint_words(scene, seen, trainer.help(), view));
   draw_answer(seen);
   if (!decided_) return draw_decision(attempt, seen, flipped);
   const float room = ImGui::GetContentRegionAvail().x;

@@ -7,6 +7,7 @@
 
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
+#include "sim/devices/hands/mouse_hands.h"
 
 namespace seldinger::app {
 
@@ -18,7 +19,8 @@ class ActsPanel {
 
   // Once a frame, of an attempt that runs. `flipped`: the picture's marker is on the right.
   void read_keys(PersonAttempt& attempt, const Seen& seen, bool flipped, const Keys& keys);
-  void draw(Trainer& trainer, const Seen& seen, bool flipped);
+  // `view`: of the room as it is seen, for hints.
+  void draw(Trainer& trainer, const Seen& seen, bool flipped, const devices::HandView& view);
 
   // What calipers measured: it is recorded as it is, and is what the needle is planned for until that is set
   // otherwise.
@@ -32,12 +34,12 @@ class ActsPanel {
   void finish(PersonAttempt& attempt, const Seen& seen, bool flipped);
   void draw_decision(PersonAttempt& attempt, const Seen& seen, bool flipped);
   void draw_answer(const Seen& seen);
-  void draw_hint(const Trainer& trainer, const cases::Case& scene, const Seen& seen);
+  void draw_hint(const std::string& words);
   void draw_planned_depth(const cases::Case& scene);
 
   bool decided_ = false;
-  std::map<cases::EventKind, int> done_;         // how often
-  std::uint32_t numbed_ = 0, guides_asked_ = 0;  // that were answered
+  std::map<cases::EventKind, int> done_;                    // how often
+  std::uint32_t numbed_ = 0, deep_ = 0, guides_asked_ = 0;  // that were answered
   bool in_guide_ = false, fired_ = false;
   std::string answered_, answer_;  // when, and what
   double planned_mm_ = 0.0;        // how far the needle is to go in, as it is noted; 0: not planned

@@ -410,7 +410,7 @@ void AttemptPanel::draw(Trainer& trainer, const Keys& keys, const Pointer& point
   }
   begin_words("acts", parts.acts, corner.x, corner.y);
   if (running)
-    acts_.draw(trainer, seen_, flipped());
+    acts_.draw(trainer, seen_, flipped(), room_.view_of_hands(seen_));
   else
     ImGui::TextUnformatted("The attempt is being stored and graded …");
   // The rest gives way until every button is there; not back again, for it would leap with each answer.

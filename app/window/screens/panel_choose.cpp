@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "app/window/screens/panels.h"
@@ -23,11 +24,45 @@ std::string state_words(const Choice& choice) {
   return words;
 }
 
-void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
+constexpr float kThumbnailEm = 2.4F;  // of a row's picture, and so its height
+
+// A cell's words, or a button, at the middle of the row's height.
+void next_cell() {
+  ImGui::TableNextColumn();
+  const float over = kThumbnailEm * ImGui::GetFontSize() - ImGui::GetFrameHeight();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 0.5F * std::max(0.0F, over));
+  ImGui::AlignTextToFramePadding();
+}
+
+}  // namespace
+
+// Made meanwhile: a row without one has its room.
+void ChoosePanel::draw_thumbnail(const Trainer& trainer, const std::string& case_id) {
+  const float side = kThumbnailEm * ImGui::GetFontSize();
+  const auto thumbnail = trainer.thumbnail(case_id);
+  if (!thumbnail) {
+    thumbnails_.erase(case_id);
+    ImGui::Dummy({side, side});
+    return;
+  }
+  auto& [shown, picture] = thumbnails_.try_emplace(case_id, context_).first->second;
+  if (shown != thumbnail) picture.show(CaseThumbnail::kSidePx, CaseThumbnail::kSidePx, thumbnail->grey);
+  shown = thumbnail;
+  ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.name())), {side, side});
+  note_item("thumbnail");
+  if (!thumbnail->target) return;
+  const ImVec2 corner = ImGui::GetItemRectMin();
+  ImGui::GetWindowDrawList()->AddCircle({corner.x + static_cast<float>(thumbnail->target->x) * side,
+                                         corner.y + static_cast<float>(thumbnail->target->y) * side},
+                                        0.09F * side, kTargetColour, 16, 1.5F);
+}
+
+void ChoosePanel::draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   const float em_px = ImGui::GetFontSize(), open_px = 7.6F * em_px, edit_px = 3.6F * em_px;  // of their words
   const bool edits = trainer.may(casedb::Action::make_case_version);
-  if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 6, kTable)) return;
+  if (!ImGui::BeginTable(("cases of " + curriculum).c_str(), 7, kTable)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, kThumbnailEm * em_px);
   ImGui::TableSetupColumn("Case", ImGuiTableColumnFlags_WidthStretch, 4.0F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.3F);
   ImGui::TableSetupColumn("Difficulty", ImGuiTableColumnFlags_WidthStretch, 1.2F);
@@ -41,20 +76,21 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
     ImGui::PushID(choice.case_id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
+    draw_thumbnail(trainer, choice.case_id);
+    next_cell();
     ImGui::TextUnformatted(choice.title.c_str());
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::TextUnformatted(modality_words(choice.modality).c_str());
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::TextUnformatted(base::name_of(casedb::kDifficultyNames, choice.difficulty).data());
-    ImGui::TableNextColumn();
+    next_cell();
     if (choice.attempts > 0)
       ImGui::Text("%d of %d", choice.passes, choice.attempts);
     else
       ImGui::TextDisabled("–");
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::TextUnformatted(state_words(choice).c_str());
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
     const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
@@ -75,34 +111,40 @@ void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curricu
   if (!versioned.empty()) trainer.new_version(versioned);
 }
 
-}  // namespace
-
 void ChoosePanel::draw_drafts(Trainer& trainer) {
   constexpr ImGuiTableFlags kTable = ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH;
   ImGui::Spacing();
   heading("Drafts and reviews");
-  if (!ImGui::BeginTable("drafts", 5, kTable)) return;
+  if (!ImGui::BeginTable("drafts", 7, kTable)) return;
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, kThumbnailEm * ImGui::GetFontSize());
   ImGui::TableSetupColumn("Draft", ImGuiTableColumnFlags_WidthStretch, 5.3F);
   ImGui::TableSetupColumn("Guidance", ImGuiTableColumnFlags_WidthStretch, 1.2F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch, 3.0F);
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 6.2F * ImGui::GetFontSize());
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 5.6F * ImGui::GetFontSize());
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 4.4F * ImGui::GetFontSize());
   header_row();
-  std::string opened;
+  std::string opened, duplicated;
   for (const CaseDraft& draft : trainer.drafts()) {
     ImGui::PushID(draft.case_id.c_str());
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
+    draw_thumbnail(trainer, draft.case_id);
+    next_cell();
     ImGui::TextUnformatted(draft.title.c_str());
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::TextUnformatted(modality_words(draft.modality).c_str());
-    ImGui::TableNextColumn();
+    next_cell();
     ImGui::Text("%s, version %d", draft.state == casedb::CaseState::review ? "in review" : "draft", draft.version);
-    ImGui::TableNextColumn();
+    next_cell();
     if (noted_button("Open draft", -1.0F)) opened = draft.case_id;
     if (framed()) note_focus("Open draft: " + draft.title);
-    ImGui::TableNextColumn();
+    next_cell();
+    if (trainer.may(casedb::Action::make_case_version)) {
+      if (noted_button("Duplicate", -1.0F)) duplicated = draft.case_id;
+      if (framed()) note_focus("Duplicate: " + draft.title);
+    }
+    next_cell();
     if (trainer.may_delete(draft) && noted_button("Delete", -1.0F)) {
       to_delete_ = draft.case_id;
       question_.ask(
@@ -115,6 +157,7 @@ void ChoosePanel::draw_drafts(Trainer& trainer) {
   }
   ImGui::EndTable();
   if (!opened.empty()) trainer.open_editor(opened);
+  if (!duplicated.empty()) trainer.duplicate_draft(duplicated);
 }
 
 // What `seldinger import` asks, as a form; what it reads may be dropped on the window, too.
@@ -199,6 +242,13 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string&
         "There is no case to practise yet. A mentor publishes them; `seldinger demo --cases` makes the graded "
         "cases "
         "that the program brings along.");
+  std::string looked_at;
+  if (!trainer.in_room().empty()) {
+    ImGui::Spacing();
+    heading("In the room now");
+    for (const InRoom& one : trainer.in_room())
+      if (noted_button(("Look in: " + one.who + ", " + one.case_title).c_str())) looked_at = one.attempt_id;
+  }
   std::string curriculum;
   bool first = true;
   const auto choices = trainer.choices();  // a button may change them
@@ -215,6 +265,7 @@ void ChoosePanel::draw(Trainer& trainer, const Keys& pressed, const std::string&
   if (question_.draw(pressed)) trainer.delete_draft(to_delete_);
   if (out) trainer.log_out();
   if (!answered.empty() && !out) trainer.answer(answered);
+  if (!looked_at.empty() && !out) trainer.look_in(looked_at);
   if (devices && !out) trainer.show_devices();
   end_screen();
 }

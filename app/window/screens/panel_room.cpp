@@ -120,6 +120,10 @@ devices::HandView RoomPanel::hand_view(const Room& room, const cases::ToolPose& 
   return view;
 }
 
+devices::HandView RoomPanel::view_of_hands(const Seen& seen) const {
+  return room_ && begun_ ? hand_view(*room_, pose_of_held(seen), size_px_[1]) : devices::HandView{};
+}
+
 // A view that is asked for comes in a moment. With Alt held the left button turns it, the others shift it, and the
 // wheel brings it nearer.
 void RoomPanel::move_camera(Room& room, const cases::Case& scene, const cases::State& state, const Keys& keys,
@@ -193,7 +197,7 @@ std::optional<cases::HandKind> RoomPanel::hands(const Seen& seen, const Keys& ke
     if (under_pointer()) events.wheel_notches = wheel;
   }
   const cases::ToolPose held = pose_of_held(seen);
-  const devices::HandView view = hand_view(*room_, held, size_px_[1]);
+  const devices::HandView view = view_of_hands(seen);
   devices::HandIntent intent = room_->mouse.intent(events, view, seen.held, held);
   std::optional<cases::HandKind> leads;
   double most = 0.0;

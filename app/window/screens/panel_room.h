@@ -45,6 +45,8 @@ class RoomPanel {
   // none does.
   std::optional<cases::HandKind> hands(const Seen& seen, const Keys& keys, const Pointer& pointer, double wheel,
                                        const OtherHands& other, double elapsed_s, devices::HandIntent& sum);
+  // What the hand's ways are for the tool that is held, in the room as it is seen.
+  devices::HandView view_of_hands(const Seen& seen) const;
   bool under_pointer() const noexcept { return over_ || dragging_; }  // when it was placed
   // Where it was placed, of the newest that is seen.
   void draw(const cases::Case& scene, const Seen& seen, int help);

@@ -37,7 +37,9 @@ std::optional<cases::FrameTruth> frame_at(const cases::Recording& recording, dou
   return *std::prev(next);
 }
 
-std::string who_made(const casedb::AttemptRow& attempt) {
+std::string who_made(const session::WatchedAttempt& watched) {
+  if (watched.live()) return "in the room now, some seconds behind the hand";
+  const casedb::AttemptRow& attempt = watched.attempt();
   return attempt.synthetic() ? reports::simulated_operator_text(attempt.operator_name) : "watched again";
 }
 
@@ -58,7 +60,7 @@ void WatchPanel::take(session::WatchedAttempt& watched, Side& side, bool sounds)
     if (sounds) speaker_.play(sounds_of(side.seen, now, watched.scene().instrument.kind));
     side.seen.moment = *moment;
   }
-  side.seen.frame = frame_at(watched.recording(), side.seen.moment.state.t_s);
+  side.seen.frame = frame_at(*watched.recording(), side.seen.moment.state.t_s);
   side.seen.frozen = side.seen.moment.state.probe.frozen;
   watched.monitor().want();
   if (watched.phase() == session::WatchedAttempt::Phase::over && !side.rests && watched.fired_s()) {
@@ -158,8 +160,7 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
 }
 
 void WatchPanel::draw_alone(session::WatchedAttempt& watched, const Keys& keys) {
-  const casedb::AttemptRow& attempt = watched.attempt();
-  heading((attempt.case_title + " – " + who_made(attempt)).c_str());
+  heading((watched.attempt().case_title + " – " + who_made(watched)).c_str());
   ImGui::SameLine();
   ImGui::TextDisabled("%s", kTrainingOnly);
   const ImVec2 all = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorPos();
@@ -246,7 +247,7 @@ void WatchPanel::draw_both(Trainer& trainer, const Keys& keys) {
   const ImVec2 all = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorPos();
   const float high = all.y - kBelowLetters * ImGui::GetFontSize(), half = 0.5F * (all.x - kBetweenPartsPx);
   draw_side(one, one_, {0.0F, 0.0F, half, high}, corner.x, corner.y, "Yours", keys);
-  const std::string expert = beside.attempt().synthetic() ? who_made(beside.attempt()) : "An expert";
+  const std::string expert = beside.attempt().synthetic() ? who_made(beside) : "An expert";
   draw_side(beside, beside_, {half + kBetweenPartsPx, 0.0F, half, high}, corner.x, corner.y, expert.c_str(), keys);
   ImGui::SetCursorPos({corner.x, corner.y + high + kBetweenPartsPx});
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "app/window/surface/window.h"
 #include "app/window/trainer/trainer.h"
 #include "sim/base/training_only.h"
+#include "sim/gpu/screen_picture.h"
 
 namespace seldinger::app {
 
@@ -45,13 +48,23 @@ class Question {
 
 class ChoosePanel {
  public:
+  explicit ChoosePanel(gpu::Context& context) : context_(context) {}
   // `dropped`: a CT's file or folder that was let fall on the window; empty: none was.
   void draw(Trainer& trainer, const Keys& keys, const std::string& dropped);
 
  private:
+  void draw_choices(Trainer& trainer, const Keys& keys, const std::string& curriculum);
   void draw_drafts(Trainer& trainer);
+  void draw_thumbnail(const Trainer& trainer, const std::string& case_id);
   void draw_import(Trainer& trainer, const Keys& keys);
 
+  gpu::Context& context_;
+  struct Thumbnail {
+    explicit Thumbnail(gpu::Context& context) : picture(context, gpu::ScreenPicture::Pixels::grey) {}
+    std::shared_ptr<const CaseThumbnail> shown;
+    gpu::ScreenPicture picture;
+  };
+  std::map<std::string, Thumbnail> thumbnails_;  // by case
   Question question_;
   std::string to_delete_;                           // the draft that is asked about
   bool importing_ = false, import_begins_ = false;  // the form is open; for its first frame

@@ -22,7 +22,9 @@ constexpr const char* kThisStation = "station";
 }  // namespace
 
 Trainer::Trainer(casedb::Library library, std::optional<Arms> arms)
-    : library_(std::move(library)), arms_(std::move(arms)) {
+    : library_(std::move(library)),
+      arms_(std::move(arms)),
+      thumbnails_(std::make_unique<CaseThumbnails>(library_.folder())) {
   library_.act_for(casedb::Actor::nobody());
   // A person is asked first, when they come to the case.
   session::close_interrupted_attempts(library_, [this](const casedb::OpenAttempt& attempt) {
@@ -158,6 +160,7 @@ void Trainer::log_out() {
   plan_.reset();
   std::optional<Answering> answering = std::exchange(answering_, std::nullopt);
   choices_ = {};
+  in_room_.clear();
   due_.clear();
   imported_.clear();
   // First: whoever leaves is out, whatever becomes of the library.
@@ -178,6 +181,20 @@ void Trainer::list_choices() {
   choices_ = casedb::choices_of(library_, account_.person_id, account_.role);
   due_ = casedb::due_at_desk(library_, account_.person_id);
   library_.shrink();  // a workstation is on for days
+  thumbnails_wanted_ = false;
+}
+
+// Made while the list is up: an attempt has the processor to itself.
+void Trainer::look_at_thumbnails() {
+  const bool listed = screen_ == TrainerScreen::choose;
+  if (listed == thumbnails_wanted_) return;
+  thumbnails_wanted_ = listed;
+  std::vector<std::string> case_ids;
+  if (listed) {
+    for (const Choice& choice : choices()) case_ids.push_back(choice.case_id);
+    for (const CaseDraft& draft : drafts()) case_ids.push_back(draft.case_id);
+  }
+  thumbnails_->want(std::move(case_ids));
 }
 
 const Choice* Trainer::next() const noexcept {
@@ -203,6 +220,18 @@ void Trainer::new_version(const std::string& case_id) {
   }
   list_choices();
   open_editor(*made);
+}
+
+void Trainer::duplicate_draft(const std::string& case_id) {
+  const auto draft =
+      std::find_if(drafts().begin(), drafts().end(), [&](const CaseDraft& one) { return one.case_id == case_id; });
+  if (screen_ != TrainerScreen::choose || draft == drafts().end() || !may(casedb::Action::make_case_version))
+    return;
+  const std::string title = draft->title;
+  const auto made = casedb::duplicate_case(library_, case_id, account_.login_name);
+  refusal_ = made ? "" : made.error().text;
+  imported_ = made ? "“" + title + "” has a duplicate: a draft of its own, of the same CT." : "";
+  list_choices();
 }
 
 bool Trainer::may_delete(const CaseDraft& draft) const noexcept {
@@ -245,6 +274,7 @@ void Trainer::take_import() {
 
 void Trainer::leave_editor() {
   if (screen_ != TrainerScreen::editor) return;
+  thumbnails_->forget(editor_->row().case_id);
   editor_.reset();
   list_choices();
   screen_ = TrainerScreen::choose;
@@ -387,6 +417,8 @@ Debrief Trainer::debrief_of_try() {
 
 void Trainer::look() {
   take_import();
+  look_at_thumbnails();
+  look_into_rooms();
   look_at_watched();
   if (answering_) answering_->look(session::clock_s());
   if (editor_ && screen_ == TrainerScreen::editor) editor_->look();

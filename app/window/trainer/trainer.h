@@ -14,6 +14,7 @@
 #include "app/window/hands/person_attempt.h"
 #include "app/window/trainer/answering.h"
 #include "app/window/trainer/case_import.h"
+#include "app/window/trainer/case_thumbnails.h"
 #include "casedb/attempts/attempts.h"
 #include "casedb/cases/cases.h"
 #include "casedb/cases/permissions.h"
@@ -36,6 +37,12 @@ struct OwnAttempt {
   std::string attempt_id;
   double duration_s = 0.0;
   assessment::Grade grade;
+};
+
+// Somebody whose attempt runs right now, at this workstation's library.
+struct InRoom {
+  std::string attempt_id, case_id, who, case_title;
+  bool operator==(const InRoom&) const = default;
 };
 
 // What an attempt came to.
@@ -72,6 +79,10 @@ class Trainer {
   // Whether whoever is logged in may do it (casedb/cases/permissions.h).
   bool may(casedb::Action action) const noexcept { return casedb::may(account_.role, action); }
   void choose(const std::string& case_id);  // of the choices; else nothing happens
+  // A picture of a listed case or draft; null: not made yet, or there is none.
+  std::shared_ptr<const CaseThumbnail> thumbnail(const std::string& case_id) const {
+    return thumbnails_->of(case_id);
+  }
   // What comes next, by what was reached when the choices were listed: the first that is due. Null: nothing is.
   const Choice* next() const noexcept;
   // The chosen case among the choices, and what follows once it is passed (casedb::after_pass); null: it is not
@@ -110,10 +121,12 @@ class Trainer {
   }
   void import_case(CaseImport::Wish wish);
   bool importing() const noexcept { return import_ != nullptr; }
-  // What became of it, in words for the list: also which cases hold this CT already.
+  // What became of it, or of a draft's duplicate, in words for the list: also which cases hold this CT already.
   const std::string& imported() const noexcept { return imported_; }
   // A draft like a case that was published or that attempts were made on, the next version, in the case editor.
   void new_version(const std::string& case_id);
+  // A draft like one of the drafts, of the same CT, that is a case of its own.
+  void duplicate_draft(const std::string& case_id);
   CaseEditor* editor() noexcept { return editor_.get(); }
   void leave_editor();  // to the choice
   // An attempt at what is in the case editor: of no trainee, graded and forgotten.
@@ -152,6 +165,9 @@ class Trainer {
   void watch(const std::string& attempt_id, double from_s = 0.0);
   void watch_beside_expert();  // the trainee's own of the debrief, and an expert's beside it
   void stop_watching();
+  // Who is in the room while the list is up, of those whose recordings one may see; and one of them is followed.
+  const std::vector<InRoom>& in_room() const noexcept { return in_room_; }
+  void look_in(const std::string& attempt_id);
   session::WatchedAttempt* watched() noexcept { return watched_.get(); }
   session::WatchedAttempt* beside() noexcept { return beside_.get(); }  // null: one alone is watched
 
@@ -173,6 +189,7 @@ class Trainer {
 
  private:
   void list_choices();
+  void look_at_thumbnails();
   void open_first();
   const Choice* find_choice(const std::string& case_id) const noexcept;  // null: it is not among them
   void prepare(std::shared_ptr<const session::Task> task);
@@ -182,6 +199,7 @@ class Trainer {
   void tell_conditions();
   bool may_watch(const std::string& attempt_id);
   void look_at_watched();
+  void look_into_rooms();
   Debrief debrief_of_try();
   std::vector<OwnAttempt> own_attempts();
 
@@ -193,11 +211,15 @@ class Trainer {
   std::string refusal_;
   casedb::Account account_;
   casedb::Choices choices_;
+  std::unique_ptr<CaseThumbnails> thumbnails_;
+  bool thumbnails_wanted_ = false;  // of what is listed now
   casedb::CaseRow chosen_;
   std::string expert_;
   std::unique_ptr<PersonAttempt> attempt_;
   std::optional<Debrief> debrief_;
   std::unique_ptr<session::WatchedAttempt> watched_, beside_;
+  std::vector<InRoom> in_room_;
+  double looked_into_rooms_s_ = -1e9;
   std::vector<std::string> watched_ids_;  // until it is noted that they are watched
   TrainerScreen watched_from_ = TrainerScreen::debrief, devices_from_ = TrainerScreen::choose;
   std::vector<casedb::Round> due_;

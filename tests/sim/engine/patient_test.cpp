@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
 #include <vector>
 
 #include "sim/engine/step.h"
@@ -34,10 +35,11 @@ cases::Case body_with_a_plate() {
 class Trial {
  public:
   explicit Trial(const cases::Case& scene) : scene_(scene), patient_(scene) {}
-  void tick(double y_mm, EventKind event = EventKind::none) {
+  void tick(double y_mm, EventKind event = EventKind::none, double length_mm = 0.0) {
     cases::Inputs inputs;
     inputs.needle = {{x_mm, y_mm, 0.3}, {0, 1, 0}, {1, 0, 0}};
     inputs.event = event;
+    inputs.event_tenths_mm = cases::tenths_of(length_mm);
     step(scene_, inputs, 0.001, state_);
     const EventKind reaction = patient_.advance(inputs, state_, memory_);
     if (reaction != EventKind::none) told.push_back({state_.t_s, reaction});
@@ -112,6 +114,49 @@ TEST(Patient, BoneHurtsOnceUntilItIsLeftForAWhile) {
   trial.wait(0.5, -70);
   trial.move(-70, -57);
   EXPECT_EQ(trial.told.size(), 2U);
+}
+
+// At the depth and place that it is given: bone 14 mm beyond the tip is numb, at 17 mm it is not, nor what was only
+// given at the skin, nor a place beside it.
+TEST(Patient, WhatIsGivenThroughTheNeedleWorksAboutItsTip) {
+  const cases::Case scene = body_with_a_plate();
+  for (const auto& [from_bone_mm, told, beside_mm, hurts] : {std::tuple{13.0, true, 0.0, false},
+                                                             {17.0, true, 0.0, true},
+                                                             {13.0, false, 0.0, true},
+                                                             {13.0, true, 17.0, true},
+                                                             {13.0, true, 5.0, false}}) {
+    Trial trial(scene);
+    trial.tick(-120, EventKind::anaesthetic);
+    const double tip_mm = -61.0 - from_bone_mm;
+    trial.move(-120, tip_mm);
+    trial.tick(tip_mm, EventKind::anaesthetic, told ? tip_mm + 100.0 : 0.0);
+    trial.move(tip_mm, -120);
+    trial.x_mm += beside_mm;
+    trial.tick(-120, EventKind::anaesthetic);
+    trial.move(-120, -60);
+    EXPECT_EQ(trial.kinds(), hurts ? Kinds{EventKind::pain_bone} : Kinds{})
+        << from_bone_mm << " mm before bone, " << beside_mm << " mm beside, told " << told;
+  }
+}
+
+// A length without a needle in tissue is none: what was given lies at the skin.
+TEST(Patient, NothingIsGivenDeepOfANeedleThatIsOutside) {
+  const cases::Case scene = body_with_a_plate();
+  Trial trial(scene);
+  trial.tick(-120, EventKind::anaesthetic, 40.0);
+  trial.move(-120, -57);
+  EXPECT_EQ(trial.kinds(), Kinds{EventKind::pain_bone});
+}
+
+TEST(Patient, TheSkinStaysNumbHoweverDeepMoreIsGiven) {
+  const cases::Case scene = body_with_a_plate();
+  Trial trial(scene);
+  trial.tick(-120, EventKind::anaesthetic);
+  trial.move(-120, -80);
+  for (std::size_t i = 0; i + 1 < kNumbPlaces; ++i) trial.tick(-80, EventKind::anaesthetic, 20.0);
+  trial.move(-80, -120);
+  trial.move(-120, -80);
+  EXPECT_TRUE(trial.told.empty());
 }
 
 TEST(Patient, WithoutClassesNothingIsBone) {

@@ -37,6 +37,8 @@ TEST(ActWords, OfAnAnaestheticTellTheNewestPlace) {
   EXPECT_EQ(numb_words(moment), "Numb: skin and path, 15 mm about where the needle points (12 mm from its tip).");
   moment.state.needle.skin.in_body = true;
   EXPECT_EQ(numb_words(moment), "Numb: skin and path, 15 mm about where the needle went in.");
+  moment.state.needle.inserted_mm = 31.6;
+  EXPECT_EQ(deep_numb_words(moment), "Numb: 15 mm about the needle’s tip, which is 32 mm in.");
 }
 
 TEST(ActWords, OfAGuideSayWhyThereIsNone) {

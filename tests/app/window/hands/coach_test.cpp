@@ -38,7 +38,10 @@ TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   seen_.press_mm = 2.0;
   seen_.moment.state.probe.origin_lps_mm.x = -20.0;
   EXPECT_TRUE(has(hint(), "The probe is 50.0 mm from the green entry")) << hint();
-  seen_.moment.state.probe.origin_lps_mm.x = 0.0;
+  EXPECT_TRUE(has(hint(), "take the probe (Tab)")) << hint();
+  seen_.held = devices::HeldTool::probe;
+  EXPECT_TRUE(has(hint(), "slide it to the right by 50.0 mm (drag, or D)")) << hint();
+  seen_.moment.state.probe.origin_lps_mm.x = 20.0;
   EXPECT_TRUE(has(hint(), "Look for the target"));
   EXPECT_FALSE(has(hint(), " mm ")) << "nothing is told of a target that is not in the picture";
   seen_.frame->target = true;
@@ -47,14 +50,20 @@ TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   EXPECT_TRUE(has(hint(), "12.0 mm beside the picture’s middle")) << hint();
   state.probe.origin_lps_mm.x = 0.0;
   state.probe.origin_lps_mm.z = 5.0;
-  EXPECT_TRUE(has(hint(), "misses the target’s middle by 5.0 mm and the green entry by 5.0 mm")) << hint();
+  EXPECT_TRUE(
+      has(hint(), "misses the target’s middle by 5.0 mm and the green entry by 5.0 mm: slide it down by 5.0"))
+      << hint();
   state.probe.origin_lps_mm.z = 0.0;
   state.probe.lateral = {0.6, 0.0, 0.8};
-  EXPECT_TRUE(has(hint(), "by 0.0 mm and the green entry by 24.0 mm")) << hint();
+  EXPECT_TRUE(has(hint(), "by 0.0 mm and the green entry by 24.0 mm: rotate it by 53° (middle drag to the right"))
+      << hint();
   state.probe.lateral = {1.0, 0.0, 0.0};
-  EXPECT_TRUE(has(hint(), "36.1 mm from the green entry")) << hint();
+  EXPECT_TRUE(has(hint(), "36.1 mm from the green entry: take the needle (Tab)")) << hint();
+  seen_.held = devices::HeldTool::needle;
+  EXPECT_TRUE(has(hint(), "lead it to the left by 30.0 mm (drag, or A)")) << hint();
   state.needle.tip_lps_mm = {30.0, -2.0, 0.0};
-  EXPECT_TRUE(has(hint(), "points 43.2° beside the target")) << hint();
+  EXPECT_TRUE(has(hint(), "points 43.2° beside the target: turn its hub to the right by 43° (right drag, or"))
+      << hint();
   state.needle.direction = glm::normalize(scene_.lesions[0].center_lps_mm - state.needle.tip_lps_mm);
   EXPECT_TRUE(has(hint(), "aimed: push it on")) << hint();
   seen_.inserted = true;
@@ -62,6 +71,8 @@ TEST_F(CoachTest, LeadsFromTheSkinToTheTarget) {
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm - 14.0 * state.needle.direction;
   state.probe.origin_lps_mm.z = 1.5;
   EXPECT_TRUE(has(hint(), "Stop: the picture does not show the tip, which is 1.5 mm beside")) << hint();
+  state.probe.origin_lps_mm.z = 0.5;
+  EXPECT_TRUE(has(hint(), "push on by little")) << hint();
   seen_.frame->needle_tip = true;
   EXPECT_TRUE(has(hint(), "Push on: 14.0 mm to the target’s middle")) << hint();
   state.needle.tip_lps_mm = scene_.lesions[0].center_lps_mm + 4.0 * state.needle.direction;
@@ -76,6 +87,9 @@ TEST_F(CoachTest, SaysThatAWayMissesBeforeItIsTooLate) {
   seen_.press_mm = 2.0;
   seen_.inserted = seen_.frame->target = seen_.frame->needle_tip = true;
   seen_.moment.state.needle.tip_lps_mm = {7.0, 5.0, 0.0};
+  EXPECT_TRUE(has(hint(), "passes the target’s middle by 7.0 mm")) << hint();
+  // Was: "the tip is in the target", beside it at its depth.
+  seen_.moment.state.needle.tip_lps_mm = {7.0, 29.0, 0.0};
   EXPECT_TRUE(has(hint(), "passes the target’s middle by 7.0 mm")) << hint();
 }
 

@@ -123,5 +123,47 @@ TEST_F(TrainerRolesTest, NobodyWatchesWhatIsSomebodyElses) {
   EXPECT_EQ(trainer.watched(), nullptr);
 }
 
+// Followed while it is made, by whom the table lets see it by name; to its end, where it is an attempt like any
+// other.
+TEST_F(TrainerRolesTest, AMentorFollowsWhoIsInTheRoom) {
+  publish();
+  Trainer room(open());
+  begin(room, "tina", false);
+  const auto sees = [&](Trainer& trainer) {
+    trainer.look();
+    return !trainer.in_room().empty();
+  };
+  for (const char* who : {"tom", "rita", "adam", "tina"}) {
+    Trainer trainer(open());
+    trainer.log_in(who, kPassword);
+    EXPECT_FALSE(sees(trainer)) << who;
+  }
+  Trainer trainer(open());
+  trainer.log_in("mona", kPassword);
+  ASSERT_TRUE(until([&] { return sees(trainer); }));
+  EXPECT_EQ(trainer.in_room().front().who, "tina");
+  EXPECT_EQ(trainer.in_room().front().case_title, "Ball");
+  trainer.look_in("another");
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose);
+  trainer.look_in(trainer.in_room().front().attempt_id);
+  ASSERT_EQ(trainer.screen(), TrainerScreen::watch);
+  const auto at_s = [&] {
+    room.look();
+    trainer.look();
+    const auto moment = trainer.watched()->moment();
+    return moment ? moment->state.t_s : 0.0;
+  };
+  ASSERT_TRUE(until([&] { return at_s() > 2.5; })) << "more than what was stored when it was first looked at";
+  EXPECT_TRUE(trainer.watched()->live());
+  room.attempt()->end();
+  EXPECT_TRUE(until([&] {
+    at_s();
+    return trainer.watched()->phase() == session::WatchedAttempt::Phase::over;
+  }));
+  EXPECT_FALSE(trainer.watched()->live());
+  trainer.stop_watching();
+  EXPECT_EQ(trainer.screen(), TrainerScreen::choose);
+}
+
 }  // namespace
 }  // namespace seldinger::app

@@ -190,7 +190,7 @@ TEST_F(TrainerTest, AnAttemptIsMadeGradedAndWatchedAgain) {
   while (const auto moment = watched.moment()) last = moment;
   EXPECT_EQ(last->state.tick, all_ticks);
   EXPECT_TRUE(last->state.fire.fired);
-  EXPECT_EQ(last->state.fire.tip_lps_mm, watched.recording().endpoint->tip_lps_mm) << "the very same";
+  EXPECT_EQ(last->state.fire.tip_lps_mm, watched.recording()->endpoint->tip_lps_mm) << "the very same";
   trainer.stop_watching();
   EXPECT_EQ(trainer.screen(), TrainerScreen::debrief);
   trainer.again();
@@ -241,7 +241,8 @@ TEST_F(TrainerTest, TheConsoleThatWasTurnedIsRecordedToldAndWatched) {
   while (const auto moment = watched.moment()) last = moment;
   ASSERT_TRUE(last);
   EXPECT_EQ(last->state.probe.console.slice_mm, 30.0);
-  const cases::Recording& recording = watched.recording();
+  const std::shared_ptr<const cases::Recording> kept = watched.recording();
+  const cases::Recording& recording = *kept;
   double turned_s = 0.0;
   for (std::size_t i = 0; i < recording.inputs.size() && turned_s == 0.0; ++i)
     if (recording.inputs[i].console.slice_mm != 0.0) turned_s = static_cast<double>(i + 1) * recording.dt_s;
