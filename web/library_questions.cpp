@@ -123,15 +123,22 @@ class LibraryQuestions final : public Questions {
 
   std::vector<casedb::Cohort> list_cohorts() override {
     const std::lock_guard lock(pages_.mutex);
-    return cohorts_.at(casedb::learning_mark(pages_.library), [&] { return casedb::list_cohorts(pages_.library); });
+    const casedb::LearningMark mark = casedb::learning_mark(pages_.library);
+    return cohorts_.at(mark.act + " " + mark.attempts, [&] { return casedb::list_cohorts(pages_.library); });
   }
 
+  std::vector<casedb::Cohort> list_members() override {
+    const std::lock_guard lock(pages_.mutex);
+    return members_.at(casedb::learning_mark(pages_.library).act,
+                       [&] { return casedb::list_members(pages_.library); });
+  }
+
+  // Nothing that is done now is told of before the week is over.
   std::map<std::string, casedb::ToldCells> told_cells(std::int64_t now_us) override {
     const std::lock_guard lock(pages_.mutex);
-    const std::string mark = casedb::learning_mark(pages_.library), hour = std::to_string(now_us / kHour_us);
-    return told_.at(mark + " " + hour, [&] {
-      return casedb::told_cells(casedb::list_cohort_pasts(pages_.library), now_us / kHour_us * kHour_us);
-    });
+    const std::int64_t hour = now_us / kHour_us;
+    return told_.at(casedb::learning_mark(pages_.library).act + " " + std::to_string(hour),
+                    [&] { return casedb::told_cells(casedb::list_cohort_pasts(pages_.library), hour * kHour_us); });
   }
 
   casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
@@ -363,21 +370,30 @@ class LibraryQuestions final : public Questions {
   }
 
  private:
-  // Of everybody's attempts: long to read.
+  // Of everybody's attempts, which are long to read: from a library of its own, so that no page waits but those of
+  // cases, and once an hour while nothing but attempts is added.
   assessment::statistics::Answer dependability() {
-    const std::lock_guard lock(recordings_.mutex);
-    return dependability_.at(casedb::learning_mark(recordings_.library), [&] {
-      return casedb::dependability(casedb::learning_verdicts(recordings_.library, casedb::Learners::people));
+    const std::lock_guard lock(dependability_mutex_);
+    std::string mark;
+    {
+      const std::lock_guard page(pages_.mutex);
+      mark = casedb::learning_mark(pages_.library).act + " " + std::to_string(casedb::now_us() / kHour_us);
+    }
+    return dependability_.at(mark, [&] {
+      auto library = casedb::Library::open(pages_.library.folder());
+      if (!library) throw base::Failure("database", "the library cannot be opened again");
+      return casedb::dependability(casedb::learning_verdicts(*library, casedb::Learners::people));
     });
   }
 
-  Handle pages_, recordings_;                  // a recording is long to read: meanwhile other pages are answered
-  Handle first_, second_;                      // a password is long to hash
-  Handle changes_;                             // a change may wait for another program's
-  Kept<std::vector<casedb::Cohort>> cohorts_;  // under pages_.mutex
-  Kept<std::map<std::string, casedb::ToldCells>> told_;  // under pages_.mutex
-  std::map<std::string, Kept<LearnerRecords>> records_;  // by person, under pages_.mutex
-  Kept<assessment::statistics::Answer> dependability_;   // under recordings_.mutex
+  Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
+  Handle first_, second_;      // a password is long to hash
+  Handle changes_;             // a change may wait for another program's
+  Kept<std::vector<casedb::Cohort>> cohorts_, members_;  // under pages_.mutex, as these
+  Kept<std::map<std::string, casedb::ToldCells>> told_;
+  std::map<std::string, Kept<LearnerRecords>> records_;  // by person
+  std::mutex dependability_mutex_;                       // before pages_.mutex
+  Kept<assessment::statistics::Answer> dependability_;
   CaseChecker check_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};

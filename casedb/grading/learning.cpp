@@ -55,10 +55,10 @@ std::vector<LearningAttempt> learning_verdicts(Library& library, Learners learne
   return read_learning(library, learners, false);
 }
 
-std::string learning_mark(Library& library) {
+LearningMark learning_mark(Library& library) {
   Statement mark = question(library.database(), "learning_mark");
   CHECK(mark.step());
-  return std::to_string(mark.integer("act")) + " " + std::to_string(mark.integer("attempt"));
+  return {std::to_string(mark.integer("act")), std::to_string(mark.integer("attempt"))};
 }
 
 }  // namespace seldinger::casedb

@@ -32,7 +32,10 @@ std::vector<LearningAttempt> learning_attempts(Library& library, Learners learne
 // The same without metrics, for what asks who passed: of 20,000 attempts they take 200 MB.
 std::vector<LearningAttempt> learning_verdicts(Library& library, Learners learners);
 
-// Another one when learning_attempts, cohorts or what was done in them may have changed.
-std::string learning_mark(Library& library);
+// Another one when learning_attempts, cohorts or what was done in them may have changed: by an act, or by attempts.
+struct LearningMark {
+  std::string act, attempts;
+};
+LearningMark learning_mark(Library& library);
 
 }  // namespace seldinger::casedb
