@@ -19,6 +19,7 @@
 #include "casedb/people/simulated_people.h"
 #include "reports/studies/validity_report.h"
 #include "reports/words/grade_words.h"
+#include "sim/base/failure.h"
 #include "sim/base/hex.h"
 
 namespace seldinger::web {
@@ -125,15 +126,22 @@ class LibraryQuestions final : public Questions {
 
   std::vector<casedb::Cohort> list_cohorts() override {
     const std::lock_guard lock(pages_.mutex);
-    return cohorts_.at(casedb::learning_mark(pages_.library), [&] { return casedb::list_cohorts(pages_.library); });
+    const casedb::LearningMark mark = casedb::learning_mark(pages_.library);
+    return cohorts_.at(mark.act + " " + mark.attempts, [&] { return casedb::list_cohorts(pages_.library); });
   }
 
+  std::vector<casedb::Cohort> list_members() override {
+    const std::lock_guard lock(pages_.mutex);
+    return members_.at(casedb::learning_mark(pages_.library).act,
+                       [&] { return casedb::list_members(pages_.library); });
+  }
+
+  // Nothing that is done now is told of before the week is over.
   std::map<std::string, casedb::ToldCells> told_cells(std::int64_t now_us) override {
     const std::lock_guard lock(pages_.mutex);
-    const std::string mark = casedb::learning_mark(pages_.library), hour = std::to_string(now_us / kHour_us);
-    return told_.at(mark + " " + hour, [&] {
-      return casedb::told_cells(casedb::list_cohort_pasts(pages_.library), now_us / kHour_us * kHour_us);
-    });
+    const std::int64_t hour = now_us / kHour_us;
+    return told_.at(casedb::learning_mark(pages_.library).act + " " + std::to_string(hour),
+                    [&] { return casedb::told_cells(casedb::list_cohort_pasts(pages_.library), hour * kHour_us); });
   }
 
   casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) override {
@@ -356,8 +364,14 @@ class LibraryQuestions final : public Questions {
   }
 
   assessment::statistics::Answer dependability() override {
-    const std::lock_guard lock(recordings_.mutex);  // of everybody's attempts: long to read
-    return dependability_.of(recordings_.library);
+    // Of everybody's attempts, which are long to read: from a library of its own, so that no other page waits.
+    const std::lock_guard lock(dependability_mutex_);
+    if (!attempts_) {
+      auto opened = casedb::Library::open(pages_.library.folder());
+      if (!opened) throw base::Failure("database", "the library cannot be opened again");
+      attempts_.emplace(std::move(*opened));
+    }
+    return dependability_.of(*attempts_);
   }
 
   std::vector<casedb::CaseRow> list_cases() override {
@@ -449,13 +463,15 @@ class LibraryQuestions final : public Questions {
     return view;
   }
 
-  Handle pages_, recordings_;                  // a recording is long to read: meanwhile other pages are answered
-  Handle first_, second_;                      // a password is long to hash
-  Handle changes_;                             // a change may wait for another program's
-  Kept<std::vector<casedb::Cohort>> cohorts_;  // under pages_.mutex
-  Kept<std::map<std::string, casedb::ToldCells>> told_;  // under pages_.mutex
-  std::map<std::string, Kept<LearnerRecords>> records_;  // by person, under pages_.mutex
-  casedb::KeptDependability dependability_;              // under recordings_.mutex
+  Handle pages_, recordings_;  // a recording is long to read: meanwhile other pages are answered
+  Handle first_, second_;      // a password is long to hash
+  Handle changes_;             // a change may wait for another program's
+  Kept<std::vector<casedb::Cohort>> cohorts_, members_;  // under pages_.mutex, as these
+  Kept<std::map<std::string, casedb::ToldCells>> told_;
+  std::map<std::string, Kept<LearnerRecords>> records_;  // by person
+  std::mutex dependability_mutex_;
+  std::optional<casedb::Library> attempts_;  // under dependability_mutex_, as this
+  casedb::KeptDependability dependability_;
   HeavyWork work_;
   std::mutex health_mutex_;
   casedb::HealthWatch watch_{pages_.library.folder()};

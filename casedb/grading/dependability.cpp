@@ -88,7 +88,8 @@ assessment::statistics::Answer dependability(std::span<const LearningAttempt> at
 }
 
 const assessment::statistics::Answer& KeptDependability::of(Library& library) {
-  const std::string now = learning_mark(library);
+  const LearningMark mark = learning_mark(library);
+  const std::string now = mark.act + " " + mark.attempts;
   const Clock::time_point begun = Clock::now();
   if (answer_ && (now == of_what_ || begun < until_)) return *answer_;
   answer_ = dependability(learning_verdicts(library, Learners::people));

@@ -78,10 +78,10 @@ std::vector<LearningAttempt> learning_attempts_of(Library& library, const std::s
   return courses.answer();
 }
 
-std::string learning_mark(Library& library) {
+LearningMark learning_mark(Library& library) {
   Statement mark = question(library.database(), "learning_mark");
   CHECK(mark.step());
-  return std::to_string(mark.integer("act")) + " " + std::to_string(mark.integer("attempt"));
+  return {std::to_string(mark.integer("act")), std::to_string(mark.integer("attempt"))};
 }
 
 }  // namespace seldinger::casedb

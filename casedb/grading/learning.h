@@ -33,8 +33,11 @@ std::vector<LearningAttempt> learning_attempts(Library& library, Learners learne
 // The same without metrics, for what asks who passed: of 20,000 attempts they take 200 MB.
 std::vector<LearningAttempt> learning_verdicts(Library& library, Learners learners);
 
-// Another one when learning_attempts, cohorts or what was done in them may have changed.
-std::string learning_mark(Library& library);
+// Another one when learning_attempts, cohorts or what was done in them may have changed: by an act, or by attempts.
+struct LearningMark {
+  std::string act, attempts;
+};
+LearningMark learning_mark(Library& library);
 
 // With metrics, of one: of a person what they did, of a simulated one what was simulated of them.
 std::vector<LearningAttempt> learning_attempts_of(Library& library, const std::string& person_id);

@@ -65,7 +65,10 @@ base::Result<std::string> add_cohort(Library& library, const std::string& title,
   return cohort_id;
 }
 
-std::vector<Cohort> list_cohorts(Library& library) {
+namespace {
+
+// `learners` asks for cohort_id, person_id, still, attempts, with_hit and hits.
+std::vector<Cohort> read_cohorts(Library& library, std::string_view learners_question) {
   const Snapshot snapshot(library.database());
   std::vector<Cohort> cohorts;
   Statement rows = question(library.database(), "cohorts");
@@ -73,13 +76,23 @@ std::vector<Cohort> list_cohorts(Library& library) {
     cohorts.push_back({rows.text("cohort_id"), rows.text("title"), rows.text("programme"), rows.text("site"), {}});
   std::map<std::string, Cohort*> by_id;
   for (Cohort& one : cohorts) by_id.emplace(one.cohort_id, &one);
-  Statement learners = question(library.database(), "learners_of_cohorts");
+  Statement learners = question(library.database(), learners_question);
   while (learners.step())
     by_id.at(learners.text("cohort_id"))
         ->learners.push_back({learners.text("person_id"), learners.integer("still") != 0,
                               learners.small_integer("attempts"), learners.small_integer("with_hit"),
                               learners.small_integer("hits")});
   return cohorts;
+}
+
+}  // namespace
+
+std::vector<Cohort> list_cohorts(Library& library) {
+  return read_cohorts(library, "learners_of_cohorts");
+}
+
+std::vector<Cohort> list_members(Library& library) {
+  return read_cohorts(library, "members_of_cohorts");
 }
 
 base::Result<Cohort> find_cohort(Library& library, const std::string& title_or_id) {

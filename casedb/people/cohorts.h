@@ -51,8 +51,9 @@ struct Enrolment {
 base::Result<void> check_title(const std::string& title);
 
 base::Result<std::string> add_cohort(Library& library, const std::string& title, const std::string& programme,
-                                     const std::string& site);                       // `bad_title`, `title_taken`
-std::vector<Cohort> list_cohorts(Library& library);                                  // by programme and title
+                                     const std::string& site);  // `bad_title`, `title_taken`
+std::vector<Cohort> list_cohorts(Library& library);             // by programme and title
+std::vector<Cohort> list_members(Library& library);  // the same, without what they did, which is long to count
 base::Result<Cohort> find_cohort(Library& library, const std::string& title_or_id);  // `no_cohort`
 std::vector<Enrolment> list_enrolments(Library& library, const std::string& cohort_id);
 

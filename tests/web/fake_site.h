@@ -78,6 +78,7 @@ class FakeQuestions final : public Questions {
     return all;
   }
   std::vector<casedb::Cohort> list_cohorts() override { return cohorts; }
+  std::vector<casedb::Cohort> list_members() override { return cohorts; }
   std::map<std::string, casedb::ToldCells> told_cells(std::int64_t) override {
     std::map<std::string, casedb::ToldCells> all = told;
     for (const casedb::Cohort& cohort : cohorts) all[cohort.cohort_id];

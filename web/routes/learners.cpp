@@ -16,7 +16,7 @@ std::vector<reports::LearnerView> visible_learners(Site& site, const Reader& rea
   std::map<std::string, std::string> names;
   for (const casedb::Account& one : site.questions.list_accounts()) names.emplace(one.person_id, one.login_name);
   std::map<std::string, reports::LearnerView> learners;
-  for (const casedb::Cohort& cohort : site.questions.list_cohorts()) {
+  for (const casedb::Cohort& cohort : site.questions.list_members()) {
     if (!casedb::may(account.role, Action::see_cohort,
                      site.questions.relation_to_cohort(account.person_id, cohort)))
       continue;
@@ -53,7 +53,7 @@ std::optional<reports::LearnerView> visible_learner(Site& site, const Reader& re
   const auto named = site.questions.find_account(person_id);
   if (named && casedb::may(account.role, Action::see_operator_name, relation_to(relations, person_id)))
     view.label = named->login_name;
-  for (const casedb::Cohort& cohort : site.questions.list_cohorts()) {
+  for (const casedb::Cohort& cohort : site.questions.list_members()) {
     const bool seen =
         person_id == account.person_id ||
         casedb::may(account.role, Action::see_cohort, site.questions.relation_to_cohort(account.person_id, cohort));

@@ -68,6 +68,7 @@ class Questions {
   // What everybody is to the reader; who is missing is nothing to them.
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
   virtual std::vector<casedb::Cohort> list_cohorts() = 0;  // by programme and title
+  virtual std::vector<casedb::Cohort> list_members() = 0;  // the same, without what they did
   // Of every cohort, by id: casedb::told_cells.
   virtual std::map<std::string, casedb::ToldCells> told_cells(std::int64_t now_us) = 0;
   virtual casedb::Relation relation_to_cohort(const std::string& reader_id, const casedb::Cohort& cohort) = 0;
