@@ -67,9 +67,8 @@ Html raters_panel(const ValidityReport& report) {
 
 Html structure_panels(const ValidityReport& report) {
   if (report.forms.empty() && report.rated_rounds.empty())
-    return no_evidence_yet("Internal structure", "Whether repeated attempts agree",
-                           "No questionnaire of the study was answered, nothing was rated, and no reliability of "
-                           "attempts was planned.");
+    return no_evidence_yet("Internal structure", "Whether items and raters agree",
+                           "No questionnaire of the study was answered, and nothing was rated.");
   Html html;
   if (!report.forms.empty()) html.add(forms_panel(report));
   if (!report.rated_rounds.empty()) html.add(raters_panel(report));

@@ -128,6 +128,7 @@ class World {
   explicit World(casedb::Library& library) : library_(library) {
     for (const casedb::Account& one : casedb::list_users(library)) ids_[one.login_name] = one.person_id;
     case_id_ = library.database().text("SELECT case_id FROM training_case WHERE state = 'published' LIMIT 1");
+    study_id_ = library.database().text("SELECT study_id FROM study LIMIT 1");
   }
   // Every route of the role, each with ids that are the reader's to see, and one with somebody else's.
   Client client(Role role, const std::string& name, int trainee) const {
@@ -139,9 +140,11 @@ class World {
       if (route.method != "GET" || !route.who.roles.has(role)) continue;
       Asked asked{pattern, pattern};
       if (pattern.find("{attempt_id}") != pattern.npos) {
-        if (role == Role::researcher && pattern.ends_with("replay.json")) continue;  // people's are not theirs
+        if (role == Role::researcher && route.who.action == casedb::Action::see_recording)
+          continue;  // people's are not theirs
         asked.path = filled(pattern, own);
-        if (!pattern.ends_with(".png") && !pattern.ends_with("replay.json")) asked.holds = own;
+        if (!pattern.ends_with(".png") && !pattern.ends_with("replay.json") && !pattern.ends_with("skin.json"))
+          asked.holds = own;
         if (role == Role::trainee || role == Role::mentor)
           made.pages.push_back({pattern, filled(pattern, others), 404});
       } else if (pattern.find("{case_id}") != pattern.npos) {
@@ -150,6 +153,9 @@ class World {
       } else if (pattern.find("{person_id}") != pattern.npos) {
         asked.path = filled(pattern, ids_.at(trainee_name(trainee)));
         if (reads_people) asked.holds = trainee_name(trainee);
+      } else if (pattern.find("{study_id}") != pattern.npos) {
+        asked.path = filled(pattern, study_id_);
+        asked.holds = name;
       } else if (pattern == "/progress" && reads_people) {
         asked.people = role == Role::mentor ? kLearners : kTrainees / kProgrammes;
       } else if (route.is_page) {
@@ -180,7 +186,7 @@ class World {
   }
   casedb::Library& library_;
   std::map<std::string, std::string> ids_;
-  std::string case_id_;
+  std::string case_id_, study_id_;
 };
 
 // Trainees with a recording are every fourth; cohort and programme of a trainee are the number's rest by 20 and 5.
@@ -212,16 +218,19 @@ class Served {
     load_library(folder_, attempts);
     library_.emplace(std::move(casedb::Library::open(folder_).value()));
     world_.emplace(*library_);
-    server_.emplace(std::move(web::open_server(
-                                  std::move(casedb::Library::open(folder_).value()), {"127.0.0.1", 0}, "1",
-                                  [this](const std::string& line) {
-                                    const std::lock_guard lock(mutex_);
-                                    log_.push_back(line);
-                                  },
-                                  [](casedb::Library& library, const std::string& case_id) {
-                                    return fixtures::sound_check(library, case_id);
-                                  })
-                                  .value()));
+    server_.emplace(
+        std::move(web::open_server(std::move(casedb::Library::open(folder_).value()), {"127.0.0.1", 0}, "1",
+                                   [this](const std::string& line) {
+                                     const std::lock_guard lock(mutex_);
+                                     log_.push_back(line);
+                                   },
+                                   {[](casedb::Library& library, const std::string& case_id) {
+                                      return fixtures::sound_check(library, case_id);
+                                    },
+                                    [](casedb::Library&, const std::string& attempt_id) {
+                                      return base::Result<std::string>("<p>" + attempt_id + "</p>");
+                                    }})
+                      .value()));
     thread_ = std::thread([this] { server_->run(); });
   }
   Served(const Served&) = delete;
