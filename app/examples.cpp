@@ -49,7 +49,7 @@ constexpr std::string_view kLines[] = {
     "simulate --case Built --operator expert --count 2",
     "simulate --case Built --operator novice --people 3 --json",
     "surrogate fit --case 'Drill 1' --attempts 60 --out drill.json --library first-hour",
-    "surrogate check --case 'Drill 1' --surrogate drill.json --attempts 12 --library first-hour",
+    "surrogate check --case 'Drill 1' --surrogate drill.json --attempts 30 --library first-hour",
     "surrogate effects --surrogate drill.json",
     "simulate --case 'Drill 1' --operator novice --people 5 --no-pictures --library first-hour",
     "recovery --truth 10 --library first-hour",

@@ -29,8 +29,6 @@ namespace {
 using casedb::Role;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kGrosslySlow_ms = 2000.0;  // ten times the goal, of which only a quiet machine can tell
-
 struct Answer {
   int status = 0;
   std::string head, body;
@@ -323,7 +321,6 @@ void serve_fifty(int attempts, std::chrono::seconds time) {
     every.insert(every.end(), ms.begin(), ms.end());
     const double p50 = share_of(ms, 0.5), p95 = share_of(ms, 0.95);
     std::printf("%-58s %7zu %8.1f %8.1f %8.1f\n", route.c_str(), ms.size(), p50, p95, ms.back());
-    EXPECT_LT(p50, kGrosslySlow_ms) << route;
   }
   std::printf("%-58s %7zu %8.1f %8.1f %8.1f\n", "all", requests, share_of(every, 0.5), share_of(every, 0.95),
               every.back());
