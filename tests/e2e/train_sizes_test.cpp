@@ -62,7 +62,7 @@ class TrainSizesTest : public testing::TestWithParam<double> {
       SCOPED_TRACE(screen + ", " + look.name());
       ASSERT_NO_FATAL_FAILURE(resize(size));
       ASSERT_NO_FATAL_FAILURE(fixtures::expect_in_sight(*trainee_, look, names));
-      if (size.kept) fixtures::expect_as_kept(trainee_->keep_picture(), screen + "-" + look.name());
+      if (size.kept) fixtures::expect_as_kept([&] { return trainee_->keep_picture(); }, screen + "-" + look.name());
     }
     ASSERT_NO_FATAL_FAILURE(resize(kSizes[0]));
   }
