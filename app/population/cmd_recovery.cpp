@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <set>
 #include <thread>
@@ -243,23 +244,30 @@ int run_recovery(const Arguments& arguments) {
   if (known.empty())
     return refuse({"no_attempt", "there are no attempts of simulated novices, intermediates or experts here"});
   const reports::CaseReport report = reports::case_report_of(*library, casedb::Learners::simulated, kVersion);
-  std::vector<RecoverySection> sections{{"How hard cases are",
-                                         "The share that passes at the first attempt, with the interval of the "
-                                         "report of cases, beside the share of " +
-                                             std::to_string(asked.truth) + " others of the same group.",
-                                         {}}};
+  const std::string others = std::to_string(asked.truth) + " others of the same group";
+  RecoverySection difficulty{
+      "How hard cases are",
+      "The share that passes at the first attempt, with the interval of the report of cases, "
+      "beside the share of " +
+          others + ".",
+      {}},
+      cuts{"Cuts between novices and experts",
+           "By contrasting groups, from first attempts, beside the cut of " + others + ".",
+           {}};
+  std::vector<RecoverySection> courses;
   std::size_t attempts = 0;
   for (const reports::ReportedCase& one : report.cases) {
     attempts += one.attempts.size();
     const auto simulation = session::Simulation::prepare(*library, this_program(), one.attempts.back().case_id, "");
     if (!simulation) return refuse(simulation.error());
-    if (const auto done = add_first_attempts(*simulation, one, known, asked, sections[0], sections[1]); !done)
+    if (const auto done = add_first_attempts(*simulation, one, known, asked, difficulty, cuts); !done)
       return refuse(done.error());
-    if (const auto done = add_learning(*simulation, one, known, asked, sections); !done)
-      return refuse(done.error());
+    if (const auto done = add_learning(*simulation, one, known, asked, courses); !done) return refuse(done.error());
   }
   std::vector<population::Person> people;
   for (const auto& one : known) people.push_back(one.second.person);
+  std::vector<RecoverySection> sections{std::move(difficulty), std::move(cuts)};
+  std::move(courses.begin(), courses.end(), std::back_inserter(sections));
   sections.push_back(severities_recovered(people, kRaterSets, kRaters, kRatedOthers, asked.seed));
   const std::string of = "A library of " + std::to_string(known.size()) + " simulated people and " +
                          std::to_string(attempts) + " attempts of theirs at " +

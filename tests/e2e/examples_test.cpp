@@ -94,6 +94,9 @@ TEST_F(Examples, AreTypedOneAfterTheOther) {
     // There is no display here, and of so few attempts a surrogate is off.
     const bool finds = line == "doctor" || line.rfind("surrogate check", 0) == 0;
     EXPECT_EQ(ran.exit_code, finds ? 1 : 0) << ran.out << ran.err;
+    if (line.rfind("recovery ", 0) == 0) {
+      EXPECT_NE(ran.out.find("\n| Cuts between novices and experts |"), ran.out.npos) << ran.out;
+    }
     if (line.rfind("case version", 0) == 0) case_ = ran.out.substr(5, 36);
     if (line.rfind("questionnaire open", 0) == 0) code_ = ran.out.substr(0, 6);
     if (line.rfind("workshop open", 0) == 0) day_ = ran.out.substr(0, 6);
