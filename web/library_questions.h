@@ -10,8 +10,6 @@
 
 namespace seldinger::web {
 
-// Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.
-// Refused as Library::open.
 // What is done with volumes and pictures, each in a library of its own; empty: not done here.
 using CaseChecker = std::function<base::Result<casedb::CaseCheck>(casedb::Library&, const std::string& case_id)>;
 using PicturesMaker = std::function<base::Result<std::string>(casedb::Library&, const std::string& attempt_id)>;
@@ -19,6 +17,9 @@ struct HeavyWork {
   CaseChecker check{};
   PicturesMaker pictures{};  // markup, as reports/sheets/moments_sheet.h
 };
+
+// Opens further handles of the same library, so that reading a recording and hashing a password hold up no page.
+// Refused as Library::open.
 base::Result<std::unique_ptr<Questions>> questions_of(casedb::Library library, HeavyWork work = {});
 
 // As Server::open, with time, chance and hash of this machine. `log` gets one line a fault.
