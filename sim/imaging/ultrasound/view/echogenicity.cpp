@@ -82,6 +82,66 @@ class Surroundings {
   std::vector<float> mean_;
 };
 
+// Mean HU of the parenchyma about each voxel of one slice. Sums are of whole numbers, so that a sum along each axis
+// in turn, each from the one before it, is that of the box: three steps a voxel where a box has some hundred.
+class Smoothed {
+ public:
+  Smoothed(const volume::Volume& volume, std::span<const TissueClass> classes)
+      : volume_(volume),
+        classes_(classes),
+        reach_(glm::floor(kSmoothMm / volume.spacing_mm + 0.5)),
+        sums_(static_cast<std::size_t>(volume.size_voxels.x) * static_cast<std::size_t>(volume.size_voxels.y)),
+        line_(static_cast<std::size_t>(std::max(volume.size_voxels.x, volume.size_voxels.y))) {}
+
+  void take(int k) {
+    const glm::ivec3 n = volume_.size_voxels;
+    std::fill(sums_.begin(), sums_.end(), Sum{});
+    for (int z = std::max(0, k - reach_.z); z <= std::min(n.z - 1, k + reach_.z); ++z) {
+      const auto first = static_cast<std::size_t>(volume_.index(0, 0, z));
+      for (std::size_t i = 0; i < sums_.size(); ++i) {
+        if (!is_parenchyma(classes_[first + i])) continue;
+        sums_[i].hu += volume_.hu[first + i];
+        ++sums_[i].count;
+      }
+    }
+    const auto nx = static_cast<std::size_t>(n.x), ny = static_cast<std::size_t>(n.y);
+    for (std::size_t j = 0; j < ny; ++j) along(j * nx, 1, nx, reach_.x);
+    for (std::size_t i = 0; i < nx; ++i) along(i, nx, ny, reach_.y);
+  }
+  double mean_hu(int i, int j) const {
+    const Sum& sum = sums_[static_cast<std::size_t>(i) +
+                           static_cast<std::size_t>(volume_.size_voxels.x) * static_cast<std::size_t>(j)];
+    return static_cast<double>(sum.hu) / static_cast<double>(sum.count);
+  }
+
+ private:
+  void along(std::size_t first, std::size_t step, std::size_t count, int reach) {
+    const auto far = static_cast<std::size_t>(reach);
+    for (std::size_t i = 0; i < count; ++i) line_[i] = sums_[first + i * step];
+    Sum sum;
+    for (std::size_t i = 0; i < std::min(far, count); ++i) {
+      sum.hu += line_[i].hu;
+      sum.count += line_[i].count;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i + far < count) {
+        sum.hu += line_[i + far].hu;
+        sum.count += line_[i + far].count;
+      }
+      if (i > far) {
+        sum.hu -= line_[i - far - 1].hu;
+        sum.count -= line_[i - far - 1].count;
+      }
+      sums_[first + i * step] = sum;
+    }
+  }
+
+  const volume::Volume& volume_;
+  std::span<const TissueClass> classes_;
+  glm::ivec3 reach_;
+  std::vector<Sum> sums_, line_;
+};
+
 // Share of parenchyma's surroundings that are denser than plain CT knows.
 bool is_enhanced(const volume::Volume& volume, std::span<const TissueClass> classes,
                  const Surroundings& surroundings) {
@@ -124,28 +184,20 @@ std::vector<std::uint8_t> echogenicity(const volume::Volume& volume, std::span<c
   const Surroundings surroundings(volume, classes, threads);
   const bool enhanced = is_enhanced(volume, classes, surroundings);
   const glm::ivec3 n = volume.size_voxels;
-  const glm::ivec3 reach = glm::ivec3(glm::floor(kSmoothMm / volume.spacing_mm + 0.5));
   std::vector<std::uint8_t> levels(classes.size(), kNoEchoOffset);
-  base::over_rows(n.z, threads, [&](int k) {
-    for (int j = 0; j < n.y; ++j)
-      for (int i = 0; i < n.x; ++i) {
-        const auto at = static_cast<std::size_t>(volume.index(i, j, k));
-        if (classes[at] != TissueClass::soft_tissue) continue;
-        Sum sum;
-        for (int z = std::max(0, k - reach.z); z <= std::min(n.z - 1, k + reach.z); ++z)
-          for (int y = std::max(0, j - reach.y); y <= std::min(n.y - 1, j + reach.y); ++y)
-            for (int x = std::max(0, i - reach.x); x <= std::min(n.x - 1, i + reach.x); ++x) {
-              const auto other = static_cast<std::size_t>(volume.index(x, y, z));
-              if (!is_parenchyma(classes[other])) continue;
-              sum.hu += volume.hu[other];
-              ++sum.count;
-            }
-        const double hu =
-            std::clamp(static_cast<double>(sum.hu) / static_cast<double>(sum.count), kLeastHu, kMostHu);
-        const double db = offset_db(hu, surroundings.mean_hu(i, j, k), enhanced);
-        levels[at] = static_cast<std::uint8_t>(kNoEchoOffset + static_cast<int>(std::lround(db / kEchoStepDb)));
-      }
-  });
+  base::over_rows(
+      n.z, threads, [&] { return Smoothed(volume, classes); },
+      [&](int k, Smoothed& smoothed) {
+        smoothed.take(k);
+        for (int j = 0; j < n.y; ++j)
+          for (int i = 0; i < n.x; ++i) {
+            const auto at = static_cast<std::size_t>(volume.index(i, j, k));
+            if (classes[at] != TissueClass::soft_tissue) continue;
+            const double hu = std::clamp(smoothed.mean_hu(i, j), kLeastHu, kMostHu);
+            const double db = offset_db(hu, surroundings.mean_hu(i, j, k), enhanced);
+            levels[at] = static_cast<std::uint8_t>(kNoEchoOffset + static_cast<int>(std::lround(db / kEchoStepDb)));
+          }
+      });
   return levels;
 }
 

@@ -159,7 +159,12 @@ class SliceOfOrgans {
   template <typename From>
   void spread(const From& from, std::vector<float>& distance) const {
     distance.resize(size());
-    for (std::size_t i = 0; i < size(); ++i) distance[i] = from(i) ? 0.0F : kFar;
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      distance[i] = from(i) ? 0.0F : kFar;
+      near += distance[i] == 0.0F ? 1 : 0;
+    }
+    if (near == 0 || near == size()) return;  // nothing there to be far from
     sweep([&](std::size_t to, std::size_t before, float mm) {
       distance[to] = std::min(distance[to], distance[before] + mm);
     });
@@ -184,6 +189,7 @@ class SliceOfOrgans {
   // Fat and urine with kidney on three sides or more: at the hilum it is open.
   void find_sinus() {
     sinus_.assign(size(), 0);
+    if (std::find(here_.begin(), here_.end(), TissueClass::kidney) == here_.end()) return;
     constexpr float kReachMm = 30.0F;
     const int far_x = static_cast<int>(kReachMm / dx_), far_y = static_cast<int>(kReachMm / dy_);
     for (int y = 0; y < ny_; ++y)

@@ -81,6 +81,39 @@ TEST(Echogenicity, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(echogenicity(organs.s.volume, organs.s.classes, 1), echogenicity(organs.s.volume, organs.s.classes, 3));
 }
 
+// No side of a voxel counts more than another, at no edge either, with other spacing along each axis.
+TEST(Echogenicity, IsTheSameInAMirror) {
+  volume::Volume volume;
+  volume.size_voxels = {24, 24, 24};
+  volume.spacing_mm = {2.0, 1.0, 0.5};
+  std::vector<TissueClass> classes;
+  std::mt19937 bits(11);
+  for (int i = 0; i < 24 * 24 * 24; ++i) {
+    volume.hu.push_back(static_cast<std::int16_t>(bits() % 120));
+    classes.push_back(bits() % 8 < 6   ? TissueClass::soft_tissue
+                      : bits() % 2 < 1 ? TissueClass::fat
+                                       : TissueClass::liver);
+  }
+  const auto levels = echogenicity(volume, classes);
+  for (const glm::ivec3& flip : {glm::ivec3(1, 0, 0), glm::ivec3(0, 1, 0), glm::ivec3(0, 0, 1)}) {
+    volume::Volume mirrored = volume;
+    auto mirrored_classes = classes;
+    const auto other = [&](int i, int j, int k) {
+      return static_cast<std::size_t>(
+          volume.index(flip.x == 1 ? 23 - i : i, flip.y == 1 ? 23 - j : j, flip.z == 1 ? 23 - k : k));
+    };
+    for (int at = 0; at < 24 * 24 * 24; ++at) {
+      const std::size_t to = other(at % 24, at / 24 % 24, at / 576);
+      mirrored.hu[to] = volume.hu[static_cast<std::size_t>(at)];
+      mirrored_classes[to] = classes[static_cast<std::size_t>(at)];
+    }
+    const auto mirrored_levels = echogenicity(mirrored, mirrored_classes);
+    for (int at = 0; at < 24 * 24 * 24; ++at)
+      ASSERT_EQ(mirrored_levels[other(at % 24, at / 24 % 24, at / 576)], levels[static_cast<std::size_t>(at)])
+          << at << ", mirrored along " << flip.x << flip.y << flip.z;
+  }
+}
+
 // The picture takes it: a step of HU is a step of speckle, of the table's size.
 TEST(Echogenicity, IsWhatThePictureShows) {
   const Organs organs(60.0, 30.0, 60.0, 0.0);
