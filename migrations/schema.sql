@@ -8,6 +8,14 @@ CREATE TABLE account (
   created_us INTEGER NOT NULL
 , epoch INTEGER NOT NULL DEFAULT 0 CHECK (epoch >= 0)) STRICT;
 
+CREATE TABLE asked_event (
+  attempt_id TEXT NOT NULL REFERENCES open_attempt (attempt_id) ON DELETE CASCADE,
+  position INTEGER NOT NULL CHECK (position BETWEEN 0 AND 999),
+  kind TEXT NOT NULL CHECK (kind IN ('cough', 'bleeding', 'pressure_drop')),
+  taken INTEGER NOT NULL DEFAULT 0 CHECK (taken IN (0, 1)),
+  PRIMARY KEY (attempt_id, position)
+) STRICT, WITHOUT ROWID;
+
 CREATE TABLE attempt (
   attempt_id TEXT NOT NULL PRIMARY KEY CHECK (length(attempt_id) = 36),
   case_id TEXT NOT NULL REFERENCES training_case (case_id),

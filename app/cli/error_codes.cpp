@@ -315,6 +315,8 @@ constexpr ErrorCode kQuestionnaireCodes[] = {
      "Look at the paper, and mend the rows that are named."},
     {"bad_moment", kRefuses, "A comment's moment is not within the attempt.",
      "Take a second of the attempt's course."},
+    {"bad_event", kRefuses, "What is to happen in an attempt that is being made is no mentor's event.",
+     "Take cough, bleeding or pressure_drop."},
     {"rated_round", kRefuses,
      "Under that code raters rate replays: nobody else answers, and their answers have a "
      "command of their own.",

@@ -30,6 +30,7 @@ constexpr ActRow kActRows[] = {
     {Act::unproven, "unproven", "names a person without proof"},
     {Act::not_allowed, "not_allowed", "asks for what the role may not"},
     {Act::comment_attempt, "comment_attempt", "comments on an attempt"},
+    {Act::cause_event, "cause_event", "lets something happen to the patient"},
     {Act::add_case, "add_case", "imports a case"},
     {Act::change_case, "change_case", "changes a draft"},
     {Act::confirm_no_burned_in_text, "confirm_no_burned_in_text", "confirms that no text is burned in"},

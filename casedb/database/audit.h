@@ -30,6 +30,7 @@ enum class Act {
   unproven,     // --by a name without a password or a session
   not_allowed,  // the table of permissions refused; the object is the action
   comment_attempt,
+  cause_event,
   // Cases.
   add_case,
   change_case,  // lesions, structures, label maps, setting, title

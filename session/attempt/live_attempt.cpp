@@ -10,6 +10,7 @@
 
 #include "assessment/recorder.h"
 #include "assessment/score.h"
+#include "casedb/attempts/asked_events.h"
 #include "casedb/database/running_mark.h"
 #include "session/attempt/endpoint_picture.h"
 #include "session/case/case_build.h"
@@ -56,6 +57,9 @@ class Store {
   base::Result<void> add(const casedb::Conditions& conditions) {
     if (!recorders_library_) return {};
     return casedb::note_conditions(*recorders_library_, attempt_id_, conditions);
+  }
+  std::optional<cases::EventKind> take_asked() {
+    return recorders_library_ ? casedb::take_asked_event(*recorders_library_, attempt_id_) : std::nullopt;
   }
   base::Result<cases::Recording> recording(casedb::Library& library) const {
     return recorders_library_ ? casedb::load_open_recording(library, attempt_id_)
@@ -218,6 +222,8 @@ base::Result<StoredAttempt> LiveAttempt::run(const With& with) {
       engine::kStepVersion, base::kTickS,
       [&](const cases::RecordingChunk& chunk) -> base::Result<void> {
         if (const auto added = store.add(chunk); !added) return added.error();
+        if (with.asked)
+          if (const auto kind = store.take_asked()) with.asked(*kind);
         return note_conditions();
       },
       recorded);

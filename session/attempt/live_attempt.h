@@ -50,6 +50,8 @@ class LiveAttempt {
     std::function<bool()> paused{};                                             // while it says so, no time goes by
     std::function<void(const engine::Moment&)> watch{};  // what else there is to do with a tick
     std::function<void()> ended{};                       // no tick comes any more; scoring and storing follow
+    // By the recorder's thread, with each piece that is stored: what a mentor who looks in lets happen.
+    std::function<void(cases::EventKind)> asked{};
     // The conditions that are known by now: by the recorder's thread with each piece that is stored, so that a
     // program that dies leaves what was known, and by the caller's before the first tick and after `ended`.
     std::function<casedb::Conditions()> conditions{};

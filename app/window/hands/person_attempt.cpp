@@ -167,6 +167,8 @@ cases::Inputs PersonAttempt::hands(const cases::State& state, const cases::Frame
     inputs.event = next.kind;
     inputs.event_tenths_mm = next.tenths_mm;
     heard_count_.store(heard + 1, std::memory_order_release);
+  } else if (asked_.load(std::memory_order_relaxed) != cases::EventKind::none) {
+    inputs.event = asked_.exchange(cases::EventKind::none);
   }
   return inputs;
 }
@@ -276,6 +278,7 @@ void PersonAttempt::run() {
              },
          .watch = [this](const engine::Moment& moment) { watch(moment); },
          .ended = [this] { phase_.store(Phase::storing, std::memory_order_release); },
+         .asked = [this](cases::EventKind kind) { asked_ = kind; },
          .conditions = [this] { return conditions(); }});
     hands_.reset();  // an arm's service speaks with one program at a time
     if (!stored) return refuse(stored.error());

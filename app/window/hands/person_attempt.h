@@ -155,7 +155,8 @@ class PersonAttempt {
     cases::EventKind kind = cases::EventKind::none;
     std::uint16_t tenths_mm = 0;
   };
-  std::array<std::atomic<Said>, kMostSaid> said_{};  // … a ring between window and servo
+  std::atomic<cases::EventKind> asked_{cases::EventKind::none};  // by a mentor who looks in; not happened yet
+  std::array<std::atomic<Said>, kMostSaid> said_{};              // … a ring between window and servo
   alignas(64) std::atomic<std::uint64_t> said_count_{0};
   alignas(64) std::atomic<std::uint64_t> heard_count_{0};
   std::atomic<bool> ending_{false}, paused_{false}, again_{false};

@@ -56,6 +56,7 @@ void ActsPanel::begin(const PersonAttempt& attempt, const std::optional<assessme
              || done_.contains(EventKind::proceed) || done_.contains(EventKind::defer);
   numbed_ = deep_ = guides_asked_ = 0;
   in_guide_ = fired_ = false;
+  happened_s_ = 0.0;
   answered_.clear();
   answer_.clear();
   planned_mm_ = plan ? std::round(plan->depth_mm()) : 0.0;
@@ -100,6 +101,11 @@ void ActsPanel::look(const Seen& seen, const cases::Case& scene) {
   if (seen.moment.deep > deep_) {
     deep_ = seen.moment.deep;
     answer(seen, deep_numb_words(seen.moment));
+  }
+  const cases::EventInfo* event = cases::find_event(seen.moment.event);
+  if (event != nullptr && event->source == cases::EventSource::mentor && seen.moment.event_t_s > happened_s_) {
+    happened_s_ = seen.moment.event_t_s;
+    answer(seen, event->words);
   }
   if (seen.guides_asked != guides_asked_ || (seen.in_guide && !in_guide_))
     answer(seen, guide_words(seen, scene.picture.modality));

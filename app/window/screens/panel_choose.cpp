@@ -94,6 +94,7 @@ void ChoosePanel::draw_choices(Trainer& trainer, const Keys& keys, const std::st
     ImGui::BeginDisabled(!choice.open);
     const bool next = trainer.next() == &choice;
     const bool open = ImGui::Button(next ? "Next (Enter)" : "Open", {open_px, 0.0F});
+    if (next) ImGui::SetItemDefaultFocus();  // Enter does what the button says, wherever it was pressed before
     note_item("Practise");
     if (framed()) note_focus("Practise: " + choice.title);
     if (open || (next && keys.pressed(kEnter))) chosen = choice.case_id;

@@ -159,6 +159,19 @@ void WatchPanel::draw_course(Trainer& trainer, const Keys& keys) {
   ImGui::SameLine();
 }
 
+// Of a live attempt, by whoever may: what the patient is to do there.
+void WatchPanel::draw_events(Trainer& trainer) {
+  if (!trainer.may_cause()) return;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Let it happen:");
+  for (const cases::EventInfo& event : cases::event_kinds()) {
+    if (event.source != cases::EventSource::mentor) continue;
+    ImGui::SameLine();
+    if (noted_button(event.words)) trainer.cause(event.kind);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("within some seconds, in the trainee's room");
+  }
+}
+
 void WatchPanel::draw_alone(session::WatchedAttempt& watched, const Keys& keys) {
   heading((watched.attempt().case_title + " – " + who_made(watched)).c_str());
   ImGui::SameLine();
@@ -279,6 +292,7 @@ void WatchPanel::draw(Trainer& trainer, const Keys& keys) {
     draw_course(trainer, keys);
   }
   if (noted_button("Back (Esc)") || keys.pressed(kEscape)) trainer.stop_watching();
+  draw_events(trainer);
   end_screen();
 }
 

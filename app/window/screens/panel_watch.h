@@ -54,6 +54,7 @@ class WatchPanel {
   void lead(session::WatchedAttempt& watched, const Side& side);
   void begin_both(session::WatchedAttempt& one, session::WatchedAttempt& beside);
   void draw_course(Trainer& trainer, const Keys& keys);
+  void draw_events(Trainer& trainer);
   void draw_marks(const session::WatchedAttempt& watched, double shift_s, double from_s, double to_s, float y,
                   float left, float width) const;
   void go_to(Trainer& trainer, double t_s);

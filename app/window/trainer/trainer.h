@@ -168,6 +168,9 @@ class Trainer {
   // Who is in the room while the list is up, of those whose recordings one may see; and one of them is followed.
   const std::vector<InRoom>& in_room() const noexcept { return in_room_; }
   void look_in(const std::string& attempt_id);
+  // Whoever looks in and may lets something happen to the patient there; it does within some seconds.
+  bool may_cause() const noexcept;
+  void cause(cases::EventKind kind);
   session::WatchedAttempt* watched() noexcept { return watched_.get(); }
   session::WatchedAttempt* beside() noexcept { return beside_.get(); }  // null: one alone is watched
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "app/window/trainer/trainer.h"
+#include "casedb/attempts/asked_events.h"
 #include "casedb/database/running_mark.h"
 #include "casedb/people/relations.h"
 
@@ -72,6 +73,18 @@ void Trainer::look_in(const std::string& attempt_id) {
   beside_.reset();
   watched_ = std::make_unique<session::WatchedAttempt>(library_.folder(), attempt_id, by_);
   screen_ = TrainerScreen::watch;
+}
+
+bool Trainer::may_cause() const noexcept {
+  return screen_ == TrainerScreen::watch && watched_ &&
+         watched_->phase() == session::WatchedAttempt::Phase::playing && watched_->live() &&
+         may(casedb::Action::cause_event) && chosen_.subject == cases::Subject::patient;
+}
+
+void Trainer::cause(cases::EventKind kind) {
+  if (!may_cause()) return;
+  const auto asked = casedb::ask_event(library_, watched_->attempt().attempt_id, kind);
+  refusal_ = asked ? "" : asked.error().text;
 }
 
 void Trainer::stop_watching() {

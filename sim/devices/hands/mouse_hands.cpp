@@ -67,9 +67,10 @@ HandIntent MouseHands::intent(const MouseEvents& events, const HandView& view, H
     intent.turn_own_rad = glm::dvec3(events.down_px, events.right_px, 0.0) * kRadPerPixel;
   if (events.middle) intent.turn_own_rad.z = events.right_px * kRadPerPixel;
   if (events.elapsed_s > 0.0) {
-    // A wheel that stood still is slow at its first notch: the mean over the memory, not over this frame.
+    // A wheel that stood still is slow at its first notch: the mean over the memory, not over this frame; and of a
+    // frame longer than that, as if its notches had come evenly: a window that lags makes nobody fast.
     const double keep = std::exp(-events.elapsed_s / kWheelMemoryS);
-    notches_per_s_ = notches_per_s_ * keep + std::abs(events.wheel_notches) / kWheelMemoryS;
+    notches_per_s_ = notches_per_s_ * keep + (1.0 - keep) * std::abs(events.wheel_notches) / events.elapsed_s;
   }
   intent.advance_mm = events.wheel_notches * notch_mm(notches_per_s_);
   add_keys(events.actions, view, events.elapsed_s, intent);

@@ -271,7 +271,8 @@ TEST_F(DamageTest, DigestsOfSchema20AreReadAndTakenOver) {
           "DROP TABLE simulated_truth", "ALTER TABLE person DROP COLUMN kind",
           "CREATE VIEW consenting AS SELECT '' AS study_id, '' AS person_id"})
       old.run(later);  // as schema 20 has no simulated people
-    for (const char* later : {"web_session",
+    for (const char* later : {"asked_event",
+                              "web_session",
                               "cut",
                               "rating",
                               "rating_known",

@@ -155,6 +155,15 @@ TEST_F(TrainerRolesTest, AMentorFollowsWhoIsInTheRoom) {
   };
   ASSERT_TRUE(until([&] { return at_s() > 2.5; })) << "more than what was stored when it was first looked at";
   EXPECT_TRUE(trainer.watched()->live());
+  ASSERT_TRUE(trainer.may_cause());
+  trainer.cause(cases::EventKind::sign_in);
+  EXPECT_NE(trainer.refusal(), "") << "no mentor's";
+  trainer.cause(cases::EventKind::cough);
+  EXPECT_EQ(trainer.refusal(), "");
+  EXPECT_TRUE(until([&] {
+    const auto seen = room.attempt()->seen();
+    return seen && seen->moment.event == cases::EventKind::cough;
+  })) << "it happens in the room";
   room.attempt()->end();
   EXPECT_TRUE(until([&] {
     at_s();

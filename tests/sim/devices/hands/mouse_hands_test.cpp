@@ -96,6 +96,20 @@ TEST(MouseHands, AWheelThatIsSpunGoesFurtherPerNotch) {
   EXPECT_GT(fast_mm, 3.0 * slow_mm);
 }
 
+// Was: four notches that came during a frame of half a second counted as spun, went 16 mm on, and punctured.
+TEST(MouseHands, AWindowThatLagsMakesNoWheelFast) {
+  for (const double frame_s : {0.05, 0.125, 0.25, 0.5, 1.0}) {
+    MouseHands mouse;
+    MouseEvents events;
+    events.elapsed_s = frame_s;
+    events.wheel_notches = 8.0 * frame_s;  // eight a second, which is slow
+    double way_mm = 0.0;
+    for (double t_s = 0.0; t_s < 1.999; t_s += frame_s)
+      way_mm += mouse.intent(events, {}, HeldTool::needle, {}).advance_mm;
+    EXPECT_NEAR(way_mm, 16.0 * kSlowNotchMm, 1e-9) << "in frames of " << frame_s << " s";
+  }
+}
+
 TEST(MouseHands, ALeftHandedMouseHasItsButtonsTheOtherWayRound) {
   Desk right(flat_skin(), above_flat()), left(flat_skin(), above_flat(), {}, true);
   right.drag(30.0, 0.0, &MouseEvents::primary);
