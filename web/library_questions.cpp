@@ -408,7 +408,7 @@ class LibraryQuestions final : public Questions {
     return heavily(work_.check, row.case_id);
   }
 
-  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+  base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) override {
     if (!work_.pictures) return base::Error{"not_drawn", "pictures of a replay are not drawn here"};
     return heavily(work_.pictures, attempt_id);
   }

@@ -230,10 +230,10 @@ class FakeQuestions final : public Questions {
     return casedb::CaseCheck{{{"lesion_present", false, "there is no lesion"}}, {"hit"}, case_mark("")};
   }
   base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow&) override { return picture; }
-  base::Result<std::string> pictures_of(const std::string& attempt_id) override {
+  base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) override {
     ++pictures_made;
     if (pictures_refusal) return *pictures_refusal;
-    return "<p class=\"pictures\">" + attempt_id + "</p>";
+    return reports::DrawnPictures{"<p class=\"pictures\">" + attempt_id + "</p>", {picture, {std::byte{2}}}};
   }
   base::Result<cases::Mesh> load_skin(const std::string&) override { return skin; }
   base::Result<cases::Recording> load_recording(const std::string&) override {

@@ -24,6 +24,7 @@
 #include "casedb/questionnaires/responses.h"
 #include "casedb/ratings/rating_rounds.h"
 #include "casedb/workshops/workshops.h"
+#include "reports/pages/attempt_page.h"
 #include "reports/pages/curricula_page.h"
 #include "reports/pages/me_page.h"
 #include "reports/pages/people/audit_page.h"
@@ -141,9 +142,9 @@ class Questions {
   virtual std::vector<assessment::StepResult> list_steps(
       const std::string& attempt_id) = 0;  // in order; may be none
   virtual base::Result<std::vector<std::byte>> load_picture(const casedb::AttemptRow& row) = 0;
-  // Markup of what was on the screen at the telling moments. Takes seconds: case and attempt are run again.
+  // What was on the screen at the telling moments. Takes seconds: case and attempt are run again.
   // `not_drawn` where the server has nobody who draws.
-  virtual base::Result<std::string> pictures_of(const std::string& attempt_id) = 0;
+  virtual base::Result<reports::DrawnPictures> pictures_of(const std::string& attempt_id) = 0;
   virtual base::Result<cases::Mesh> load_skin(const std::string& case_id) = 0;
   virtual base::Result<cases::Recording> load_recording(const std::string& attempt_id) = 0;
   virtual casedb::Health health() = 0;  // as it was a second ago at most
