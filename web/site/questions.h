@@ -17,6 +17,7 @@
 #include "casedb/keeping/erase.h"
 #include "casedb/keeping/health.h"
 #include "casedb/people/cohorts.h"
+#include "casedb/people/password_links.h"
 #include "casedb/people/people.h"
 #include "casedb/people/relations.h"
 #include "casedb/people/told_cells.h"
@@ -65,6 +66,15 @@ class Questions {
   virtual void keep_sessions(int port, const casedb::WebSessionChanges& changes) = 0;
   virtual std::optional<casedb::Account> find_account(const std::string& person_id) = 0;
   virtual std::vector<casedb::Account> list_accounts() = 0;
+
+  // One-time links to set a password (casedb/people/password_links.h), by an admin and by whoever has one.
+  virtual base::Result<casedb::PasswordLink> invite_user(const std::string& admin_id, const std::string& name,
+                                                         casedb::Role role) = 0;
+  virtual base::Result<casedb::PasswordLink> make_password_link(const std::string& admin_id,
+                                                                const std::string& name) = 0;
+  virtual std::optional<casedb::Account> account_of_password_link(const std::string& secret) = 0;
+  virtual base::Result<void> set_password_by_link(const std::string& secret, const std::string& person_id,
+                                                  const std::string& password) = 0;
 
   // What everybody is to the reader; who is missing is nothing to them.
   virtual std::unordered_map<std::string, casedb::Relation> relations_of(const std::string& reader_id) = 0;
